@@ -1,0 +1,1 @@
+"""Roles, models, plugins and the catalogue's contract."""

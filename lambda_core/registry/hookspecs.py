@@ -1,0 +1,42 @@
+"""The hooks that plugins implement (pluggy project name ``lambda_core``)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import pluggy
+
+from lambda_core.registry.model import Model
+
+if TYPE_CHECKING:
+    from lambda_core.registry.catalogue import Catalogue
+
+PROJECT = "lambda_core"
+hookspec = pluggy.HookspecMarker(PROJECT)
+hookimpl = pluggy.HookimplMarker(PROJECT)
+
+
+@hookspec
+def lambda_models(register: Callable[[Model], None]) -> None:
+    """Register laws: ``register(model("traction", "my-law", kernel, Parameters, reference=...))``."""
+
+
+@hookspec
+def lambda_methods(register: Callable[[Any], None]) -> None:
+    """Register comparison methods (case -> table), shown beside the simulation."""
+
+
+@hookspec
+def lambda_views(register: Callable[[Any], None]) -> None:
+    """Register views (result -> data, then figure)."""
+
+
+@hookspec
+def lambda_data(register: Callable[[Any], None]) -> None:
+    """Register catalogue rows: ``register(path)`` with a folder of seed files of this package."""
+
+
+@hookspec(firstresult=True)
+def lambda_catalogue(seed_folders: list[Any]) -> Catalogue | None:  # type: ignore[empty-body]
+    """Open the catalogue over the built-in seeds and the folders that plugins bring."""

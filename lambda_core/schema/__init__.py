@@ -1,0 +1,1 @@
+"""The engineer's language: units, the case model and its files."""

@@ -1,0 +1,211 @@
+"""Unit strings at the door, SI floats inside.
+
+Each physical quantity has a closed list of units. A dimensional field is written as a
+string ("16 kN"); a bare number, a decimal comma or a unit of another quantity is an
+error that says what to write instead.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from lambda_core.errors import nearest
+
+_RPM = math.pi / 30.0
+_ZERO_CELSIUS = 273.15
+
+# quantity -> {unit: factor to SI}; the first unit is the one engineers read, used for output.
+UNITS: dict[str, dict[str, float]] = {
+    "length": {"mm": 1e-3, "um": 1e-6, "nm": 1e-9, "m": 1.0, "cm": 1e-2},
+    "small_length": {"um": 1e-6, "nm": 1e-9, "mm": 1e-3, "m": 1.0},
+    "force": {"N": 1.0, "kN": 1e3, "MN": 1e6},
+    "moment": {"N m": 1.0, "N mm": 1e-3, "kN m": 1e3},
+    "pressure": {"MPa": 1e6, "GPa": 1e9, "kPa": 1e3, "Pa": 1.0, "bar": 1e5},
+    "modulus": {"GPa": 1e9, "MPa": 1e6, "Pa": 1.0},
+    "rotational_speed": {"rpm": _RPM, "1/min": _RPM, "rad/s": 1.0},
+    "velocity": {"m/s": 1.0, "mm/s": 1e-3},
+    "acceleration": {"m/s2": 1.0, "mm/s2": 1e-3},
+    "temperature": {"degC": 1.0, "K": 1.0},
+    "temperature_difference": {"K": 1.0},
+    "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0},
+    "frequency": {"Hz": 1.0, "kHz": 1e3},
+    "mass": {"kg": 1.0, "g": 1e-3},
+    "inertia": {"kg m2": 1.0, "kg mm2": 1e-6},
+    "angle": {"deg": math.pi / 180.0, "rad": 1.0, "mrad": 1e-3},
+    "stiffness": {"N/m": 1.0, "N/um": 1e6, "N/mm": 1e3, "kN/mm": 1e6},
+    "damping": {"N s/m": 1.0, "N s/mm": 1e3},
+    "angular_stiffness": {"N m/rad": 1.0, "N m/mrad": 1e3},
+    "angular_damping": {"N m s/rad": 1.0},
+    "viscosity": {"mPa s": 1e-3, "Pa s": 1.0},
+    "kinematic_viscosity": {"mm2/s": 1e-6, "cSt": 1e-6, "m2/s": 1.0},
+    "density": {"kg/m3": 1.0, "g/cm3": 1e3},
+    "thermal_conductivity": {"W/(m K)": 1.0},
+    "specific_heat": {"J/(kg K)": 1.0, "kJ/(kg K)": 1e3},
+    "thermal_expansion": {"1/K": 1.0, "1e-6/K": 1e-6},
+    "pressure_viscosity": {"1/GPa": 1e-9, "mm2/N": 1e-6, "1/Pa": 1.0},
+    "volume": {"mm3": 1e-9, "m3": 1.0},
+    "unbalance": {"g mm": 1e-6, "kg m": 1.0, "kg mm": 1e-3},
+}
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_VALUE = re.compile(rf"^\s*({_NUMBER})\s*(.*?)\s*$")
+_COMMA = re.compile(r"^\s*([+-]?\d+),(\d+)\s*(.*?)\s*$")
+
+
+def _spelling(unit: str) -> str:
+    """Fold the spellings people use for one unit (micro sign, dots, superscripts, spaces)."""
+    table = str.maketrans({"µ": "u", "μ": "u", "·": " ", "*": " ", "²": "2", "³": "3", "°": "deg"})
+    folded = re.sub(r"\s+", " ", unit.translate(table)).strip().replace("^", "")
+    return {"deg C": "degC", "C": "degC", "min-1": "1/min", "Nm": "N m", "Nmm": "N mm"}.get(folded, folded)
+
+
+def parse(text: object, quantity: str) -> float:
+    """Read a unit string as an SI float.
+
+    Parameters
+    ----------
+    text : object
+        What stands in the file, for example ``"16 kN"``.
+    quantity : str
+        Key of :data:`UNITS`.
+
+    Returns
+    -------
+    float
+        Value in SI units (temperatures in K, angles in rad, speeds of rotation in rad/s).
+
+    Raises
+    ------
+    ValueError
+        With a sentence that says what to write.
+    """
+    units = UNITS[quantity]
+    first = next(iter(units))
+    if isinstance(text, bool) or not isinstance(text, int | float | str):
+        raise ValueError(f'expected a {quantity} with its unit, for example "1 {first}"')
+    if isinstance(text, int | float):
+        raise ValueError(f'{text:g} has no unit: write "{text:g} {first}" (allowed: {", ".join(units)})')
+    comma = _COMMA.match(text)
+    if comma:
+        raise ValueError(f'"{text}": write a decimal point: "{comma[1]}.{comma[2]} {comma[3] or first}"')
+    match = _VALUE.match(text)
+    if not match:
+        raise ValueError(f'"{text}" is not a number with a unit, for example "1 {first}"')
+    number, unit = float(match[1]), _spelling(match[2])
+    if not unit:
+        raise ValueError(f'"{text}" has no unit: write "{match[1]} {first}" (allowed: {", ".join(units)})')
+    if unit not in units:
+        close = nearest(unit, units)
+        hint = f"; did you mean {close[0]}?" if close else ""
+        raise ValueError(f'"{text}": {unit} is not a unit of {quantity}; allowed: {", ".join(units)}{hint}')
+    value = number * units[unit]
+    if quantity == "temperature" and unit == "degC":
+        value = number + _ZERO_CELSIUS
+    if not math.isfinite(value):
+        raise ValueError(f'"{text}" is not a finite number')
+    if quantity == "temperature" and value <= 0.0:
+        raise ValueError(f'"{text}" is at or below absolute zero')
+    return value
+
+
+def from_si(value: float, quantity: str, unit: str | None = None) -> float:
+    """Convert an SI float to `unit` (default: the first of the quantity)."""
+    units = UNITS[quantity]
+    unit = unit or next(iter(units))
+    if quantity == "temperature" and unit == "degC":
+        return value - _ZERO_CELSIUS
+    return value / units[unit]
+
+
+def show(value: float, quantity: str, digits: int | None = None) -> str:
+    """Write an SI float as a unit string; exact (reads back equal) unless `digits` is given."""
+    if digits is not None:
+        unit = next(iter(UNITS[quantity]))
+        return f"{from_si(value, quantity):.{digits}g} {unit}"
+    best: str | None = None
+    for unit in UNITS[quantity]:
+        converted = from_si(value, quantity, unit)
+        for candidate in (f"{converted:.12g}", repr(converted)):
+            written = f"{candidate} {unit}"
+            if parse(written, quantity) == value:
+                if best is None or len(written) < len(best):
+                    best = written
+                break
+        if best is not None and len(best) <= 12:
+            break
+    if best is None:
+        raise ValueError(f"{value!r} has no exact spelling as a {quantity}")
+    return best
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Annotation of a dimensional field: ``Annotated[float, Quantity("force")]``.
+
+    In files the field is a unit string, in Python an SI float. A Python float passes
+    as SI only when the model is built with ``context={"si": True}`` (``model_validate``).
+    """
+
+    name: str
+
+    def __post_init__(self) -> None:
+        if self.name not in UNITS:
+            raise ValueError(f'"{self.name}" is not a quantity; known: {", ".join(UNITS)}')
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        def validate(value: Any, info: core_schema.ValidationInfo) -> float:
+            if info.context and info.context.get("si") and type(value) in (int, float):
+                return float(value)
+            return parse(value, self.name)
+
+        return core_schema.with_info_before_validator_function(
+            validate,
+            handler(source),
+            serialization=core_schema.plain_serializer_function_ser_schema(
+                lambda value: show(value, self.name) if isinstance(value, float) else value, when_used="json"
+            ),
+        )
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        units = list(UNITS[self.name])
+        return {
+            "type": "string",
+            "x-quantity": self.name,
+            "x-units": units,
+            "examples": [f"1 {units[0]}"],
+        }
+
+
+Length = Annotated[float, Quantity("length")]
+SmallLength = Annotated[float, Quantity("small_length")]
+Force = Annotated[float, Quantity("force")]
+Moment = Annotated[float, Quantity("moment")]
+Pressure = Annotated[float, Quantity("pressure")]
+Modulus = Annotated[float, Quantity("modulus")]
+RotationalSpeed = Annotated[float, Quantity("rotational_speed")]
+Velocity = Annotated[float, Quantity("velocity")]
+Acceleration = Annotated[float, Quantity("acceleration")]
+Temperature = Annotated[float, Quantity("temperature")]
+Time = Annotated[float, Quantity("time")]
+Frequency = Annotated[float, Quantity("frequency")]
+Mass = Annotated[float, Quantity("mass")]
+Inertia = Annotated[float, Quantity("inertia")]
+Angle = Annotated[float, Quantity("angle")]
+Stiffness = Annotated[float, Quantity("stiffness")]
+Damping = Annotated[float, Quantity("damping")]
+AngularStiffness = Annotated[float, Quantity("angular_stiffness")]
+AngularDamping = Annotated[float, Quantity("angular_damping")]
+Viscosity = Annotated[float, Quantity("viscosity")]
+KinematicViscosity = Annotated[float, Quantity("kinematic_viscosity")]
+Density = Annotated[float, Quantity("density")]
+ThermalConductivity = Annotated[float, Quantity("thermal_conductivity")]
+SpecificHeat = Annotated[float, Quantity("specific_heat")]
+ThermalExpansion = Annotated[float, Quantity("thermal_expansion")]
+PressureViscosity = Annotated[float, Quantity("pressure_viscosity")]
+Unbalance = Annotated[float, Quantity("unbalance")]
