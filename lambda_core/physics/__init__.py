@@ -1,0 +1,1 @@
+"""From a resolved case to forces: geometry, contact pipeline, equilibrium, compiled kernels."""
