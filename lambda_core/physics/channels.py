@@ -1,0 +1,83 @@
+"""The channels of a simulation: names, dimensions, units and meanings of what can be written.
+
+Dimensions are named: ``ball`` (Z), ``ring`` (inner, outer), ``body`` (inner ring, outer
+ring, cage), ``axis`` (x, y, z), ``loss`` (:data:`LOSSES`). Every sample carries every channel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+RINGS = ("inner", "outer")
+# Dissipators; each is non-negative on its own. Per ring where the name says so.
+LOSSES = (
+    "sliding_inner",  # fluid shear along the mean slip of the contact
+    "sliding_outer",
+    "spin_inner",  # fluid shear by rotation about the contact normal
+    "spin_outer",
+    "boundary_inner",  # asperity friction
+    "boundary_outer",
+    "rolling_inner",  # hydrodynamic rolling resistance of the inlet
+    "rolling_outer",
+    "hysteresis_inner",
+    "hysteresis_outer",
+    "damping_inner",  # normal contact damping
+    "damping_outer",
+    "pocket",  # ball - cage, friction and damping
+    "land",  # cage - ring (ball - ball when the cage is off)
+    "drag",  # fluid drag and churning
+    "support",  # dampers to ground
+)
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One quantity over time."""
+
+    name: str
+    dims: tuple[str, ...]
+    unit: str
+    meaning: str
+
+
+CHANNELS: tuple[Channel, ...] = (
+    Channel("time", (), "s", "time"),
+    Channel("body_position", ("body", "axis"), "m", "position of each body's centre, inertial frame"),
+    Channel("body_velocity", ("body", "axis"), "m/s", "velocity of each body's centre, inertial frame"),
+    Channel("body_tilt", ("body", "tilt"), "rad", "tilt of each body's axis about y and z"),
+    Channel("body_spin_angle", ("body",), "rad", "angle of rotation about each body's own axis"),
+    Channel("body_spin", ("body",), "rad/s", "angular speed about each body's own axis"),
+    Channel("ball_axial", ("ball",), "m", "axial position of each ball's centre"),
+    Channel("ball_radius", ("ball",), "m", "distance of each ball's centre from the x axis"),
+    Channel("ball_azimuth", ("ball",), "rad", "azimuth of each ball, unwrapped, from +y towards +z"),
+    Channel("ball_velocity", ("ball", "cylindrical"), "m/s", "axial, radial, tangential velocity"),
+    Channel("ball_spin", ("ball", "cylindrical"), "rad/s", "angular velocity, axial, radial, tangential"),
+    Channel("load", ("ball", "ring"), "N", "normal contact force, elastic and damping"),
+    Channel(
+        "contact_angle",
+        ("ball", "ring"),
+        "rad",
+        "contact angle; positive when the ball pushes the ring towards +x at the outer ring",
+    ),
+    Channel("max_pressure", ("ball", "ring"), "Pa", "maximum Hertzian pressure"),
+    Channel("semi_axis_a", ("ball", "ring"), "m", "semi-axis across rolling"),
+    Channel("semi_axis_b", ("ball", "ring"), "m", "semi-axis along rolling"),
+    Channel("film_central", ("ball", "ring"), "m", "central film thickness, thermally corrected"),
+    Channel("film_minimum", ("ball", "ring"), "m", "minimum film thickness, thermally corrected"),
+    Channel("film_parameter", ("ball", "ring"), "-", "Lambda, central film over composite roughness"),
+    Channel("asperity_share", ("ball", "ring"), "-", "psi, share of the load on asperities"),
+    Channel("film_temperature", ("ball", "ring"), "K", "mean film temperature over the contact"),
+    Channel("slip", ("ball", "ring"), "m/s", "sliding velocity of ball over ring along rolling, contact centre"),
+    Channel("entrainment", ("ball", "ring"), "m/s", "mean surface velocity along rolling"),
+    Channel("spin_velocity", ("ball", "ring"), "rad/s", "relative angular velocity about the contact normal"),
+    Channel("capacitance_hertz", ("ball", "ring"), "F", "capacitance of the Hertzian area"),
+    Channel("capacitance", ("ball", "ring"), "F", "capacitance of the contact; inf where asperities short it"),
+    Channel("contact_loss", ("ball", "ring"), "W", "power dissipated in each raceway contact"),
+    Channel("pocket_force", ("ball", "cylindrical"), "N", "force of the cage on each ball: axial, radial, tangential"),
+    Channel("land_force", ("ring", "axis"), "N", "force of each ring's land on the cage"),
+    Channel("bearing_capacitance", (), "F", "balls in parallel, inner and outer contact in series"),
+    Channel("input_torque", (), "N m", "torque of the drive about the inner ring's axis"),
+    Channel("loss", ("loss",), "W", "dissipated power by mechanism"),
+    Channel("input_power", (), "W", "power of drives, loads, gravity and prescribed motions"),
+    Channel("stored_energy", (), "J", "kinetic plus elastic energy"),
+)

@@ -1,0 +1,1 @@
+"""Time: integration, runs, results, summaries."""
