@@ -38,5 +38,5 @@ def lambda_data(register: Callable[[Any], None]) -> None:
 
 
 @hookspec(firstresult=True)
-def lambda_catalogue(seed_folders: list[Any]) -> Catalogue | None:  # type: ignore[empty-body]
+def lambda_catalogue(seed_folders: list[Any]) -> Catalogue | None:
     """Open the catalogue over the built-in seeds and the folders that plugins bring."""

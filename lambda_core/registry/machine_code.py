@@ -1,0 +1,119 @@
+"""Numba's side of the compiled-code service: the only module that imports Numba here.
+
+Import it inside functions: Numba takes more than a second to load.
+"""
+
+# Numba's caching classes carry only part of their types.
+# mypy: disable-error-code="no-untyped-call,attr-defined,assignment"
+from __future__ import annotations
+
+import hashlib
+import importlib.metadata
+import platform
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from numba import config, njit
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
+from numba.core.registry import cpu_target
+from numba.core.types.function_type import WrapperAddressProtocol
+
+
+def environment_key() -> str:
+    """Return a hash of what compiled code depends on beside its sources (hex, 16 characters).
+
+    Versions of Python, numpy, Numba and llvmlite, the processor and its features, the
+    optimisation level, and the bounds-check flag, to which Numba's own cache is blind.
+    """
+    words: list[object] = [platform.python_implementation(), platform.python_version()]
+    words += [importlib.metadata.version(name) for name in ("numpy", "numba", "llvmlite")]
+    words += cpu_target.target_context.codegen().magic_tuple()
+    words += [str(config.OPT), config.BOUNDSCHECK, config.DEBUGINFO_DEFAULT]
+    return hashlib.sha256(repr(words).encode()).hexdigest()[:16]
+
+
+class _FolderLocator(_CacheLocator):
+    """Keeps a function in one given folder, whose name already says everything about its content."""
+
+    folder: Path
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self._py_file = function.__code__.co_filename
+        self._place = f"{function.__module__}-{function.__code__.co_firstlineno}"
+
+    def get_cache_path(self) -> str:
+        return str(self.folder)
+
+    def get_source_stamp(self) -> str:
+        return ""
+
+    def get_disambiguator(self) -> str:
+        return self._place
+
+    @classmethod
+    def from_function(cls, py_func: Callable[..., Any], py_file: str) -> _FolderLocator | None:
+        self = cls(py_func)
+        try:
+            self.ensure_cache_path()
+        except OSError:
+            # A read-only home: work from a folder of this process instead of not at all.
+            type(self).folder = Path(tempfile.mkdtemp(prefix="lambda-bearing-"))
+        return self
+
+
+def _cache(function: Callable[..., Any], folder: Path, on_miss: Callable[[], None]) -> FunctionCache:
+    """Return a Numba cache for `function` in `folder` that calls `on_miss` before compiling."""
+    locator = type("FolderLocator", (_FolderLocator,), {"folder": folder})
+    implementation = type("FolderCacheImpl", (CompileResultCacheImpl,), {"_locator_classes": [locator]})
+
+    class FolderCache(FunctionCache):
+        _impl_class = implementation
+
+        def load_overload(self, sig: Any, target_context: Any) -> Any:
+            try:
+                found = super().load_overload(sig, target_context)
+            except Exception:  # a file cut short by a full disk or a killed process: compile anew
+                found = None
+            if found is None:
+                on_miss()
+            return found
+
+    return FolderCache(function)
+
+
+def compile_into(
+    function: Callable[..., Any], signature: Any, folder: Path, on_miss: Callable[[], None], **options: Any
+) -> Any:
+    """Compile `function` for one explicit `signature`, or load it from `folder`.
+
+    Returns the Numba dispatcher, closed for other signatures.
+    """
+    dispatcher = njit(error_model="numpy", **options)(function)
+    dispatcher._cache = _cache(function, folder, on_miss)
+    dispatcher.compile(signature)
+    dispatcher.disable_compile()
+    return dispatcher
+
+
+class Pointer(WrapperAddressProtocol):
+    """Address of a compiled kernel, to be passed to compiled code as a first-class function.
+
+    It keeps the code alive and is never pickled: another process compiles (or loads) its own.
+    """
+
+    def __init__(self, dispatcher: Any, signature: Any) -> None:
+        compiled = dispatcher.get_compile_result(signature)
+        self._dispatcher = dispatcher
+        self._signature = signature
+        self._address = int(compiled.library.get_pointer_to_function(compiled.fndesc.llvm_cfunc_wrapper_name))
+
+    def __wrapper_address__(self) -> int:
+        return self._address
+
+    def signature(self) -> Any:
+        return self._signature
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a pointer to compiled code lives in one process: compile the kernel again in the other")
