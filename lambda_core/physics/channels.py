@@ -1,7 +1,7 @@
 """The channels of a simulation: names, dimensions, units and meanings of what can be written.
 
-Dimensions are named: ``ball`` (Z), ``ring`` (inner, outer), ``body`` (inner ring, outer
-ring, cage), ``axis`` (x, y, z), ``loss`` (:data:`LOSSES`). Every sample carries every channel.
+Dimensions are named and labelled (:data:`DIMENSIONS`); ``ball`` counts the balls from 1.
+Every sample carries every channel.
 """
 
 from __future__ import annotations
@@ -28,6 +28,15 @@ LOSSES = (
     "drag",  # fluid drag and churning
     "support",  # dampers to ground
 )
+# dimension -> labels of its entries, in order
+DIMENSIONS: dict[str, tuple[str, ...]] = {
+    "ring": RINGS,
+    "body": ("inner ring", "outer ring", "cage"),
+    "axis": ("x", "y", "z"),
+    "tilt": ("y", "z"),
+    "cylindrical": ("axial", "radial", "tangential"),
+    "mechanism": LOSSES,
+}
 
 
 @dataclass(frozen=True)
@@ -77,7 +86,7 @@ CHANNELS: tuple[Channel, ...] = (
     Channel("land_force", ("ring", "axis"), "N", "force of each ring's land on the cage"),
     Channel("bearing_capacitance", (), "F", "balls in parallel, inner and outer contact in series"),
     Channel("input_torque", (), "N m", "torque of the drive about the inner ring's axis"),
-    Channel("loss", ("loss",), "W", "dissipated power by mechanism"),
+    Channel("loss", ("mechanism",), "W", "dissipated power by mechanism"),
     Channel("input_power", (), "W", "power of drives, loads, gravity and prescribed motions"),
     Channel("stored_energy", (), "J", "kinetic plus elastic energy"),
 )
