@@ -1,13 +1,14 @@
 """What a plugin author imports: everything here is stable under ROLE_API 1."""
 
 from lambda_core.registry.hookspecs import hookimpl
-from lambda_core.registry.model import Context, Material, Model, NoParameters, Oil, default_par, model
+from lambda_core.registry.model import Context, LazyModel, Material, Model, NoParameters, Oil, default_par, model
 from lambda_core.registry.roles import ROLE_API
 from lambda_core.schema.units import Quantity
 
 __all__ = [
     "ROLE_API",
     "Context",
+    "LazyModel",
     "Material",
     "Model",
     "NoParameters",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pluggy
 
-from lambda_core.registry.model import Model
+from lambda_core.registry.model import LazyModel, Model
 
 if TYPE_CHECKING:
     from lambda_core.registry.catalogue import Catalogue
@@ -18,8 +18,12 @@ hookimpl = pluggy.HookimplMarker(PROJECT)
 
 
 @hookspec
-def lambda_models(register: Callable[[Model], None]) -> None:
-    """Register laws: ``register(model("traction", "my-law", kernel, Parameters, reference=...))``."""
+def lambda_models(register: Callable[[Model | LazyModel], None]) -> None:
+    """Register laws: ``register(model("traction", "my-law", kernel, Parameters, reference=...))``.
+
+    A package with many laws registers ``LazyModel("traction", "my-law", "package.module:MODEL")``
+    instead, which imports the module when the law is chosen.
+    """
 
 
 @hookspec

@@ -8,17 +8,25 @@ process, and nothing else is compiled again.
 from __future__ import annotations
 
 import hashlib
+import inspect
 import os
+import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
-from lambda_core.registry.reach import reach
+from lambda_core.errors import unknown_name
+from lambda_core.registry.faults import PluginError
+from lambda_core.registry.model import Model
+from lambda_core.registry.reach import Reach, UnreachableError, reach
+from lambda_core.registry.roles import ROLES
 
 Announce = Callable[[str], None]
+_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 
 def cache_folder() -> Path:
@@ -29,6 +37,139 @@ def cache_folder() -> Path:
     import platformdirs
 
     return Path(platformdirs.user_cache_dir("lambda-bearing")) / "kernels"
+
+
+@dataclass(frozen=True)
+class CompiledKernel:
+    """A model's kernel as machine code.
+
+    Attributes
+    ----------
+    pointer : Pointer
+        First-class function for compiled code, of type ``FunctionType(signature(role))``; it
+        keeps the code alive and refuses to be pickled.
+    key : str
+        Hash of everything the kernel reaches (result files store it; worker processes compare it).
+    dispatcher : numba dispatcher
+        The same code, callable from Python.
+    cached : bool
+        Whether it came from disk.
+    seconds : float
+        Time to compile or load [s].
+    """
+
+    pointer: Any = field(repr=False)
+    key: str
+    dispatcher: Any = field(repr=False)
+    cached: bool
+    seconds: float
+
+
+def signature(role: str) -> Any:
+    """Return the Numba signature of the kernels of `role`: ``int64(float64 or float64[::1], ...)``."""
+    if role not in ROLES:
+        raise PluginError(unknown_name("role", role, ROLES))
+    from lambda_core.registry.machine_code import role_signature
+
+    return role_signature(ROLES[role])
+
+
+def kernel_reach(model: Model) -> Reach:
+    """Return everything that a model's kernel reaches.
+
+    Raises
+    ------
+    PluginError
+        When the kernel is no plain Python function or reaches something that cannot be followed.
+    """
+    if not isinstance(model.kernel, FunctionType):
+        raise PluginError(
+            f"{model.label}: the kernel is a {type(model.kernel).__name__}: write a plain Python function "
+            "without a decorator, the program compiles it"
+        )
+    _check_arguments(model, model.kernel)
+    try:
+        return reach(model.kernel)
+    except UnreachableError as error:
+        raise UnreachableError(f"{model.label}: {error}") from None
+
+
+def compile_kernel(model: Model, announce: Announce | None = None) -> CompiledKernel:
+    """Compile a model's kernel, or load it from disk.
+
+    Parameters
+    ----------
+    model : Model
+        With a plain Python kernel; the functions that it calls are plain too.
+    announce : callable, optional
+        Called with one sentence before a compilation; not called when the disk has it.
+
+    Raises
+    ------
+    PluginError
+        When the kernel cannot be compiled, returns anything but int64, or reaches something
+        whose content cannot be followed; the sentence names the model and its distribution.
+    """
+    start = time.perf_counter()
+    reached = kernel_reach(model)
+    key = hashlib.sha256(f"{model.role} {reached.key}".encode()).hexdigest()
+    folder = cache_folder() / f"{model.role}-{key[:24]}-{_environment()}"
+    if folder in _in_memory:
+        return _in_memory[folder]
+    from lambda_core.registry import machine_code
+
+    missed: list[str] = []
+
+    def on_miss() -> None:
+        missed.append(model.name)
+        if announce is not None:
+            announce(f"compiling {model.label} (once)")
+
+    machine_code.make_callable(reached.helpers)
+    wanted = signature(model.role)
+    try:
+        dispatcher = machine_code.compile_into(model.kernel, wanted.args, folder, on_miss)
+    except Exception as error:  # Numba answers odd source code with exceptions of many kinds
+        raise PluginError(f"{model.label} cannot be compiled: {_gist(error)}") from None
+    _check_return(model, machine_code.returned_type(dispatcher), wanted.return_type)
+    pointer = machine_code.Pointer(dispatcher, wanted)
+    compiled = CompiledKernel(pointer, key, dispatcher, not missed, time.perf_counter() - start)
+    _in_memory[folder] = compiled
+    return compiled
+
+
+def _check_arguments(model: Model, kernel: FunctionType) -> None:
+    """Compare names and order with the role: two swapped arrays would compile without a word."""
+    if model.role not in ROLES:
+        raise PluginError(unknown_name("role", model.role, ROLES))
+    code = kernel.__code__
+    found = code.co_varnames[: code.co_argcount]
+    wanted = tuple(argument.name for argument in ROLES[model.role].arguments)
+    extra = code.co_kwonlyargcount or code.co_flags & (inspect.CO_VARARGS | inspect.CO_VARKEYWORDS)
+    if found != wanted or extra:
+        taken = str(inspect.signature(kernel)).strip("()")
+        raise PluginError(f"{model.label} takes ({taken}); {model.role} kernels take ({', '.join(wanted)})")
+
+
+_in_memory: dict[Path, CompiledKernel] = {}
+
+
+def _check_return(model: Model, found: Any, wanted: Any) -> None:
+    if found != wanted:
+        some = "nothing, or a number on some paths only," if str(found).startswith(("none", "Optional")) else str(found)
+        raise PluginError(
+            f"{model.label} returns {some} where an int64 status is due: "
+            "return 1 for a valid result, 2 and up for errors of your own"
+        )
+
+
+def _gist(error: Exception) -> str:
+    """Return the lines of a Numba error that speak about the plugin's own code."""
+    lines = [line.strip() for line in _COLOUR.sub("", str(error)).splitlines()]
+    place = next((line for line in reversed(lines) if line.startswith("File ")), "")
+    noise = ("Failed in", "File ", "File:", "During:", "<source", "^", "-", "There are", "With argument", "Overload ")
+    said = [line.removeprefix(">>> ") for line in lines if line and not line.startswith(noise)]
+    return f"{' '.join(said[:3])} {place}".rstrip(" :")
 
 
 @dataclass(frozen=True)

@@ -13,12 +13,39 @@ import platform
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
+from types import FunctionType
 from typing import Any
+from weakref import WeakSet
 
-from numba import config, njit
+from numba import config, njit, types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
 from numba.core.registry import cpu_target
 from numba.core.types.function_type import WrapperAddressProtocol
+from numba.extending import register_jitable
+
+from lambda_core.registry.roles import Role
+
+_known_helpers: WeakSet[FunctionType] = WeakSet()
+
+
+def role_signature(role: Role) -> Any:
+    """Return the Numba signature of a role's kernel: ``int64(float64, ..., float64[::1], ...)``."""
+    kinds = {"f": types.float64, "a": types.float64[::1]}
+    return types.int64(*(kinds[argument.kind] for argument in role.arguments))
+
+
+def make_callable(helpers: tuple[FunctionType, ...]) -> None:
+    """Let compiled kernels call plain Python functions; the functions themselves stay as they are."""
+    for helper in helpers:
+        if helper not in _known_helpers:
+            register_jitable(error_model="numpy")(helper)
+            _known_helpers.add(helper)
+
+
+def returned_type(dispatcher: Any) -> Any:
+    """Return the type that Numba inferred for the result of the only compiled signature."""
+    (compiled,) = dispatcher.overloads.values()
+    return types.unliteral(compiled.signature.return_type)
 
 
 def environment_key() -> str:
@@ -88,6 +115,7 @@ def compile_into(
 ) -> Any:
     """Compile `function` for one explicit `signature`, or load it from `folder`.
 
+    `signature` may be a tuple of argument types: the return type is then inferred.
     Returns the Numba dispatcher, closed for other signatures.
     """
     dispatcher = njit(error_model="numpy", **options)(function)

@@ -125,6 +125,31 @@ class Model:
     role_api: int = ROLE_API
     distribution: str = ""  # filled by the registry
 
+    @property
+    def label(self) -> str:
+        """Role, name and distribution as messages show them."""
+        return f"{self.role}/{self.name} ({self.distribution})" if self.distribution else f"{self.role}/{self.name}"
+
+
+@dataclass(frozen=True)
+class LazyModel:
+    """A law that is named now and imported when somebody chooses it.
+
+    A package with many laws registers these, so that starting the program, or running
+    a case that uses other laws, does not import its modules.
+
+    Attributes
+    ----------
+    role, name : str
+        As in the model itself.
+    target : str
+        ``"package.module:attribute"``, where the attribute is the :class:`Model`.
+    """
+
+    role: str
+    name: str
+    target: str
+
 
 def model(
     role: str,

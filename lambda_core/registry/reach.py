@@ -18,18 +18,17 @@ from typing import Any
 
 import numpy as np
 
-from lambda_core.errors import LambdaError
+from lambda_core.registry.faults import PluginError
 
 # Modules that Numba implements itself: their content belongs to the interpreter and to
 # numpy, whose versions are part of the cache's environment.
 _LIBRARIES = frozenset(sys.stdlib_module_names) | {"numpy", "numba", "llvmlite"}
+_IMPURE = frozenset({"random", "numpy.random", "time", "datetime", "os", "sys"})
 _MISSING = object()
 
 
-class UnreachableError(LambdaError):
+class UnreachableError(PluginError):
     """A kernel uses something whose content cannot be followed or may change unseen."""
-
-    exit_code = 3
 
 
 @dataclass(frozen=True)
@@ -64,8 +63,8 @@ def reach(function: Callable[..., Any], *, lenient: bool = False) -> Reach:
     Raises
     ------
     UnreachableError
-        For a helper with a compiled-code cache of its own, and for a global whose value
-        cannot be hashed; the sentence names it.
+        For a helper with a compiled-code cache of its own, one that calls itself, and a
+        global whose value cannot be hashed; the sentence names it.
     """
     walk = _Walk(lenient)
     walk.value(function, "the function itself")
@@ -86,6 +85,7 @@ class _Walk:
     functions: list[FunctionType] = field(default_factory=list)
     codes: list[CodeType] = field(default_factory=list)
     seen: dict[int, int] = field(default_factory=dict)
+    within: list[FunctionType] = field(default_factory=list)  # functions being followed now
 
     def add(self, *words: object) -> None:
         for word in words:
@@ -124,6 +124,8 @@ class _Walk:
             )
 
     def function(self, function: FunctionType, where: str) -> None:
+        if function in self.within and not self.lenient:
+            raise UnreachableError(f"{function.__qualname__} calls itself: write a loop")
         if id(function) in self.seen:
             self.add("again", self.seen[id(function)])
             return
@@ -136,7 +138,9 @@ class _Walk:
         free: dict[str, Any] = {}
         for name, cell in zip(function.__code__.co_freevars, function.__closure__ or (), strict=True):
             free[name] = cell.cell_contents
+        self.within.append(function)
         self.code(function.__code__, function.__globals__, free, function.__qualname__)
+        self.within.pop()
 
     def code(self, code: CodeType, scope: dict[str, Any], free: dict[str, Any], where: str) -> None:
         """Add one code object: what it does, its constants and the globals it reads."""
@@ -200,8 +204,9 @@ def _globals_read(code: CodeType, scope: dict[str, Any], where: str) -> Iterator
             continue
         if value is _MISSING:
             raise UnreachableError(f'{where} uses "{path}", which does not exist')
-        if isinstance(value, ModuleType) and value.__name__.split(".")[0] in _LIBRARIES:
-            found[path], value = value.__name__, _MISSING
-        elif not isinstance(value, ModuleType):
+        if isinstance(value, ModuleType):
+            if value.__name__ in _IMPURE:
+                raise UnreachableError(f'{where} uses "{value.__name__}": a kernel is a function of its arguments only')
+        else:
             found[path], value = value, _MISSING
     yield from sorted(found.items(), key=lambda item: item[0])

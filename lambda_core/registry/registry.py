@@ -1,0 +1,142 @@
+"""The frozen registry: every model, method, view and data folder that can be chosen."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import pluggy
+
+from lambda_core.errors import nearest, unknown_name
+from lambda_core.registry.collect import Collection, is_own, model_fault
+from lambda_core.registry.faults import PluginError, PluginFault, describe
+from lambda_core.registry.model import LazyModel, Model
+from lambda_core.registry.roles import ROLES
+
+if TYPE_CHECKING:
+    from lambda_core.registry.catalogue import Catalogue
+
+
+class Registry:
+    """What the installed plugins offer; does not change after discovery.
+
+    Attributes
+    ----------
+    faults : tuple of PluginFault
+        Installed plugins that are not in use, and why.
+    methods, views : mapping of str to object
+        Comparison methods and views by name.
+    data_folders : tuple of (str, pathlib.Path)
+        Distribution and folder of catalogue rows.
+    """
+
+    def __init__(self, collection: Collection, faults: tuple[PluginFault, ...], hooks: pluggy.PluginManager) -> None:
+        self._models = dict(collection.models)
+        self._origins = dict(collection.origins)
+        self._loaded: dict[tuple[str, str], Model] = {}
+        self._hooks = hooks
+        self.faults = faults
+        self.methods = _of_kind(collection, "method")
+        self.views = _of_kind(collection, "view")
+        self.data_folders: tuple[tuple[str, Path], ...] = tuple(collection.folders)
+
+    def names(self, role: str) -> tuple[str, ...]:
+        """Return the names of the models for `role`, built-in ones first; imports nothing."""
+        if role not in ROLES:
+            raise PluginError(unknown_name("role", role, ROLES))
+        return tuple(name for known, name in self._models if known == role)
+
+    def origin(self, kind: str, name: str) -> str:
+        """Return the distribution ("my-traction 0.1") of a model (by its role), method or view."""
+        return self._origins[kind, name]
+
+    def model(self, role: str, name: str) -> Model:
+        """Return one model, importing its module if needed.
+
+        Raises
+        ------
+        PluginError
+            When `role` has no such model (with the nearest names and what exists), or
+            when its module cannot be imported.
+        """
+        if name not in self.names(role):
+            raise PluginError(self._unknown(role, name))
+        key = (role, name)
+        if key not in self._loaded:
+            found = self._models[key]
+            self._loaded[key] = _load(found, self._origins[key]) if isinstance(found, LazyModel) else found
+        return self._loaded[key]
+
+    def models(self, role: str) -> dict[str, Model]:
+        """Return every model for `role` by name; one that cannot be imported is an error."""
+        return {name: self.model(role, name) for name in self.names(role)}
+
+    def method(self, name: str) -> Any:
+        """Return one comparison method; PluginError with the nearest names when unknown."""
+        return self._named("method", name, self.methods)
+
+    def view(self, name: str) -> Any:
+        """Return one view; PluginError with the nearest names when unknown."""
+        return self._named("view", name, self.views)
+
+    def catalogue(self) -> Catalogue:
+        """Open the catalogue over the built-in rows and the folders that plugins bring.
+
+        The caller closes it.
+
+        Raises
+        ------
+        PluginError
+            When no installed plugin provides one.
+        """
+        found = self._hooks.hook.lambda_catalogue(seed_folders=[folder for _, folder in self.data_folders])
+        if found is None:
+            raise PluginError(f"no plugin provides a catalogue{self._not_loaded()}")
+        catalogue: Catalogue = found
+        return catalogue
+
+    def _named(self, kind: str, name: str, known: Mapping[str, Any]) -> Any:
+        if name not in known:
+            raise PluginError(unknown_name(kind, name, known) + self._not_loaded())
+        return known[name]
+
+    def _unknown(self, role: str, name: str) -> str:
+        """Say that `role` has no model `name`: nearest names, everything there is, and what is missing."""
+        names = self.names(role)
+        shown = [n if is_own(self._origins[role, n]) else f"{n} ({self._origins[role, n]})" for n in names]
+        close = nearest(name, names)
+        hint = f"nearest: {', '.join(close)}; " if close else ""
+        article = "an" if role[0] in "aeiou" else "a"
+        text = f'"{name}" is not {article} {role} model; {hint}available: {", ".join(shown) or "none"}'
+        return text + self._not_loaded()
+
+    def _not_loaded(self) -> str:
+        if not self.faults:
+            return ""
+        return f"; not in use: {', '.join(dict.fromkeys(fault.distribution for fault in self.faults))}"
+
+
+def _of_kind(collection: Collection, kind: str) -> Mapping[str, Any]:
+    return MappingProxyType({name: item for (known, name), item in collection.named.items() if known == kind})
+
+
+def _load(lazy: LazyModel, distribution: str) -> Model:
+    """Import the model that a lazy registration stands for."""
+    label = f"{lazy.role}/{lazy.name} ({distribution})"
+    module, _, attribute = lazy.target.partition(":")
+    try:
+        found = getattr(importlib.import_module(module), attribute)
+    except (Exception, SystemExit) as error:
+        raise PluginError(f"{label} cannot be imported: {describe(error)}") from error
+    if not isinstance(found, Model):
+        raise PluginError(f"{label}: {lazy.target} is a {type(found).__name__}, not a model")
+    if (found.role, found.name) != (lazy.role, lazy.name):
+        raise PluginError(f"{label}: {lazy.target} is {found.role}/{found.name}")
+    message = model_fault(found)
+    if message:
+        raise PluginError(f"{label}: {message}")
+    return replace(found, distribution=distribution)
