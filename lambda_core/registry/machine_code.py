@@ -103,6 +103,7 @@ def _cache(function: Callable[..., Any], folder: Path, on_miss: Callable[[], Non
                 found = super().load_overload(sig, target_context)
             except Exception:  # a file cut short by a full disk or a killed process: compile anew
                 found = None
+                self.flush()
             if found is None:
                 on_miss()
             return found

@@ -1,0 +1,239 @@
+"""Compiled code on disk: what is edited is seen by the next process, what is not is not compiled again."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+LAW = """
+from law_package import middle
+from lambda_core.plugins import model
+
+def kernel(Lambda, par, out):
+    out[0] = {factor} * middle.shape(Lambda)
+    return 1
+
+LAW = model("asperity_load", "test-law", kernel, reference="own work")
+"""
+MIDDLE = """
+from law_package.deep import scale
+
+def shape(x, power=1):
+    return scale(x) ** power
+"""
+DEEP = """
+from law_package.constants import K
+
+def scale(x):
+    return K * x {more}
+"""
+CONSTANTS = "K = {value}\n"
+ASK = """
+import json
+import numpy as np
+from lambda_core.registry.kernels import compile_kernel
+from law_package.law import LAW
+
+said = []
+compiled = compile_kernel(LAW, said.append)
+out = np.full(1, np.nan)
+status = compiled.dispatcher(2.0, np.empty(0), out)
+print(json.dumps(dict(status=status, value=out[0], cached=compiled.cached, key=compiled.key, said=said)))
+"""
+
+
+class Package:
+    """A plugin's package on disk, edited between processes."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+        self.folder = root / "law_package"
+        self.folder.mkdir()
+        self.write("__init__", "")
+        self.write("law", LAW.format(factor="1.0"))
+        self.write("middle", MIDDLE)
+        self.write("deep", DEEP.format(more=""))
+        self.write("constants", CONSTANTS.format(value="3.0"))
+
+    def write(self, module: str, text: str) -> None:
+        (self.folder / f"{module}.py").write_text(text)
+
+    def ask(self, code: str = ASK, **environment: str) -> dict[str, object]:
+        """Compile (or load) and call the law in a new process."""
+        env = os.environ | {
+            "PYTHONPATH": str(self.root),
+            "PYTHONDONTWRITEBYTECODE": "1",  # two edits within a second would reuse stale bytecode
+            "LAMBDA_BEARING_CACHE": str(self.root / "cache"),
+        }
+        done = subprocess.run(
+            [sys.executable, "-c", code], env=env | environment, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, done.stderr
+        answer: dict[str, object] = json.loads(done.stdout)
+        return answer
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Package:
+    return Package(tmp_path)
+
+
+def test_second_process_loads_from_disk(package: Package) -> None:
+    cold, warm = package.ask(), package.ask()
+    assert cold["said"] == ["compiling asperity_load/test-law (once)"]
+    assert warm["said"] == []
+    assert (cold["cached"], warm["cached"]) == (False, True)
+    assert (cold["status"], cold["value"]) == (warm["status"], warm["value"]) == (1, 6.0)
+    assert cold["key"] == warm["key"]
+
+
+@pytest.mark.parametrize(
+    ("module", "text", "value"),
+    [
+        ("law", LAW.format(factor="10.0"), 60.0),
+        ("middle", MIDDLE.replace("power=1", "power=2"), 36.0),
+        ("deep", DEEP.format(more="+ 1.0"), 7.0),
+        ("constants", CONSTANTS.format(value="5.0"), 10.0),
+    ],
+    ids=["law", "default-in-a-helper", "helper-two-files-down", "imported-constant"],
+)
+def test_an_edit_is_seen_by_the_next_process(package: Package, module: str, text: str, value: float) -> None:
+    before = package.ask()
+    package.write(module, text)
+    after = package.ask()
+    assert before["value"] == 6.0
+    assert after["value"] == value
+    assert after["cached"] is False
+    assert after["key"] != before["key"]
+
+
+def test_a_comment_or_a_new_date_compiles_nothing(package: Package) -> None:
+    package.ask()
+    package.write("deep", DEEP.format(more="  # a remark"))
+    os.utime(package.folder / "law.py", (1, 1))
+    assert package.ask()["cached"] is True
+
+
+def test_bounds_checked_code_has_a_folder_of_its_own(package: Package) -> None:
+    package.ask()
+    assert package.ask(NUMBA_BOUNDSCHECK="1")["cached"] is False
+    assert package.ask(NUMBA_BOUNDSCHECK="1")["cached"] is True
+
+
+def test_damaged_files_are_compiled_anew(package: Package) -> None:
+    package.ask()
+    for path in (package.root / "cache").rglob("*.nb*"):
+        path.write_bytes(path.read_bytes()[:40])
+    again = package.ask()
+    assert (again["value"], again["cached"]) == (6.0, False)
+
+
+def test_a_cached_helper_is_refused_by_name(package: Package) -> None:
+    package.write("deep", "from numba import njit\n\n@njit(cache=True)\ndef scale(x):\n    return 3.0 * x\n")
+    code = f"""
+import json
+from lambda_core.errors import LambdaError
+try:
+    {ASK.replace(chr(10), chr(10) + "    ")}
+except LambdaError as error:
+    print(json.dumps(str(error)))
+"""
+    message = str(package.ask(code))
+    assert "asperity_load/test-law" in message
+    assert "law_package.deep.scale is compiled with cache=True" in message
+
+
+def test_a_function_without_a_source_file_compiles(package: Package) -> None:
+    code = """
+import json
+import numpy as np
+from lambda_core.plugins import model
+from lambda_core.registry.kernels import compile_kernel
+
+exec("def kernel(Lambda, par, out):\\n    out[0] = 4.0 * Lambda\\n    return 1", globals())
+compiled = compile_kernel(model("asperity_load", "typed-in", kernel, reference="own work"))
+out = np.zeros(1)
+compiled.dispatcher(2.0, np.empty(0), out)
+print(json.dumps(dict(value=out[0], cached=compiled.cached)))
+"""
+    assert package.ask(code) == {"value": 8.0, "cached": False}
+    assert package.ask(code) == {"value": 8.0, "cached": True}
+
+
+HOST = """
+import json
+from pathlib import Path
+from numba import types
+import numpy as np
+from lambda_core.registry.kernels import compile_host, compile_kernel, signature
+from lambda_core.registry import kernels
+from host_package import core
+from law_package.law import LAW
+
+said = []
+pointer = types.FunctionType(signature("asperity_load"))
+host = compile_host(
+    core.twice,
+    types.float64(types.NamedUniTuple(pointer, 2, core.Laws), types.float64[::1]),
+    Path(core.__file__).parent,
+    said.append,
+)
+law = compile_kernel(LAW).pointer
+print(json.dumps(dict(value=host.dispatcher(core.Laws(law, law), np.empty(1)), cached=host.cached, said=said)))
+"""
+CORE = """
+from typing import Any, NamedTuple
+import numpy as np
+from numba import njit
+from host_package.part import part
+from outside import OFFSET
+
+class Laws(NamedTuple):
+    first: Any
+    second: Any
+
+def twice(laws, out):
+    laws.first(1.0, out, out)
+    total = out[0]
+    laws.second(10.0, out, out)
+    return total + out[0] + part(0.0) + OFFSET
+"""
+PART = """
+from numba import njit
+
+@njit(error_model="numpy")
+def part(x):
+    return x + {number}
+"""
+
+
+@pytest.fixture
+def host(package: Package) -> Package:
+    folder = package.root / "host_package"
+    folder.mkdir()
+    (folder / "__init__.py").write_text("")
+    (folder / "core.py").write_text(CORE)
+    (folder / "part.py").write_text(PART.format(number=0))
+    (package.root / "outside.py").write_text("OFFSET = 0.0\n")
+    return package
+
+
+def test_host_code_calls_laws_by_pointer_and_stays_on_disk(host: Package) -> None:
+    cold = host.ask(HOST)
+    host.write("law", LAW.format(factor="2.0"))
+    edited_law = host.ask(HOST)
+    assert cold == {"value": 33.0, "cached": False, "said": ["compiling twice (once)"]}
+    assert edited_law == {"value": 66.0, "cached": True, "said": []}  # the solver is not compiled again
+
+
+def test_an_edited_host_helper_or_outside_constant_is_seen(host: Package) -> None:
+    host.ask(HOST)
+    (host.root / "host_package" / "part.py").write_text(PART.format(number=100))
+    assert host.ask(HOST)["value"] == 133.0
+    (host.root / "outside.py").write_text("OFFSET = 1000.0\n")
+    assert host.ask(HOST)["value"] == 1133.0
