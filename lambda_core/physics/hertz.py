@@ -54,7 +54,7 @@ def ball_raceway_radii(
     """Reduced radii (R_x along rolling, R_y across) of a ball in a raceway groove [m].
 
     1/R_x = 2/D_w +- 2 gamma / (D_w (1 -+ gamma)), gamma = D_w cos(alpha)/d_m, upper signs for the inner
-    ring; 1/R_y = 2/D_w - 1/r_g (Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 1, eq. 2.28-2.33).
+    ring; 1/R_y = 2/D_w - 1/r_g (Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 1, ch. 2).
     """
     gamma = ball_diameter * math.cos(contact_angle) / pitch_diameter
     sign = 1.0 if inner else -1.0

@@ -1,0 +1,73 @@
+"""Kinematics of a ball bearing whose balls roll without sliding at both raceways (epicyclic motion).
+
+Angular speeds in rad/s, counted positive about the shaft axis; ``gamma = D_w cos(alpha)/d_m`` with the pitch
+diameter. Sources: Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 1, ch. 10.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class FrequencyOrders:
+    """Characteristic frequencies per revolution of the inner ring, outer ring fixed."""
+
+    cage: float  # FTF
+    outer_pass: float  # BPFO
+    inner_pass: float  # BPFI
+    ball_spin: float  # BSF: turns of a ball about its own axis relative to the cage
+    ball_defect: float  # 2 BSF: one spot of the ball meets both raceways once per turn
+
+
+def diameter_ratio(ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0) -> float:
+    """Return gamma = D_w cos(alpha)/d_m [-]."""
+    return ball_diameter * math.cos(contact_angle) / pitch_diameter
+
+
+def cage_speed(inner_speed: float, outer_speed: float, gamma: float) -> float:
+    """Orbital speed of balls and cage [rad/s]: [omega_i (1 - gamma) + omega_o (1 + gamma)]/2 (Harris ch. 10)."""
+    return 0.5 * (inner_speed * (1.0 - gamma) + outer_speed * (1.0 + gamma))
+
+
+def ball_speed(
+    inner_speed: float, outer_speed: float, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
+) -> float:
+    """Speed of a ball about its own axis relative to the cage [rad/s], positive like a forward-turning inner ring's.
+
+    -(d_m/(2 D_w)) (1 - gamma^2) (omega_i - omega_o) (Harris ch. 10, with the sign: an inner ring that turns
+    forward turns the balls backward).
+    """
+    gamma = diameter_ratio(ball_diameter, pitch_diameter, contact_angle)
+    return -0.5 * pitch_diameter / ball_diameter * (1.0 - gamma**2) * (inner_speed - outer_speed)
+
+
+def entrainment_speed(
+    inner_speed: float, outer_speed: float, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
+) -> float:
+    """Mean surface speed (u_1 + u_2)/2 in the contact's frame [m/s], the same at both raceways.
+
+    (d_m/4) (1 - gamma^2) |omega_i - omega_o|: the "hydrodynamic speed" from geometry alone (Barz 1996, as used
+    in Syla et al. 2026, section 4.3).
+    """
+    gamma = diameter_ratio(ball_diameter, pitch_diameter, contact_angle)
+    return 0.25 * pitch_diameter * (1.0 - gamma**2) * abs(inner_speed - outer_speed)
+
+
+def frequency_orders(
+    ball_count: int, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
+) -> FrequencyOrders:
+    """Orders of the characteristic frequencies: multiply by (omega_i - omega_o)/(2 pi) for Hz.
+
+    The cage order is relative to a fixed outer ring.
+    """
+    gamma = diameter_ratio(ball_diameter, pitch_diameter, contact_angle)
+    spin = 0.5 * pitch_diameter / ball_diameter * (1.0 - gamma**2)
+    return FrequencyOrders(
+        cage=0.5 * (1.0 - gamma),
+        outer_pass=0.5 * ball_count * (1.0 - gamma),
+        inner_pass=0.5 * ball_count * (1.0 + gamma),
+        ball_spin=spin,
+        ball_defect=2.0 * spin,
+    )
