@@ -1,0 +1,168 @@
+"""The core database: built from the seeds at first use, named by their hash, put in place in one step."""
+
+from __future__ import annotations
+
+import logging
+import os
+import sqlite3
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+
+from sqlalchemy import Connection, delete, insert
+from sqlalchemy.exc import IntegrityError
+
+from lambda_core.errors import CatalogueError, LambdaError, Problem
+from lambda_db.engine import file_uri, sqlite_engine
+from lambda_db.models import CHILDREN, SEED_TABLES, Base, Remark
+from lambda_db.paths import cache_folder
+from lambda_db.records import Row, describe, key_columns, parse_row, table_of
+from lambda_db.seeds import BUILT_IN, Record, fingerprint, read_path
+
+log = logging.getLogger("lambda_db")
+
+
+def constraint_sentence(error: IntegrityError) -> str:
+    """Turn SQLite's constraint failure into the sentence that the table's CHECK carries."""
+    message = str(error.orig)
+    name = message.rsplit(": ", 1)[-1].strip()
+    for table in Base.metadata.tables.values():
+        for constraint in table.constraints:
+            if constraint.name == name and "CHECK" in message:
+                return f"{constraint.info['sentence']} ({name})"
+    if "UNIQUE" in message or "PRIMARY KEY" in message:
+        return "a row with this key stands already"
+    return message
+
+
+def insert_row(connection: Connection, table: str, row: Row) -> str | None:
+    """Insert one row; return the reason if the database refuses it, None if it is in."""
+    savepoint = connection.begin_nested()
+    try:
+        connection.execute(insert(table_of(table)), row)
+    except IntegrityError as error:
+        savepoint.rollback()
+        return constraint_sentence(error)
+    savepoint.commit()
+    return None
+
+
+def _replace_lower_layer(connection: Connection, table: str, rows: list[Row]) -> None:
+    """Remove what a plugin's rows stand in front of: the same key, and a parent's children with it."""
+    keys = CHILDREN[table][2] if table in CHILDREN else tuple(key_columns(table))
+    target = table_of(table)
+    for key in {tuple(row[column] for column in keys) for row in rows}:
+        condition = [target.c[column] == value for column, value in zip(keys, key, strict=True)]
+        connection.execute(delete(target).where(*condition))
+    for child, (parent, link, _) in CHILDREN.items():
+        if parent == table:
+            below = Base.metadata.tables[child]
+            for row in rows:
+                connection.execute(delete(below).where(*(below.c[c] == row[p] for p, c in link.items())))
+
+
+def load(connection: Connection, records: Iterable[Record], layer: str) -> None:
+    """Insert every record of one layer, all or nothing.
+
+    Raises
+    ------
+    CatalogueError
+        With every bad row and its reason.
+    """
+    problems: list[Problem] = []
+    by_table: dict[str, list[tuple[str, Row]]] = {name: [] for name in SEED_TABLES}
+    source = ""
+    for path, place, table, cells in records:
+        source = str(path.parent)
+        row, reasons = parse_row(table, cells)
+        if "layer" in table_of(table).c:
+            row["layer"] = layer
+        problems += [Problem(f"{path.name} {place}", reason) for reason in reasons]
+        if not reasons:
+            by_table[table].append((f"{path.name} {place}", row))
+    for table, placed in by_table.items():
+        if layer != "core" and placed:
+            _replace_lower_layer(connection, table, [row for _, row in placed])
+        if placed:
+            problems += _insert_all(connection, table, placed)
+    if problems:
+        raise CatalogueError(source, problems)
+
+
+def _insert_all(connection: Connection, table: str, placed: list[tuple[str, Row]]) -> list[Problem]:
+    """Insert the rows at once; if the database refuses, one by one to learn which and why."""
+    savepoint = connection.begin_nested()
+    try:
+        connection.execute(insert(table_of(table)), [row for _, row in placed])
+    except IntegrityError:
+        savepoint.rollback()
+        reasons = ((place, row, insert_row(connection, table, row)) for place, row in placed)
+        return [Problem(place, f"{describe(table, row)}: {reason}") for place, row, reason in reasons if reason]
+    savepoint.commit()
+    return []
+
+
+def fill(connection: Connection, plugin_folders: list[Path]) -> None:
+    """Create the tables and read the seeds; a plugin's bad folder is left out whole and remembered as a remark."""
+    Base.metadata.create_all(connection)
+    load(connection, read_path(BUILT_IN), "core")
+    for folder in plugin_folders:
+        savepoint = connection.begin_nested()
+        try:
+            load(connection, read_path(folder), "plugin")
+        except (LambdaError, OSError) as error:
+            savepoint.rollback()
+            connection.execute(insert(Remark), {"text": f"rows of the plugin folder {folder} were left out: {error}"})
+        else:
+            savepoint.commit()
+    derive_candidates(connection)
+
+
+def derive_candidates(connection: Connection) -> None:
+    """Rank designs for every bearing whose inner geometry is not published."""
+
+
+def build_file(target: Path, plugin_folders: list[Path]) -> None:
+    """Build the database beside `target` and move it into place: a reader never sees half of it."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(prefix=target.stem, suffix=".tmp", dir=target.parent)
+    os.close(handle)
+    temporary = Path(name)
+    try:
+        engine = sqlite_engine(file_uri(temporary, "rw"))
+        with engine.begin() as connection:
+            fill(connection, plugin_folders)
+        engine.dispose()
+        os.replace(temporary, target)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def is_sound(path: Path) -> bool:
+    """Tell whether a built file can be read to its end."""
+    try:
+        connection = sqlite3.connect(file_uri(path, "ro"), uri=True)
+        try:
+            return bool(connection.execute("PRAGMA quick_check(1)").fetchone() == ("ok",))
+        finally:
+            connection.close()
+    except sqlite3.Error:
+        return False
+
+
+def core_database(plugin_folders: list[Path]) -> Path | None:
+    """Return the core database, building it if it is missing or damaged.
+
+    Returns None if the cache folder cannot be written; the caller then builds in memory.
+    """
+    target = cache_folder() / f"catalogue-{fingerprint([BUILT_IN, *plugin_folders])}.sqlite"
+    if target.exists() and is_sound(target):
+        return target
+    if target.exists():
+        log.warning("the catalogue's cache file %s is damaged; building it again", target)
+    try:
+        build_file(target, plugin_folders)
+    except (OSError, sqlite3.OperationalError) as error:
+        log.warning("the catalogue cannot be kept in %s (%s); building it in memory", target.parent, error)
+        return None
+    return target

@@ -1,0 +1,18 @@
+"""Entry point of the catalogue; imports nothing heavy, SQLAlchemy is loaded when the catalogue is opened."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.registry.hookspecs import hookimpl
+
+if TYPE_CHECKING:
+    from lambda_core.registry.catalogue import Catalogue
+
+
+@hookimpl
+def lambda_catalogue(seed_folders: list[Any]) -> Catalogue:
+    """Open the catalogue over the built-in seeds, the folders that plugins bring and the user's own database."""
+    from lambda_db.catalogue import open_catalogue
+
+    return open_catalogue(seed_folders)

@@ -1,0 +1,91 @@
+"""The user's rows in front of the built-in ones: ATTACH and temporary views with the tables' own names.
+
+SQLite looks for a name among the temporary objects first, so every query written for the tables reads the
+overlaid rows without knowing it.
+"""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+from sqlalchemy import Connection
+from sqlalchemy.exc import DatabaseError
+
+from lambda_db.engine import file_uri
+from lambda_db.models import CHILDREN, SEED_TABLES, Base
+
+log = logging.getLogger("lambda_db")
+VIEWED = (*SEED_TABLES, "candidate")
+
+
+def _same(columns: dict[str, str], theirs: str) -> str:
+    return " AND ".join(f"{theirs}.{p} = m.{c} COLLATE NOCASE" for p, c in columns.items())
+
+
+def view_statement(table: str) -> str:
+    """Return the statement of one view: the user's rows, then those built-in rows that no user row replaces."""
+    definition = Base.metadata.tables[table]
+    columns = ", ".join(column.name for column in definition.columns)
+    if table in CHILDREN:
+        parent, link, group = CHILDREN[table]
+        hidden = [f"SELECT 1 FROM user.{parent} u WHERE {_same(link, 'u')}"]
+        hidden.append(f"SELECT 1 FROM user.{table} u WHERE {_same({c: c for c in group}, 'u')}")
+    else:
+        keys = {column.name: column.name for column in definition.primary_key.columns}
+        hidden = [f"SELECT 1 FROM user.{table} u WHERE {_same(keys, 'u')}"]
+    conditions = " AND ".join(f"NOT EXISTS ({statement})" for statement in hidden)
+    return (
+        f"CREATE TEMP VIEW {table} AS SELECT {columns} FROM user.{table} "
+        f"UNION ALL SELECT {columns} FROM main.{table} AS m WHERE {conditions}"
+    )
+
+
+def attach_user(connection: Connection, path: Path, schema_version: int) -> bool:
+    """Overlay the user's database; a damaged or unreadable one is reported and left out.
+
+    Returns
+    -------
+    bool
+        Whether the rows are overlaid.
+    """
+    trouble = ""
+    for mode in ("ro", "immutable"):  # a file in a read-only folder has no room for SQLite's shared memory file
+        try:
+            connection.exec_driver_sql("ATTACH DATABASE ? AS user", (file_uri(path, mode),))
+            try:
+                found = connection.exec_driver_sql("PRAGMA user.user_version").scalar_one()
+                if found != schema_version:
+                    raise_version(path, found, schema_version)
+                for table in VIEWED:
+                    connection.exec_driver_sql(f"SELECT count(*) FROM user.{table}")
+                    connection.exec_driver_sql(view_statement(table))
+            except (DatabaseError, VersionMismatch):
+                detach_user(connection)
+                raise
+        except VersionMismatch as error:
+            trouble = str(error)
+            break
+        except DatabaseError as error:
+            trouble = f"{error.orig}"
+        else:
+            return True
+    log.warning("your own catalogue %s cannot be read (%s); only the built-in catalogue is used", path, trouble)
+    return False
+
+
+def detach_user(connection: Connection) -> None:
+    """Take the overlay away."""
+    for table in VIEWED:
+        connection.exec_driver_sql(f"DROP VIEW IF EXISTS temp.{table}")
+    connection.exec_driver_sql("DETACH DATABASE user")
+
+
+class VersionMismatch(Exception):
+    """The user's database has another schema version than this program."""
+
+
+def raise_version(path: Path, found: int, expected: int) -> None:
+    """Say which side is newer."""
+    newer = "a newer" if found > expected else "an older"
+    raise VersionMismatch(f"written by {newer} version of this program: schema {found}, expected {expected}")

@@ -1,0 +1,27 @@
+"""Where the catalogue's files live; environment variables move them."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import platformdirs
+
+APPLICATION = "lambda-bearing"
+
+
+def cache_folder() -> Path:
+    """Folder of the built core database: ``LAMBDA_BEARING_CACHE`` or the user's cache folder."""
+    given = os.environ.get("LAMBDA_BEARING_CACHE")
+    return Path(given) if given else platformdirs.user_cache_path(APPLICATION)
+
+
+def data_folder() -> Path:
+    """Folder of the user's own database: ``LAMBDA_BEARING_DATA`` or the user's data folder."""
+    given = os.environ.get("LAMBDA_BEARING_DATA")
+    return Path(given) if given else platformdirs.user_data_path(APPLICATION)
+
+
+def user_database() -> Path:
+    """File of the user's own rows."""
+    return data_folder() / "catalogue.sqlite"

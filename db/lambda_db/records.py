@@ -1,0 +1,121 @@
+"""From the cells of a file to a row of a table: types, units and required columns, every problem with its reason."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from sqlalchemy import Column, Float, Integer, Table
+
+from lambda_core.errors import nearest
+from lambda_core.schema.units import UNITS, from_si, parse
+from lambda_db.models import SEED_TABLES
+from lambda_db.units import PROPERTIES, column_unit, to_si
+
+Row = dict[str, Any]
+
+
+def table_of(name: str) -> Table:
+    """Return the SQLAlchemy table behind a seed table's name."""
+    table = SEED_TABLES[name].__table__
+    assert isinstance(table, Table)
+    return table
+
+
+def columns_of(name: str) -> list[str]:
+    """Columns that a file carries, in order: all but the layer, which the catalogue decides."""
+    return [column.name for column in table_of(name).columns if column.name != "layer"]
+
+
+def key_columns(name: str) -> list[str]:
+    """Return the columns of the natural key."""
+    return [column.name for column in table_of(name).primary_key.columns]
+
+
+def describe(name: str, row: Mapping[str, Any]) -> str:
+    """Name a row for people: its table and key."""
+    return f"{name} {' '.join(str(row.get(column) or '?') for column in key_columns(name))}"
+
+
+def _number(column: Column[Any], cell: object) -> float:
+    """Read a cell as the column's number: bare, or a unit string of the column's quantity."""
+    unit = column_unit(column.name)
+    if isinstance(cell, bool) or not isinstance(cell, int | float | str):
+        raise ValueError(f"{cell!r} is not a number")
+    text = str(cell).strip()
+    try:
+        value = float(text)
+    except ValueError:
+        if unit is None:
+            raise ValueError(f'"{text}" is not a number') from None
+        quantity, name = unit
+        si = parse(text, quantity)  # names the allowed units, refuses a decimal comma
+        written = text.rsplit(maxsplit=1)[-1] == name
+        value = float(text.split()[0]) if written and len(text.split()) == 2 else from_si(si, quantity, name)
+    if not math.isfinite(value):
+        raise ValueError(f'"{text}" is not a finite number')
+    return value
+
+
+def _cell(column: Column[Any], cell: object) -> Any:
+    if cell is None or cell == "":
+        if not column.nullable and column.server_default is None:
+            raise ValueError("a value is required")
+        return None if column.nullable else ""
+    if isinstance(column.type, Integer):
+        value = _number(column, cell)
+        if value != int(value):
+            raise ValueError(f"{cell} is not a whole number")
+        return int(value)
+    if isinstance(column.type, Float):
+        return _number(column, cell)
+    return str(cell).strip()
+
+
+def parse_row(name: str, cells: Mapping[str, object]) -> tuple[Row, list[str]]:
+    """Turn cells into a row of table `name`.
+
+    Returns
+    -------
+    row : dict
+        Typed values of every column but the layer.
+    problems : list of str
+        Why the row cannot be taken; empty if it can, as far as one cell at a time tells.
+    """
+    table = table_of(name)
+    known = columns_of(name)
+    row: Row = {}
+    problems: list[str] = []
+    for key in cells:
+        if key not in known:
+            close = nearest(str(key), known)
+            hint = f"; nearest: {', '.join(close)}" if close else f"; known: {', '.join(known)}"
+            problems.append(f'"{key}" is not a column of {name}{hint}')
+    for column in table.columns:
+        if column.name == "layer":
+            continue
+        try:
+            row[column.name] = _cell(column, cells.get(column.name))
+        except ValueError as error:
+            problems.append(f"{column.name}: {error}")
+    if not problems:
+        problems += _unit_problems(name, row)
+    return row, problems
+
+
+def _unit_problems(name: str, row: Row) -> list[str]:
+    """Check the unit of a lubricant's property or parameter against what its name means."""
+    if name not in ("lubricant_property", "lubricant_parameter"):
+        return []
+    quantity = PROPERTIES.get(row["name"]) if name == "lubricant_property" else None
+    if name == "lubricant_parameter":
+        # laws name their own constants; those that a property shares keep the property's quantity
+        quantity = "pressure_viscosity" if row["name"] == "alpha_p" else PROPERTIES.get(row["name"])
+    if quantity and row["unit"] and row["unit"] not in UNITS[quantity]:
+        return [f'{row["name"]}: "{row["unit"]}" is not a unit of {quantity}; allowed: {", ".join(UNITS[quantity])}']
+    try:
+        to_si(row["value"], row["unit"], quantity)
+    except ValueError as error:
+        return [f"{row['name']}: {error}"]
+    return []

@@ -1,0 +1,182 @@
+"""From table rows to the core's catalogue rows: SI values, each with its source, grade and status."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any, Literal, cast
+
+from lambda_core.registry.catalogue import (
+    BearingRow,
+    CageRow,
+    ClearanceRow,
+    Design,
+    LubricantRow,
+    MaterialRow,
+    Parameter,
+    Status,
+    Value,
+)
+from lambda_db.models import (
+    Bearing,
+    Cage,
+    Candidate,
+    Clearance,
+    Lubricant,
+    LubricantParameter,
+    LubricantProperty,
+    Material,
+)
+from lambda_db.units import PROPERTIES, bare_name, column_si, to_si
+
+Sources = Mapping[str, str]
+Layer = Literal["core", "plugin", "user"]
+
+# Group that carries source, grade and status -> its columns.
+BEARING_GROUPS: dict[str, tuple[str, ...]] = {
+    "dimensions": ("bore_diameter_mm", "outside_diameter_mm", "width_mm", "chamfer_mm"),
+    "dynamic_rating": ("dynamic_rating_kN",),
+    "static_rating": ("static_rating_kN", "fatigue_limit_kN"),
+    "catalogue": ("reference_speed_rpm", "limiting_speed_rpm", "mass_kg"),
+    "geometry": (
+        "ball_count",
+        "ball_diameter_mm",
+        "pitch_diameter_mm",
+        "race_diameter_inner_mm",
+        "race_diameter_outer_mm",
+    ),
+    "groove": ("groove_radius_inner_mm", "groove_radius_outer_mm"),
+    "shoulder": ("shoulder_diameter_inner_mm", "shoulder_diameter_outer_mm"),
+}
+
+
+def _value(row: Any, column: str, group: str, sources: Sources) -> Value | None:
+    number = getattr(row, column)
+    if number is None:
+        return None
+    source = getattr(row, f"{group}_source")
+    return Value(
+        value=column_si(column, number),
+        source=sources.get(source, source),
+        grade=getattr(row, f"{group}_grade"),
+        status=getattr(row, f"{group}_status", None) or "published",
+    )
+
+
+def bearing_row(row: Bearing, candidates: Iterable[Candidate], sources: Sources) -> BearingRow:
+    """Convert one bearing with its ranked candidate designs."""
+    values = {
+        bare_name(column): _value(row, column, group, sources)
+        for group, columns in BEARING_GROUPS.items()
+        for column in columns
+    }
+    designs = tuple(
+        Design(
+            ball_count=c.ball_count,
+            ball_diameter=column_si("ball_diameter_mm", c.ball_diameter_mm),
+            pitch_diameter=column_si("pitch_diameter_mm", c.pitch_diameter_mm),
+            score=c.score,
+            filling_angle=math.radians(c.filling_angle_deg),
+            weight=c.weight,
+        )
+        for c in candidates
+    )
+    return BearingRow(
+        designation=row.designation,
+        maker=row.maker,
+        series=row.series,
+        rating_type=row.rating_type,
+        candidates=designs,
+        layer=cast(Layer, row.layer),
+        **cast(dict[str, Any], values),
+    )
+
+
+def clearance_row(row: Clearance, sources: Sources) -> ClearanceRow:
+    """Convert the limits of one clearance class."""
+    return ClearanceRow(
+        clearance_class=row.clearance_class,
+        minimum=column_si("minimum_um", row.minimum_um),
+        maximum=column_si("maximum_um", row.maximum_um),
+        source=sources.get(row.source, row.source),
+        grade=row.grade,
+    )
+
+
+def material_row(row: Material, sources: Sources) -> MaterialRow:
+    """Convert one material: its source and grade hold for every value."""
+
+    def value(column: str) -> Value:
+        return Value(
+            value=column_si(column, getattr(row, column)), source=sources.get(row.source, row.source), grade=row.grade
+        )
+
+    return MaterialRow(
+        name=row.name,
+        youngs_modulus=value("youngs_modulus_GPa"),
+        poisson_ratio=value("poisson_ratio"),
+        density=value("density_kg_m3"),
+        thermal_conductivity=value("thermal_conductivity_W_mK"),
+        specific_heat=value("specific_heat_J_kgK"),
+        thermal_expansion=value("thermal_expansion_1e6_K"),
+        permittivity=None if row.permittivity is None else value("permittivity"),
+        note=row.note,
+    )
+
+
+def cage_row(row: Cage, sources: Sources) -> CageRow:
+    """Convert one cage type."""
+
+    def value(number: float) -> Value:
+        return Value(
+            value=number,
+            source=sources.get(row.source, row.source),
+            grade=row.grade,
+            status=cast(Status, row.status),
+        )
+
+    return CageRow(
+        name=row.name,
+        suffix=row.suffix,
+        guidance=row.guidance,
+        material=row.material,
+        pocket_clearance_ratio=value(row.pocket_clearance_ratio),
+        land_clearance_ratio=None if row.land_clearance_ratio is None else value(row.land_clearance_ratio),
+        fill=value(row.fill),
+        radial_ratio=value(row.radial_ratio),
+        axial_ratio=value(row.axial_ratio),
+        friction=None if row.friction is None else value(row.friction),
+        maximum_temperature=_value(row, "maximum_temperature_degC", "temperature", sources),
+        note=row.note,
+    )
+
+
+def lubricant_row(
+    row: Lubricant,
+    properties: Iterable[LubricantProperty],
+    parameters: Iterable[LubricantParameter],
+    sources: Sources,
+) -> LubricantRow:
+    """Convert one lubricant with its properties (SI) and the parameters of every law (as published)."""
+    nested: dict[str, dict[str, dict[str, Parameter]]] = {}
+    for p in parameters:
+        nested.setdefault(p.role, {}).setdefault(p.model, {})[p.name] = Parameter(
+            value=p.value, unit=p.unit, source=sources.get(p.source, p.source), grade=p.grade
+        )
+    return LubricantRow(
+        name=row.name,
+        base_type=row.base_type,
+        rheology=row.rheology,
+        properties={
+            p.name: Value(
+                value=to_si(p.value, p.unit, PROPERTIES.get(p.name)),
+                source=sources.get(p.source, p.source),
+                grade=p.grade,
+                status=cast(Status, p.status),
+            )
+            for p in properties
+        },
+        parameters=nested,
+        note=row.note,
+        layer=cast(Layer, row.layer),
+    )

@@ -1,0 +1,80 @@
+"""Seed folders: one CSV per table, or TOML files with arrays of tables of the same names and columns."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from lambda_core.errors import CatalogueError, Problem, unknown_name
+from lambda_db.models import SEED_TABLES
+
+BUILT_IN = Path(__file__).parent / "seeds"
+Cells = Mapping[str, object]
+# (file, place in the file, table, cells)
+Record = tuple[Path, str, str, Cells]
+
+
+def seed_files(folder: Path) -> list[Path]:
+    """Return the seed files of a folder in a fixed order."""
+    return sorted(path for path in folder.iterdir() if path.suffix in (".csv", ".toml"))
+
+
+def fingerprint(folders: list[Path]) -> str:
+    """Hash everything a built database depends on: the seeds and the code that turns them into tables."""
+    digest = hashlib.sha256()
+    code = sorted(Path(__file__).parent.glob("*.py"))
+    for path in [*code, *(file for folder in folders for file in seed_files(folder))]:
+        content = path.read_bytes()
+        digest.update(f"{path.name}\0{len(content)}\0".encode())
+        digest.update(content)
+    return digest.hexdigest()[:16]
+
+
+def read_csv(path: Path, table: str | None = None) -> Iterator[Record]:
+    """Yield the rows of a CSV file; the table is the file's name unless given."""
+    table = table or path.stem
+    if table not in SEED_TABLES:
+        raise CatalogueError(str(path), [Problem("", unknown_name("catalogue table", table, SEED_TABLES))])
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as stream:
+            reader = csv.DictReader(stream)
+            for cells in reader:
+                place = f"line {reader.line_num}"
+                if None in cells or None in cells.values():
+                    raise CatalogueError(
+                        str(path), [Problem(place, f"needs {len(reader.fieldnames or ())} cells like the header")]
+                    )
+                yield path, place, table, cells
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise CatalogueError(str(path), [Problem("", f"cannot be read as CSV: {error}")]) from error
+
+
+def read_toml(path: Path) -> Iterator[Record]:
+    """Yield the rows of a TOML file with arrays of tables: ``[[bearing]]``, ``[[lubricant]]``..."""
+    try:
+        document = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise CatalogueError(str(path), [Problem("", f"cannot be read as TOML: {error}")]) from error
+    for table, rows in document.items():
+        if table not in SEED_TABLES:
+            raise CatalogueError(str(path), [Problem(table, unknown_name("catalogue table", table, SEED_TABLES))])
+        if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+            raise CatalogueError(str(path), [Problem(table, f"must be an array of tables: [[{table}]]")])
+        for number, row in enumerate(rows, start=1):
+            yield path, f"[[{table}]] {number}", table, row
+
+
+def read_path(path: Path, table: str | None = None) -> Iterator[Record]:
+    """Yield the rows of a file or of every seed file in a folder."""
+    if path.is_dir():
+        for file in seed_files(path):
+            yield from read_path(file)
+    elif path.suffix == ".toml":
+        yield from read_toml(path)
+    elif path.suffix == ".csv":
+        yield from read_csv(path, table)
+    else:
+        raise CatalogueError(str(path), [Problem("", "is neither a .csv nor a .toml file nor a folder of them")])

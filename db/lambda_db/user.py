@@ -1,0 +1,74 @@
+"""The user's own database: WAL, a busy timeout for several writers, versions by PRAGMA user_version."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from sqlalchemy import Connection, Engine
+from sqlalchemy.exc import DatabaseError
+
+from lambda_core.errors import CatalogueError, Problem
+from lambda_db.engine import file_uri, sqlite_engine
+from lambda_db.models import Base
+
+# Steps from version n to n + 1; the newest schema is Base.metadata itself.
+MIGRATIONS: dict[int, Callable[[Connection], None]] = {}
+SCHEMA_VERSION = 1
+
+
+def open_user_database(path: Path) -> Engine:
+    """Open the user's database for writing, creating or migrating it.
+
+    Raises
+    ------
+    CatalogueError
+        If the file is damaged, read-only or of a newer version.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        engine = sqlite_engine(file_uri(path, "rwc"), immediate=True)
+        with engine.connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
+            connection.exec_driver_sql("PRAGMA journal_mode = WAL")
+        with engine.begin() as connection:
+            _bring_up_to_date(connection, path)
+    except OSError as error:
+        raise CatalogueError(str(path), [Problem("", f"cannot be created: {error.strerror}")]) from error
+    except DatabaseError as error:
+        raise unwritable(path, error) from error
+    return engine
+
+
+def unwritable(path: Path, error: DatabaseError) -> CatalogueError:
+    """Say why the user's database takes no rows."""
+    reason = str(error.orig)
+    if "readonly" in reason:
+        reason = "the file is read-only; make it writable or set LAMBDA_BEARING_DATA to another folder"
+    elif "malformed" in reason or "not a database" in reason:
+        reason = f"the file is damaged ({reason}); move it away and import your rows again"
+    return CatalogueError(str(path), [Problem("", f"cannot be written: {reason}")])
+
+
+def _bring_up_to_date(connection: Connection, path: Path) -> None:
+    found = connection.exec_driver_sql("PRAGMA user_version").scalar_one()
+    if found > SCHEMA_VERSION:
+        message = f"was written by a newer version of this program (schema {found}, this one knows {SCHEMA_VERSION})"
+        raise CatalogueError(str(path), [Problem("", message)])
+    if found == 0:
+        Base.metadata.create_all(connection)
+    for version in range(max(found, 1), SCHEMA_VERSION):
+        MIGRATIONS[version](connection)
+    connection.exec_driver_sql(f"PRAGMA user_version = {SCHEMA_VERSION}")
+
+
+def migrate(path: Path) -> None:
+    """Bring an older database up to date before it is read; anything else is the reader's to report."""
+    try:
+        engine = sqlite_engine(file_uri(path, "ro"))
+        with engine.connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
+            found = connection.exec_driver_sql("PRAGMA user_version").scalar_one()
+        engine.dispose()
+        if 0 < found < SCHEMA_VERSION:
+            open_user_database(path).dispose()
+    except (DatabaseError, CatalogueError):
+        return
