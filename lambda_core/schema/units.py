@@ -124,24 +124,25 @@ def from_si(value: float, quantity: str, unit: str | None = None) -> float:
 
 
 def show(value: float, quantity: str, digits: int | None = None) -> str:
-    """Write an SI float as a unit string; exact (reads back equal) unless `digits` is given."""
+    """Write an SI float as a unit string; exact (reads back equal) unless `digits` is given.
+
+    The exact spelling takes the first unit of the quantity in which the number is short and
+    between 0.1 and 1000.
+    """
     if digits is not None:
         unit = next(iter(UNITS[quantity]))
         return f"{from_si(value, quantity):.{digits}g} {unit}"
-    best: str | None = None
+    spellings: list[tuple[bool, bool, str]] = []
     for unit in UNITS[quantity]:
         converted = from_si(value, quantity, unit)
-        for candidate in (f"{converted:.12g}", repr(converted)):
-            written = f"{candidate} {unit}"
-            if parse(written, quantity) == value:
-                if best is None or len(written) < len(best):
-                    best = written
+        for number in (f"{converted:.12g}", repr(converted)):
+            if parse(f"{number} {unit}", quantity) == value:
+                handy = value == 0.0 or 0.1 <= abs(converted) < 1000.0 or quantity == "temperature"
+                spellings.append((len(number) > 9, not handy, f"{number} {unit}"))
                 break
-        if best is not None and len(best) <= 12:
-            break
-    if best is None:
+    if not spellings:
         raise ValueError(f"{value!r} has no exact spelling as a {quantity}")
-    return best
+    return min(spellings, key=lambda spelling: spelling[:2])[2]
 
 
 @dataclass(frozen=True)

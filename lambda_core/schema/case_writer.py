@@ -1,0 +1,137 @@
+"""Writing a case as TOML that diffs well: comments and untouched spellings stay."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import tomlkit
+from tomlkit.toml_document import TOMLDocument
+
+from lambda_core.errors import CaseError, UsageError
+from lambda_core.schema.case import Case
+from lambda_core.schema.case_io import parse_case
+from lambda_core.schema.signals import Table as TimeTableFile
+
+_INLINE_KEYS = frozenset({"kind", "mode", "points"})  # small tables that read best on one line
+
+
+def case_toml(case: Case, original: str | None = None) -> str:
+    """Write a case as TOML.
+
+    Parameters
+    ----------
+    case : Case
+        What to write.
+    original : str, optional
+        Text of the file it came from; its comments, order and the spelling of unchanged
+        values are kept.
+    """
+    written = case.written()
+    if original is None:
+        document = tomlkit.document()
+        _fill(document, written)
+        return tomlkit.dumps(document)
+    try:
+        before = parse_case(original, folder=case.folder).written()
+    except CaseError:
+        before = {}
+    document = tomlkit.parse(original)
+    _update(document, before, written)
+    return tomlkit.dumps(document)
+
+
+def standalone_toml(case: Case) -> str:
+    """Write a case that needs no other file: CSV tables become points in the text."""
+    return case_toml(Case.model_validate(_inlined(case, case.written()), context={"folder": case.folder}))
+
+
+def save_case(case: Case, path: str | Path, original: str | None = None) -> None:
+    """Write a case to `path` in one step (a crash leaves the old file whole).
+
+    `original` defaults to the text that stands in `path`, so that saving keeps comments.
+
+    Raises
+    ------
+    UsageError
+        When the file cannot be written.
+    """
+    target = Path(path)
+    try:
+        if original is None and target.is_file():
+            original = target.read_text(encoding="utf-8-sig")
+        text = case_toml(case, original)
+        handle, temporary = tempfile.mkstemp(dir=target.resolve().parent, prefix=f".{target.name}.")
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
+            stream.write(text)
+        os.chmod(temporary, target.stat().st_mode & 0o777 if target.exists() else 0o644)
+        os.replace(temporary, target)
+    except OSError as error:
+        raise UsageError(f'cannot write "{target}": {error.strerror}') from None
+
+
+def _inlined(section: Any, written: Any) -> Any:
+    """Replace tables that name a CSV file by tables that carry its points."""
+    if isinstance(section, TimeTableFile) and section.file is not None:
+        return section.inlined()
+    if isinstance(written, Mapping):
+        get = section.get if isinstance(section, Mapping) else lambda key: getattr(section, key)
+        return {key: _inlined(get(key), value) for key, value in written.items()}
+    if isinstance(written, list) and isinstance(section, list):
+        return [_inlined(part, value) for part, value in zip(section, written, strict=True)]
+    return written
+
+
+def _is_inline(value: Mapping[str, Any]) -> bool:
+    return bool(_INLINE_KEYS & value.keys())
+
+
+def _item(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        table: Any = tomlkit.inline_table() if _is_inline(value) else tomlkit.table(is_super_table=_only_tables(value))
+        _fill(table, value)
+        return table
+    if isinstance(value, list):
+        array = tomlkit.array()
+        for entry in value:
+            if isinstance(entry, Mapping):
+                inline = tomlkit.inline_table()
+                inline.update(entry)
+                array.append(inline)
+            else:
+                array.append(entry)
+        return array
+    return tomlkit.item(value)
+
+
+def _only_tables(value: Mapping[str, Any]) -> bool:
+    return bool(value) and all(isinstance(v, Mapping) and not _is_inline(v) for v in value.values())
+
+
+def _fill(container: Any, values: Mapping[str, Any]) -> None:
+    """Add plain values first, then sub-tables: TOML reads that order without repeated headers."""
+    plain = [key for key, value in values.items() if not isinstance(value, Mapping) or _is_inline(value)]
+    for key in [*plain, *(key for key in values if key not in plain)]:
+        if isinstance(container, TOMLDocument) and key not in plain:
+            container.add(tomlkit.nl())
+        container.add(key, _item(values[key]))
+
+
+def _update(container: Any, before: Mapping[str, Any], after: Mapping[str, Any]) -> None:
+    """Bring a parsed file from what it says (`before`) to `after`, touching only what differs."""
+    for key in [key for key in container if key not in after]:
+        container.remove(key)
+    for key, value in after.items():
+        if key in container and key in before and before[key] == value:
+            continue
+        old = container.get(key)
+        if isinstance(value, Mapping) and not _is_inline(value) and isinstance(old, Mapping):
+            known = before.get(key)
+            _update(old, known if isinstance(known, Mapping) else {}, value)
+        elif key in container:
+            container[key] = _item(value)
+        else:
+            container.add(key, _item(value))
