@@ -1,0 +1,178 @@
+"""Bode's equations of one oil: density, viscosity and permittivity from one set of constants.
+
+T in K, p in bar, as published (Bode 1989; constants of a mineral oil in Syla et al. 2026, Table 5).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.plugins import Context, model
+from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_plugins.rheology import capped
+
+_T_LOW = 223.15  # [K]
+_T_HIGH = 573.15  # [K]; N(T) of the published oil turns negative near 660 K
+_SOURCE = "constants of the oil; a mineral oil in Syla et al. 2026, Lubricants 14, 154, Table 5"
+
+
+def _constant(description: str, **limits: Any) -> Any:
+    return parameter(..., description, source=_SOURCE, status="lubricant", **limits)
+
+
+class BodeDensity(Parameters):
+    """Constants of Bode's density."""
+
+    rho_s: float = _constant("density extrapolated to 0 K [kg/m3]", gt=0.0)
+    alpha_s: float = _constant("its relative decrease with temperature [1/K]", ge=0.0)
+    a1: float = _constant("a1 [-]", gt=0.0)
+    a2: float = _constant("a2 [bar]")
+    a3: float = _constant("a3 [bar/K]")
+    a4: float = _constant("a4 [bar/K2]")
+    a5: float = _constant("a5 [bar/K3]")
+
+
+class BodeViscosity(BodeDensity):
+    """Constants of Bode's density and of the viscosity that goes with it."""
+
+    visc_a1: float = _constant("A1 [mPa s]", gt=0.0)
+    visc_a2: float = _constant("A2 [-]", gt=0.0)
+    visc_a3: float = _constant("A3 [kg/m3]", gt=0.0)
+    visc_a4: float = _constant("A4 [1/K]")
+
+
+class BodePermittivity(BodeDensity):
+    """Constants of Bode's density and permittivity."""
+
+    k1: float = _constant("k1")
+    k2: float = _constant("k2 [1/K]")
+    k3: float = _constant("k3 [m3/kg]")
+
+
+def within_range(temperature: float) -> float:
+    """Return the temperature held within 223..573 K, where the polynomial N(T) is positive."""
+    held = temperature if temperature > _T_LOW else _T_LOW
+    return held if held < _T_HIGH else _T_HIGH
+
+
+def pressure_scale(T: float, par: FloatArray) -> float:
+    """Return N(T) = a2 + a3 T + a4 T^2 + a5 T^3 [bar]; a1/N is the compressibility at ambient pressure."""
+    scale: float = par[3] + T * (par[4] + T * (par[5] + T * par[6]))
+    return scale
+
+
+def bode_density(p: float, T: float, par: FloatArray) -> float:
+    """Return rho [kg/m3] = rho_s (1 - alpha_s T)/(1 - a1 ln(1 + p/N)), p in Pa, T in K within range."""
+    bar = 1e-5 * p if p > 0.0 else 0.0
+    compression = 1.0 - par[2] * math.log(1.0 + bar / pressure_scale(T, par))
+    density: float = par[0] * (1.0 - par[1] * T) / (compression if compression > 0.1 else 0.1)
+    return density
+
+
+def prepare_viscosity(parameters: BodeViscosity, context: Context) -> FloatArray:
+    """Return the constants in order, A1 as ln(A1 / Pa s)."""
+    _check(parameters)
+    par = np.array([float(value) for _, value in parameters])
+    par[7] = math.log(1e-3 * par[7])
+    return par
+
+
+def prepare_permittivity(parameters: BodePermittivity, context: Context) -> FloatArray:
+    """Return the constants in order."""
+    _check(parameters)
+    return np.array([float(value) for _, value in parameters])
+
+
+def _check(parameters: BodeDensity) -> None:
+    par = np.array([float(value) for _, value in parameters])
+    T = np.linspace(_T_LOW, _T_HIGH, 71)
+    if np.any(pressure_scale(T, par) <= 0.0) or par[1] * _T_HIGH >= 1.0:  # type: ignore[arg-type]
+        raise ValueError("the constants a2..a5 and alpha_s give no positive density between -50 and 300 degC")
+
+
+def bode_rheology(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArray, rho: FloatArray) -> int:
+    """Density after Bode and the viscosity that follows from its distance to the glass.
+
+    eta = A1 exp[A2/(rho_g/rho - 1)], rho_g = A3 (1 + A4 T), a form inferred from the constants (it gives 97.3 and 8.81
+    mPa s at 40 and 100 degC for the published oil). It has a pole at rho = rho_g (2.35 GPa at 40 degC): ln(eta) is
+    capped at 1e12 Pa s. Temperatures outside -50..300 degC act like the nearest bound.
+    """
+    for i in range(ln_eta.size):
+        temperature = within_range(T[i])
+        density = bode_density(p[i], temperature, par)
+        distance = par[9] * (1.0 + par[10] * temperature) / density - 1.0
+        # A2/60 keeps the exponent finite at and beyond the pole, far above the cap.
+        nearest = par[8] / 60.0
+        ln_eta[i] = capped(par[7] + par[8] / (distance if distance > nearest else nearest))
+        rho[i] = density
+    return 1
+
+
+def bode_permittivity(p: FloatArray, T: FloatArray, rho: FloatArray, par: FloatArray, eps_r: FloatArray) -> int:
+    """Relative permittivity after Bode.
+
+    eps_r = k1 beta^-1/2 rho_T^1/6 + k2 T + k3 (rho - rho_T), beta = a1/N the compressibility in 1/bar: Syla et al.
+    2026, eq. 35-37. The density is Bode's own, with which the constants were fitted, so that the law does not change
+    with the rheology model beside it.
+    """
+    for i in range(eps_r.size):
+        temperature = within_range(T[i])
+        density_T = par[0] * (1.0 - par[1] * temperature)
+        stiffness = math.sqrt(pressure_scale(temperature, par) / par[2])
+        ambient = par[7] * stiffness * density_T ** (1.0 / 6.0) + par[8] * temperature
+        eps_r[i] = ambient + par[9] * (bode_density(p[i], temperature, par) - density_T)
+    return 1
+
+
+class Constant(Parameters):
+    """Parameter of a constant permittivity."""
+
+    eps_r: Annotated[float, Field(gt=0.999)] = parameter(
+        2.2,
+        "relative permittivity",
+        source="2.1-2.3 mineral oil and PAO, about 3.2 ester, 4-10 polyglycol (class values)",
+        status="unconfirmed",
+        published_range=(2.1, 10.0),
+    )
+
+
+def constant(p: FloatArray, T: FloatArray, rho: FloatArray, par: FloatArray, eps_r: FloatArray) -> int:
+    """Permittivity that depends on nothing."""
+    for i in range(eps_r.size):
+        eps_r[i] = par[0]
+    return 1
+
+
+RHEOLOGY = model(
+    "rheology",
+    "bode",
+    bode_rheology,
+    BodeViscosity,
+    reference="Bode 1989; constants in Syla et al. 2026, Lubricants 14, 154, Table 5; form of the viscosity inferred",
+    validity="-50..300 degC; ln(eta) capped at 1e12 Pa s near the pole at the glass density",
+    prepare=prepare_viscosity,
+)
+
+PERMITTIVITY = model(
+    "permittivity",
+    "bode",
+    bode_permittivity,
+    BodePermittivity,
+    reference="Bode's equation: Syla et al. 2026, Lubricants 14, 154, eq. 35-37",
+    validity="-50..300 degC",
+    prepare=prepare_permittivity,
+)
+
+CONSTANT_PERMITTIVITY = model(
+    "permittivity",
+    "constant",
+    constant,
+    Constant,
+    reference="-",
+    summary="Permittivity that depends on neither pressure nor temperature.",
+    validity="non-polar oils within a few percent",
+)

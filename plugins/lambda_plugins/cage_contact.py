@@ -1,0 +1,211 @@
+"""Contacts of the cage: with the balls in its pockets, with the lands of the rings.
+
+One penalty contact for all: a spring whose stiffness sets in over the first fraction of a micrometre, damping that
+grows from zero at first touch and never pulls, and cubic friction at the point of contact against the slip there.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Self
+
+import numpy as np
+from pydantic import model_validator
+
+from lambda_core.plugins import Context, NoParameters, Quantity, model
+from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_plugins.shapes import cubic_friction_slope
+
+_ASSUMED = "assumption; 5e6 N/m and the friction law as in the group's models"
+_LIMITS_AT = 1e-12  # [m] below this distance from the centre no direction of contact is defined
+
+
+class CageContact(Parameters):
+    """Constants of a contact of the cage."""
+
+    stiffness: Annotated[float, Quantity("stiffness")] = parameter(
+        "5e6 N/m", "contact stiffness", source=_ASSUMED, status="assumed", gt=0.0
+    )
+    damping: Annotated[float, Quantity("damping")] = parameter(
+        "50 N s/m",
+        "damping in full contact: 10 us times the stiffness, as on the raceways",
+        source=_ASSUMED,
+        status="assumed",
+        ge=0.0,
+    )
+    full_penetration: Annotated[float, Quantity("small_length")] = parameter(
+        "2 um", "penetration from which damping is full", source=_ASSUMED, status="assumed", gt=0.0
+    )
+    onset: Annotated[float, Quantity("small_length")] = parameter(
+        "0.5 um", "penetration over which the stiffness sets in", status="numerical", gt=0.0
+    )
+    mu_s: float = parameter(0.08, "largest coefficient of friction, at v_s", source=_ASSUMED, status="assumed", ge=0.0)
+    mu_d: float = parameter(
+        0.05, "coefficient of friction in full sliding, from v_d", source=_ASSUMED, status="assumed", ge=0.0
+    )
+    v_s: Annotated[float, Quantity("velocity")] = parameter(
+        "0.05 m/s", "slip at the largest coefficient", source=_ASSUMED, status="assumed", gt=0.0
+    )
+    v_d: Annotated[float, Quantity("velocity")] = parameter(
+        "0.5 m/s", "slip from which the coefficient is constant", source=_ASSUMED, status="assumed", gt=0.0
+    )
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if self.v_d <= self.v_s:
+            raise ValueError(f"v_d ({self.v_d:g} m/s) must be above v_s ({self.v_s:g} m/s)")
+        return self
+
+
+def _constants(parameters: CageContact, clearance: float, arm: float) -> FloatArray:
+    """Return the fields in order, then half the diametral clearance and the arm of the contact point."""
+    return np.array([*(float(value) for _, value in parameters), 0.5 * clearance, arm])
+
+
+def prepare_pocket(parameters: CageContact, context: Context) -> FloatArray:
+    """Return the constants with the pocket's clearance and the ball's radius."""
+    if not context.pocket_clearance >= 0.0:
+        raise ValueError("the cage has no pocket clearance: give a cage with pockets")
+    return _constants(parameters, context.pocket_clearance, 0.5 * context.ball_diameter)
+
+
+def prepare_land(parameters: CageContact, context: Context) -> FloatArray:
+    """Return the constants with the land's clearance and its radius, negative on the inner ring.
+
+    A cage displaced along n touches the outer ring's land at +R n, the inner ring's land at -R n.
+    """
+    if not (context.land_clearance >= 0.0 and context.land_diameter > 0.0):
+        raise ValueError("the cage is not guided by a ring: it has no land clearance or land diameter")
+    side = -1.0 if context.element == "cage_inner" else 1.0
+    return _constants(parameters, context.land_clearance, 0.5 * side * context.land_diameter)
+
+
+def push_back(
+    n0: float,
+    n1: float,
+    n2: float,
+    penetration: float,
+    r: FloatArray,
+    v_rel: FloatArray,
+    omega_rel: FloatArray,
+    par: FloatArray,
+    out: FloatArray,
+) -> None:
+    """Write force and point for a body that is `penetration` beyond its play in the unit direction n.
+
+    Normal force along -n: k e^2/(2 e_0) up to the onset e_0 and k (e - e_0/2) above, plus damping
+    d s^2 (3 - 2 s) de/dt, s = e/full penetration, never below zero. Friction: mu(v) F_N against the slip
+    v_rel + omega_rel x (P - r) at P = r + arm n, cubic in its amount.
+    """
+    onset = par[3]
+    spring = 0.5 * penetration * penetration / onset if penetration < onset else penetration - 0.5 * onset
+    s = penetration / par[2]
+    s = s if s < 1.0 else 1.0
+    closing = v_rel[0] * n0 + v_rel[1] * n1 + v_rel[2] * n2
+    normal = par[0] * spring + par[1] * s * s * (3.0 - 2.0 * s) * closing
+    normal = normal if normal > 0.0 else 0.0
+    x0 = par[9] * n0
+    x1 = par[9] * n1
+    x2 = par[9] * n2
+    slip0 = v_rel[0] + omega_rel[1] * x2 - omega_rel[2] * x1
+    slip1 = v_rel[1] + omega_rel[2] * x0 - omega_rel[0] * x2
+    slip2 = v_rel[2] + omega_rel[0] * x1 - omega_rel[1] * x0
+    across = slip0 * n0 + slip1 * n1 + slip2 * n2
+    slip0 -= across * n0
+    slip1 -= across * n1
+    slip2 -= across * n2
+    speed = math.sqrt(slip0 * slip0 + slip1 * slip1 + slip2 * slip2)
+    drag = normal * cubic_friction_slope(speed, par[4], par[5], par[6], par[7])
+    out[0] = -normal * n0 - drag * slip0
+    out[1] = -normal * n1 - drag * slip1
+    out[2] = -normal * n2 - drag * slip2
+    out[3] = r[0] + x0
+    out[4] = r[1] + x1
+    out[5] = r[2] + x2
+
+
+def spherical_pocket(
+    r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: FloatArray, out: FloatArray
+) -> int:
+    """Ball in a spherical pocket: contact once its centre is off the pocket's by the radial clearance.
+
+    Syla et al. 2026, eq. 28 (F = mu_c(v) F_N with Teutsch's cubic coefficient); stiffness and damping are assumptions.
+    """
+    out[:] = 0.0
+    distance = math.sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2])
+    if distance > par[8] and distance > _LIMITS_AT:
+        n0 = r[0] / distance
+        n1 = r[1] / distance
+        n2 = r[2] / distance
+        push_back(n0, n1, n2, distance - par[8], r, v_rel, omega_rel, par, out)
+    return 1
+
+
+def cylindrical_pocket(
+    r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: FloatArray, out: FloatArray
+) -> int:
+    """Ball in a cylindrical pocket with a radial axis: free along the radius, for ring-guided cages.
+
+    Contact law and friction as in the spherical pocket.
+    """
+    out[:] = 0.0
+    distance = math.sqrt(r[0] * r[0] + r[2] * r[2])
+    if distance > par[8] and distance > _LIMITS_AT:
+        push_back(r[0] / distance, 0.0, r[2] / distance, distance - par[8], r, v_rel, omega_rel, par, out)
+    return 1
+
+
+def land_guidance(
+    r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: FloatArray, out: FloatArray
+) -> int:
+    """Cage on the cylindrical land of a ring, at one axial station; free along the axis.
+
+    The cage's centre at this station is off the land's by more than the radial clearance; inner or outer ring follows
+    from the force element. Contact law and friction as in the pockets; a lubricating film on the land is left out.
+    """
+    out[:] = 0.0
+    distance = math.sqrt(r[1] * r[1] + r[2] * r[2])
+    if distance > par[8] and distance > _LIMITS_AT:
+        push_back(0.0, r[1] / distance, r[2] / distance, distance - par[8], r, v_rel, omega_rel, par, out)
+    return 1
+
+
+def none(r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: FloatArray, out: FloatArray) -> int:
+    """No contact of the cage."""
+    out[:] = 0.0
+    return 1
+
+
+_VALIDITY = "rigid bodies with a penalty contact; all constants are assumptions"
+
+SPHERICAL_POCKET = model(
+    "cage_contact",
+    "spherical-pocket",
+    spherical_pocket,
+    CageContact,
+    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
+    validity=_VALIDITY,
+    prepare=prepare_pocket,
+)
+
+CYLINDRICAL_POCKET = model(
+    "cage_contact",
+    "cylindrical-pocket",
+    cylindrical_pocket,
+    CageContact,
+    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
+    validity=_VALIDITY,
+    prepare=prepare_pocket,
+)
+
+LAND_GUIDANCE = model(
+    "cage_contact",
+    "land-guidance",
+    land_guidance,
+    CageContact,
+    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
+    validity=_VALIDITY,
+    prepare=prepare_land,
+)
+
+NONE = model("cage_contact", "none", none, NoParameters, reference="-")

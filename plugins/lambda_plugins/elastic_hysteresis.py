@@ -1,0 +1,145 @@
+"""Losses in the solids as they are rolled through the contact: an equal and opposite couple on both bodies."""
+
+from __future__ import annotations
+
+from lambda_core.plugins import NoParameters, model
+from lambda_plugins.fields import FloatArray, Parameters, parameter
+
+
+class LossFactor(Parameters):
+    """Parameter of the classical loss factor."""
+
+    loss_factor: float = parameter(
+        0.01,
+        "share of the elastic work that is lost, alpha_h",
+        source="about 0.01 for hard steel (Johnson 1985, chapter 9; common value). Houpert's law corresponds to "
+        "0.047 inner and 0.033 outer: the least supported number of the friction torque",
+        status="unconfirmed",
+        published_range=(0.005, 0.047),
+        ge=0.0,
+        le=0.2,
+    )
+
+
+def loss_factor(
+    load: float,
+    semi_a: float,
+    semi_b: float,
+    R_x: float,
+    R_y: float,
+    R_ball: float,
+    par: FloatArray,
+    out: FloatArray,
+) -> int:
+    """Hysteresis couple of an elliptical contact, M = (3/16) alpha_h Q b.
+
+    Greenwood, Minshall and Tabor 1961, Proc. R. Soc. A 259, 480; Johnson, Contact Mechanics (1985), section 9.2: the
+    elastic work on the front half of the contact, of which the share alpha_h is lost; b is the semi-axis along rolling.
+    """
+    out[0] = 3.0 / 16.0 * par[0] * load * semi_b
+    return 1
+
+
+def houpert(
+    load: float,
+    semi_a: float,
+    semi_b: float,
+    R_x: float,
+    R_y: float,
+    R_ball: float,
+    par: FloatArray,
+    out: FloatArray,
+) -> int:
+    """Elastic rolling couple of steel ball contacts, after Houpert.
+
+    M = 7.4826e-7 R_ball^0.33 Q^1.33 [1 - 3.519e-3 (k - 1)^0.8063], k = R_y/R_x, SI: Houpert 2002, Tribol. Int. 35 (as
+    commonly quoted; original not seen). A fit to steel; it may contain slip that the contacts already carry.
+    """
+    k = R_y / R_x - 1.0
+    shape = 1.0 - 3.519e-3 * (k if k > 0.0 else 0.0) ** 0.8063
+    force = load if load > 0.0 else 0.0
+    out[0] = 7.4826e-7 * R_ball**0.33 * force**1.33 * (shape if shape > 0.0 else 0.0)
+    return 1
+
+
+class Scheuermann(Parameters):
+    """Constants of Scheuermann's rolling moment: not published, so there is no default."""
+
+    coefficient: float = parameter(
+        ...,
+        "c_r in M = c_r (Q / 1 N)^e_r [N m]",
+        source="to be identified; Wingertszahn et al. 2023, Lubricants 11, 369, eq. 19 prints no value",
+        status="assumed",
+        ge=0.0,
+    )
+    exponent: float = parameter(
+        ...,
+        "e_r in M = c_r (Q / 1 N)^e_r [-]",
+        source="to be identified; Wingertszahn et al. 2023, Lubricants 11, 369, eq. 19 prints no value",
+        status="assumed",
+        gt=0.0,
+        le=3.0,
+    )
+
+
+def scheuermann(
+    load: float,
+    semi_a: float,
+    semi_b: float,
+    R_x: float,
+    R_y: float,
+    R_ball: float,
+    par: FloatArray,
+    out: FloatArray,
+) -> int:
+    """Solid rolling moment as a power of the load, M = c_r Q^e_r, after Scheuermann.
+
+    Wingertszahn et al. 2023, Lubricants 11, 369, eq. 19; c_r and e_r must be given.
+    """
+    out[0] = par[0] * (load if load > 0.0 else 0.0) ** par[1]
+    return 1
+
+
+def none(
+    load: float,
+    semi_a: float,
+    semi_b: float,
+    R_x: float,
+    R_y: float,
+    R_ball: float,
+    par: FloatArray,
+    out: FloatArray,
+) -> int:
+    """No losses in the solids."""
+    out[0] = 0.0
+    return 1
+
+
+LOSS_FACTOR = model(
+    "elastic_hysteresis",
+    "loss-factor",
+    loss_factor,
+    LossFactor,
+    reference="Johnson, Contact Mechanics (1985), section 9.2; Greenwood, Minshall and Tabor 1961",
+    validity="small losses; alpha_h of bearing steel is known within a factor of a few only",
+)
+
+HOUPERT = model(
+    "elastic_hysteresis",
+    "houpert",
+    houpert,
+    NoParameters,
+    reference="Houpert 2002, Tribol. Int. 35 (as commonly quoted)",
+    validity="steel on steel; not confirmed from its original",
+)
+
+SCHEUERMANN = model(
+    "elastic_hysteresis",
+    "scheuermann",
+    scheuermann,
+    Scheuermann,
+    reference="Wingertszahn et al. 2023, Lubricants 11, 369, eq. 19",
+    validity="constants must be identified by the user",
+)
+
+NONE = model("elastic_hysteresis", "none", none, NoParameters, reference="-")

@@ -1,0 +1,152 @@
+"""Drag and churning of the oil on the balls after catalogues of bearing makers, shared among the immersed balls.
+
+A catalogue gives one torque M(n) for the whole bearing. Each ball takes a part in proportion to its submerged volume,
+as a drag force against its orbit and a churning moment against its spin, such that at kinematic speeds the power of all
+balls, averaged over the azimuth, equals M times the speed of rotation. The `drag_share` splits it between force and
+moment. Reactions go to the housing.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+
+from lambda_core.plugins import Context, NoParameters, model
+from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_plugins.immersion import immersion, kinematic_speeds, mean_immersion, oil_geometry
+
+_RPM = math.pi / 30.0
+_SLOW = 1.0  # [1/min] below which a power law with an exponent under 1 becomes linear (numerical)
+
+
+class SharedLoss(Parameters):
+    """How a bearing's loss is split on each ball."""
+
+    drag_share: float = parameter(
+        0.9,
+        "share of the loss that acts as a drag force on the orbit; the rest churns against the spin",
+        source="ratio of both powers of a free sphere (Clift et al. 1978, Sawatzki 1970) at the speeds of a 6319",
+        status="assumed",
+        published_range=(0.0, 1.0),
+        ge=0.0,
+        le=1.0,
+    )
+
+
+class Skf(SharedLoss):
+    """Parameters of SKF's drag losses in an oil bath."""
+
+    v_m: float = parameter(
+        2.25e-5,
+        "drag loss factor V_M, to be read from SKF's chart over oil level and pitch diameter",
+        source="middle of 0..4.5e-5, all consistent with the SKF row of Syla et al. 2026, Table 4 (6319, oil to the "
+        "centre of the lowest ball); the chart is not available as numbers",
+        status="assumed",
+        published_range=(0.0, 4.5e-5),
+        ge=0.0,
+        le=2e-3,
+    )
+    edition: Literal["2008", "2018"] = parameter(
+        "2008",
+        "edition of the catalogue: 2008 has the square law alone, 2018 adds a viscous term and weights V_M by 0.4",
+        source="SKF; the second form is not confirmed from its original",
+    )
+    k_z: float = parameter(3.1, "geometry constant K_Z", source="SKF: deep groove ball bearings 3.1", gt=0.0)
+
+
+def skf_torque(parameters: Skf, context: Context) -> tuple[float, float]:
+    """Return (M / n^2, M / (n^0.621 nu^1.379)) of SKF's drag torque [N mm], n in 1/min, nu in mm2/s.
+
+    2008: M = V_M K_ball d_m^5 n^2, K_ball = K_Z (d + D)/(D - d) 1e-12 for one row (mm). 2018: 0.4 of that, plus
+    1.093e-7 n^2 d_m^3 (n d_m^2 f_t/nu)^-1.379 R_s, R_s = 0.36 d_m^2 (t - sin t) f_A, f_A = 0.05 K_Z (D + d)/(D - d),
+    t = 2 acos((0.6 d_m - H)/(0.6 d_m)), f_t = sin(t/2) below t = pi and 1 above; H is the oil level above the lowest
+    point of the outer raceway.
+    """
+    d_m, d, D = (1e3 * x for x in (context.pitch_diameter, context.bore_diameter, context.outside_diameter))
+    ratio = parameters.k_z * (D + d) / (D - d)
+    square = parameters.v_m * ratio * 1e-12 * d_m**5
+    if parameters.edition == "2008":
+        return square, 0.0
+    level = 1e3 * (oil_geometry(context)[0] + 0.5 * context.ball_diameter)
+    level = min(max(level, 0.0), 1.2 * d_m)
+    t = 2.0 * math.acos((0.6 * d_m - level) / (0.6 * d_m))
+    f_t = math.sin(0.5 * t) if t < math.pi else 1.0
+    if f_t <= 0.0:
+        return 0.4 * square, 0.0
+    R_s = 0.36 * d_m**2 * (t - math.sin(t)) * 0.05 * ratio
+    return 0.4 * square, 1.093e-7 * d_m**3 * (d_m**2 * f_t) ** -1.379 * R_s
+
+
+def prepare_skf(parameters: Skf, context: Context) -> FloatArray:
+    """Return [oil geometry (3), orbit and spin speed per 1/min (2), square factors (2), viscous factors (2)]."""
+    square, viscous = skf_torque(parameters, context)
+    drag, churn = power_factors(parameters, context)
+    oil, speeds = oil_geometry(context), kinematic_speeds(context, _RPM)
+    return np.array([*oil, *speeds, drag * square, churn * square, drag * viscous, churn * viscous])
+
+
+def power_factors(parameters: SharedLoss, context: Context) -> tuple[float, float]:
+    """Return force [N] and moment [N m] on a wholly immersed ball per N mm of the bearing's drag torque.
+
+    From Z mean(immersion) (F v_orbit + M omega_spin) = torque times speed of rotation, at kinematic speeds. A bearing
+    whose balls never touch the oil has no loss.
+    """
+    mean = mean_immersion(oil_geometry(context))
+    if mean <= 0.0:
+        return 0.0, 0.0
+    orbit, spin = kinematic_speeds(context, _RPM)
+    power = 1e-3 * _RPM / (context.ball_count * mean)
+    return parameters.drag_share * power / orbit, (1.0 - parameters.drag_share) * power / spin
+
+
+def skf_catalogue(
+    v_orbit: float,
+    omega_spin: float,
+    azimuth: float,
+    nu: float,
+    rho: float,
+    par: FloatArray,
+    out: FloatArray,
+) -> int:
+    """SKF's drag torque in an oil bath, on each ball by its immersion.
+
+    M_drag = V_M K_ball d_m^5 n^2: SKF, Das Waelzlagerhandbuch fuer Studenten (2008); Syla et al. 2026, eq. 40. The
+    viscous term of the 2018 edition is optional (not confirmed from its original).
+    """
+    wet = immersion(azimuth, par[0], par[1], par[2])
+    viscosity = (1e6 * nu) ** 1.379
+    n = v_orbit / par[3]
+    out[0] = wet * n * (par[5] * abs(n) + par[7] * viscosity * (n * n + _SLOW * _SLOW) ** -0.1895)
+    n = omega_spin / par[4]
+    out[1] = wet * n * (par[6] * abs(n) + par[8] * viscosity * (n * n + _SLOW * _SLOW) ** -0.1895)
+    return 1
+
+
+def none(
+    v_orbit: float,
+    omega_spin: float,
+    azimuth: float,
+    nu: float,
+    rho: float,
+    par: FloatArray,
+    out: FloatArray,
+) -> int:
+    """No fluid losses on the balls."""
+    out[0] = 0.0
+    out[1] = 0.0
+    return 1
+
+
+SKF_CATALOGUE = model(
+    "fluid_drag",
+    "skf-catalogue",
+    skf_catalogue,
+    Skf,
+    reference="SKF, Das Waelzlagerhandbuch fuer Studenten (2008); Syla et al. 2026, Lubricants 14, 154, eq. 40",
+    validity="oil bath, horizontal shaft; V_M must be read from SKF's chart for the oil level",
+    prepare=prepare_skf,
+)
+
+NONE = model("fluid_drag", "none", none, NoParameters, reference="-")

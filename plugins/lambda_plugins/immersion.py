@@ -1,0 +1,48 @@
+"""How much of each ball runs in the oil bath, and how a bearing's fluid loss is shared among the balls."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from lambda_core.plugins import Context
+from lambda_plugins.fields import FloatArray
+
+_EVERYWHERE = 1e3  # [m] oil level of a bearing whose oil level is not known: every ball takes its even share
+
+
+def oil_geometry(context: Context) -> FloatArray:
+    """Return [oil level above the lowest point of the pitch circle, pitch radius, ball radius] in m."""
+    level = context.oil_level if math.isfinite(context.oil_level) else _EVERYWHERE
+    return np.array([level, 0.5 * context.pitch_diameter, 0.5 * context.ball_diameter])
+
+
+def immersion(azimuth: float, level: float, pitch_radius: float, ball_radius: float) -> float:
+    """Return the submerged share of a ball's volume, 0..1.
+
+    The ball's centre stands pitch_radius (1 + sin azimuth) above the lowest point of the pitch circle (azimuth from +y
+    to +z, gravity along -z). A spherical cap of depth 2 R x holds the share x^2 (3 - 2 x) of the sphere: smooth as it is.
+    """
+    depth = level - pitch_radius * (1.0 + math.sin(azimuth))
+    x = 0.5 * (depth / ball_radius + 1.0)
+    x = 0.0 if x < 0.0 else (1.0 if x > 1.0 else x)
+    return x * x * (3.0 - 2.0 * x)
+
+
+def mean_immersion(oil: FloatArray) -> float:
+    """Return the mean of :func:`immersion` over the azimuth; `oil` as from :func:`oil_geometry`."""
+    azimuths = np.linspace(0.0, 2.0 * math.pi, 7200, endpoint=False)
+    return float(np.mean([immersion(azimuth, *oil) for azimuth in azimuths]))
+
+
+def kinematic_speeds(context: Context, speed: float) -> tuple[float, float]:
+    """Return (orbital speed of the ball's centre [m/s], spin of the ball [rad/s]) at `speed` [rad/s].
+
+    Pure rolling with the outer ring at rest and no contact angle: cage at (1 - gamma)/2 of the inner ring's speed, ball
+    at d_m/(2 D_w) (1 - gamma^2) of it, gamma = D_w/d_m (Harris and Kotzalas 2006, eq. 10.12 and 10.14).
+    """
+    gamma = context.ball_diameter / context.pitch_diameter
+    orbit = 0.5 * (1.0 - gamma) * speed
+    spin = 0.5 * speed * (1.0 - gamma * gamma) / gamma
+    return 0.5 * context.pitch_diameter * orbit, spin

@@ -1,0 +1,24 @@
+"""What all laws of viscosity and density share: the cap on ln(eta) and density under pressure."""
+
+from __future__ import annotations
+
+from lambda_plugins.shapes import smooth_min
+
+# Glass transition by convention: 1e12 Pa s. No law of viscosity is meant for more, and ln(eta) stays bounded.
+LN_ETA_CAP = 27.631021115928547
+_CAP_WIDTH = 1.0
+LN_ETA_FLOOR = -18.0
+
+
+def capped(ln_eta: float) -> float:
+    """Return ln(eta / Pa s) held below 1e12 Pa s (corner rounded over a factor e each way) and above 1.5e-8 Pa s."""
+    value = smooth_min(ln_eta, LN_ETA_CAP, _CAP_WIDTH)
+    return value if value > LN_ETA_FLOOR else LN_ETA_FLOOR
+
+
+def dowson_higginson(p: float) -> float:
+    """Return rho(p)/rho(0) of a mineral oil, p in Pa.
+
+    1 + 0.6e-9 p/(1 + 1.7e-9 p): Dowson and Higginson 1966, Elasto-hydrodynamic Lubrication; 1.35 at most.
+    """
+    return 1.0 + 0.6e-9 * p / (1.0 + 1.7e-9 * p)

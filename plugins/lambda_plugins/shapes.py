@@ -1,0 +1,29 @@
+"""Smooth shapes that several laws share; plain Python, compiled together with the kernels that call them."""
+
+from __future__ import annotations
+
+
+def smooth_min(value: float, limit: float, width: float) -> float:
+    """Return min(value, limit) with the corner rounded by a parabola within `limit` -+ `width`.
+
+    Continuous with its first derivative; exact outside the rounded corner, low by `width`/4 at its middle.
+    """
+    held = value if value < limit + width else limit + width
+    inside = held - (limit - width)
+    inside = inside if inside > 0.0 else 0.0
+    return held - inside * inside / (4.0 * width + 1e-300)
+
+
+def cubic_friction_slope(speed: float, mu_s: float, mu_d: float, v_s: float, v_d: float) -> float:
+    """Return mu(v)/v [s/m] of Teutsch's cubic friction law at `speed` >= 0 [m/s]; finite at rest.
+
+    Teutsch 2005 in the form of Wingertszahn et al. 2023, Lubricants 11, 369, eq. 21 (with the factor that is
+    missing in print): a cubic from 0 at rest to `mu_s` at `v_s`, a second one down to `mu_d` at `v_d`, constant
+    above; the slope is continuous and zero at both joints.
+    """
+    if speed < v_s:
+        x = speed / v_s
+        return mu_s * (3.0 - x * x) / (2.0 * v_s)
+    d = (speed - v_s) / (v_d - v_s)
+    d = d if d < 1.0 else 1.0
+    return (mu_s + (mu_d - mu_s) * d * d * (3.0 - 2.0 * d)) / speed

@@ -1,0 +1,103 @@
+"""Thinning of the film by shear heating in the inlet."""
+
+from __future__ import annotations
+
+from lambda_core.plugins import NoParameters, model
+from lambda_plugins.fields import FloatArray, Parameters, parameter
+
+
+def murch_wilson(
+    u_mean: float,
+    u_slide: float,
+    p_max: float,
+    E_eff: float,
+    eta0: float,
+    beta: float,
+    k_oil: float,
+    par: FloatArray,
+    out: FloatArray,
+) -> int:
+    """Thermal film factor for pure rolling, after Murch and Wilson.
+
+    Phi_T = 3.94/(3.94 + L^0.62), L = eta0 beta u_m^2/lambda, u_m the mean velocity, beta = -(1/eta) d eta/dT.
+    Murch and Wilson 1975, J. Lubr. Technol. 97, 212; Syla et al. 2026, eq. 23-24.
+    """
+    L = eta0 * beta * u_mean * u_mean / k_oil
+    L = L if L > 0.0 else 0.0
+    out[0] = 3.94 / (3.94 + L**0.62)
+    return 1
+
+
+class ZhuCheng(Parameters):
+    """Parameters of the Zhu-Cheng factor."""
+
+    smallest: float = parameter(
+        0.05,
+        "smallest factor: the numerator of the fit turns negative far outside its range",
+        status="numerical",
+        gt=0.0,
+        lt=1.0,
+    )
+
+
+def zhu_cheng(
+    u_mean: float,
+    u_slide: float,
+    p_max: float,
+    E_eff: float,
+    eta0: float,
+    beta: float,
+    k_oil: float,
+    par: FloatArray,
+    out: FloatArray,
+) -> int:
+    """Thermal film factor with pressure and slide-to-roll ratio, after Zhu and Cheng.
+
+    Phi_T = [1 - 13.2 (p_0/E') L^0.42]/[1 + 0.213 (1 + 2.23 S^0.83) L^0.64], L = eta0 beta u_m^2/lambda, S = slide over
+    mean velocity. Gupta, Cheng, Zhu, Forster and Schrand 1992, Tribol. Trans. 35, 149; Wingertszahn et al. 2023,
+    Lubricants 11, 369, eq. 12. S is held at 2, pure sliding of one surface, beyond which there is no fit.
+    """
+    L = eta0 * beta * u_mean * u_mean / k_oil
+    L = L if L > 0.0 else 0.0
+    S = abs(u_slide) / (u_mean + 1e-9)
+    S = S if S < 2.0 else 2.0
+    factor = (1.0 - 13.2 * (p_max / E_eff) * L**0.42) / (1.0 + 0.213 * (1.0 + 2.23 * S**0.83) * L**0.64)
+    out[0] = factor if factor > par[0] else par[0]
+    return 1
+
+
+def none(
+    u_mean: float,
+    u_slide: float,
+    p_max: float,
+    E_eff: float,
+    eta0: float,
+    beta: float,
+    k_oil: float,
+    par: FloatArray,
+    out: FloatArray,
+) -> int:
+    """Isothermal inlet: factor 1."""
+    out[0] = 1.0
+    return 1
+
+
+MURCH_WILSON = model(
+    "thermal_correction",
+    "murch-wilson",
+    murch_wilson,
+    NoParameters,
+    reference="Murch and Wilson 1975, J. Lubr. Technol. 97, 212",
+    validity="pure rolling",
+)
+
+ZHU_CHENG = model(
+    "thermal_correction",
+    "zhu-cheng",
+    zhu_cheng,
+    ZhuCheng,
+    reference="Gupta, Cheng, Zhu, Forster and Schrand 1992, Tribol. Trans. 35, 149",
+    validity="slide-to-roll ratio 0..2; the fit's numerator limits the product of pressure and thermal parameter",
+)
+
+NONE = model("thermal_correction", "none", none, NoParameters, reference="-")

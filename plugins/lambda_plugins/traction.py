@@ -1,0 +1,145 @@
+"""Shear stress of the film from its rate of shear."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+from lambda_core.plugins import Quantity, model
+from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_plugins.shapes import smooth_min
+
+_LOG_ETA_MAX = 60.0  # exp() of it is finite with room to spare; far above any liquid
+
+
+class LimitedShear(Parameters):
+    """The limit that every fluid law needs: no liquid carries any shear stress."""
+
+    limit_ratio: float = parameter(
+        0.065,
+        "limiting shear stress over pressure, zeta",
+        source="0.05-0.08 mineral oils, 0.03-0.05 PAO and ester (common values, original not seen)",
+        status="unconfirmed",
+        published_range=(0.03, 0.08),
+        gt=0.0,
+        le=0.3,
+    )
+
+
+class ReeEyring(LimitedShear):
+    """Parameters of Ree-Eyring traction."""
+
+    tau_eyring: Annotated[float, Quantity("pressure")] = parameter(
+        "6 MPa",
+        "Eyring stress, from which the film departs from Newtonian flow",
+        source="4-8 MPa for bearing oils (common values, original not seen)",
+        status="unconfirmed",
+        published_range=("4 MPa", "8 MPa"),
+        gt=0.0,
+    )
+
+
+def ree_eyring(
+    slip: FloatArray,
+    p: FloatArray,
+    T: FloatArray,
+    ln_eta: FloatArray,
+    h: float,
+    par: FloatArray,
+    tau: FloatArray,
+) -> int:
+    """Shear stress of an Eyring fluid, limited to a share of the pressure.
+
+    tau = tau_e asinh(eta gamma_dot/tau_e), gamma_dot = v/h_cen (Johnson and Tevaarwerk 1977, Proc. R. Soc. A 356, 215;
+    Syla et al. 2026, eq. 20-21), tau <= zeta p with the corner rounded over the last tenth. Viscous part only: no shear
+    compliance of film or bodies.
+    """
+    film = h if h > 1e-10 else 1e-10
+    for i in range(tau.size):
+        log_eta = ln_eta[i] if ln_eta[i] < _LOG_ETA_MAX else _LOG_ETA_MAX
+        stress = par[1] * math.asinh(math.exp(log_eta) * slip[i] / (film * par[1]))
+        limit = par[0] * p[i]
+        limit = limit if limit > 0.0 else 0.0
+        tau[i] = smooth_min(stress, limit, 0.1 * limit)
+    return 1
+
+
+class BairWiner(LimitedShear):
+    """Parameters of Bair-Winer traction."""
+
+
+def bair_winer(
+    slip: FloatArray,
+    p: FloatArray,
+    T: FloatArray,
+    ln_eta: FloatArray,
+    h: float,
+    par: FloatArray,
+    tau: FloatArray,
+) -> int:
+    """Shear stress that approaches its limit exponentially, after Bair and Winer.
+
+    gamma_dot = -(tau_L/eta) ln(1 - tau/tau_L), tau_L = zeta p: Bair and Winer 1979, J. Lubr. Technol. 101, 258;
+    Wingertszahn et al. 2023, Lubricants 11, 369, eq. 6 with its sign corrected. Viscous part only.
+    """
+    film = h if h > 1e-10 else 1e-10
+    for i in range(tau.size):
+        log_eta = ln_eta[i] if ln_eta[i] < _LOG_ETA_MAX else _LOG_ETA_MAX
+        limit = par[0] * p[i]
+        limit = limit if limit > 1e-3 else 1e-3
+        tau[i] = -limit * math.expm1(-math.exp(log_eta) * slip[i] / (film * limit))
+    return 1
+
+
+class Newtonian(LimitedShear):
+    """Parameters of Newtonian traction."""
+
+
+def newtonian(
+    slip: FloatArray,
+    p: FloatArray,
+    T: FloatArray,
+    ln_eta: FloatArray,
+    h: float,
+    par: FloatArray,
+    tau: FloatArray,
+) -> int:
+    """Shear stress of a Newtonian fluid, tau = eta v/h_cen, limited to a share of the pressure.
+
+    Without the limit the stress of a film at bearing pressures would exceed the strength of steel.
+    """
+    film = h if h > 1e-10 else 1e-10
+    for i in range(tau.size):
+        log_eta = ln_eta[i] if ln_eta[i] < _LOG_ETA_MAX else _LOG_ETA_MAX
+        limit = par[0] * p[i]
+        limit = limit if limit > 0.0 else 0.0
+        tau[i] = smooth_min(math.exp(log_eta) * slip[i] / film, limit, 0.1 * limit)
+    return 1
+
+
+REE_EYRING = model(
+    "traction",
+    "ree-eyring",
+    ree_eyring,
+    ReeEyring,
+    reference="Johnson and Tevaarwerk 1977, Proc. R. Soc. A 356, 215; Syla et al. 2026, Lubricants 14, 154, eq. 20-21",
+    validity="viscous shear of the film; tau_e and zeta are class values of oils, not measured for this one",
+)
+
+BAIR_WINER = model(
+    "traction",
+    "bair-winer",
+    bair_winer,
+    BairWiner,
+    reference="Bair and Winer 1979, J. Lubr. Technol. 101, 258; Wingertszahn et al. 2023, Lubricants 11, 369, eq. 6",
+    validity="viscous shear of the film; limiting stress proportional to pressure",
+)
+
+NEWTONIAN = model(
+    "traction",
+    "newtonian",
+    newtonian,
+    Newtonian,
+    reference="Newton's law of viscosity; limiting stress after Johnson and Tevaarwerk 1977",
+    validity="small shear stress, or as the upper bound of fluid friction",
+)

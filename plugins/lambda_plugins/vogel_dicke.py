@@ -1,0 +1,83 @@
+"""Vogel's law over temperature with Dicke's pressure term: oils measured that way (FVA3)."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+import numpy as np
+
+from lambda_core.plugins import Context, Quantity, model
+from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_plugins.rheology import capped, dowson_higginson
+
+_T_LOW = 233.15  # [K]
+_T_HIGH = 573.15  # [K]
+_SOURCE = "the oil's measurement; FVA3: Wingertszahn et al. 2023, Lubricants 11, 369, Table A1"
+
+
+class VogelDicke(Parameters):
+    """Parameters of Vogel and Dicke, in the units of their sources."""
+
+    vogel_k: float = parameter(..., "Vogel K [mPa s]", source=_SOURCE, status="lubricant", gt=0.0)
+    vogel_b: float = parameter(..., "Vogel B [degC]", source=_SOURCE, status="lubricant", gt=0.0)
+    vogel_c: float = parameter(..., "Vogel C [degC]", source=_SOURCE, status="lubricant", gt=40.0)
+    dicke_a1: float = parameter(..., "Dicke a1 [bar]", source=_SOURCE, status="lubricant", gt=0.0)
+    dicke_a2: float = parameter(..., "Dicke a2 [bar/degC]", source=_SOURCE, status="lubricant")
+    dicke_b1: float = parameter(..., "Dicke b1 [-]", source=_SOURCE, status="lubricant")
+    dicke_b2: float = parameter(..., "Dicke b2 [1/degC]", source=_SOURCE, status="lubricant")
+    density_15: Annotated[float, Quantity("density")] = parameter(
+        ..., "density at 15 degC and ambient pressure", source=_SOURCE, status="lubricant", gt=0.0
+    )
+    density_slope: float = parameter(
+        ..., "change of density with temperature [kg/(m3 K)]", source=_SOURCE, status="lubricant", le=0.0
+    )
+
+
+def prepare(parameters: VogelDicke, context: Context) -> FloatArray:
+    """Return [ln(K / Pa s), B, C - 273.15, a1, a2, b1, b2, rho_15, slope]."""
+    v = parameters
+    return np.array(
+        [
+            math.log(v.vogel_k * 1e-3),
+            v.vogel_b,
+            v.vogel_c - 273.15,
+            v.dicke_a1,
+            v.dicke_a2,
+            v.dicke_b1,
+            v.dicke_b2,
+            v.density_15,
+            v.density_slope,
+        ]
+    )
+
+
+def vogel_dicke(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArray, rho: FloatArray) -> int:
+    """Viscosity after Vogel and Dicke, density linear in temperature with Dowson-Higginson compression.
+
+    eta = K exp[B/(C + t)] exp{p/[a1 + a2 t + (b1 + b2 t) p]}, t in degC, p in bar: Wingertszahn et al. 2023, Lubricants
+    11, 369, Table A1. ln(eta) is capped at 1e12 Pa s; temperatures outside -40..300 degC act like the nearest bound.
+    """
+    for i in range(ln_eta.size):
+        temperature = T[i] if T[i] > _T_LOW else _T_LOW
+        temperature = temperature if temperature < _T_HIGH else _T_HIGH
+        pressure = p[i] if p[i] > 0.0 else 0.0
+        t = temperature - 273.15
+        bar = 1e-5 * pressure
+        stiffening = par[3] + par[4] * t + (par[5] + par[6] * t) * bar
+        stiffening = stiffening if stiffening > 1.0 else 1.0
+        ln_eta[i] = capped(par[0] + par[1] / (temperature + par[2]) + bar / stiffening)
+        rho[i] = (par[7] + par[8] * (t - 15.0)) * dowson_higginson(pressure)
+    return 1
+
+
+VOGEL_DICKE = model(
+    "rheology",
+    "vogel-dicke",
+    vogel_dicke,
+    VogelDicke,
+    reference="Vogel 1921; Dicke's pressure term as in Wingertszahn et al. 2023, Lubricants 11, 369, Table A1; "
+    "density: Dowson and Higginson 1966",
+    validity="-40..300 degC; ln(eta) capped at 1e12 Pa s (glass transition)",
+    prepare=prepare,
+)
