@@ -1,0 +1,40 @@
+"""Shared by all tests: no test touches the user's own catalogue or cache."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from lambda_db.catalogue import SqlCatalogue
+
+
+@pytest.fixture(scope="session", autouse=True)
+def own_folders(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """Point cache and user data at folders of this test session."""
+    root = tmp_path_factory.mktemp("lambda-bearing")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("LAMBDA_BEARING_CACHE", str(root / "cache"))
+        patch.setenv("LAMBDA_BEARING_DATA", str(root / "data"))
+        yield root
+
+
+@pytest.fixture
+def user_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Give this test an empty folder for the user's own catalogue."""
+    folder = tmp_path / "data"
+    monkeypatch.setenv("LAMBDA_BEARING_DATA", str(folder))
+    return folder
+
+
+@pytest.fixture
+def catalogue(user_folder: Path) -> Iterator[SqlCatalogue]:
+    """Open the built-in catalogue without user rows."""
+    from lambda_db.catalogue import open_catalogue
+
+    opened = open_catalogue()
+    yield opened
+    opened.close()
