@@ -104,7 +104,7 @@ def reference_viscosity(speed: float, pitch_diameter: float) -> float:
         raise ValueError("the reference viscosity of ISO 281 needs a speed above zero")
     pitch = pitch_diameter * 1e3
     if rpm < 1000.0:
-        return 45000e-6 * rpm**-0.83 / math.sqrt(pitch)
+        return float(45000e-6 * rpm**-0.83 / math.sqrt(pitch))
     return 4500e-6 / math.sqrt(rpm * pitch)
 
 
@@ -136,7 +136,7 @@ def life_modification_factor(
     inner = 1.0 - film**0.83 * (contamination * fatigue_limit / equivalent_load) ** (1.0 / 3.0)
     if inner <= 0.0:  # beyond the pole the fatigue limit is never reached
         return 50.0
-    return min(0.1 * inner**-9.3, 50.0)
+    return float(min(0.1 * inner**-9.3, 50.0))
 
 
 @dataclass(frozen=True)

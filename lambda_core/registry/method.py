@@ -88,6 +88,7 @@ class MethodInputs:
     lubrication: Lubrication = "oil bath"
     oil_level: float | None = None  # above the lowest point of the pitch circle [m]
     drag_volume_factor: float | None = None  # V_M of SKF, read from its chart at H/d_m
+    drag_edition: Literal["2008", "2018"] = "2018"  # edition of SKF's drag formula, to which V_M belongs
     permittivity: Callable[[float], float] | None = None  # pressure [Pa] -> eps_r at the bulk temperature
     state: EquilibriumState | None = None
 

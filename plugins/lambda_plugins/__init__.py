@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from lambda_core.plugins import LazyModel, Model, hookimpl
+
+if TYPE_CHECKING:
+    from lambda_core.registry.method import Method
 
 # role -> name -> module:attribute; the first of a role is its default.
 _LAWS: dict[str, dict[str, str]] = {
@@ -75,3 +79,11 @@ def lambda_models(register: Callable[[Model | LazyModel], None]) -> None:
     for role, laws in _LAWS.items():
         for name, target in laws.items():
             register(LazyModel(role, name, f"lambda_plugins.{target}"))
+
+
+@hookimpl
+def lambda_methods(register: Callable[[Method], None]) -> None:
+    """Register every built-in comparison method."""
+    from lambda_plugins.methods import register_methods
+
+    register_methods(register)

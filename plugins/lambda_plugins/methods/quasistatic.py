@@ -1,0 +1,65 @@
+"""The project's own quasi-static equilibrium, shown as one method among the others."""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.registry.method import (
+    EquilibriumState,
+    Method,
+    MethodInputs,
+    MethodRow,
+    MethodTable,
+    NotApplicable,
+)
+
+_AXES = ("x", "y", "z", "tilt_y", "tilt_z")
+
+
+def _stiffness_rows(stiffness: tuple[tuple[float, ...], ...]) -> list[MethodRow]:
+    """Upper triangle of the 5 x 5 matrix in N/um, N/mrad and N m/mrad."""
+    rows = []
+    for i, first in enumerate(_AXES):
+        for j in range(i, len(_AXES)):
+            angles = (i >= 3) + (j >= 3)
+            unit, scale = (("N/um", 1e-6), ("N/mrad", 1e-3), ("N m/mrad", 1e-3))[angles]
+            rows.append(MethodRow("stiffness", f"{first} {_AXES[j]}", stiffness[i][j] * scale, unit))
+    return rows
+
+
+def _load_rows(state: EquilibriumState) -> list[MethodRow]:
+    most = max(state.contacts, key=lambda contact: contact.load_inner)
+    loaded = sum(contact.load_inner > 0.0 for contact in state.contacts)
+    x, y, z = (value * 1e6 for value in state.displacement[:3])
+    return [
+        MethodRow("load", "largest ball load", most.load_inner, "N", "at the inner ring"),
+        MethodRow("load", "contact angle inner", math.degrees(most.angle_inner), "deg", "of that ball"),
+        MethodRow("load", "contact angle outer", math.degrees(most.angle_outer), "deg", "of that ball"),
+        MethodRow("load", "loaded balls", float(loaded), "-"),
+        MethodRow("load", "displacement x", x, "um"),
+        MethodRow("load", "displacement y", y, "um"),
+        MethodRow("load", "displacement z", z, "um"),
+    ]
+
+
+def evaluate(inputs: MethodInputs) -> MethodTable:
+    """Loads, displacement, stiffness and friction of the quasi-static equilibrium."""
+    state = inputs.state
+    if state is None or not state.contacts:
+        raise NotApplicable("no quasi-static equilibrium was found")
+    rows = _load_rows(state)
+    if state.friction:
+        total = sum(value for _, value in state.friction)
+        rows.append(MethodRow("friction", "total", total * 1e3, "N mm", "quasi-static"))
+        rows += [MethodRow("friction", name, value * 1e3, "N mm") for name, value in state.friction]
+    if state.stiffness is not None:
+        rows += _stiffness_rows(state.stiffness)
+    return MethodTable(tuple(rows))
+
+
+QUASI_STATIC = Method(
+    name="quasi-static",
+    title="Quasi-static equilibrium of this project",
+    reference="the same laws and geometry as the simulation, without its dynamics",
+    evaluate=evaluate,
+)
