@@ -97,7 +97,7 @@ def check_model(
         return ModelReport(model, (f"{model.label}: there is no role of this name",))
     contexts = [context] if context else [trial_context(element) for element in ROLES[model.role].elements]
     try:
-        values = _parameters(model, parameters)
+        values = parameters_of(model, parameters)
         pars = [make_par(model, values, each) for each in contexts]
         faults = tuple(dict.fromkeys(m for par in pars for m in _faults(model, par, None, samples)))
     except PluginError as error:
@@ -111,7 +111,14 @@ def check_model(
     return ModelReport(model, (), (slow,) if seconds > bound else (), samples * len(pars), seconds)
 
 
-def _parameters(model: Model, parameters: BaseModel | Mapping[str, Any] | None) -> BaseModel:
+def parameters_of(model: Model, parameters: BaseModel | Mapping[str, Any] | None) -> BaseModel:
+    """Return validated parameters from an instance, what a case file would say, or the defaults.
+
+    Raises
+    ------
+    PluginError
+        Naming each parameter that is missing or invalid.
+    """
     if isinstance(parameters, BaseModel):
         return parameters
     try:

@@ -17,11 +17,15 @@ class PluginError(LambdaError):
 
 @dataclass(frozen=True)
 class PluginFault:
-    """A plugin that is not in use although it is installed, and why."""
+    """A plugin that is not in use although it is installed, and why.
+
+    `is_broken` is False for one that was switched off on purpose.
+    """
 
     distribution: str  # name and version, "my-traction 0.1"
     entry_point: str
     message: str
+    is_broken: bool = True
 
     def __str__(self) -> str:
         return f"{self.distribution} ({self.entry_point}): {self.message}"

@@ -124,7 +124,7 @@ def discover(sources: Sequence[Source], off: Iterable[str] = ()) -> Registry:
     collection = Collection()
     for source in sources:
         if source.project in off or source.name in off:
-            faults.append(PluginFault(source.distribution, source.name, "is switched off"))
+            faults.append(PluginFault(source.distribution, source.name, "is switched off", is_broken=False))
             continue
         message = _add(manager, source, collection)
         if message:

@@ -99,7 +99,7 @@ SIGNS: dict[str, tuple[int, str]] = {"damping": (0, "delta_dot"), "fluid_drag": 
 # Elementwise outputs that must vanish where an argument does.
 AT_REST: dict[str, str] = {"traction": "slip", "boundary_friction": "slip"}
 
-_VECTORS = ("r", "v_rel", "omega_rel")  # arrays of three components, not of cells
+VECTORS = ("r", "v_rel", "omega_rel")  # arrays of three components, not of cells
 
 
 def output_size(role: Role, cells: int) -> int:
@@ -125,7 +125,7 @@ def draw(role: Role, par: FloatArray, cells: int, generator: Generator) -> list[
         elif argument.output:
             arguments.append(np.full(output_size(role, cells), np.nan))
         elif argument.kind == "a":
-            size = 3 if argument.name in _VECTORS else cells
+            size = 3 if argument.name in VECTORS else cells
             arguments.append(RANGES[argument.name].at(generator.random(size)))
         else:
             arguments.append(np.float64(RANGES[argument.name].at(generator.random(1))[0]))

@@ -47,7 +47,10 @@ def _arguments(spec: str) -> tuple[Argument, ...]:
     return tuple(result)
 
 
-_MATERIAL = "R_x f reduced radius along rolling [m]; R_y f reduced radius across rolling [m]; E_eff f E' with 2/E' = sum (1-nu^2)/E [Pa]"
+_MATERIAL = (
+    "R_x f reduced radius along rolling [m]; R_y f reduced radius across rolling [m]; "
+    "E_eff f E' with 2/E' = sum (1-nu^2)/E [Pa]"
+)
 _OIL = "eta0 f viscosity at ambient pressure [Pa s]; alpha_p f pressure-viscosity coefficient [1/Pa]"
 
 ROLES: dict[str, Role] = {
@@ -85,7 +88,8 @@ ROLES: dict[str, Role] = {
             "film_thickness",
             "isothermal, fully flooded film",
             _arguments(
-                "u_mean f mean surface velocity, >= 0 [m/s]; theta f angle of entrainment to the rolling direction [rad]; "
+                "u_mean f mean surface velocity, >= 0 [m/s]; "
+                "theta f angle of entrainment to the rolling direction [rad]; "
                 f"load f normal load [N]; {_MATERIAL}; {_OIL}; par a parameters; out A results"
             ),
             ("central film thickness [m]", "minimum film thickness [m]"),

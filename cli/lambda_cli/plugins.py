@@ -1,0 +1,159 @@
+"""`lambda-bearing plugins`: what is installed, what each model takes, and whether it keeps the rules."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from lambda_core.registry.survey import CheckCard, ModelCard
+
+app = typer.Typer(no_args_is_help=True, help="Models, methods and views that plugins bring.")
+
+Json = Annotated[bool, typer.Option("--json", help="Write one JSON object to stdout.")]
+
+
+def _table(*columns: str) -> Table:
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for column in columns:
+        table.add_column(column, overflow="fold")
+    return table
+
+
+def _print(item: object) -> None:
+    """Write to stdout; a pipe gets whole lines, however long."""
+    import sys
+
+    from rich.console import Console
+
+    width = None if sys.stdout.isatty() else 400
+    Console(width=width, highlight=False, markup=False, emoji=False).print(item)
+
+
+@app.command("list")
+def list_plugins(
+    role: Annotated[str, typer.Option(help="Only the models of one role.")] = "",
+    json: Json = False,
+) -> None:
+    """List everything installed, with its distribution; plugins that are not in use, and why."""
+    from lambda_core.errors import UsageError, unknown_name
+    from lambda_core.registry.manager import registry
+    from lambda_core.registry.roles import ROLES
+    from lambda_core.registry.survey import inventory
+
+    if role and role not in ROLES:
+        raise UsageError(unknown_name("role", role, ROLES))
+    found = inventory(registry())
+    if role:
+        found.items = [item for item in found.items if item.role == role]
+    if json:
+        typer.echo(found.model_dump_json(indent=2))
+        return
+    table = _table("kind", "role", "name", "distribution", "reference")
+    for item in found.items:
+        table.add_row(item.kind, item.role, item.name, item.distribution, item.reference)
+    _print(table)
+    for fault in found.faults:
+        _print(f"not in use: {fault.distribution} ({fault.entry_point}): {fault.message}")
+
+
+@app.command()
+def show(
+    model: Annotated[str, typer.Argument(metavar="ROLE/NAME", help="For example traction/ree-eyring.")],
+    json: Json = False,
+) -> None:
+    """Show one model: parameters with units, limits, defaults and sources; validity and reference."""
+    from lambda_core.registry.manager import registry
+    from lambda_core.registry.survey import model_card
+
+    card = model_card(registry(), model)
+    if json:
+        typer.echo(card.model_dump_json(indent=2))
+        return
+    _show_card(card)
+
+
+def _show_card(card: ModelCard) -> None:
+    default = "   default of its role" if card.default else ""
+    _print(f"{card.role}/{card.name}   {card.distribution}{default}")
+    lines = {
+        "summary": card.summary,
+        "reference": card.reference,
+        "validity": card.validity,
+        "returns": "; ".join(card.outputs),
+        "used by": ", ".join(card.elements),
+    }
+    for title, text in lines.items():
+        if text:
+            _print(f"{title:<12} {text}")
+    for status, sentence in card.errors.items():
+        _print(f"{f'status {status}':<12} {sentence}")
+    if not card.parameters:
+        _print(f"{'parameters':<12} none")
+        return
+    table = _table("parameter", "default", "limits", "published", "meaning", "source")
+    for parameter in card.parameters:
+        table.add_row(
+            parameter.name,
+            "required" if parameter.required else parameter.default,
+            ", ".join(parameter.limits),
+            " to ".join(parameter.published_range),
+            parameter.description,
+            " ".join(filter(None, (parameter.source, f"[{parameter.status}]" if parameter.status else ""))),
+        )
+    _print("")
+    _print(table)
+
+
+@app.command()
+def check(
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[NAME]...", help="Distributions, roles or ROLE/NAME; everything when left out."),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Try models against the contract of their role; exit 3 when one does not keep it."""
+    from pydantic import TypeAdapter
+
+    from lambda_core.registry.manager import registry
+    from lambda_core.registry.survey import CheckCard, FaultCard, check_installed
+
+    installed = registry()
+    wanted = tuple(names or ())
+    cards: list[CheckCard] = []
+    for card in check_installed(installed, wanted):
+        cards.append(card)
+        if not json:
+            _print(_verdict(card))
+    faults = [
+        FaultCard(**vars(fault))
+        for fault in installed.faults
+        if fault.is_broken and (not wanted or fault.distribution.split(" ")[0] in wanted)
+    ]
+    if json:
+        data = {
+            "models": TypeAdapter(list[CheckCard]).dump_python(cards, mode="json"),
+            "faults": TypeAdapter(list[FaultCard]).dump_python(faults, mode="json"),
+        }
+        typer.echo(TypeAdapter(dict[str, object]).dump_json(data, indent=2))
+    else:
+        for fault in faults:
+            _print(f"not in use: {fault.distribution} ({fault.entry_point}): {fault.message}")
+    if faults or not all(card.ok for card in cards):
+        raise typer.Exit(3)
+
+
+def _verdict(card: CheckCard) -> str:
+    label = f"{card.role}/{card.name} ({card.distribution})"
+    if card.not_tried:
+        return f"--  {label} {card.not_tried}: not tried"
+    if not card.ok:
+        return "\n".join(f"bad {fault}" for fault in card.faults)
+    timing = f"  {card.nanoseconds:.0f} ns" if card.nanoseconds is not None else ""
+    return "\n".join([f"ok  {label}{timing}", *(f"    {warning}" for warning in card.warnings)])

@@ -1,0 +1,279 @@
+"""What is installed, in full: every model with its parameters, every method and view, every fault.
+
+Plain data for faces and documentation; `check_installed` tries every model out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, Literal
+
+from annotated_types import Ge, Gt, Le, Lt
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+from pydantic_core import PydanticUndefined
+
+from lambda_core.errors import UsageError, unknown_name
+from lambda_core.registry.check import ModelReport, check_model
+from lambda_core.registry.faults import PluginError
+from lambda_core.registry.model import Model
+from lambda_core.registry.registry import Registry
+from lambda_core.registry.roles import DEFAULT_MODELS, ROLES
+from lambda_core.schema.option import quantity_of
+from lambda_core.schema.units import UNITS, show
+
+Kind = Literal["model", "method", "view", "data"]
+
+
+class ParameterCard(BaseModel):
+    """One parameter of a model, as people read it."""
+
+    name: str
+    description: str
+    default: str  # as it would stand in a case file; "" when required
+    required: bool
+    quantity: str  # "" for a plain number
+    units: list[str]
+    limits: list[str]  # "> 0 m", "<= 0.3"
+    published_range: list[str]
+    source: str
+    status: str
+
+
+class ModelCard(BaseModel):
+    """One model: what it is, where it comes from, and what can be set."""
+
+    role: str
+    name: str
+    distribution: str
+    summary: str
+    reference: str
+    validity: str
+    default: bool  # whether it fills the role when a case says nothing
+    elements: list[str]  # force elements that carry the role
+    outputs: list[str]
+    errors: dict[int, str]
+    parameters: list[ParameterCard]
+
+
+class Item(BaseModel):
+    """One line of the list of everything installed."""
+
+    kind: Kind
+    role: str  # "" unless it is a model
+    name: str
+    distribution: str
+    reference: str
+
+
+class FaultCard(BaseModel):
+    """A plugin, or one of its models, that cannot be used."""
+
+    distribution: str
+    entry_point: str
+    message: str
+    is_broken: bool = True  # False when it was switched off on purpose
+
+
+class Inventory(BaseModel):
+    """Everything installed."""
+
+    items: list[Item]
+    faults: list[FaultCard]
+
+
+class CheckCard(BaseModel):
+    """What came out of trying one model."""
+
+    role: str
+    name: str
+    distribution: str
+    ok: bool
+    faults: list[str]
+    warnings: list[str]
+    not_tried: str  # why, when no parameters were at hand
+    nanoseconds: float | None  # per call, or per cell of an elementwise role
+
+
+def inventory(registry: Registry) -> Inventory:
+    """List every model, method, view and data folder, and every plugin that is not in use."""
+    items, faults = [], [FaultCard(**vars(fault)) for fault in registry.faults]
+    for role in ROLES:
+        for name in registry.names(role):
+            origin = registry.origin(role, name)
+            try:
+                found = registry.model(role, name)
+            except PluginError as error:
+                faults.append(FaultCard(distribution=origin, entry_point=f"{role}/{name}", message=str(error)))
+                continue
+            items.append(Item(kind="model", role=role, name=name, distribution=origin, reference=found.reference))
+    kinds: tuple[tuple[Kind, Any], ...] = (("method", registry.methods), ("view", registry.views))
+    for kind, named in kinds:
+        for name, item in named.items():
+            reference = str(getattr(item, "reference", ""))
+            items.append(
+                Item(kind=kind, role="", name=name, distribution=registry.origin(kind, name), reference=reference)
+            )
+    for distribution, folder in registry.data_folders:
+        items.append(Item(kind="data", role="", name=folder.name, distribution=distribution, reference=str(folder)))
+    return Inventory(items=items, faults=faults)
+
+
+def model_card(registry: Registry, label: str) -> ModelCard:
+    """Return everything about one model, named "role/name".
+
+    Raises
+    ------
+    UsageError
+        When `label` is not of that form or the role does not exist.
+    PluginError
+        When the role has no such model, or it cannot be imported.
+    """
+    role, name = split_label(label)
+    found = registry.model(role, name)
+    return ModelCard(
+        role=role,
+        name=name,
+        distribution=found.distribution,
+        summary=found.summary,
+        reference=found.reference,
+        validity=found.validity,
+        default=DEFAULT_MODELS.get(role) == name,
+        elements=list(ROLES[role].elements),
+        outputs=list(ROLES[role].outputs),
+        errors=dict(found.errors),
+        parameters=[_parameter(found, field, info) for field, info in found.parameters.model_fields.items()],
+    )
+
+
+def split_label(label: str) -> tuple[str, str]:
+    """Split "role/name"; UsageError when it is not of that form or the role does not exist."""
+    role, slash, name = label.partition("/")
+    if not slash:
+        raise UsageError(f'"{label}" is not of the form ROLE/NAME, for example traction/ree-eyring')
+    if role not in ROLES:
+        raise UsageError(unknown_name("role", role, ROLES))
+    return role, name
+
+
+def check_installed(registry: Registry, wanted: Sequence[str] = ()) -> Iterator[CheckCard]:
+    """Try models out one after the other (compiling takes a moment each).
+
+    Parameters
+    ----------
+    registry : Registry
+        What is installed.
+    wanted : sequence of str
+        Distributions, roles, or "role/name"; all models when empty.
+
+    Yields
+    ------
+    CheckCard
+        In order of the pipeline. A model whose parameters have no defaults is tried with
+        those of the first lubricant in the catalogue that has them.
+    """
+    chosen = list(_chosen(registry, wanted))
+    lubricants: dict[tuple[str, str], dict[str, Any]] | None = None
+    for role, name in chosen:
+        try:
+            found = registry.model(role, name)
+        except PluginError as error:
+            yield _card(ModelReport(_absent(role, name, registry), (str(error),)))
+            continue
+        required = [field for field, info in found.parameters.model_fields.items() if info.is_required()]
+        if not required:
+            yield _card(check_model(found))
+            continue
+        if lubricants is None:
+            lubricants = _lubricant_parameters(registry)
+        if (role, name) in lubricants:
+            yield _card(check_model(found, lubricants[role, name]))
+        else:
+            yield _card(ModelReport(found), f"has no defaults for {', '.join(required)} and no lubricant brings them")
+
+
+def _chosen(registry: Registry, wanted: Sequence[str]) -> Iterator[tuple[str, str]]:
+    every = [(role, name) for role in ROLES for name in registry.names(role)]
+    known: dict[str, list[tuple[str, str]]] = {}
+    for role, name in every:
+        for word in (role, f"{role}/{name}", registry.origin(role, name).split(" ")[0]):
+            known.setdefault(word, []).append((role, name))
+    for fault in registry.faults:
+        known.setdefault(fault.distribution.split(" ")[0], [])
+    for word in wanted:
+        if word not in known:
+            raise UsageError(unknown_name("distribution, role or ROLE/NAME", word, known))
+    keep = {pair for word in wanted for pair in known[word]}
+    return (pair for pair in every if not wanted or pair in keep)
+
+
+def _absent(role: str, name: str, registry: Registry) -> Model:
+    """Return a stand-in that names a model which could not be imported."""
+
+    def kernel() -> int:
+        return 0
+
+    return Model(role, name, kernel, BaseModel, "", distribution=registry.origin(role, name))
+
+
+def _lubricant_parameters(registry: Registry) -> dict[tuple[str, str], dict[str, Any]]:
+    """Return the parameters of the first lubricant for each (role, model), as a case would write them."""
+    found: dict[tuple[str, str], dict[str, Any]] = {}
+    catalogue = registry.catalogue()
+    try:
+        for row in catalogue.lubricants(limit=10_000):
+            for role, models in row.parameters.items():
+                for name, values in models.items():
+                    found.setdefault((role, name), {key: value.text() for key, value in values.items()})
+    finally:
+        catalogue.close()
+    return found
+
+
+def _card(report: ModelReport, not_tried: str = "") -> CheckCard:
+    tried = report.seconds == report.seconds
+    return CheckCard(
+        role=report.model.role,
+        name=report.model.name,
+        distribution=report.model.distribution,
+        ok=report.ok,
+        faults=list(report.faults),
+        warnings=list(report.warnings),
+        not_tried=not_tried,
+        nanoseconds=report.seconds * 1e9 if tried else None,
+    )
+
+
+def _parameter(model: Model, name: str, info: FieldInfo) -> ParameterCard:
+    quantity = quantity_of(model.parameters, name)
+    extra = info.json_schema_extra if isinstance(info.json_schema_extra, dict) else {}
+    published = extra.get("published_range", [])
+    return ParameterCard(
+        name=name,
+        description=info.description or "",
+        default=_written(info.get_default(call_default_factory=True, validated_data={}), quantity),
+        required=info.is_required(),
+        quantity=quantity,
+        units=list(UNITS[quantity]) if quantity else [],
+        limits=list(_limits(info, quantity)),
+        published_range=[str(end) for end in published] if isinstance(published, list) else [],
+        source=str(extra.get("source", "")),
+        status=str(extra.get("status", "")),
+    )
+
+
+def _limits(info: FieldInfo, quantity: str) -> Iterator[str]:
+    signs = {Gt: (">", "gt"), Ge: (">=", "ge"), Lt: ("<", "lt"), Le: ("<=", "le")}
+    for limit in info.metadata:
+        if type(limit) in signs:
+            sign, attribute = signs[type(limit)]
+            yield f"{sign} {_written(getattr(limit, attribute), quantity)}"
+
+
+def _written(value: Any, quantity: str) -> str:
+    """Write a default or a limit as a case file would."""
+    if value is PydanticUndefined or value is None:
+        return ""
+    if isinstance(value, float | int) and not isinstance(value, bool):
+        return show(float(value), quantity) if quantity else f"{value:g}"
+    return str(value)

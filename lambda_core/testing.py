@@ -1,0 +1,185 @@
+"""Checks for the tests of people who write plugins: one line tests a law against its role's contract.
+
+from lambda_core.testing import check_model
+
+def test_contract():
+    check_model("traction/hyperbolic-limit")
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from pydantic import BaseModel
+
+from lambda_core.errors import unknown_name
+from lambda_core.registry import check
+from lambda_core.registry.check import ModelReport
+from lambda_core.registry.kernels import compile_kernel
+from lambda_core.registry.manager import registry
+from lambda_core.registry.model import Context, FloatArray, Model
+from lambda_core.registry.par import make_par
+from lambda_core.registry.probe import VECTORS, output_size, trial_context
+from lambda_core.registry.roles import ROLES
+from lambda_core.registry.survey import split_label
+
+Parameters = BaseModel | Mapping[str, Any] | None
+
+__all__ = ["ModelReport", "assert_increasing", "assert_limit", "assert_symmetric", "check_model", "evaluate"]
+
+
+def _model(model: Model | str) -> Model:
+    return registry().model(*split_label(model)) if isinstance(model, str) else model
+
+
+def check_model(
+    model: Model | str, parameters: Parameters = None, context: Context | None = None, samples: int = 48
+) -> ModelReport:
+    """Assert that a model keeps the contract of its role.
+
+    Names and order of the arguments, int64 status, no exceptions, no index outside the
+    arrays, inputs left alone, outputs written, finite and within their bounds over the
+    range of a ball bearing, machine code equal to plain Python, each cell on its own,
+    and a time within bounds.
+
+    Parameters
+    ----------
+    model : Model or str
+        The law, or "role/name" of an installed one.
+    parameters : pydantic.BaseModel or mapping, optional
+        An instance, or what would stand in a case file; default: the model's defaults.
+    context : Context, optional
+        Default: a 6208 deep-groove ball bearing for each force element of the role.
+    samples : int
+        Number of argument sets.
+
+    Raises
+    ------
+    AssertionError
+        With one sentence per fault.
+    """
+    report = check.check_model(_model(model), parameters, context, samples)
+    problems = [*report.faults, *report.warnings]
+    if problems:
+        raise AssertionError("\n".join(problems))
+    return report
+
+
+def evaluate(
+    model: Model | str, parameters: Parameters = None, context: Context | None = None, **arguments: ArrayLike
+) -> Any:
+    """Call a model's compiled kernel once.
+
+    Parameters
+    ----------
+    model : Model or str
+        The law, or "role/name" of an installed one.
+    parameters, context
+        As for :func:`check_model`; the context of the role's first force element by default.
+    **arguments : float or array_like
+        Every argument of the role except ``par`` and the outputs, SI. Numbers stand for
+        arrays of the common length in elementwise roles.
+
+    Returns
+    -------
+    ndarray or tuple of ndarray
+        The output, shape (cells,) or (number of outputs,); a tuple where the role has two
+        output arrays (rheology).
+
+    Raises
+    ------
+    AssertionError
+        When the kernel returns another status than 1, with its sentence.
+    TypeError
+        When an argument is missing or unknown.
+    """
+    law = _model(model)
+    role = ROLES[law.role]
+    wanted = [a.name for a in role.arguments if not a.output and a.name != "par"]
+    missing = [name for name in wanted if name not in arguments]
+    if missing:
+        raise TypeError(f"{law.label} needs {', '.join(missing)}")
+    for name in arguments:
+        if name not in wanted:
+            raise TypeError(unknown_name(f"argument of {law.role}", name, wanted))
+    par = make_par(law, check.parameters_of(law, parameters), context or trial_context(role.elements[0]))
+    cells = int(np.broadcast(*(arguments[n] for n in wanted)).size) if role.elementwise else 1
+    values: list[Any] = []
+    for argument in role.arguments:
+        if argument.name == "par":
+            values.append(par)
+        elif argument.output:
+            values.append(np.full(output_size(role, cells), np.nan))
+        elif argument.kind == "a":
+            size = 3 if argument.name in VECTORS else cells
+            values.append(np.array(np.broadcast_to(np.asarray(arguments[argument.name], np.float64), size)))
+        else:
+            values.append(float(np.asarray(arguments[argument.name])))
+    status = compile_kernel(law).dispatcher(*values)
+    if status != 1:
+        raise AssertionError(f"{law.label} returned {status}: {law.errors.get(status, 'no sentence declared')}")
+    outputs = tuple(v for a, v in zip(role.arguments, values, strict=True) if a.output)
+    return outputs if len(outputs) > 1 else outputs[0]
+
+
+def _along(model: Model | str, argument: str, values: ArrayLike, output: int, given: dict[str, Any]) -> FloatArray:
+    """Return one output at each value of `argument` (scalar or the same in every cell)."""
+    results = []
+    for value in np.atleast_1d(np.asarray(values, np.float64)):
+        arguments = {**given, argument: float(value)}
+        found = evaluate(model, **arguments)
+        results.append(found[output][0] if isinstance(found, tuple) else found[min(output, found.size - 1)])
+    return np.array(results)
+
+
+def assert_increasing(model: Model | str, argument: str, values: ArrayLike, *, output: int = 0, **given: Any) -> None:
+    """Assert that an output never falls while `argument` runs through increasing `values`.
+
+    `given` holds the other arguments (and ``parameters``, ``context``) as for :func:`evaluate`.
+    """
+    found = _along(model, argument, values, output, given)
+    falls = np.flatnonzero(np.diff(found) < 0.0)
+    if falls.size:
+        at = np.asarray(values)[falls[0]]
+        raise AssertionError(f"{_model(model).label} falls with {argument} from {argument} = {at:g} on: {found}")
+
+
+def assert_limit(
+    model: Model | str,
+    argument: str,
+    value: float,
+    expected: float,
+    *,
+    rtol: float = 1e-6,
+    atol: float = 0.0,
+    output: int = 0,
+    **given: Any,
+) -> None:
+    """Assert that an output is `expected` at the end ``argument = value`` of its range."""
+    found = float(_along(model, argument, [value], output, given)[0])
+    if not abs(found - expected) <= atol + rtol * abs(expected):
+        label = _model(model).label
+        raise AssertionError(f"{label} is {found:g} at {argument} = {value:g}; the limit is {expected:g}")
+
+
+def assert_symmetric(
+    model: Model | str,
+    argument: str,
+    values: ArrayLike,
+    *,
+    odd: bool = False,
+    rtol: float = 1e-12,
+    output: int = 0,
+    **given: Any,
+) -> None:
+    """Assert that an output keeps (or, `odd`, changes) its sign and keeps its size when `argument` is mirrored."""
+    array = np.asarray(values, np.float64)
+    there = _along(model, argument, array, output, given)
+    back = _along(model, argument, -array, output, given)
+    mirrored = -back if odd else back
+    if not np.allclose(there, mirrored, rtol=rtol, atol=0.0):
+        kind = "odd" if odd else "even"
+        raise AssertionError(f"{_model(model).label} is not {kind} in {argument}: {there} against {back}")
