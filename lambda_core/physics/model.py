@@ -88,7 +88,7 @@ class Body:
     polar_inertia: float  # about its axis [kg m2]
     dofs: Mapping[str, DofState]  # by name in DOFS
     force: tuple[TimeFunction, TimeFunction, TimeFunction] = (ZERO, ZERO, ZERO)  # inertial frame [N]
-    # about y and z through the body's centre, and about x (the torque that drives a free spin) [N m]
+    # about x, y, z through the body's centre; about x it drives a free spin [N m]
     moment: tuple[TimeFunction, TimeFunction, TimeFunction] = (ZERO, ZERO, ZERO)
     unbalance: float = 0.0  # mass times eccentricity [kg m]
 
@@ -157,6 +157,14 @@ class ResolvedValue:
 
 
 @dataclass(frozen=True)
+class Marker:
+    """A named point on a body whose motion is written to the result."""
+
+    body: Literal["inner_ring", "outer_ring", "cage"]
+    position: tuple[float, float, float]  # in the body's frame, that of the inertial axes at t = 0 [m]
+
+
+@dataclass(frozen=True)
 class BearingModel:
     """Everything that a run needs, SI, immutable."""
 
@@ -184,3 +192,4 @@ class BearingModel:
     assumptions: tuple[str, ...] = ()
     case_toml: str = ""  # the case as written, for re-running
     plugins: tuple[str, ...] = field(default=())  # "distribution version" of each plugin that was loaded
+    markers: Mapping[str, Marker] = field(default_factory=dict)  # by name

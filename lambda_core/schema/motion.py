@@ -38,10 +38,10 @@ class _Dof(Section):
 
     @model_validator(mode="after")
     def _consistent(self) -> _Dof:
-        motion, elastic = (
-            getattr(self, "motion", None),
-            getattr(self, "stiffness", 0.0) or getattr(self, "damping", 0.0),
-        )
+        motion = getattr(self, "motion", None)
+        elastic = getattr(self, "stiffness", 0.0) or getattr(self, "damping", 0.0)
+        if self.mode == "prescribed" and motion is None and "motion" in type(self).model_fields:
+            raise ValueError('mode = "prescribed" needs a motion')
         if motion is not None and self.mode != "prescribed":
             raise ValueError(f'a motion needs mode = "prescribed", not "{self.mode}"')
         if elastic and self.mode != "free":
@@ -98,24 +98,19 @@ class InnerRing(_Body):
     """The inner ring with its shaft."""
 
     shaft_mass: Mass = option("0 kg", "mass of the shaft that moves with the inner ring", ge=0.0)
-    shaft_transverse_inertia: Inertia | None = option(
-        None, "of the shaft; absent: a steel bar as thick as the bore", ge=0.0
-    )
-    shaft_polar_inertia: Inertia | None = option(None, "of the shaft; absent: a steel bar as thick as the bore", ge=0.0)
+    shaft_transverse_inertia: Inertia | None = option(None, "of the shaft; absent: a bar as thick as the bore", ge=0.0)
+    shaft_polar_inertia: Inertia | None = option(None, "of the shaft; absent: a bar as thick as the bore", ge=0.0)
     x: Translation = option("free", "axial")
     y: Translation = option("free", "horizontal")
     z: Translation = option("free", "vertical")
     tilt_y: Tilt = option("free", "rotation about y")
     tilt_z: Tilt = option("free", "rotation about z")
-    spin: InnerSpin = option(
-        "prescribed", "rotation about the axis: prescribed by operation.speed, or free (driven by operation.torque)"
-    )
+    spin: InnerSpin = option("prescribed", "rotation: prescribed (operation.speed) or free (operation.torque)")
 
 
 class OuterRing(_Body):
-    """The outer ring with its housing; fixed by default."""
+    """The outer ring; fixed by default. Where it moves, its mass may include the housing's."""
 
-    housing_mass: Mass = option("0 kg", "mass of the housing that moves with the outer ring", ge=0.0)
     x: Translation = option("locked", "axial")
     y: Translation = option("locked", "horizontal")
     z: Translation = option("locked", "vertical")
@@ -163,9 +158,7 @@ class Loads(Section):
     """External loads; the first four act on the inner ring."""
 
     radial: ForceSignal = option("0 N", "radial load on the inner ring")
-    radial_direction: Angle = option(
-        "270 deg", "azimuth in which the radial load acts, from +y towards +z; 270 deg is down"
-    )
+    radial_direction: Angle = option("270 deg", "azimuth of the radial load, from +y to +z; 270 deg is down")
     axial: ForceSignal = option("0 N", "axial load on the inner ring, along +x")
     moment_y: MomentSignal = option("0 N m", "moment on the inner ring about y")
     moment_z: MomentSignal = option("0 N m", "moment on the inner ring about z")

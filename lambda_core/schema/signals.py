@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import csv
 import re
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, TypeVar
 
@@ -25,7 +26,7 @@ class TimeTable(Section):
     """Base of the kinds of time function."""
 
     @classmethod
-    def model_parametrized_name(cls, params: tuple[type[Any], ...]) -> str:
+    def model_parametrized_name(cls, params: tuple[Any, ...]) -> str:
         """Name the class after its quantity, for schemas and messages."""
         names = [item.name for param in params for item in getattr(param, "__metadata__", ()) if type(item) is Quantity]
         return f"{cls.__name__}_{'_'.join(names)}" if names else super().model_parametrized_name(params)
@@ -86,7 +87,7 @@ class Table(TimeTable, Generic[V]):
             rows = read_table(folder / str(self.file), self._quantity())
         if len(rows) < 2:
             raise ValueError("a table needs at least two points")
-        if any(later <= earlier for (earlier, _), (later, _) in zip(rows, rows[1:], strict=False)):
+        if any(later <= earlier for (earlier, _), (later, _) in pairwise(rows)):
             raise ValueError("the times of a table must increase")
         self._rows = rows
         return self

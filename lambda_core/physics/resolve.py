@@ -1,0 +1,229 @@
+"""From a case to a bearing model: every value looked up, frozen in SI, with its origin.
+
+What the case leaves open is filled from the catalogue or by a stated assumption; what is
+missing, unknown, contradictory or impossible is collected and raised at once.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import BaseModel
+
+from lambda_core.physics.ledger import Ledger
+from lambda_core.physics.model import BearingModel, Depth, Geometry, Marker, Output, Solver
+from lambda_core.physics.resolve_bodies import (
+    Inertia,
+    check_bodies,
+    resolve_body,
+    resolve_cage,
+    resolve_inertia,
+    ring_inertia,
+    shaft_inertia,
+)
+from lambda_core.physics.resolve_geometry import bearing_row, resolve_geometry
+from lambda_core.physics.resolve_laws import LawResolver, ModelSource
+from lambda_core.physics.resolve_materials import resolve_lubricant, resolve_material
+from lambda_core.physics.time_functions import highest_frequency, peak, time_function
+from lambda_core.registry.catalogue import BearingRow, Catalogue
+from lambda_core.registry.model import Material, Model
+from lambda_core.schema.case import Case
+from lambda_core.schema.case_writer import standalone_toml
+from lambda_core.schema.units import show
+
+# A run that has not converged after this many turns of the cage has something to say.
+LONGEST_RUN = 30.0  # [cage turns]
+# Largest step: the cage must not skip over pocket contacts, nor any step over an excitation.
+STEPS_PER_CAGE_TURN = 200.0
+STEPS_PER_PERIOD = 20.0
+
+
+def resolve(case: Case, registry: ModelSource, catalogue: Catalogue, plugins: tuple[str, ...] = ()) -> BearingModel:
+    """Freeze a case into the model that a run needs.
+
+    Parameters
+    ----------
+    case : Case
+        What the engineer wrote.
+    registry : ModelSource
+        Models by role and name.
+    catalogue : Catalogue
+        Bearings, lubricants, materials, cages, clearance classes.
+    plugins : tuple of str
+        "distribution version" of each loaded plugin, kept for the result.
+
+    Raises
+    ------
+    CaseError
+        With everything that is unknown, missing, contradictory or impossible.
+    """
+    ledger = Ledger(assumptions=list(case.assumptions))
+    row = bearing_row(case.bearing, catalogue, ledger)
+    known = row is not None or case.bearing.designation is None
+    geometry = resolve_geometry(case.bearing, row, catalogue, ledger) if known else None
+    materials = {part: resolve_material(part, case, catalogue, ledger) for part in ("inner", "outer", "balls")}
+    cage_row = ledger.ask("bodies.cage.type", lambda: catalogue.cage(case.bodies.cage.type))
+    materials["cage"] = resolve_material("cage", case, catalogue, ledger, cage_row.material if cage_row else None)
+    lubricant, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
+    check_bodies(case, ledger)
+    _settings(case, ledger)
+    guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")
+    laws = LawResolver(case, registry, lubricant, guidance, ledger).resolve() if lubricant else {}
+    if geometry is None or cage_row is None or oil is None:
+        ledger.check(case.name)
+        raise AssertionError("a part is missing and no problem says why")
+    complete = {part: material or _UNKNOWN for part, material in materials.items()}
+    cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, complete["cage"], ledger)
+    inertias = _inertias(case, geometry, complete, cage_estimate, ledger)
+    solver = _solver(case, geometry, ledger)
+    ledger.check(case.name)
+    return BearingModel(
+        name=case.name,
+        title=_title(case, row),
+        geometry=geometry,
+        ball_material=complete["balls"],
+        inner_material=complete["inner"],
+        outer_material=complete["outer"],
+        cage_material=complete["cage"],
+        oil=oil,
+        oil_level=case.lubricant.oil_level,
+        roughness=case.surface.roughness,
+        starvation=case.lubricant.starvation,
+        gravity=(case.gravity.x, case.gravity.y, case.gravity.z),
+        inner_ring=resolve_body("inner_ring", case, inertias["inner_ring"]),
+        outer_ring=resolve_body("outer_ring", case, inertias["outer_ring"]),
+        cage=cage,
+        cage_body=resolve_body("cage", case, inertias["cage"]),
+        laws=laws,
+        depth=Depth(case.depth.cage, case.depth.strips, case.depth.rows),
+        solver=solver,
+        output=Output(case.output.interval or 0.0, case.output.checkpoint_interval),
+        values=tuple(ledger.values),
+        assumptions=tuple(ledger.assumptions),
+        case_toml=standalone_toml(case),
+        plugins=plugins,
+        markers={name: Marker(m.body, (m.x, m.y, m.z)) for name, m in case.markers.items()},
+    )
+
+
+_UNKNOWN = Material("unknown", math.nan, math.nan, math.nan, math.nan, math.nan)
+
+
+def _title(case: Case, row: BearingRow | None) -> str:
+    if row is None:
+        return f"{case.bearing.designation or case.name} (geometry of the case)"
+    edited = ", geometry edited" if case.bearing.geometry else ""
+    return f"{row.designation} ({row.maker}{edited})"
+
+
+def _inertias(
+    case: Case, geometry: Geometry, materials: Mapping[str, Material], cage: Inertia, ledger: Ledger
+) -> dict[str, Inertia]:
+    """Return mass and inertia of rings and cage, the shaft counted to the inner ring."""
+    bodies = case.bodies
+    rings = {ring: ring_inertia(geometry, ring, materials[ring].density) for ring in ("inner", "outer")}
+    inner = resolve_inertia("inner_ring", bodies.inner_ring, rings["inner"], ledger)
+    shaft = shaft_inertia(bodies.inner_ring, geometry, materials["inner"].density, ledger)
+    ledger.assume("mass and inertia of the rings estimated from the geometry: hollow cylinders less their grooves")
+    return {
+        "inner_ring": inner + shaft,
+        "outer_ring": resolve_inertia("outer_ring", bodies.outer_ring, rings["outer"], ledger),
+        "cage": resolve_inertia("cage", bodies.cage, cage, ledger),
+    }
+
+
+def _settings(case: Case, ledger: Ledger) -> None:
+    """Record the remaining settings; those left open become assumptions."""
+    lubricant, surface = case.lubricant, case.surface
+    ledger.given("lubricant.temperature", lubricant.temperature, "temperature")
+    for section, name, quantity, sentence in (
+        (lubricant, "oil_level", "length", "oil level at the centre of the lowest ball"),
+        (lubricant, "starvation", "", "contacts fully flooded"),
+        (surface, "roughness", "small_length", "composite roughness sigma {}"),
+    ):
+        value, prefix = getattr(section, name), "surface" if section is surface else "lubricant"
+        if name in section.model_fields_set:
+            ledger.given(f"{prefix}.{name}", value, quantity)
+        else:
+            ledger.record(f"{prefix}.{name}", value, quantity, "default", "assumed")
+            ledger.assume(sentence.format(show(value, quantity)) if "{}" in sentence else sentence)
+
+
+def cage_period(case: Case, geometry: Geometry) -> float:
+    """Return the duration of one epicyclic turn of the cage at the highest planned speed [s]; inf at rest.
+
+    omega_c = (Omega_i (1 - D_w/d_m) + Omega_o (1 + D_w/d_m))/2, contact angle 0.
+    """
+    ratio = geometry.ball_diameter / geometry.pitch_diameter
+    inner = peak(time_function(case.operation.speed))
+    outer = peak(time_function(case.bodies.outer_ring.spin.motion))
+    speed = 0.5 * (inner * (1.0 - ratio) + outer * (1.0 + ratio))
+    return 2.0 * math.pi / speed if speed > 0.0 else math.inf
+
+
+def _solver(case: Case, geometry: Geometry, ledger: Ledger) -> Solver:
+    given, turn = case.solver, cage_period(case, geometry)
+    if math.isinf(turn) and given.duration is None:
+        ledger.problem("solver.duration", "is required where nothing turns at first: averages need turns of the cage")
+    longest = given.max_duration or (LONGEST_RUN * turn if math.isfinite(turn) else given.duration or 0.0)
+    if given.duration is not None and given.max_duration is not None and given.duration > given.max_duration:
+        ledger.problem("solver.duration", f"is longer than solver.max_duration, {show(given.max_duration, 'time')}")
+    frequency = highest_frequency(*_all_signals(case))
+    steps = [turn / STEPS_PER_CAGE_TURN, *([1.0 / (STEPS_PER_PERIOD * frequency)] if frequency else [])]
+    largest = min(steps)
+    if math.isinf(largest):
+        largest = (given.duration or 1.0) / STEPS_PER_CAGE_TURN
+    return Solver(
+        tolerance=given.tolerance,
+        duration=given.duration or 0.0,
+        max_duration=max(longest, given.duration or 0.0),
+        discard_revolutions=given.discard_revolutions,
+        average_revolutions=given.average_revolutions,
+        max_step=given.max_step or largest,
+        max_wall=given.max_wall or math.inf,
+    )
+
+
+def _all_signals(case: Case) -> list[Any]:
+    """Return every time function of the case."""
+    found = [case.operation.speed, case.operation.torque]
+    loads = case.loads
+    found += [loads.radial, loads.axial, loads.moment_y, loads.moment_z]
+    for own in (loads.inner_ring, loads.outer_ring, loads.cage):
+        if own is not None:
+            found += [getattr(own, name) for name in type(own).model_fields]
+    for body in (case.bodies.inner_ring, case.bodies.outer_ring, case.bodies.cage):
+        found += [getattr(getattr(body, dof), "motion", None) for dof in ("x", "y", "z", "tilt_y", "tilt_z", "spin")]
+    return [time_function(signal) for signal in found]
+
+
+def case_hash(model: BearingModel) -> str:
+    """Return a hash of all that decides the numbers of a run, equal in every process.
+
+    Name, title, sources and assumptions are left out: two cases that mean the same run
+    share one hash.
+    """
+    silent = {"name", "title", "values", "assumptions", "case_toml"}
+    data = {f.name: _plain(getattr(model, f.name)) for f in dataclasses.fields(model) if f.name not in silent}
+    text = json.dumps(data, sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _plain(value: Any) -> Any:
+    """Return `value` as JSON data in which every float keeps all its digits."""
+    if isinstance(value, Model):
+        return [value.role, value.name, value.distribution, value.role_api]
+    if isinstance(value, BaseModel):
+        return {name: _plain(getattr(value, name)) for name in type(value).model_fields}
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value) if f.name != "origins"}
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, tuple | list):
+        return [_plain(item) for item in value]
+    return float(value).hex() if isinstance(value, float) else value

@@ -1,0 +1,299 @@
+"""From a designation or inline numbers to the inner geometry at operating clearance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from lambda_core.physics.ledger import Ledger
+from lambda_core.physics.model import Geometry
+from lambda_core.registry.catalogue import BearingRow, Catalogue
+from lambda_core.schema.parts import Bearing, InlineGeometry
+from lambda_core.schema.units import parse, show
+
+# Contacts of a deep-groove bearing stay on the groove up to about this free contact angle.
+LARGEST_FREE_ANGLE = math.radians(45.0)
+# An interference of this share of the ball diameter alone presses every ball with about 4 GPa, the static
+# limit of ISO 76 (Palmgren's 0.436e-6 Q^(2/3)/D_w^(1/3) scaled from a 6319: 2.05 GPa at 0.0019 D_w).
+LARGEST_INTERFERENCE = 0.007
+# Shoulder diameters differ by 1.21 ball diameters: mean of catalogue shoulders, the same figure from
+# which missing inner geometry is derived.
+SHOULDER_SPREAD = 1.21
+CONFORMITY_INNER, CONFORMITY_OUTER = 0.52, 0.53
+SIZES = ("bore_diameter", "outside_diameter", "width")
+INNER = ("ball_count", "ball_diameter")
+
+
+@dataclass
+class Picker:
+    """Takes each dimension from the case, else from the catalogue row, and notes the origin."""
+
+    inline: InlineGeometry
+    row: BearingRow | None
+    ledger: Ledger
+
+    def take(self, name: str) -> float | None:
+        """Return one dimension in SI, None when neither the case nor the catalogue has it."""
+        path, quantity = f"bearing.{name}", "" if name == "ball_count" else "length"
+        written = getattr(self.inline, name)
+        if written is not None:
+            self.ledger.given(path, float(written), quantity)
+            return float(written)
+        found = getattr(self.row, name) if self.row else None
+        if found is None:
+            return None
+        if found.status == "derived" and name in INNER and self.row:
+            text = f"{found.value:g}" if name == "ball_count" else show(found.value, "length", 6)
+            self.ledger.assume(f"{path} {text}: {found.source} (grade {found.grade})")
+        return self.ledger.row(path, found, quantity)
+
+    def need(self, name: str) -> float:
+        """Return one dimension, noting a problem (and NaN) when it is missing."""
+        value = self.take(name)
+        if value is None:
+            where = f"bearing.geometry.{name}"
+            if self.row:
+                label = f"{self.row.designation} of {self.row.maker}"
+                self.ledger.problem(where, f"is required: the catalogue does not know it for {label}")
+            else:
+                self.ledger.problem(where, "is required without a designation")
+            return math.nan
+        return value
+
+
+def bearing_row(bearing: Bearing, catalogue: Catalogue, ledger: Ledger) -> BearingRow | None:
+    """Look the bearing up; None when it is written inline or unknown (then a problem is noted)."""
+    if bearing.designation is None:
+        if bearing.geometry is None:
+            ledger.problem("bearing.designation", "is required, or write the geometry in [bearing.geometry]")
+        return None
+    designation, maker = bearing.designation, bearing.maker
+    where = "bearing.maker" if maker else "bearing.designation"
+    known = ledger.ask(where, lambda: catalogue.bearing(designation, maker))
+    if known is not None:
+        ledger.given("bearing.designation", known.designation)
+        ledger.record("bearing.maker", known.maker, "", "case" if maker else "only maker", "given")
+    return known
+
+
+def resolve_geometry(bearing: Bearing, row: BearingRow | None, catalogue: Catalogue, ledger: Ledger) -> Geometry | None:
+    """Return the geometry with the clearance as bought; None when it cannot be built (the ledger says why)."""
+    inline = bearing.geometry or InlineGeometry()
+    picker = Picker(inline, row, ledger)
+    bore, outside, width = (picker.need(name) for name in SIZES)
+    count, ball = picker.need("ball_count"), picker.need("ball_diameter")
+    races = (picker.take("race_diameter_inner"), picker.take("race_diameter_outer"))
+    pitch = _pitch(picker, races, bore, outside)
+    grooves = (_groove(picker, "inner", ball), _groove(picker, "outer", ball))
+    clearance = _clearance(bearing, races, ball, bore, catalogue, ledger)
+    if any(math.isnan(x) for x in (bore, outside, width, count, ball, pitch, *grooves, clearance)):
+        return None
+    shoulders = (_shoulder(picker, "inner", ball, pitch), _shoulder(picker, "outer", ball, pitch))
+    series = inline.series or (row.series if row else "")
+    as_bought = Geometry(
+        ball_count=round(count),
+        ball_diameter=ball,
+        pitch_diameter=pitch,
+        race_diameter_inner=math.nan,
+        race_diameter_outer=math.nan,
+        groove_radius_inner=grooves[0],
+        groove_radius_outer=grooves[1],
+        shoulder_diameter_inner=shoulders[0],
+        shoulder_diameter_outer=shoulders[1],
+        clearance=clearance,
+        bore_diameter=bore,
+        outside_diameter=outside,
+        width=width,
+        series=series,
+    )
+    geometry = with_clearance(as_bought, clearance)
+    check_geometry(geometry, races, ledger)
+    return geometry
+
+
+def with_clearance(geometry: Geometry, clearance: float) -> Geometry:
+    """Return the geometry with both raceways set so that the clearance is `clearance` [m].
+
+    Pitch and ball diameters stay; each raceway takes half: d_i = d_m - D_w - G/2,
+    d_o = d_m + D_w + G/2, so that d_o - d_i - 2 D_w = G.
+    """
+    half = geometry.ball_diameter + clearance / 2.0
+    return replace(
+        geometry,
+        clearance=clearance,
+        race_diameter_inner=geometry.pitch_diameter - half,
+        race_diameter_outer=geometry.pitch_diameter + half,
+    )
+
+
+def _pitch(picker: Picker, races: tuple[float | None, float | None], bore: float, outside: float) -> float:
+    pitch, ledger = picker.take("pitch_diameter"), picker.ledger
+    if pitch is not None:
+        return pitch
+    inner, outer = races
+    if inner is not None and outer is not None:
+        pitch = (inner + outer) / 2.0
+        ledger.record("bearing.pitch_diameter", pitch, "length", "mean of the raceway diameters", "derived")
+    else:
+        pitch = (bore + outside) / 2.0
+        if not math.isnan(pitch):
+            ledger.record("bearing.pitch_diameter", pitch, "length", "mean of bore and outside diameter", "assumed")
+            ledger.assume(f"pitch diameter {show(pitch, 'length', 6)}: mean of bore and outside diameter")
+    return pitch
+
+
+def _groove(picker: Picker, ring: str, ball: float) -> float:
+    conformity = getattr(picker.inline, f"conformity_{ring}")
+    written = getattr(picker.inline, f"groove_radius_{ring}")
+    path = f"bearing.groove_radius_{ring}"
+    if conformity is not None:
+        if written is not None:
+            picker.ledger.problem(
+                f"bearing.geometry.conformity_{ring}", f"groove_radius_{ring} is given too: write one of them"
+            )
+        picker.ledger.record(path, conformity * ball, "length", "case (conformity)", "given")
+        return float(conformity * ball)
+    radius = picker.take(f"groove_radius_{ring}")
+    if radius is None:
+        usual = CONFORMITY_INNER if ring == "inner" else CONFORMITY_OUTER
+        radius = usual * ball
+        picker.ledger.record(path, radius, "length", f"usual osculation {usual:g} D_w", "assumed")
+        picker.ledger.assume(f"{ring} groove radius {usual:g} D_w: usual osculation")
+    return radius
+
+
+def _shoulder(picker: Picker, ring: str, ball: float, pitch: float) -> float:
+    name = f"shoulder_diameter_{ring}"
+    diameter = picker.take(name)
+    if diameter is None:
+        sign = -1.0 if ring == "inner" else 1.0
+        diameter = pitch + sign * 0.5 * SHOULDER_SPREAD * ball
+        picker.ledger.record(f"bearing.{name}", diameter, "length", "pitch -+ 0.605 D_w", "assumed")
+        picker.ledger.assume("shoulder diameters: pitch diameter -+ 0.605 D_w, the mean of catalogue shoulders")
+    return diameter
+
+
+def _clearance(
+    bearing: Bearing,
+    races: tuple[float | None, float | None],
+    ball: float,
+    bore: float,
+    catalogue: Catalogue,
+    ledger: Ledger,
+) -> float:
+    """Return the radial internal clearance as bought [m], NaN after a problem."""
+    inline = bearing.geometry
+    both_inline = bool(inline and inline.race_diameter_inner and inline.race_diameter_outer)
+    text = bearing.clearance or ("geometry" if both_inline else "CN")
+    from_races = races[1] - races[0] - 2.0 * ball if races[0] and races[1] else math.nan
+    path = "bearing.clearance"
+    if text == "geometry":
+        if math.isnan(from_races):
+            ledger.problem(path, '"geometry" needs the raceway diameters, which are not known here')
+        ledger.record(path, from_races, "small_length", "from the raceway diameters", "derived")
+        return from_races
+    if text in ("C2", "CN", "C3", "C4", "C5"):
+        return _from_class(bearing, text, bore, catalogue, ledger)
+    clearance = parse(text, "small_length")
+    ledger.given(path, clearance, "small_length")
+    if both_inline and abs(clearance - from_races) > 0.5e-6:
+        implied = show(from_races, "small_length", 4)
+        ledger.problem(path, f'"{text}" contradicts the raceway diameters, which leave {implied}: give one of them')
+    return clearance
+
+
+def _from_class(bearing: Bearing, name: str, bore: float, catalogue: Catalogue, ledger: Ledger) -> float:
+    if math.isnan(bore):
+        return math.nan
+    limits = ledger.ask("bearing.clearance", lambda: catalogue.clearance(bore, name))
+    if limits is None:
+        return math.nan
+    pick = bearing.clearance_pick
+    clearance = {
+        "minimum": limits.minimum,
+        "middle": 0.5 * (limits.minimum + limits.maximum),
+        "maximum": limits.maximum,
+    }[pick]
+    span = f"{limits.minimum * 1e6:.4g} to {limits.maximum * 1e6:.4g} um"
+    ledger.record(
+        "bearing.clearance", clearance, "small_length", f"{pick} of {name}: {limits.source}", "assumed", limits.grade
+    )
+    chosen = "class not stated, " if bearing.clearance is None else ""
+    ledger.assume(f"clearance {show(clearance, 'small_length', 4)}: {chosen}{pick} of {name} ({span})")
+    return clearance
+
+
+def mm(length: float) -> str:
+    """Write a length for people."""
+    return f"{length * 1e3:.6g} mm"
+
+
+def check_geometry(geometry: Geometry, races: tuple[float | None, float | None], ledger: Ledger) -> None:
+    """Note everything that makes a geometry impossible."""
+    g = geometry
+    ball, pitch = g.ball_diameter, g.pitch_diameter
+    say = ledger.problem
+
+    if not g.bore_diameter < pitch < g.outside_diameter:
+        say(
+            "bearing.pitch_diameter",
+            f"{mm(pitch)} does not lie between the bore of {mm(g.bore_diameter)} and {mm(g.outside_diameter)} outside",
+        )
+        return
+    if ball > pitch * math.sin(math.pi / g.ball_count):
+        fits = math.floor(math.pi / math.asin(min(ball / pitch, 1.0)))
+        say(
+            "bearing.ball_count",
+            f"{g.ball_count} balls of {mm(ball)} do not fit on a pitch diameter of {mm(pitch)}: at most {fits}",
+        )
+    for ring, radius in (("inner", g.groove_radius_inner), ("outer", g.groove_radius_outer)):
+        if radius <= 0.5 * ball:
+            say(
+                f"bearing.groove_radius_{ring}",
+                f"{mm(radius)} is a conformity of {radius / ball:.4g}: it must be larger than half the ball diameter",
+            )
+    if not g.bore_diameter < g.race_diameter_inner or not g.race_diameter_outer < g.outside_diameter:
+        say("bearing.ball_diameter", f"{mm(ball)} leaves no ring between the raceways and bore or outside diameter")
+    if races[0] is not None and races[1] is not None:
+        _check_races(g, races[0], races[1], say)
+    inner_ok = g.race_diameter_inner < g.shoulder_diameter_inner < pitch
+    outer_ok = pitch < g.shoulder_diameter_outer < g.race_diameter_outer
+    for ring, fine, shoulder in (
+        ("inner", inner_ok, g.shoulder_diameter_inner),
+        ("outer", outer_ok, g.shoulder_diameter_outer),
+    ):
+        if not fine:
+            say(f"bearing.shoulder_diameter_{ring}", f"{mm(shoulder)} must lie between raceway and pitch diameter")
+    _check_clearance(g, ledger)
+
+
+def _check_races(g: Geometry, inner: float, outer: float, say: Callable[[str, str], None]) -> None:
+    if not inner < g.pitch_diameter < outer:
+        say(
+            "bearing.race_diameter_inner",
+            f"raceways of {mm(inner)} and {mm(outer)} do not enclose the pitch",
+        )
+    elif abs(0.5 * (inner + outer) - g.pitch_diameter) > 0.02 * g.ball_diameter:
+        say(
+            "bearing.pitch_diameter",
+            f"{mm(g.pitch_diameter)} contradicts the raceway diameters, whose mean is {mm(0.5 * (inner + outer))}",
+        )
+    elif abs(outer - inner - 2.0 * g.ball_diameter) > 0.05 * g.ball_diameter:
+        say(
+            "bearing.ball_diameter",
+            f"{mm(g.ball_diameter)} contradicts the raceway diameters, which leave {mm(0.5 * (outer - inner))}",
+        )
+
+
+def _check_clearance(g: Geometry, ledger: Ledger) -> None:
+    """Refuse a clearance with which the free contact angle, or the preload, is that of no real bearing."""
+    curvature = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
+    shown = f"{g.clearance * 1e6:.4g} um"
+    if curvature > 0.0 and g.clearance > 2.0 * curvature * (1.0 - math.cos(LARGEST_FREE_ANGLE)):
+        ledger.problem(
+            "bearing.clearance", f"{shown} lets the contacts leave the grooves (free contact angle over 45 deg)"
+        )
+    if g.clearance < -LARGEST_INTERFERENCE * g.ball_diameter:
+        limit = f"{-LARGEST_INTERFERENCE * g.ball_diameter * 1e6:.3g} um"
+        ledger.problem("bearing.clearance", f"{shown} is more interference than a bearing survives (limit {limit})")
