@@ -1,0 +1,83 @@
+"""From a resolved model and its quasi-static equilibrium to the plain numbers that comparison methods get."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from lambda_core.physics.model import BearingModel, Body
+from lambda_core.physics.time_functions import initial
+from lambda_core.registry.method import EquilibriumState, MethodInputs
+from lambda_core.registry.model import Oil
+
+
+def carried_load(state: EquilibriumState) -> tuple[float, float]:
+    """Radial and axial load [N] that the balls carry at the inner ring: the sum of their contact forces."""
+    axial = sum(contact.load_inner * math.sin(contact.angle_inner) for contact in state.contacts)
+    inward = [(contact.load_inner * math.cos(contact.angle_inner), contact.azimuth) for contact in state.contacts]
+    horizontal = sum(force * math.cos(azimuth) for force, azimuth in inward)
+    vertical = sum(force * math.sin(azimuth) for force, azimuth in inward)
+    return math.hypot(horizontal, vertical), abs(axial)
+
+
+def _applied_load(body: Body) -> tuple[float, float]:
+    axial, horizontal, vertical = (initial(force) for force in body.force)
+    return math.hypot(horizontal, vertical), abs(axial)
+
+
+def method_inputs(
+    model: BearingModel,
+    oil: Oil,
+    *,
+    state: EquilibriumState | None = None,
+    permittivity: Callable[[float], float] | None = None,
+    contamination: float | None = None,
+) -> MethodInputs:
+    """Collect what methods may look at.
+
+    Parameters
+    ----------
+    oil : Oil
+        The model's oil with viscosity, density, alpha_p and beta filled in by the chosen rheology.
+    state : EquilibriumState, optional
+        The quasi-static solution. With it the loads are those that the balls carry, weight and prescribed motion
+        included; without it those applied to the inner ring at the start.
+    permittivity : callable, optional
+        Relative permittivity of the oil over pressure [Pa] at the bulk temperature.
+    contamination : float, optional
+        e_C of ISO 281.
+    """
+    radial, axial = carried_load(state) if state is not None else _applied_load(model.inner_ring)
+    geometry = model.geometry
+    known = {value.path: value.value for value in model.values if isinstance(value.value, float)}
+    drag = model.laws.get("fluid_drag", {}).get("fluid_drag")
+    drag_parameters = drag.parameters if drag is not None and drag.model.name == "skf-catalogue" else None
+    return MethodInputs(
+        title=model.title,
+        series=geometry.series,
+        bore_diameter=geometry.bore_diameter,
+        outside_diameter=geometry.outside_diameter,
+        width=geometry.width,
+        ball_count=geometry.ball_count,
+        ball_diameter=geometry.ball_diameter,
+        pitch_diameter=geometry.pitch_diameter,
+        groove_radius_inner=geometry.groove_radius_inner,
+        groove_radius_outer=geometry.groove_radius_outer,
+        ball=model.ball_material,
+        inner_ring=model.inner_material,
+        outer_ring=model.outer_material,
+        oil=oil,
+        radial_load=radial,
+        axial_load=axial,
+        inner_speed=initial(model.inner_ring.dofs["spin"].motion),
+        outer_speed=initial(model.outer_ring.dofs["spin"].motion),
+        dynamic_rating=known.get("bearing.dynamic_rating"),
+        static_rating=known.get("bearing.static_rating"),
+        fatigue_limit=known.get("bearing.fatigue_limit"),
+        contamination=contamination,
+        oil_level=model.oil_level,
+        drag_volume_factor=getattr(drag_parameters, "v_m", None),
+        drag_edition=getattr(drag_parameters, "edition", "2018"),
+        permittivity=permittivity,
+        state=state,
+    )
