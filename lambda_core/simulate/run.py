@@ -1,0 +1,306 @@
+"""Runs: an engine is advanced, its samples and integrals are written, and the run knows when it is done.
+
+The running integrals are recorded 40 times per nominal cage revolution, at the ends of the
+first steps past a fixed grid of times. Neither records nor samples depend on when the
+file is flushed, so a resumed run writes what an uninterrupted one would have written.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from lambda_core.errors import PartialResultError, SolverError, UsageError
+from lambda_core.physics.channels import RINGS
+from lambda_core.physics.model import BearingModel, Solver
+from lambda_core.physics.time_functions import peak
+from lambda_core.simulate.averages import COLUMNS, FloatArray, Interval, boundaries, finite, row
+from lambda_core.simulate.checkpoint import Checkpoint, Position
+from lambda_core.simulate.convergence import Window, revolutions_wanted, shortfalls, window
+from lambda_core.simulate.engine import Advance, Engine
+from lambda_core.simulate.progress import Progress, Report, StopRequest, stop_request
+from lambda_core.simulate.provenance import Provenance
+from lambda_core.simulate.results import Result, ResultError
+from lambda_core.simulate.status import Rows, State, Status, this_process
+from lambda_core.simulate.writer import ResultWriter
+
+RECORDS_PER_REVOLUTION = 40
+_FLUSH_AFTER = 1.0  # wall time [s]
+_FLUSH_SAMPLES = 4096
+_REPORT_AFTER = 0.1  # wall time [s]
+
+
+def run(
+    engine: Engine, provenance: Provenance, path: Path, *, force: bool = False, report: Report | None = None
+) -> Result:
+    """Simulate from the start until the end, into a new result file.
+
+    Parameters
+    ----------
+    engine : Engine
+        At t = 0.
+    provenance : Provenance
+        The model and the keys of the code that `engine` runs.
+    path : pathlib.Path
+        Where the result goes; must not exist unless `force` is set.
+    report : callable, optional
+        Called with a :class:`Progress` some ten times a second.
+
+    Returns
+    -------
+    Result
+        Also when the run was stopped early (its ``status`` says so).
+
+    Raises
+    ------
+    SolverError
+        When the engine cannot go on; the file keeps what there is.
+    PartialResultError
+        When the disk takes no more; the file keeps what there is.
+    """
+    start = row(engine.time, engine.integrals())
+    status = Status(process=this_process())
+    writer = ResultWriter.create(path, provenance, engine.channels, status, force=force)
+    writer.add(engine.samples(), start, [start])
+    return _Session(engine, provenance.model, writer, [start], start, Position(0, Rows(), 0.0), report).drive()
+
+
+def resume(engine: Engine, provenance: Provenance, path: Path, *, report: Report | None = None) -> Result:
+    """Continue a run that was killed, stopped or finished, from its last checkpoint.
+
+    Parameters and errors as for :func:`run`; `engine` is new and its model's `solver` says
+    when to end.
+
+    Raises
+    ------
+    ResultError
+        When the run is still going on, has nothing left to do, or holds no checkpoint.
+    """
+    result = Result(path)
+    status = result.status()
+    if status.alive():
+        raise ResultError(f"{path} is still being written by process {status.process['pid']}")
+    checkpoint = result.checkpoint()
+    if checkpoint is None:
+        raise ResultError(f"{path} holds no checkpoint: run the case again")
+    position = checkpoint.position
+    engine.restore(checkpoint.state)
+    start = result.integrals()[position.rows.records - 1]
+    known = list(result.revolutions()[: position.rows.revolutions])
+    if status.state == "finished" and not _left_to_do(provenance.model.solver, engine.time, known, start):
+        raise UsageError(f"{path} is finished: nothing is left to do; a longer --duration continues it")
+    status = replace(status, state="running", message="", rows=position.rows, process=this_process())
+    writer = ResultWriter.continued(path, engine.channels, status)
+    return _Session(engine, provenance.model, writer, known, start, position, report).drive()
+
+
+def _left_to_do(solver: Solver, now: float, known: list[FloatArray], last: FloatArray) -> bool:
+    if solver.duration > 0.0:
+        return now < solver.duration
+    return now < solver.max_duration and not _converged(solver, known, last)
+
+
+def _converged(solver: Solver, known: list[FloatArray], last: FloatArray) -> bool:
+    chosen = window(solver, np.stack(known), last)
+    return not shortfalls(solver, chosen, Interval(known[0], last).energy_residual())
+
+
+def record_interval(engine: Engine, model: BearingModel) -> float:
+    """Return the simulated time between records [s]: 1/40 of a nominal cage revolution.
+
+    The engine's default of 200 samples per cage revolution says how long that is; with an
+    interval of one's own, the inner ring's planned speed and D_w/d_m do.
+    """
+    if model.output.interval == 0.0:
+        return engine.sample_interval * 200.0 / RECORDS_PER_REVOLUTION
+    speed = peak(model.inner_ring.dofs["spin"].motion)
+    if speed == 0.0:
+        return engine.sample_interval
+    geometry = model.geometry
+    cage = 0.5 * (1.0 - geometry.ball_diameter / geometry.pitch_diameter) * speed
+    return 2.0 * math.pi / cage / RECORDS_PER_REVOLUTION
+
+
+class _Session:
+    """One stretch of a run, from a start or a checkpoint to an end."""
+
+    def __init__(
+        self,
+        engine: Engine,
+        model: BearingModel,
+        writer: ResultWriter,
+        known: list[FloatArray],
+        last: FloatArray,
+        position: Position,
+        report: Report | None,
+    ) -> None:
+        self._engine = engine
+        self._solver = model.solver
+        self._writer = writer
+        self._known = known  # rows at whole cage revolutions, the first is t = 0
+        self._last = last
+        self._before = position  # what earlier sessions spent
+        self._counters = engine.statistics()
+        self._sequence = position.sequence
+        self._report = report
+        self._interval = record_interval(engine, model)
+        self._checkpoint_after = model.output.checkpoint_interval
+        self._end = model.solver.duration or model.solver.max_duration
+        self._window: Window = window(self._solver, np.stack(known), last)
+        self._converged = False
+        self._off_grid = Rows()  # records and revolutions at the tail that a longer run would not have
+        self._recent = Interval(last, last)
+        self._loads: tuple[float, ...] = ()
+        self._from = engine.time
+        self._started = time.perf_counter()
+        self._flushed = self._saved = self._reported = self._started
+
+    def drive(self) -> Result:
+        """Advance until the end, a limit or a request to stop; return the result."""
+        try:
+            self._save()
+            with stop_request() as stop:
+                state, message = self._loop(stop)
+            self._finish(state, message, save=state != "failed")
+        except PartialResultError:
+            raise
+        except BaseException as error:
+            state = "interrupted" if isinstance(error, KeyboardInterrupt) else "failed"
+            self._finish(state, _words(error), save=False)  # the engine may stand in the middle of a step
+            raise
+        if state == "failed":
+            raise SolverError(
+                f"{message}; the result up to t = {self._engine.time:.6g} s is kept in {self._writer.path}"
+            )
+        return Result(self._writer.path)
+
+    def _loop(self, stop: StopRequest) -> tuple[State, str]:
+        while not self._done():
+            if stop:
+                return "interrupted", f"stopped by {stop.words()} at t = {self._engine.time:.6g} s"
+            wall = time.perf_counter() - self._started
+            if wall >= self._solver.max_wall:
+                return "stopped", f"the limit of wall time was reached at t = {self._engine.time:.6g} s"
+            advance = self._advance()
+            if not advance.ok:
+                return "failed", advance.message
+            self._housekeeping()
+        return "finished", ""
+
+    def _advance(self) -> Advance:
+        """Take the engine past the next record and keep what it brings."""
+        engine = self._engine
+        before = engine.time
+        target = _next(before, self._interval)
+        advance = engine.advance(min(target, self._end))
+        if advance.ok and engine.time <= before:
+            advance = Advance(False, f"the engine does not get past t = {before:.9g} s")
+        samples = engine.samples()
+        if len(samples.get("time", ())):
+            self._loads = tuple(samples["load"][-1, :, RINGS.index("inner")].tolist())
+        record = row(engine.time, engine.integrals())
+        crossed = boundaries(self._last, record, len(self._known) - 1)
+        self._writer.add(samples, record, crossed)
+        self._recent, self._last = Interval(self._last, record), record
+        self._known.extend(crossed)
+        if crossed or not self._window.revolutions:
+            self._window = window(self._solver, np.stack(self._known), record)
+            self._converged = bool(crossed) and _converged(self._solver, self._known, record)
+        # An end between two records is none of the grid's: a longer run would not have stopped here.
+        self._off_grid = Rows(0, 1, len(crossed)) if engine.time < target else Rows()
+        return advance
+
+    def _done(self) -> bool:
+        if self._engine.time >= self._end:
+            return True
+        return self._solver.duration == 0.0 and self._converged
+
+    def _housekeeping(self) -> None:
+        """Report, flush and save when it is time to; none of it touches the simulation."""
+        now = time.perf_counter()
+        if self._report is not None and now - self._reported >= _REPORT_AFTER:
+            self._reported = now
+            self._report(self._progress())
+        if now - self._saved >= self._checkpoint_after:
+            self._save()
+        elif now - self._flushed >= _FLUSH_AFTER or self._writer.pending() >= _FLUSH_SAMPLES:
+            self._writer.flush(self._status("running", ""))
+            self._flushed = time.perf_counter()
+
+    def _save(self) -> None:
+        """Flush, then write a checkpoint of what was flushed."""
+        self._writer.flush(self._status("running", ""))
+        status = self._status("running", "")
+        written, tail = self._writer.written(), self._off_grid
+        rows = Rows(written.samples, written.records - tail.records, written.revolutions - tail.revolutions)
+        self._sequence += 1
+        position = Position(self._sequence, rows, status.wall, status.statistics)
+        self._writer.save(Checkpoint(position, self._engine.state()))
+        self._saved = self._flushed = time.perf_counter()
+
+    def _finish(self, state: State, message: str, *, save: bool = True) -> None:
+        if save:
+            self._save()
+        self._writer.flush(self._status(state, message))
+        self._writer.close(compress=True)
+        if self._report is not None and save:
+            self._report(self._progress())
+
+    def _status(self, state: State, message: str) -> Status:
+        """Return the state of the run; the writer fills in the rows."""
+        spent = self._before.statistics
+        counters = {
+            name: spent.get(name, 0.0) + count - self._counters.get(name, 0.0)
+            for name, count in self._engine.statistics().items()
+        }
+        wall = self._before.wall + time.perf_counter() - self._started
+        return Status(state, message, wall=wall, statistics=counters, process=this_process())
+
+    def _progress(self) -> Progress:
+        turns = abs(self._last[COLUMNS.index("cage_angle")]) / (2.0 * math.pi)
+        wanted, end = self._expected(turns)
+        status = self._status("running", "")
+        now = self._engine.time
+        session = time.perf_counter() - self._started
+        advanced = now - self._from
+        left = (end - now) * session / advanced if advanced > 0.0 else math.nan
+        return Progress(
+            time_s=now,
+            percent=min(100.0 * now / end, 100.0),
+            cage_revolutions=turns,
+            cage_revolutions_wanted=wanted,
+            averaged=self._window.revolutions,
+            friction_torque_Nmm=finite(1e3 * self._window.interval.torque()),
+            friction_torque_ci_Nmm=finite(1e3 * self._window.torque.half_width),
+            friction_torque_now_Nmm=finite(1e3 * self._recent.torque()),
+            cage_speed_ratio=finite(self._recent.ratio("cage_angle", "inner_angle")),
+            energy_residual=finite(Interval(self._known[0], self._last).energy_residual()),
+            inner_loads_N=self._loads,
+            wall_s=status.wall,
+            left_s=finite(max(left, 0.0)),
+        )
+
+    def _expected(self, turns: float) -> tuple[float, float]:
+        """Return the cage revolutions and the simulated time [s] that the run will take in all, by what is known."""
+        now = self._engine.time
+        per_turn = now / turns if turns > 0.2 else self._interval * RECORDS_PER_REVOLUTION
+        if self._solver.duration > 0.0:
+            return self._end / per_turn, self._end
+        wanted = revolutions_wanted(self._solver, self._window)
+        return float(wanted), max(min(wanted * per_turn, self._end), now)
+
+
+def _next(now: float, interval: float) -> float:
+    """Return the first multiple of `interval` after `now`, whatever the rounding."""
+    number = math.floor(now / interval) + 1
+    while number * interval <= now:
+        number += 1
+    return number * interval
+
+
+def _words(error: BaseException) -> str:
+    return str(error) or type(error).__name__

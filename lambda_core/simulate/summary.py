@@ -1,0 +1,244 @@
+"""The machine interface: what one run says about friction, kinematics, films and capacitances."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field
+
+from lambda_core.errors import UsageError
+from lambda_core.physics.channels import RINGS
+from lambda_core.physics.model import Solver
+from lambda_core.simulate.averages import Interval, finite
+from lambda_core.simulate.convergence import Window, shortfalls, window
+
+if TYPE_CHECKING:
+    from lambda_core.simulate.results import Result
+
+INTERFACE = 1
+Ring = Literal["inner", "outer"]  # in the order of channels.RINGS
+_MECHANISMS_OF_CAGE = ("pocket", "land")
+# A contact below this share of the largest load does not count as carrying it.
+_CARRYING = 0.01
+
+
+class _Record(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class Contact(_Record):
+    """One ball - raceway contact at the end of the run."""
+
+    ball: int = Field(description="number of the ball, from 1")
+    ring: Ring
+    azimuth_deg: float = Field(description="azimuth of the ball from +y towards +z, 0..360")
+    load_N: float
+    contact_angle_deg: float
+    film_um: float | None = Field(description="central film thickness; null without contact")
+    capacitance_pF: float | None = Field(description="null where asperities short the contact")
+
+
+class Equilibrium(_Record):
+    """The quasi-static state that the run started from."""
+
+    loaded_balls: int
+    max_load_N: float
+    max_pressure_GPa: float
+
+
+class Summary(_Record):
+    """Averages over whole cage revolutions, and the end state.
+
+    The names are stable under one number of `interface`. A number that does not exist
+    yet (an average before the first whole cage revolution) is null.
+    """
+
+    interface: int = INTERFACE
+    case: str
+    title: str
+    file: str
+    state: Literal["running", "finished", "stopped", "interrupted", "failed"]
+    converged: bool
+    reasons: list[str] = Field(description="why the run is not converged; empty when it is")
+
+    friction_torque_Nmm: float | None = Field(description="dissipated power over |Omega_i - Omega_o|")
+    friction_torque_ci_Nmm: float | None = Field(description="95 % confidence half-width of friction_torque_Nmm")
+    input_torque_Nmm: float | None = Field(description="work of the drives over the relative angle")
+    friction_breakdown_Nmm: dict[str, float | None] = Field(description="parts of friction_torque_Nmm; they add up")
+    cage_speed_ratio: float | None = Field(description="mean cage speed over inner ring speed")
+    cage_speed_over_epicyclic: float | None
+    epicyclic_ratio: float | None = Field(description="cage speed over inner ring speed without slip")
+    contacts: list[Contact] = Field(description="every ball - raceway contact at the end state")
+    inner_ring_displacement_um: list[float | None] = Field(description="mean position x, y, z")
+    max_pressure_GPa: float | None = Field(description="largest Hertzian pressure of the averaging window")
+    min_film_um: float | None = Field(description="smallest minimum film under load in the averaging window")
+    film_um: list[float] = Field(description="smallest and largest central film under load at the end state")
+    film_parameter: list[float] = Field(description="smallest and largest Lambda under load at the end state")
+    contact_capacitance_pF: list[float] = Field(description="smallest and largest under load at the end state")
+    bearing_capacitance_nF: float | None = Field(description="at the end state")
+    energy_residual: float | None = Field(description="(input - dissipated - stored) over integral of |input power|")
+
+    revolutions_discarded: int = Field(description="whole cage revolutions before averaging")
+    revolutions_averaged: int = Field(description="whole cage revolutions averaged")
+    simulated_s: float
+    wall_s: float = Field(description="wall time of the integration")
+    wall_per_simulated_second: float | None
+    wall_per_revolution_s: float | None = Field(description="per revolution of the inner ring against the outer")
+    solver_statistics: dict[str, float]
+    equilibrium: Equilibrium
+    assumptions: list[str]
+
+
+def summarise(result: Result) -> Summary:
+    """Compute the summary of a result from its file."""
+    status = result.status()
+    if not status.rows.samples or not status.rows.records:
+        raise UsageError(f"{result.path} holds no samples yet")
+    integrals = result.integrals()
+    settings = Solver(**{name: float(value) for name, value in result.model["solver"].items()})
+    last = integrals[-1]
+    whole = Interval(integrals[0], last)
+    chosen = window(settings, result.revolutions(), last)
+    residual = whole.energy_residual()
+    reasons = _reasons(status.state, status.message, shortfalls(settings, chosen, residual))
+    span = _Span.of(result, float(chosen.interval.first[0]))
+    epicyclic = _epicyclic(result, span.cos_angle)
+    ratio = chosen.interval.ratio("cage_angle", "inner_angle")
+    end = _End(_sample(result, -1))
+    time = whole.change("time")
+    revolutions = whole.change("relative_angle") / (2.0 * math.pi)
+    return Summary(
+        case=result.case,
+        title=result.title,
+        file=str(result.path),
+        state=status.state,
+        converged=not reasons,
+        reasons=reasons,
+        friction_torque_Nmm=finite(1e3 * chosen.interval.torque()),
+        friction_torque_ci_Nmm=finite(1e3 * chosen.torque.half_width),
+        input_torque_Nmm=finite(1e3 * chosen.interval.ratio("drive", "relative_angle")),
+        friction_breakdown_Nmm=_breakdown(chosen),
+        cage_speed_ratio=finite(ratio),
+        cage_speed_over_epicyclic=finite(ratio / epicyclic),
+        epicyclic_ratio=finite(epicyclic),
+        contacts=end.contacts,
+        inner_ring_displacement_um=[finite(1e6 * value) for value in chosen.interval.position()],
+        max_pressure_GPa=finite(1e-9 * span.pressure),
+        min_film_um=finite(1e6 * span.film),
+        film_um=end.film_um,
+        film_parameter=end.film_parameter,
+        contact_capacitance_pF=end.capacitance_pF,
+        bearing_capacitance_nF=end.bearing_capacitance_nF,
+        energy_residual=finite(residual),
+        revolutions_discarded=chosen.discarded,
+        revolutions_averaged=chosen.revolutions,
+        simulated_s=time,
+        wall_s=status.wall,
+        wall_per_simulated_second=finite(_quotient(status.wall, time)),
+        wall_per_revolution_s=finite(_quotient(status.wall, revolutions)),
+        solver_statistics=status.statistics,
+        equilibrium=_equilibrium(result),
+        assumptions=list(result.assumptions),
+    )
+
+
+def _reasons(state: str, message: str, found: list[str]) -> list[str]:
+    """Put the end first: a run that did not reach it is not converged, whatever its averages say."""
+    ends = {"running": "the run has not reached its end", "failed": "the solver could not go on"}
+    if state == "finished":
+        return found
+    return [message or ends.get(state, "the run was stopped before its end"), *found]
+
+
+def _breakdown(chosen: Window) -> dict[str, float | None]:
+    """Return the mechanisms with the cage's two contacts as one [N mm]."""
+    parts = chosen.interval.breakdown()
+    parts["cage"] = sum(parts.pop(name) for name in _MECHANISMS_OF_CAGE)
+    return {name: finite(1e3 * value) for name, value in parts.items()}
+
+
+@dataclass(frozen=True)
+class _Span:
+    """What the samples of the averaging window say about contacts under load."""
+
+    pressure: float  # largest [Pa]
+    film: float  # smallest minimum film [m]
+    cos_angle: float  # mean cosine of the contact angle, weighted by load
+
+    @staticmethod
+    def of(result: Result, start: float) -> _Span:
+        pressure, film, weighted, total = 0.0, math.inf, 0.0, 0.0
+        for block in result.blocks(("load", "max_pressure", "film_minimum", "contact_angle"), start):
+            load = block["load"]
+            loaded = load > 0.0
+            if not loaded.any():
+                continue
+            pressure = max(pressure, float(block["max_pressure"][loaded].max()))
+            film = min(film, float(block["film_minimum"][loaded].min()))
+            weighted += float((load[loaded] * np.cos(block["contact_angle"][loaded])).sum())
+            total += float(load[loaded].sum())
+        return _Span(pressure, film, weighted / total if total > 0.0 else math.nan)
+
+
+def _epicyclic(result: Result, cos_angle: float) -> float:
+    """Return cage speed over inner ring speed in rolling without slip, both against the outer ring.
+
+    (1 - D_w cos(alpha)/d_m)/2, Harris and Kotzalas, Essential Concepts of Bearing Technology,
+    5th ed., ch. 10; alpha is the mean over the loaded contacts.
+    """
+    geometry = result.model["geometry"]
+    ratio = float(geometry["ball_diameter"] / geometry["pitch_diameter"])
+    return 0.5 * (1.0 - ratio * cos_angle)
+
+
+class _End:
+    """The last sample, in the units of the interface."""
+
+    def __init__(self, last: dict[str, NDArray[np.float64]]) -> None:
+        load = last["load"]
+        self.contacts = [
+            Contact(
+                ball=ball + 1,
+                ring=name,
+                azimuth_deg=math.degrees(float(last["ball_azimuth"][ball])) % 360.0,
+                load_N=float(load[ball, ring]),
+                contact_angle_deg=math.degrees(float(last["contact_angle"][ball, ring])),
+                film_um=finite(1e6 * float(last["film_central"][ball, ring])) if load[ball, ring] > 0.0 else None,
+                capacitance_pF=finite(1e12 * float(last["capacitance"][ball, ring])),
+            )
+            for ball in range(load.shape[0])
+            for ring, name in enumerate(get_args(Ring))
+        ]
+        carrying = load > _CARRYING * load.max()
+        self.film_um = _range(1e6 * last["film_central"][carrying])
+        self.film_parameter = _range(last["film_parameter"][carrying])
+        self.capacitance_pF = _range(1e12 * last["capacitance"][carrying])
+        self.bearing_capacitance_nF = finite(1e9 * float(last["bearing_capacitance"]))
+
+
+def _sample(result: Result, row: int) -> dict[str, NDArray[np.float64]]:
+    names = ("load", "ball_azimuth", "contact_angle", "film_central", "film_parameter", "max_pressure")
+    return result.sample(row, (*names, "capacitance", "bearing_capacitance"))
+
+
+def _equilibrium(result: Result) -> Equilibrium:
+    first = _sample(result, 0)
+    load = first["load"][:, RINGS.index("inner")]
+    return Equilibrium(
+        loaded_balls=int((load > _CARRYING * load.max()).sum()),
+        max_load_N=float(load.max()),
+        max_pressure_GPa=1e-9 * float(first["max_pressure"].max()),
+    )
+
+
+def _range(values: NDArray[np.float64]) -> list[float]:
+    finite = values[np.isfinite(values)]
+    return [float(finite.min()), float(finite.max())] if finite.size else []
+
+
+def _quotient(numerator: float, denominator: float) -> float:
+    return numerator / denominator if denominator > 0.0 else math.nan
