@@ -8,6 +8,8 @@ from pathlib import Path
 
 from lambda_core.errors import LambdaError
 
+_LIBRARIES = {"pydantic", "numpy", "numba", "scipy", "importlib"}
+
 
 class PluginError(LambdaError):
     """A plugin, or a model that it brings, cannot be used; exits like an invalid case."""
@@ -32,12 +34,14 @@ class PluginFault:
 
 
 def describe(error: BaseException) -> str:
-    """Return type, message and innermost place of an exception raised inside a plugin."""
-    frames = traceback.extract_tb(error.__traceback__)
-    place = ""
-    if isinstance(error, SyntaxError) and error.filename:
-        place = f" ({Path(error.filename).name}, line {error.lineno})"
-    elif frames:
-        place = f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})"
-    text = error.msg if isinstance(error, SyntaxError) else " ".join(str(error).split())
-    return f"{type(error).__name__}: {text}{place}" if text else f"{type(error).__name__}{place}"
+    """Return type, message and place of an exception raised inside a plugin.
+
+    The place is the innermost one that lies in no library.
+    """
+    places = [(frame.filename, frame.lineno) for frame in traceback.extract_tb(error.__traceback__)]
+    text = " ".join(str(error).split())
+    if isinstance(error, SyntaxError):
+        text, places = error.msg, [(error.filename or "", error.lineno)]
+    own = [place for place in places if not _LIBRARIES & set(Path(place[0]).parts) and not place[0].startswith("<")]
+    where = f" ({Path(own[-1][0]).name}, line {own[-1][1]})" if own else ""
+    return f"{type(error).__name__}{': ' if text else ''}{text}{where}"

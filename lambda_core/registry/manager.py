@@ -8,7 +8,7 @@ role interface is switched off as a whole and kept as a named fault; the rest wo
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib.metadata import EntryPoint, entry_points
@@ -143,6 +143,8 @@ def _add(manager: pluggy.PluginManager, source: Source, collection: Collection) 
         plugin = source.load()
     except (Exception, SystemExit) as error:
         return f"cannot be imported: {describe(error)}"
+    if not isinstance(plugin, Hashable):
+        return f"is a {type(plugin).__name__}: the entry point has to name a module with hooks"
     name = f"{source.project}:{source.name}"
     try:
         manager.register(plugin, name=name)

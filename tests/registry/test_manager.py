@@ -1,0 +1,203 @@
+"""Discovery: one broken plugin is named and left out, the rest works."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from lambda_core.errors import UsageError
+from lambda_core.plugins import LazyModel, Model, hookimpl, model
+from lambda_core.registry import manager
+from lambda_core.registry.faults import PluginError
+from lambda_core.registry.manager import Source, discover
+from lambda_core.registry.registry import Registry
+
+
+def kernel(Lambda: float, par: Any, out: Any) -> int:
+    """Half of the load."""
+    out[0] = 0.5
+    return 1
+
+
+def law(name: str = "half", **changes: Any) -> Model:
+    return model("asperity_load", name, kernel, **({"reference": "own work"} | changes))
+
+
+def hooks(**functions: Any) -> ModuleType:
+    """Return a plugin module with these functions in it."""
+    module = ModuleType("trial_plugin")
+    vars(module).update(functions)
+    return module
+
+
+def plugin(*items: Any, hook: str = "lambda_models") -> Any:
+    """Return a plugin object whose hook registers `items`."""
+
+    def implementation(register: Callable[[Any], None]) -> None:
+        for item in items:
+            register(item)
+
+    return hooks(**{hook: hookimpl(implementation)})
+
+
+def source(project: str, found: Any, name: str = "main") -> Source:
+    """Return a plugin to load; an exception is raised instead of returned."""
+
+    def load() -> object:
+        if isinstance(found, BaseException):
+            raise found
+        return found
+
+    return Source(project, "1.2", name, load)
+
+
+GOOD = source("good", plugin(law("good-law")))
+
+
+def faults(registry: Registry) -> dict[str, str]:
+    return {fault.distribution: fault.message for fault in registry.faults}
+
+
+def test_models_know_their_distribution_and_keep_their_order() -> None:
+    registry = discover([source("first", plugin(law("b"), law("a"))), GOOD])
+    assert registry.names("asperity_load") == ("b", "a", "good-law")
+    assert registry.model("asperity_load", "a").distribution == "first 1.2"
+    assert registry.model("asperity_load", "a").label == "asperity_load/a (first 1.2)"
+    assert [m.name for m in registry.models("asperity_load").values()] == ["b", "a", "good-law"]
+    assert registry.faults == ()
+
+
+@pytest.mark.parametrize(
+    ("broken", "words"),
+    [
+        (ModuleNotFoundError("No module named 'nowhere'"), ["cannot be imported", "ModuleNotFoundError", "nowhere"]),
+        (SystemExit(3), ["cannot be imported", "SystemExit"]),
+        (plugin(law(), hook="lambda_modles"), ['"lambda_modles" is not a known hook', "lambda_models"]),
+        (hooks(lambda_models=hookimpl(lambda enrol: None)), ["does not fit the hooks", "enrol"]),
+        (hooks(lambda_models=lambda register: None), ["lambda_models is not marked", "@hookimpl"]),
+        (hooks(), ["implements no hook"]),
+        ({"lambda_models": 1}, ["is a dict", "has to name a module"]),
+        (hooks(lambda_models=hookimpl(lambda register: 1 / 0)), ["lambda_models raised", "ZeroDivisionError"]),
+        (plugin(law("good-law")), ['"good-law" is already taken by good 1.2']),
+        (plugin(law("twice"), law("twice")), ['"twice" is already taken by broken 1.2']),
+        (plugin(law(role_api=2)), ["version 2 of the role interface", "this program has 1"]),
+        (plugin(model("asperity_laod", "x", kernel, reference="r")), ['"asperity_laod"', "nearest: asperity_load"]),
+        (plugin(law("Half Load")), ['"Half Load" is not in lower case with hyphens']),
+        (plugin(law(reference=" ")), ["has no reference"]),
+        (plugin(law(parameters=dict)), ["not a pydantic BaseModel"]),
+        (plugin(kernel), ["registers a function", "model(role, name"]),
+        (plugin(LazyModel("asperity_load", "x", "no target")), ['"package.module:attribute"']),
+        (plugin("/nowhere/at/all", hook="lambda_data"), ["/nowhere/at/all does not exist"]),
+        (plugin(object(), hook="lambda_methods"), ["lambda_methods registers a object without a name"]),
+    ],
+)
+def test_a_broken_plugin_is_named_and_the_rest_works(broken: Any, words: list[str]) -> None:
+    registry = discover([GOOD, source("broken", broken)])
+    assert list(faults(registry)) == ["broken 1.2"]
+    for word in words:
+        assert word in faults(registry)["broken 1.2"]
+    assert registry.names("asperity_load") == ("good-law",)
+
+
+def test_a_plugin_is_taken_whole_or_not_at_all() -> None:
+    registry = discover([GOOD, source("broken", plugin(law("fine"), law("good-law")))])
+    assert registry.names("asperity_load") == ("good-law",)
+
+
+def test_the_catalogue_hook_of_a_refused_plugin_is_not_called() -> None:
+    broken = plugin(law("good-law"))
+    broken.lambda_catalogue = hookimpl(lambda seed_folders: "a catalogue")
+    with pytest.raises(PluginError, match=r"no plugin provides a catalogue; not in use: broken 1\.2"):
+        discover([GOOD, source("broken", broken)]).catalogue()
+
+
+def test_the_catalogue_gets_the_folders_of_all_plugins(tmp_path: Path) -> None:
+    opener = hooks(lambda_catalogue=hookimpl(lambda seed_folders: list(seed_folders)))
+    registry = discover([source("store", opener), source("rows", plugin(str(tmp_path), hook="lambda_data"))])
+    assert registry.catalogue() == [tmp_path]  # type: ignore[comparison-overlap]
+    assert registry.data_folders == (("rows 1.2", tmp_path),)
+
+
+@pytest.mark.parametrize("name", ["good", "main"])
+def test_a_plugin_is_switched_off_by_distribution_or_entry_point(name: str) -> None:
+    registry = discover([GOOD], off=[name])
+    assert registry.names("asperity_load") == ()
+    assert faults(registry) == {"good 1.2": "is switched off"}
+    assert not registry.faults[0].is_broken
+
+
+def test_switching_off_what_is_not_installed_is_said() -> None:
+    registry = discover([GOOD], off=["goood"])
+    assert faults(registry) == {"goood": "is switched off but not installed; nearest: good"}
+    assert registry.names("asperity_load") == ("good-law",)
+
+
+def test_an_unknown_model_names_the_nearest_and_everything_there_is() -> None:
+    own = source("lambda-bearing", plugin(law("zhou"), law("none")))
+    registry = discover([own, GOOD, source("broken", RuntimeError("no"))])
+    with pytest.raises(PluginError) as error:
+        registry.model("asperity_load", "good-lwa")
+    assert str(error.value) == (
+        '"good-lwa" is not an asperity_load model; nearest: good-law; '
+        "available: zhou, none, good-law (good 1.2); not in use: broken 1.2"
+    )
+    with pytest.raises(PluginError, match='"asperity" is not a known role; nearest: asperity_load'):
+        registry.model("asperity", "none")
+
+
+class TestLazyModels:
+    """A law that is named without being imported."""
+
+    def lazy(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, attribute: str = "LAW") -> Registry:
+        (tmp_path / "lazy_laws.py").write_text(text)
+        monkeypatch.syspath_prepend(str(tmp_path))
+        monkeypatch.delitem(__import__("sys").modules, "lazy_laws", raising=False)
+        return discover([source("lazy", plugin(LazyModel("asperity_load", "half", f"lazy_laws:{attribute}")))])
+
+    GOOD_TEXT = (
+        "from lambda_core.plugins import model\n"
+        "def kernel(Lambda, par, out):\n    out[0] = 0.5\n    return 1\n"
+        "LAW = model('asperity_load', {name!r}, kernel, reference='r', role_api={api})\n"
+    )
+
+    def test_imported_when_chosen(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        import sys
+
+        registry = self.lazy(tmp_path, monkeypatch, self.GOOD_TEXT.format(name="half", api=1))
+        assert registry.names("asperity_load") == ("half",)
+        assert "lazy_laws" not in sys.modules
+        assert registry.model("asperity_load", "half").distribution == "lazy 1.2"
+        assert "lazy_laws" in sys.modules
+
+    @pytest.mark.parametrize(
+        ("text", "attribute", "words"),
+        [
+            ("import nowhere_at_all", "LAW", "cannot be imported: ModuleNotFoundError.*lazy_laws.py, line 1"),
+            ("LAW = (", "LAW", "cannot be imported: SyntaxError"),
+            ("", "LAW", "has no attribute 'LAW'"),
+            ("LAW = 3", "LAW", "lazy_laws:LAW is a int, not a model"),
+            (GOOD_TEXT.format(name="other", api=1), "LAW", "lazy_laws:LAW is asperity_load/other"),
+            (GOOD_TEXT.format(name="half", api=9), "LAW", "version 9 of the role interface"),
+        ],
+    )
+    def test_faults_name_the_model_and_its_distribution(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, attribute: str, words: str
+    ) -> None:
+        registry = self.lazy(tmp_path, monkeypatch, text, attribute)
+        with pytest.raises(PluginError, match=rf"asperity_load/half \(lazy 1\.2\).*{words}"):
+            registry.model("asperity_load", "half")
+
+
+def test_switch_off_knows_what_is_installed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(manager, "installed", lambda group=manager.GROUP: [GOOD])
+    monkeypatch.setenv(manager.OFF_VARIABLE, " other ,")
+    with pytest.raises(UsageError, match='"goo" is not a known plugin; nearest: good'):
+        manager.switch_off(["goo"])
+    manager.switch_off(["good", "good"])
+    assert manager.switched_off() == ("other", "good")
+    assert faults(manager.registry())["good 1.2"] == "is switched off"
+    manager.registry.cache_clear()

@@ -1,0 +1,101 @@
+"""The hash of everything that a function reaches, and what it refuses to follow."""
+
+from __future__ import annotations
+
+import math
+import random
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lambda_core.registry.reach import UnreachableError, reach
+
+HELPERS = """
+import math
+import numpy as np
+SCALE = 2.0
+TABLE = np.array([1.0, 2.0])
+def deep(x):
+    return SCALE * x
+def shape(x, power=1.0):
+    return deep(x) ** power + TABLE[0]
+"""
+
+
+def module(text: str = HELPERS) -> ModuleType:
+    """Return a module made from text, as an edited file would be in a new process."""
+    made = ModuleType("trial_helpers")
+    exec(text, made.__dict__)
+    return made
+
+
+def function(helpers: ModuleType, body: str = "helpers.shape(x)", **scope: Any) -> Any:
+    names = {"helpers": helpers, "math": math, "np": np, **scope}
+    exec(f"def kernel(x):\n    return {body}", names)
+    return names["kernel"]
+
+
+def test_equal_code_has_an_equal_key_and_names_its_helpers() -> None:
+    one, other = reach(function(module())), reach(function(module()))
+    assert one.key == other.key
+    assert [helper.__name__ for helper in one.helpers] == ["shape", "deep"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("SCALE = 2.0", "SCALE = 2.0000000000000004"),
+        ("SCALE = 2.0", "SCALE = 2"),
+        ("np.array([1.0, 2.0])", "np.array([1.0, 3.0])"),
+        ("np.array([1.0, 2.0])", "np.array([1.0, 2.0], np.float32)"),
+        ("power=1.0", "power=2.0"),
+        ("SCALE * x", "SCALE + x"),
+        ("deep(x) ** power", "deep(x + 1.0) ** power"),
+    ],
+)
+def test_any_edit_changes_the_key(old: str, new: str) -> None:
+    assert old in HELPERS
+    assert reach(function(module())).key != reach(function(module(HELPERS.replace(old, new)))).key
+
+
+def test_names_that_are_not_used_do_not_matter() -> None:
+    assert reach(function(module())).key == reach(function(module(HELPERS + "OTHER = object()\n"))).key
+
+
+def test_closures_are_followed() -> None:
+    def make(factor: float) -> Any:
+        def kernel(x: float) -> float:
+            return factor * x
+
+        return kernel
+
+    assert reach(make(2.0)).key == reach(make(2.0)).key
+    assert reach(make(2.0)).key != reach(make(3.0)).key
+
+
+def test_nested_code_is_followed() -> None:
+    body = "(lambda y: helpers.deep(y))(x)"
+    edited = module(HELPERS.replace("SCALE * x", "SCALE + x"))
+    assert reach(function(module(), body)).key != reach(function(edited, body)).key
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ("thing", '"thing", used by kernel, is a dict'),
+        ("helpers.nothing(x)", 'kernel uses "helpers.nothing", which does not exist'),
+        ("nothing(x)", 'kernel uses "nothing", which does not exist'),
+        ("math.nothing(x)", 'kernel uses "math.nothing", which does not exist'),
+        ("(lambda m: m)(helpers)", 'hands the module "helpers" on'),
+        ("random.random()", 'uses "random": a kernel is a function of its arguments only'),
+        ("np.random.rand()", 'uses "numpy.random"'),
+        ("loop(x)", "loop calls itself: write a loop"),
+    ],
+)
+def test_what_cannot_be_followed_is_refused_by_name(body: str, words: str) -> None:
+    scope: dict[str, Any] = {"thing": {"a": 1}, "random": random}
+    exec("def loop(x):\n    return x if x < 1.0 else loop(x / 2.0)", scope)
+    with pytest.raises(UnreachableError, match=words.replace("(", r"\(").replace(")", r"\)")):
+        reach(function(module(), body, **scope))
