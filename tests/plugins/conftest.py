@@ -1,0 +1,95 @@
+"""Third-party packages, built, installed with pip into a folder of their own, and used from a new process."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+PYPROJECT = """
+[build-system]
+requires = ["hatchling"]
+build-backend = "hatchling.build"
+
+[project]
+name = "{name}"
+version = "{version}"
+
+[project.entry-points."lambda_bearing.plugins"]
+main = "{module}"
+
+[tool.hatch.build.targets.wheel]
+packages = ["{module}"]
+"""
+
+
+def write_package(
+    root: Path, name: str, code: str, version: str = "0.3", files: Mapping[str, str] | None = None
+) -> Path:
+    """Write the sources of a small plugin package and return its folder."""
+    folder, module = root / name, name.replace("-", "_")
+    (folder / module).mkdir(parents=True)
+    (folder / "pyproject.toml").write_text(PYPROJECT.format(name=name, version=version, module=module))
+    (folder / module / "__init__.py").write_text(code)
+    return folder
+
+
+def pip_install(target: Path, sources: Sequence[Path]) -> None:
+    """Install local packages into a folder, without network and without their dependencies."""
+    command = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-build-isolation", "--no-index"]
+    done = subprocess.run(
+        [*command, "--target", str(target), *map(str, sources)], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What the program said."""
+
+    code: int
+    out: str
+    err: str
+
+    @property
+    def data(self) -> Any:
+        return json.loads(self.out)
+
+
+@dataclass(frozen=True)
+class Installation:
+    """A folder with installed third-party packages, seen by new processes."""
+
+    target: Path
+
+    def python(self, code: str, *arguments: str, **environment: str) -> Answer:
+        """Run Python code in a new process that sees the packages."""
+        env = os.environ | {"PYTHONPATH": str(self.target)} | environment
+        done = subprocess.run(
+            [sys.executable, "-c", code, *arguments], env=env, capture_output=True, text=True, check=False
+        )
+        assert "Traceback" not in done.stderr, done.stderr
+        return Answer(done.returncode, done.stdout, done.stderr)
+
+    def program(self, *arguments: str, **environment: str) -> Answer:
+        """Run ``lambda-bearing`` in a new process that sees the packages."""
+        return self.python("from lambda_cli.main import main; raise SystemExit(main())", *arguments, **environment)
+
+
+@pytest.fixture(scope="session")
+def install(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Sequence[Path]], Installation]:
+    """Install packages into a new folder."""
+
+    def installed(sources: Sequence[Path]) -> Installation:
+        target = tmp_path_factory.mktemp("site")
+        pip_install(target, sources)
+        return Installation(target)
+
+    return installed

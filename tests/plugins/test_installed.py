@@ -1,0 +1,186 @@
+"""A good third-party package among bad ones: it works, each bad one is named, the program goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import pytest
+
+from .conftest import Installation, write_package
+
+HEAD = """
+import math
+from pydantic import BaseModel
+from lambda_core.plugins import ROLE_API, Quantity, hookimpl, model
+
+class Parameters(BaseModel):
+    ratio: float = 0.07
+
+"""
+LAW = """
+def law(slip, p, T, ln_eta, h, par, tau):
+    for i in range(tau.size):
+        newtonian = math.exp(min(ln_eta[i], 40.0)) * slip[i] / h
+        limit = par[0] * p[i]
+        tau[i] = {result}
+    return {status}
+
+@hookimpl
+def {hook}(register):
+    register(model("traction", "{name}", law, Parameters, reference="own work"{more}))
+"""
+SOUND = "newtonian * limit / (newtonian + limit + 1e-300)"
+
+
+def code(result: str = SOUND, status: str = "1", hook: str = "lambda_models", name: str = "", more: str = "") -> str:
+    return HEAD + LAW.format(result=result, status=status, hook=hook, name=name, more=more)
+
+
+PACKAGES = {
+    # not in use at all: found at discovery
+    "bad-import": "import a_library_that_is_not_installed\n",
+    "bad-hook": code(name="bad-hook", hook="lambda_modles"),
+    "bad-name": code(name="ree-eyring"),
+    "bad-version": code(name="bad-version", more=", role_api=2"),
+    # listed, refused when chosen or checked
+    "bad-signature": code(name="bad-signature").replace("p, T, ln_eta", "T, p, ln_eta"),
+    "bad-return": code(name="bad-return", status="0.7"),
+    "bad-number": code(name="bad-number", result="math.nan"),
+    "bad-status": code(name="bad-status", status="4"),
+    "bad-index": code(name="bad-index", result="p[i + 1]"),
+    "bad-speed": code(name="bad-speed", result=SOUND).replace(
+        "    for i in",
+        "    for k in range(500):\n        for j in range(tau.size):\n"
+        "            tau[j] = math.exp(-slip[j] * k)\n    for i in",
+    ),
+    "harbour-traction": code(name="harbour"),
+}
+SENTENCES = {
+    "bad-import": "cannot be imported: ModuleNotFoundError: No module named 'a_library_that_is_not_installed'",
+    "bad-hook": '"lambda_modles" is not a known hook; nearest: lambda_models',
+    "bad-name": 'the traction "ree-eyring" is already taken by lambda-bearing',
+    "bad-version": "traction/bad-version is written for version 2 of the role interface; this program has 1",
+}
+REFUSALS = {
+    "bad-signature": "takes (slip, T, p, ln_eta, h, par, tau); traction kernels take (slip, p, T, ln_eta, h, par, tau)",
+    "bad-return": "returns float64 where an int64 status is due",
+    "bad-number": "leaves shear stress [Pa] unwritten or returns NaN with status 1",
+    "bad-status": "returns the status 4; declared: 1",
+    "bad-index": "reads or writes outside its arrays: IndexError",
+}
+
+
+@pytest.fixture(scope="module")
+def site(install: Callable[[Sequence[Path]], Installation], tmp_path_factory: pytest.TempPathFactory) -> Installation:
+    root = tmp_path_factory.mktemp("sources")
+    return install([write_package(root, name, text) for name, text in PACKAGES.items()])
+
+
+def test_every_plugin_that_cannot_be_used_is_named(site: Installation) -> None:
+    answer = site.program("plugins", "list", "--json")
+    assert answer.code == 0
+    faults = {fault["distribution"]: fault for fault in answer.data["faults"]}
+    assert set(faults) == {f"{name} 0.3" for name in SENTENCES}
+    for name, sentence in SENTENCES.items():
+        assert sentence in faults[f"{name} 0.3"]["message"]
+    found = {item["name"]: item["distribution"] for item in answer.data["items"] if item["role"] == "traction"}
+    assert found["harbour"] == "harbour-traction 0.3"
+    assert found["ree-eyring"].startswith("lambda-bearing ")
+    assert set(REFUSALS) < set(found)
+
+
+def test_the_list_for_people_names_them_too(site: Installation) -> None:
+    answer = site.program("plugins", "list", "--role", "traction")
+    lines = answer.out.splitlines()
+    assert any(line.split()[:4] == ["model", "traction", "harbour", "harbour-traction"] for line in lines)
+    assert any(line.startswith("not in use: bad-import 0.3 (main): cannot be imported") for line in lines)
+
+
+@pytest.mark.parametrize("name", sorted(REFUSALS))
+def test_a_model_that_breaks_the_convention_is_refused(site: Installation, name: str) -> None:
+    answer = site.program("plugins", "check", name, "--json")
+    assert answer.code == 3
+    (card,) = answer.data["models"]
+    assert not card["ok"]
+    assert card["faults"][0].startswith(f"traction/{name} ({name} 0.3)")
+    assert REFUSALS[name] in card["faults"][0]
+
+
+def test_a_slow_model_is_named(site: Installation) -> None:
+    answer = site.program("plugins", "check", "bad-speed")
+    assert answer.code == 0
+    assert "traction/bad-speed (bad-speed 0.3) is slow" in answer.out
+
+
+def test_the_good_one_passes(site: Installation) -> None:
+    answer = site.program("plugins", "check", "traction/harbour", "harbour-traction", "--json")
+    assert answer.code == 0
+    (card,) = answer.data["models"]
+    assert card["ok"]
+    assert card["nanoseconds"] > 0.0
+
+
+def test_broken_plugins_make_the_check_of_everything_fail(site: Installation) -> None:
+    answer = site.program("plugins", "check", "bad-import", "--json")
+    assert answer.code == 3
+    assert answer.data["models"] == []
+    assert answer.data["faults"][0]["distribution"] == "bad-import 0.3"
+
+
+@pytest.mark.parametrize("way", ["option", "variable"])
+def test_a_plugin_is_switched_off(site: Installation, way: str) -> None:
+    if way == "option":
+        answer = site.program("--no-plugin", "harbour-traction", "plugins", "list", "--json")
+    else:
+        answer = site.program("plugins", "list", "--json", LAMBDA_BEARING_NO_PLUGIN="bad-import, harbour-traction")
+    assert answer.code == 0
+    assert "harbour" not in {item["name"] for item in answer.data["items"]}
+    (fault,) = [f for f in answer.data["faults"] if f["distribution"] == "harbour-traction 0.3"]
+    assert (fault["message"], fault["is_broken"]) == ("is switched off", False)
+
+
+def test_switching_off_what_is_not_installed_is_a_usage_error(site: Installation) -> None:
+    answer = site.program("--no-plugin", "harbor-traction", "plugins", "list")
+    assert (answer.code, answer.out) == (2, "")
+    assert answer.err.strip() == '"harbor-traction" is not a known plugin; nearest: harbour-traction'
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "words"),
+    [
+        (["show", "harbour"], 2, "is not of the form ROLE/NAME"),
+        (["show", "tracton/harbour"], 2, '"tracton" is not a known role; nearest: traction'),
+        (["show", "traction/harbor"], 3, '"harbor" is not a traction model; nearest: harbour'),
+        (
+            ["check", "harbour"],
+            2,
+            "is not a known distribution, role or ROLE/NAME; nearest: traction/harbour, harbour-traction",
+        ),
+        (["list", "--role", "tracton"], 2, '"tracton" is not a known role; nearest: traction'),
+    ],
+)
+def test_mistakes_get_one_sentence(site: Installation, arguments: list[str], code: int, words: str) -> None:
+    answer = site.program("plugins", *arguments)
+    assert (answer.code, answer.out) == (code, "")
+    assert words in answer.err
+
+
+def test_show_says_everything_about_a_model(site: Installation) -> None:
+    card = site.program("plugins", "show", "traction/harbour", "--json").data
+    assert card["distribution"] == "harbour-traction 0.3"
+    assert card["elements"] == ["ball_inner", "ball_outer"]
+    assert card["parameters"][0]["name"] == "ratio"
+    assert card["parameters"][0]["default"] == "0.07"
+    text = site.program("plugins", "show", "traction/ree-eyring").out
+    assert "tau_eyring" in text
+    assert "6 MPa" in text
+    assert "Johnson and Tevaarwerk 1977" in text
+
+
+def test_listing_imports_no_compiler(site: Installation) -> None:
+    answer = site.python(
+        "import sys\nfrom lambda_core.registry.manager import registry\nregistry().names('traction')\n"
+        "print([m for m in ('numba', 'scipy', 'sqlalchemy', 'lambda_plugins.traction') if m in sys.modules])"
+    )
+    assert answer.out.strip() == "[]"
