@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from sqlalchemy import Connection, delete, insert
+from sqlalchemy import Connection, delete, insert, select
 from sqlalchemy.exc import IntegrityError
 
 from lambda_core.errors import CatalogueError, LambdaError, Problem
@@ -120,6 +120,12 @@ def fill(connection: Connection, plugin_folders: list[Path]) -> None:
 
 def derive_candidates(connection: Connection) -> None:
     """Rank designs for every bearing whose inner geometry is not published."""
+    from lambda_db.estimate import candidate_rows
+
+    bearings = connection.execute(select(table_of("bearing"))).mappings().all()
+    rows = [candidate for bearing in bearings for candidate in candidate_rows(dict(bearing))]
+    if rows:
+        connection.execute(insert(Base.metadata.tables["candidate"]), rows)
 
 
 def build_file(target: Path, plugin_folders: list[Path]) -> None:
