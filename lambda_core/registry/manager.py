@@ -7,6 +7,7 @@ role interface is switched off as a whole and kept as a named fault; the rest wo
 
 from __future__ import annotations
 
+import logging
 import os
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
@@ -26,6 +27,8 @@ GROUP = "lambda_bearing.plugins"
 COMMAND_GROUP = "lambda_bearing.commands"
 OFF_VARIABLE = "LAMBDA_BEARING_NO_PLUGIN"
 _REGISTERING_HOOKS = ("lambda_models", "lambda_methods", "lambda_views", "lambda_data")
+
+log = logging.getLogger("lambda_core")
 
 
 @dataclass(frozen=True)
@@ -84,8 +87,12 @@ def switch_off(names: Iterable[str]) -> None:
 
 @lru_cache(maxsize=1)
 def registry() -> Registry:
-    """Return the registry of this process, discovered at the first call."""
-    return discover(installed(), off=switched_off())
+    """Return the registry of this process, discovered at the first call; broken plugins are logged."""
+    found = discover(installed(), off=switched_off())
+    for fault in found.faults:
+        if fault.is_broken:
+            log.warning("plugin not in use: %s", fault)
+    return found
 
 
 def commands() -> list[Source]:

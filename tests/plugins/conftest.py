@@ -30,9 +30,7 @@ packages = ["{module}"]
 """
 
 
-def write_package(
-    root: Path, name: str, code: str, version: str = "0.3", files: Mapping[str, str] | None = None
-) -> Path:
+def write_package(root: Path, name: str, code: str, version: str = "0.3") -> Path:
     """Write the sources of a small plugin package and return its folder."""
     folder, module = root / name, name.replace("-", "_")
     (folder / module).mkdir(parents=True)
