@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import logging
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import pluggy
 
-from lambda_core.errors import CatalogueError, nearest, unknown_name
+from lambda_core.errors import nearest, unknown_name
 from lambda_core.registry.collect import Collection, is_own, model_fault
 from lambda_core.registry.faults import PluginError, PluginFault, describe
 from lambda_core.registry.model import LazyModel, Model
@@ -21,11 +20,9 @@ from lambda_core.registry.roles import ROLES
 if TYPE_CHECKING:
     from lambda_core.registry.catalogue import Catalogue
 
-log = logging.getLogger("lambda_core")
-
 
 class Registry:
-    """What the installed plugins offer; fixed at discovery, but for rows that turn out to be invalid.
+    """What the installed plugins offer; does not change after discovery.
 
     Attributes
     ----------
@@ -89,38 +86,17 @@ class Registry:
     def catalogue(self) -> Catalogue:
         """Open the catalogue over the built-in rows and the folders that plugins bring.
 
-        The caller closes it. A plugin's folder with invalid rows is left out and becomes a fault.
+        The caller closes it.
 
         Raises
         ------
         PluginError
             When no installed plugin provides one.
         """
-        try:
-            return self._open([folder for _, folder in self.data_folders])
-        except CatalogueError:
-            sound = [(origin, folder) for origin, folder in self.data_folders if self._is_sound(origin, folder)]
-            if len(sound) == len(self.data_folders):
-                raise
-            self.data_folders = tuple(sound)
-            return self._open([folder for _, folder in sound])
-
-    def _open(self, folders: list[Path]) -> Catalogue:
-        found: Catalogue | None = self._hooks.hook.lambda_catalogue(seed_folders=folders)
+        found: Catalogue | None = self._hooks.hook.lambda_catalogue(seed_folders=[f for _, f in self.data_folders])
         if found is None:
             raise PluginError(f"no plugin provides a catalogue{self._not_loaded()}")
         return found
-
-    def _is_sound(self, origin: str, folder: Path) -> bool:
-        """Try one plugin's rows on their own; rows with errors are left out, and it is said whose they are."""
-        try:
-            self._open([folder]).close()
-        except CatalogueError as error:
-            fault = PluginFault(origin, folder.name, f"its catalogue rows are left out: {error}")
-            self.faults = (*self.faults, fault)
-            log.warning("%s", fault)
-            return False
-        return True
 
     def _named(self, kind: str, name: str, known: Mapping[str, Any]) -> Any:
         if name not in known:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from lambda_core.errors import CatalogueError, Problem, UsageError
+from lambda_core.errors import UsageError
 from lambda_core.plugins import LazyModel, Model, hookimpl, model
 from lambda_core.registry import manager
 from lambda_core.registry.faults import PluginError
@@ -120,25 +120,6 @@ def test_the_catalogue_gets_the_folders_of_all_plugins(tmp_path: Path) -> None:
     registry = discover([source("store", opener), source("rows", plugin(str(tmp_path), hook="lambda_data"))])
     assert registry.catalogue() == [tmp_path]  # type: ignore[comparison-overlap]
     assert registry.data_folders == (("rows 1.2", tmp_path),)
-
-
-def test_invalid_rows_are_left_out_and_named(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    class Opened(list[Path]):
-        def close(self) -> None:
-            pass
-
-    def open_catalogue(seed_folders: list[Path]) -> Opened:
-        if any(folder.name == "bad" for folder in seed_folders):
-            raise CatalogueError("bad.csv", [Problem("line 2", "width is negative")])
-        return Opened(seed_folders)
-
-    (tmp_path / "bad").mkdir()
-    (tmp_path / "fine").mkdir()
-    rows = [source(name, plugin(tmp_path / name, hook="lambda_data")) for name in ("bad", "fine")]
-    registry = discover([source("store", hooks(lambda_catalogue=hookimpl(open_catalogue))), *rows])
-    assert registry.catalogue() == [tmp_path / "fine"]  # type: ignore[comparison-overlap]
-    assert "width is negative" in faults(registry)["bad 1.2"]
-    assert "bad 1.2 (bad): its catalogue rows are left out" in caplog.text
 
 
 @pytest.mark.parametrize("name", ["good", "main"])
