@@ -20,6 +20,8 @@ _LAWS: dict[str, dict[str, str]] = {
     "rheology": {
         "vogel-dicke": "vogel_dicke:VOGEL_DICKE",
         "bode": "bode:RHEOLOGY",
+        "roelands": "generic_oils:ROELANDS",
+        "barus-limited": "generic_oils:BARUS_LIMITED",
     },
     "film_thickness": {
         "chittenden": "film_thickness:CHITTENDEN",
@@ -63,12 +65,15 @@ _LAWS: dict[str, dict[str, str]] = {
     },
     "fluid_drag": {
         "skf-catalogue": "fluid_drag:SKF_CATALOGUE",
+        "schaeffler-catalogue": "fluid_drag:SCHAEFFLER_CATALOGUE",
+        "sphere-drag": "sphere_drag:SPHERE_DRAG",
         "none": "fluid_drag:NONE",
     },
     "permittivity": {"bode": "bode:PERMITTIVITY", "constant": "bode:CONSTANT_PERMITTIVITY"},
     "capacitance": {
         "schneider": "capacitance:SCHNEIDER",
         "constant-factor": "capacitance:CONSTANT_FACTOR",
+        "gap-integral": "capacitance:GAP_INTEGRAL",
     },
 }
 

@@ -14,6 +14,7 @@ from pydantic import Field
 from lambda_core.plugins import Context, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
 from lambda_plugins.rheology import capped
+from lambda_plugins.vector_math import log1p
 
 _T_LOW = 223.15  # [K]
 _T_HIGH = 573.15  # [K]; N(T) of the published oil turns negative near 660 K
@@ -68,7 +69,7 @@ def pressure_scale(T: float, par: FloatArray) -> float:
 def bode_density(p: float, T: float, par: FloatArray) -> float:
     """Return rho [kg/m3] = rho_s (1 - alpha_s T)/(1 - a1 ln(1 + p/N)), p in Pa, T in K within range."""
     bar = 1e-5 * p if p > 0.0 else 0.0
-    compression = 1.0 - par[2] * math.log(1.0 + bar / pressure_scale(T, par))
+    compression = 1.0 - par[2] * log1p(bar / pressure_scale(T, par))
     density: float = par[0] * (1.0 - par[1] * T) / (compression if compression > 0.1 else 0.1)
     return density
 

@@ -22,7 +22,7 @@ def immersion(azimuth: float, level: float, pitch_radius: float, ball_radius: fl
     """Return the submerged share of a ball's volume, 0..1.
 
     The ball's centre stands pitch_radius (1 + sin azimuth) above the lowest point of the pitch circle (azimuth from +y
-    to +z, gravity along -z). A spherical cap of depth 2 R x holds the share x^2 (3 - 2 x) of the sphere: smooth as it is.
+    to +z, gravity along -z). A spherical cap of depth 2 R x holds the share x^2 (3 - 2 x) of the sphere, a smooth law.
     """
     depth = level - pitch_radius * (1.0 + math.sin(azimuth))
     x = 0.5 * (depth / ball_radius + 1.0)

@@ -16,6 +16,16 @@ _MAX_RATIO = 2.0e4  # of the principal radii; range of the exact model's fit
 _DEGREE = 28
 
 
+def chebyshev(x: float, coefficients: FloatArray, start: int, count: int) -> float:
+    """Return the Chebyshev series at `x` in -1..1 of `count` coefficients from `start` on (Clenshaw's recurrence)."""
+    b1 = 0.0
+    b2 = 0.0
+    for i in range(start + count - 1, start, -1):
+        b1, b2 = 2.0 * x * b1 - b2 + coefficients[i], b1
+    value: float = x * b1 - b2 + coefficients[start]
+    return value
+
+
 def ellipse_from_penetration(
     delta: float, R_x: float, R_y: float, E_eff: float, k: float, first: float, second: float, out: FloatArray
 ) -> None:
@@ -67,15 +77,9 @@ def hertz_exact(delta: float, R_x: float, R_y: float, E_eff: float, par: FloatAr
         return 2
     x = 2.0 * math.log(ratio) / math.log(_MAX_RATIO) - 1.0
     n = _DEGREE + 1
-    # Clenshaw's recurrence for ln k, F and eps together.
-    k1 = k2 = f1 = f2 = e1 = e2 = 0.0
-    for i in range(n - 1, 0, -1):
-        k1, k2 = 2.0 * x * k1 - k2 + par[i], k1
-        f1, f2 = 2.0 * x * f1 - f2 + par[n + i], f1
-        e1, e2 = 2.0 * x * e1 - e2 + par[2 * n + i], e1
-    k = math.exp(x * k1 - k2 + par[0])
-    first = x * f1 - f2 + par[n]
-    second = x * e1 - e2 + par[2 * n]
+    k = math.exp(chebyshev(x, par, 0, n))
+    first = chebyshev(x, par, n, n)
+    second = chebyshev(x, par, 2 * n, n)
     ellipse_from_penetration(delta, R_x, R_y, E_eff, k, first, second, out)
     return 1
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from lambda_plugins.fields import FloatArray
+
 
 def smooth_min(value: float, limit: float, width: float) -> float:
     """Return min(value, limit) with the corner rounded by a parabola within `limit` -+ `width`.
@@ -27,3 +29,16 @@ def cubic_friction_slope(speed: float, mu_s: float, mu_d: float, v_s: float, v_d
     d = (speed - v_s) / (v_d - v_s)
     d = d if d < 1.0 else 1.0
     return (mu_s + (mu_d - mu_s) * d * d * (3.0 - 2.0 * d)) / speed
+
+
+POLYNOMIAL_TERMS = 13
+
+
+def polynomial(x: float, c: FloatArray, start: int) -> float:
+    """Return sum c[start + i] x^i of 13 terms; spelled out, so that loops over cells vectorise."""
+    s = start
+    low = c[s] + x * (c[s + 1] + x * (c[s + 2] + x * (c[s + 3] + x * (c[s + 4] + x * (c[s + 5] + x * c[s + 6])))))
+    high = c[s + 7] + x * (c[s + 8] + x * (c[s + 9] + x * (c[s + 10] + x * (c[s + 11] + x * c[s + 12]))))
+    x2 = x * x
+    value: float = low + x2 * x2 * x2 * x * high
+    return value

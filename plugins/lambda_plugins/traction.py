@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import Annotated
 
 from lambda_core.plugins import Quantity, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
 from lambda_plugins.shapes import smooth_min
+from lambda_plugins.vector_math import asinh, exp
 
 _LOG_ETA_MAX = 60.0  # exp() of it is finite with room to spare; far above any liquid
 
@@ -55,9 +55,10 @@ def ree_eyring(
     compliance of film or bodies.
     """
     film = h if h > 1e-10 else 1e-10
+    per_stress = 1.0 / (film * par[1])
     for i in range(tau.size):
         log_eta = ln_eta[i] if ln_eta[i] < _LOG_ETA_MAX else _LOG_ETA_MAX
-        stress = par[1] * math.asinh(math.exp(log_eta) * slip[i] / (film * par[1]))
+        stress = par[1] * asinh(exp(log_eta) * slip[i] * per_stress)
         limit = par[0] * p[i]
         limit = limit if limit > 0.0 else 0.0
         tau[i] = smooth_min(stress, limit, 0.1 * limit)
@@ -87,7 +88,10 @@ def bair_winer(
         log_eta = ln_eta[i] if ln_eta[i] < _LOG_ETA_MAX else _LOG_ETA_MAX
         limit = par[0] * p[i]
         limit = limit if limit > 1e-3 else 1e-3
-        tau[i] = -limit * math.expm1(-math.exp(log_eta) * slip[i] / (film * limit))
+        share = exp(log_eta) * slip[i] / (film * limit)
+        tau[i] = limit * (
+            share * (1.0 - 0.5 * share) if share < 1e-5 else 1.0 - exp(-(share if share < 700.0 else 700.0))
+        )
     return 1
 
 
@@ -113,7 +117,7 @@ def newtonian(
         log_eta = ln_eta[i] if ln_eta[i] < _LOG_ETA_MAX else _LOG_ETA_MAX
         limit = par[0] * p[i]
         limit = limit if limit > 0.0 else 0.0
-        tau[i] = smooth_min(math.exp(log_eta) * slip[i] / film, limit, 0.1 * limit)
+        tau[i] = smooth_min(exp(log_eta) * slip[i] / film, limit, 0.1 * limit)
     return 1
 
 

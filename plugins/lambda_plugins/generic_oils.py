@@ -1,0 +1,208 @@
+"""Oils known by two kinematic viscosities: Walther over temperature, Roelands or Barus over pressure.
+
+Per cell the laws need ln(eta_0) at the cell's temperature. Walther's double exponential is therefore fitted once, by a
+polynomial in 1/T (error below 1e-5 in ln eta), and so are the powers of pressure and viscosity that go with it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Annotated, Self
+
+import numpy as np
+from pydantic import model_validator
+
+from lambda_core.plugins import Context, Quantity, model
+from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_plugins.rheology import capped, dowson_higginson
+from lambda_plugins.shapes import POLYNOMIAL_TERMS, polynomial, smooth_min
+
+_T_LOW = 233.15  # [K]
+_T_HIGH = 573.15  # [K]
+_T_40 = 313.15
+_T_100 = 373.15
+_ROELANDS_P = 1.0 / 5.1e-9  # [Pa]
+_ROELANDS_LOG = 9.67  # -ln(6.31e-5 Pa s)
+_P_HIGH = 6e9  # [Pa]
+_ROOT_HIGH = math.sqrt(1.0 + _P_HIGH / _ROELANDS_P)
+
+
+class TwoPointOil(Parameters):
+    """An oil by its viscosity at 40 and 100 degC."""
+
+    kinematic_viscosity_40: Annotated[float, Quantity("kinematic_viscosity")] = parameter(
+        ..., "kinematic viscosity at 40 degC", status="lubricant", gt=0.0
+    )
+    kinematic_viscosity_100: Annotated[float, Quantity("kinematic_viscosity")] = parameter(
+        ..., "kinematic viscosity at 100 degC", status="lubricant", gt=0.0
+    )
+    density_15: Annotated[float, Quantity("density")] = parameter(
+        ..., "density at 15 degC and ambient pressure", status="lubricant", gt=0.0
+    )
+    density_slope: float = parameter(
+        ..., "change of density with temperature [kg/(m3 K)]", status="lubricant", le=0.0, ge=-2.0
+    )
+    alpha_p: Annotated[float, Quantity("pressure_viscosity")] = parameter(
+        ..., "pressure-viscosity coefficient at 40 degC", status="lubricant", gt=0.0
+    )
+
+    @model_validator(mode="after")
+    def _thins(self) -> Self:
+        thin, thick = self.kinematic_viscosity_100, self.kinematic_viscosity_40
+        if not 0.4e-6 < thin < thick:
+            raise ValueError(
+                f"kinematic_viscosity_100 ({1e6 * thin:g} mm2/s) must be above 0.4 mm2/s and below "
+                f"kinematic_viscosity_40 ({1e6 * thick:g} mm2/s)"
+            )
+        return self
+
+
+class BarusOil(TwoPointOil):
+    """Parameters of the limited Barus law."""
+
+    gold_exponent: float = parameter(
+        0.139,
+        "t in alpha_p ~ nu^t, which carries alpha_p to other temperatures",
+        source="Gold, Schmidt, Dicke, Loos and Assmann 2001, J. Synth. Lubr. 18, 51: 0.139 mineral, 0.1335 PAO, 0.136 "
+        "ester, 0.1485 polyglycol",
+        published_range=(0.1335, 0.1485),
+        ge=0.0,
+        le=0.5,
+    )
+    exponent_limit: float = parameter(
+        20.0,
+        "largest alpha_p p: Barus' law holds to about 0.5 GPa and grows without bound above",
+        status="numerical",
+        gt=1.0,
+        le=40.0,
+    )
+
+
+def kinematic_viscosity(oil: TwoPointOil, T: FloatArray) -> FloatArray:
+    """Return nu(T) [m2/s] after Walther, log log (nu + 0.7 mm2/s) = A - B log T: ASTM D341 in its simple form."""
+
+    def double_log(nu: float) -> float:
+        return math.log10(math.log10(1e6 * nu + 0.7))
+
+    at_40, at_100 = double_log(oil.kinematic_viscosity_40), double_log(oil.kinematic_viscosity_100)
+    B = (at_40 - at_100) / math.log10(_T_100 / _T_40)
+    return np.asarray(1e-6 * (10.0 ** (10.0 ** (at_40 - B * np.log10(T / _T_40))) - 0.7), dtype=np.float64)
+
+
+def _density(oil: TwoPointOil, T: FloatArray) -> FloatArray:
+    return oil.density_15 + oil.density_slope * (T - 288.15)
+
+
+def _series(function: Callable[[FloatArray], FloatArray], low: float, high: float) -> FloatArray:
+    """Return the coefficients of a polynomial for `function` over low..high mapped to -1..1 (Chebyshev points)."""
+    nodes = np.cos((np.arange(64) + 0.5) * math.pi / 64)
+    values = function(0.5 * (low + high) + 0.5 * (high - low) * nodes)
+    fit = np.polynomial.chebyshev.chebfit(nodes, values, POLYNOMIAL_TERMS - 1)
+    return np.asarray(np.polynomial.chebyshev.cheb2poly(fit), dtype=np.float64)
+
+
+def _log_viscosity_series(oil: TwoPointOil) -> FloatArray:
+    """Return the series of ln(eta_0 / Pa s) over 1/T."""
+
+    def log_viscosity(inverse: FloatArray) -> FloatArray:
+        T = 1.0 / inverse
+        return np.asarray(np.log(kinematic_viscosity(oil, T) * _density(oil, T)), dtype=np.float64)
+
+    return _series(log_viscosity, 1.0 / _T_HIGH, 1.0 / _T_LOW)
+
+
+def scaled_inverse(T: float) -> float:
+    """Return 1/T mapped to -1..1 between 300 and -40 degC, held there."""
+    held = T if T > _T_LOW else _T_LOW
+    held = held if held < _T_HIGH else _T_HIGH
+    return (2.0 / held - 1.0 / _T_HIGH - 1.0 / _T_LOW) / (1.0 / _T_LOW - 1.0 / _T_HIGH)
+
+
+def oil_density(p: float, T: float, density_15: float, slope: float) -> float:
+    """Return rho [kg/m3]: linear in temperature (held at -40..300 degC), Dowson and Higginson under pressure."""
+    held = T if T > _T_LOW else _T_LOW
+    held = held if held < _T_HIGH else _T_HIGH
+    return (density_15 + slope * (held - 288.15)) * dowson_higginson(p)
+
+
+def prepare_roelands(parameters: TwoPointOil, context: Context) -> FloatArray:
+    """Return [rho_15, slope, polynomial of ln eta_0 over 1/T, series of (1 + p/p_0)^Z - 1 over its square root]."""
+    eta_40 = parameters.kinematic_viscosity_40 * float(_density(parameters, np.array(_T_40)))
+    Z = parameters.alpha_p * _ROELANDS_P / (math.log(eta_40) + _ROELANDS_LOG)
+    if not 0.0 < Z < 1.5:
+        raise ValueError(
+            f"alpha_p = {1e9 * parameters.alpha_p:.3g} 1/GPa gives Roelands' Z = {Z:.3g}; oils have 0.2..1.2"
+        )
+    pressure = _series(lambda root: np.asarray(root ** (2.0 * Z) - 1.0, dtype=np.float64), 1.0, _ROOT_HIGH)
+    head = [parameters.density_15, parameters.density_slope]
+    return np.concatenate([head, _log_viscosity_series(parameters), pressure])
+
+
+def roelands(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArray, rho: FloatArray) -> int:
+    """Viscosity after Roelands over pressure and Walther over temperature.
+
+    ln eta = ln eta_0 + (ln eta_0 + 9.67) [(1 + 5.1e-9 p)^Z - 1], Z = alpha_p/[5.1e-9 (ln eta_0 + 9.67)] at 40 degC and
+    constant: Roelands 1966 (thesis, Delft); Hamrock, Schmid and Jacobson 2004, Fundamentals of Fluid Film Lubrication,
+    section 4.6. alpha_p then falls with temperature like ln eta_0 + 9.67. eta_0 by ASTM D341. ln(eta) is capped at 1e12
+    Pa s; outside -40..300 degC and above 6 GPa the nearest bound holds.
+    """
+    for i in range(ln_eta.size):
+        pressure = p[i] if p[i] > 0.0 else 0.0
+        root = math.sqrt(1.0 + pressure / _ROELANDS_P)
+        root = root if root < _ROOT_HIGH else _ROOT_HIGH
+        ambient = polynomial(scaled_inverse(T[i]), par, 2)
+        stiffening = polynomial(2.0 * (root - 1.0) / (_ROOT_HIGH - 1.0) - 1.0, par, 2 + POLYNOMIAL_TERMS)
+        distance = ambient + _ROELANDS_LOG
+        ln_eta[i] = capped(ambient + (distance if distance > 0.0 else 0.0) * stiffening)
+        rho[i] = oil_density(pressure, T[i], par[0], par[1])
+    return 1
+
+
+def prepare_barus(parameters: BarusOil, context: Context) -> FloatArray:
+    """Return [rho_15, slope, exponent limit, polynomial of ln eta_0 over 1/T, series of alpha_p(T) over 1/T]."""
+
+    def alpha(inverse: FloatArray) -> FloatArray:
+        nu = kinematic_viscosity(parameters, 1.0 / inverse)
+        ratio = (nu / parameters.kinematic_viscosity_40) ** parameters.gold_exponent
+        return np.asarray(parameters.alpha_p * ratio, dtype=np.float64)
+
+    head = [parameters.density_15, parameters.density_slope, parameters.exponent_limit]
+    return np.concatenate([head, _log_viscosity_series(parameters), _series(alpha, 1.0 / _T_HIGH, 1.0 / _T_LOW)])
+
+
+def barus_limited(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArray, rho: FloatArray) -> int:
+    """Viscosity after Barus with a limited exponent, Walther over temperature.
+
+    ln eta = ln eta_0 + min(alpha_p p, limit), corner rounded over a unit; Barus 1893, Am. J. Sci. 45, 87. alpha_p goes
+    with nu^t over temperature: Gold et al. 2001, J. Synth. Lubr. 18, 51. eta_0 by ASTM D341. ln(eta) is capped at 1e12
+    Pa s; outside -40..300 degC the nearest bound holds.
+    """
+    for i in range(ln_eta.size):
+        pressure = p[i] if p[i] > 0.0 else 0.0
+        x = scaled_inverse(T[i])
+        exponent = smooth_min(polynomial(x, par, 3 + POLYNOMIAL_TERMS) * pressure, par[2], 0.5)
+        ln_eta[i] = capped(polynomial(x, par, 3) + exponent)
+        rho[i] = oil_density(pressure, T[i], par[0], par[1])
+    return 1
+
+
+ROELANDS = model(
+    "rheology",
+    "roelands",
+    roelands,
+    TwoPointOil,
+    reference="Roelands 1966 (thesis, Delft); ASTM D341; density: Dowson and Higginson 1966",
+    validity="-40..300 degC, to about 1 GPa; stiffer than measured oils above; ln(eta) capped at 1e12 Pa s",
+    prepare=prepare_roelands,
+)
+
+BARUS_LIMITED = model(
+    "rheology",
+    "barus-limited",
+    barus_limited,
+    BarusOil,
+    reference="Barus 1893, Am. J. Sci. 45, 87; Gold et al. 2001, J. Synth. Lubr. 18, 51; ASTM D341",
+    validity="-40..300 degC, to about 0.5 GPa; the exponent is limited above",
+    prepare=prepare_barus,
+)

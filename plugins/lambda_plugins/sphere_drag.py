@@ -1,0 +1,75 @@
+"""Drag and churning on each ball as on a single sphere in oil."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from lambda_core.plugins import Context, model
+from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_plugins.immersion import immersion, oil_geometry
+
+_KIRCHHOFF = 16.0 * math.pi
+
+
+class SphereDrag(Parameters):
+    """Parameters of the single sphere."""
+
+    entrainment: float = parameter(
+        0.0,
+        "speed of the oil around the ball over the ball's orbital speed",
+        source="assumption: the bath is at rest; in a narrow, flooded bearing the oil turns with the cage",
+        status="assumed",
+        published_range=(0.0, 1.0),
+        ge=0.0,
+        le=1.0,
+    )
+
+
+def prepare(parameters: SphereDrag, context: Context) -> FloatArray:
+    """Return [oil level, pitch radius, ball radius, entrainment]."""
+    return np.array([*oil_geometry(context), parameters.entrainment])
+
+
+def sphere_drag(
+    v_orbit: float,
+    omega_spin: float,
+    azimuth: float,
+    nu: float,
+    rho: float,
+    par: FloatArray,
+    out: FloatArray,
+) -> int:
+    """Drag curve of a sphere and moment of a spinning sphere, times the submerged share of the ball.
+
+    F = C_D rho v^2 pi R^2/2, C_D = 24/Re (1 + 0.15 Re^0.687) + 0.42/(1 + 42500 Re^-1.16), Re = 2 R v/nu < 3e5: Schiller
+    and Naumann 1933; Clift and Gauvin 1970; Clift, Grace and Weber 1978, Bubbles, Drops and Particles, eq. 5-8.
+    M = C_M rho omega^2 R^5/2, Re = omega R^2/nu: C_M = 16 pi/Re (Kirchhoff 1876) and 6.45/sqrt(Re) + 32.1/Re for Re 20
+    to 4e4 (Sawatzki 1970, Acta Mech. 9, 159; Dennis, Singh and Ingham 1980, J. Fluid Mech. 101, 257), joined smoothly.
+    No influence of neighbours, cage and rings, of which a bearing has plenty: an independent order of magnitude.
+    """
+    wet = immersion(azimuth, par[0], par[1], par[2])
+    R = par[2]
+    v = (1.0 - par[3]) * v_orbit
+    Re = 2.0 * R * abs(v) / nu
+    # C_D Re, finite at rest: Stokes' part and the bluff body's part
+    inertial = 0.42 * Re / (1.0 + 42500.0 * (Re + 1e-9) ** -1.16)
+    out[0] = wet * 0.25 * math.pi * rho * nu * R * v * (24.0 * (1.0 + 0.15 * Re**0.687) + inertial)
+    Re = abs(omega_spin) * R * R / nu
+    boundary_layer = 32.1 + 6.45 * math.sqrt(Re)
+    # C_M Re: the larger of both laws with a smooth corner at Re = 8
+    joined = (_KIRCHHOFF**16 + boundary_layer**16) ** 0.0625
+    out[1] = wet * 0.5 * rho * nu * R**3 * omega_spin * joined
+    return 1
+
+
+SPHERE_DRAG = model(
+    "fluid_drag",
+    "sphere-drag",
+    sphere_drag,
+    SphereDrag,
+    reference="Clift, Grace and Weber 1978, eq. 5-8; Sawatzki 1970, Acta Mech. 9, 159; Kirchhoff 1876",
+    validity="single sphere; drag Re < 3e5, spin Re < 4e4; neighbours, cage and rings left out",
+    prepare=prepare,
+)
