@@ -1,0 +1,50 @@
+"""A traction law with a limiting shear stress, and the parameters that two oils have for it."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import BaseModel, Field
+
+from lambda_core.plugins import Quantity, hookimpl, model
+
+
+class Parameters(BaseModel):
+    """Limiting shear stress: tau_L = ambient + slope * p."""
+
+    ambient: Annotated[float, Quantity("pressure")] = Field(
+        "2 MPa", validate_default=True, gt=0.0, description="limiting shear stress at ambient pressure"
+    )
+    slope: float = Field(0.065, gt=0.0, le=0.3, description="rise of the limiting shear stress with pressure")
+
+
+def gecim_winer(slip, p, T, ln_eta, h, par, tau):
+    """Shear stress of a film, tau = tau_L tanh(eta gamma_dot/tau_L), gamma_dot = v/h."""
+    film = max(h, 1e-10)
+    for i in range(tau.size):
+        limit = par[0] + par[1] * p[i]
+        newtonian = math.exp(min(ln_eta[i], 60.0)) * slip[i] / film
+        tau[i] = limit * math.tanh(newtonian / limit)
+    return 1
+
+
+LAW = model(
+    "traction",
+    "gecim-winer",
+    gecim_winer,
+    Parameters,
+    reference="Gecim and Winer 1980, J. Lubr. Technol. 102, 213: limiting shear stress effect on the film",
+    validity="viscous shear of the film; limiting stress linear in pressure, the same at every temperature",
+)
+
+
+@hookimpl
+def lambda_models(register):
+    register(LAW)
+
+
+@hookimpl
+def lambda_data(register):
+    register(Path(__file__).parent / "rows")

@@ -1,0 +1,51 @@
+"""The example packages are real: installed with pip, their own tests pass, and everything shows up by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import pytest
+
+from .conftest import Installation
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+PACKAGES = sorted(path.parent.name for path in EXAMPLES.glob("*/pyproject.toml"))
+
+
+@pytest.fixture(scope="module")
+def site(install: Callable[[Sequence[Path]], Installation]) -> Installation:
+    return install([EXAMPLES / name for name in PACKAGES])
+
+
+@pytest.mark.parametrize("name", PACKAGES)
+def test_own_tests_pass(site: Installation, name: str, tmp_path: Path) -> None:
+    code = "import sys, pytest; raise SystemExit(pytest.main(sys.argv[1:]))"
+    options = ["-q", "-p", "no:cacheprovider", "--import-mode=importlib", f"--rootdir={tmp_path}", "-c", "/dev/null"]
+    answer = site.python(code, *options, str(EXAMPLES / name / "tests"), PYTHONDONTWRITEBYTECODE="1")
+    assert answer.code == 0, answer.out + answer.err
+
+
+@pytest.mark.parametrize("name", PACKAGES)
+def test_a_package_brings_no_fault(site: Installation, name: str) -> None:
+    answer = site.program("plugins", "check", name)
+    assert answer.code == 0, answer.out + answer.err
+    assert answer.err == ""
+
+
+def test_a_law_is_chosen_with_the_parameters_that_the_package_gives_to_an_oil(site: Installation) -> None:
+    case = ["check", "6319-cp10-1500", "--set", "models.traction=gecim-winer"]
+    answer = site.program(*case)
+    assert answer.code == 0, answer.err
+    assert "traction             gecim-winer" in answer.out
+    assert "traction gecim-winer: slope 0.065, lubricant FVA3A" in answer.out
+    refused = site.program(*case, LAMBDA_BEARING_NO_PLUGIN="limiting-shear")
+    assert refused.code == 3
+    assert '"gecim-winer" is not a traction model' in refused.err
+    assert "not in use: limiting-shear 0.1.0" in refused.err
+
+
+def test_a_law_of_an_afternoon_is_at_most_15_lines() -> None:
+    source = (EXAMPLES / "limiting-shear" / "limiting_shear" / "__init__.py").read_text()
+    law = source[source.index("def gecim_winer") : source.index("LAW = ")]
+    assert len([line for line in law.splitlines() if line.strip()]) <= 15
