@@ -8,15 +8,29 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.errors import CaseError, LambdaError, UsageError
+from lambda_core.errors import CaseError, LambdaError, Problem, UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
+    from lambda_core.physics.describe import CaseReport
     from lambda_core.physics.model import BearingModel
     from lambda_core.schema.case import Case
 
-__all__ = ["CaseError", "LambdaError", "UsageError", "builtin_cases", "case", "check", "resolve", "save", "schema"]
+__all__ = [
+    "CaseError",
+    "LambdaError",
+    "UsageError",
+    "builtin_cases",
+    "case",
+    "check",
+    "describe",
+    "init_case",
+    "problems",
+    "resolve",
+    "save",
+    "schema",
+]
 
 
 def case(source: str | Path, overrides: Iterable[str] = ()) -> Case:
@@ -56,6 +70,23 @@ def save(case: Case, path: str | Path) -> None:
     save_case(case, path)
 
 
+def init_case(
+    name: str, start: str = "6319-cp10-1500", path: str | Path | None = None, overwrite: bool = False
+) -> Path:
+    """Write a commented case called `name` that starts from another; return its file (default NAME.toml).
+
+    Raises
+    ------
+    UsageError
+        When the file exists, cannot be written, or there is no such case to start from.
+    CaseError
+        When `name` cannot be a case's name.
+    """
+    from lambda_core.schema.case_writer import new_case
+
+    return new_case(name, start, Path(path) if path is not None else Path(f"{name}.toml"), overwrite)
+
+
 def schema() -> dict[str, Any]:
     """Return the JSON schema of a case file."""
     from lambda_core.schema.case_io import case_json_schema
@@ -81,9 +112,61 @@ def resolve(case: Case) -> BearingModel:
         return freeze(case, models, catalogue)
 
 
-def check(source: str | Path | Case, overrides: Iterable[str] = ()) -> BearingModel:
-    """Read and resolve a case without running it: the model with its assumptions, or every error."""
-    from lambda_core.schema.case import Case
+def check(source: str | Path | Mapping[str, Any] | Case, overrides: Iterable[str] = ()) -> BearingModel:
+    """Read and resolve a case without running it.
 
-    loaded = source if isinstance(source, Case) else case(source, overrides)
-    return resolve(loaded)
+    Parameters
+    ----------
+    source : str, Path, mapping or Case
+        File, built-in name, plain tables as they stand in a file, or a case.
+    overrides : iterable of str
+        Changes ``path=value``.
+
+    Returns
+    -------
+    BearingModel
+        With its assumptions and the origin of every value.
+
+    Raises
+    ------
+    CaseError
+        With every mistake at once: those of the file itself and those that only the catalogue, the
+        registry and the geometry can show.
+    """
+    from collections.abc import Mapping
+
+    from lambda_core.schema.case import Case
+    from lambda_core.schema.case_io import apply_overrides, validate_case
+    from lambda_core.schema.salvage import InvalidCase
+
+    changes = list(overrides)
+    try:
+        if isinstance(source, Mapping):
+            loaded = validate_case(source)
+        else:
+            loaded = source if isinstance(source, Case) else case(source)
+        return resolve(apply_overrides(loaded, changes) if changes else loaded)
+    except InvalidCase as error:
+        if error.remainder is None:
+            raise
+        try:
+            resolve(error.remainder)
+        except CaseError as more:
+            raise error.joined(more.problems) from None
+        raise
+
+
+def problems(source: Mapping[str, Any] | Case) -> tuple[Problem, ...]:
+    """Return every mistake of a case or of plain tables, none if it is fine; for forms that check while one types."""
+    try:
+        check(source)
+    except CaseError as error:
+        return error.problems
+    return ()
+
+
+def describe(model: BearingModel) -> CaseReport:
+    """Say what a resolved model is: headline, bodies, models, assumptions, every value with its origin."""
+    from lambda_core.physics.describe import describe as report
+
+    return report(model)

@@ -9,6 +9,7 @@ from typing import Literal, TypeVar
 from lambda_core.errors import CaseError, LambdaError, Problem
 from lambda_core.physics.model import ResolvedValue
 from lambda_core.registry.catalogue import Value
+from lambda_core.schema.units import show
 
 T = TypeVar("T")
 Status = Literal["given", "published", "derived", "assumed", "default"]
@@ -36,7 +37,8 @@ class Ledger:
         """Freeze a catalogue value; one that the catalogue assumed becomes an assumption of the run."""
         self.record(path, value.value, quantity, value.source, value.status, value.grade)
         if value.status == "assumed" and not silent:
-            self.assume(f"{path}: {value.source} (grade {value.grade})")
+            shown = show(value.value, quantity, 4) if quantity else f"{value.value:.4g}"
+            self.assume(f"{path} {shown}: {value.source} (grade {value.grade})")
         return value.value
 
     def assume(self, sentence: str) -> None:

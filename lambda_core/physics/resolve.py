@@ -16,7 +16,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from lambda_core.physics.ledger import Ledger
-from lambda_core.physics.model import BearingModel, Depth, Geometry, Marker, Output, Solver
+from lambda_core.physics.model import BearingModel, Depth, Geometry, Law, Marker, Output, Solver
 from lambda_core.physics.resolve_bodies import (
     Inertia,
     check_bodies,
@@ -26,12 +26,14 @@ from lambda_core.physics.resolve_bodies import (
     ring_inertia,
     shaft_inertia,
 )
-from lambda_core.physics.resolve_geometry import bearing_row, resolve_geometry
+from lambda_core.physics.resolve_clearance import clearance_in_operation
+from lambda_core.physics.resolve_geometry import bearing_row, check_clearance, resolve_geometry, with_clearance
 from lambda_core.physics.resolve_laws import LawResolver, ModelSource
 from lambda_core.physics.resolve_materials import resolve_lubricant, resolve_material
 from lambda_core.physics.time_functions import highest_frequency, peak, time_function
 from lambda_core.registry.catalogue import BearingRow, Catalogue
 from lambda_core.registry.model import Material, Model
+from lambda_core.registry.reach import reach
 from lambda_core.schema.case import Case
 from lambda_core.schema.case_writer import standalone_toml
 from lambda_core.schema.units import show
@@ -43,7 +45,7 @@ STEPS_PER_CAGE_TURN = 200.0
 STEPS_PER_PERIOD = 20.0
 
 
-def resolve(case: Case, registry: ModelSource, catalogue: Catalogue, plugins: tuple[str, ...] = ()) -> BearingModel:
+def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingModel:
     """Freeze a case into the model that a run needs.
 
     Parameters
@@ -54,8 +56,6 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue, plugins: tu
         Models by role and name.
     catalogue : Catalogue
         Bearings, lubricants, materials, cages, clearance classes.
-    plugins : tuple of str
-        "distribution version" of each loaded plugin, kept for the result.
 
     Raises
     ------
@@ -65,31 +65,35 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue, plugins: tu
     ledger = Ledger(assumptions=list(case.assumptions))
     row = bearing_row(case.bearing, catalogue, ledger)
     known = row is not None or case.bearing.designation is None
-    geometry = resolve_geometry(case.bearing, row, catalogue, ledger) if known else None
-    materials = {part: resolve_material(part, case, catalogue, ledger) for part in ("inner", "outer", "balls")}
+    bare = resolve_geometry(case.bearing, row, catalogue, ledger) if known else None
+    parts = {part: resolve_material(part, case, catalogue, ledger) for part in ("inner", "outer", "balls")}
     cage_row = ledger.ask("bodies.cage.type", lambda: catalogue.cage(case.bodies.cage.type))
-    materials["cage"] = resolve_material("cage", case, catalogue, ledger, cage_row.material if cage_row else None)
+    parts["cage"] = resolve_material("cage", case, catalogue, ledger, cage_row.material if cage_row else None)
+    materials = {part: known.material for part, known in parts.items()}
     lubricant, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
     check_bodies(case, ledger)
     _settings(case, ledger)
     guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")
     laws = LawResolver(case, registry, lubricant, guidance, ledger).resolve() if lubricant else {}
-    if geometry is None or cage_row is None or oil is None:
+    if bare is None or cage_row is None or oil is None:
         ledger.check(case.name)
         raise AssertionError("a part is missing and no problem says why")
-    complete = {part: material or _UNKNOWN for part, material in materials.items()}
-    cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, complete["cage"], ledger)
-    inertias = _inertias(case, geometry, complete, cage_estimate, ledger)
+    geometry, bought = bare
+    mounted = clearance_in_operation(case, geometry, bought, parts["inner"].solid, parts["balls"].solid, ledger)
+    geometry = with_clearance(geometry, mounted)
+    check_clearance(geometry, ledger)
+    cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, materials["cage"], ledger)
+    inertias = _inertias(case, geometry, materials, cage_estimate, ledger)
     solver = _solver(case, geometry, ledger)
     ledger.check(case.name)
     return BearingModel(
         name=case.name,
         title=_title(case, row),
         geometry=geometry,
-        ball_material=complete["balls"],
-        inner_material=complete["inner"],
-        outer_material=complete["outer"],
-        cage_material=complete["cage"],
+        ball_material=materials["balls"],
+        inner_material=materials["inner"],
+        outer_material=materials["outer"],
+        cage_material=materials["cage"],
         oil=oil,
         oil_level=case.lubricant.oil_level,
         roughness=case.surface.roughness,
@@ -106,12 +110,15 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue, plugins: tu
         values=tuple(ledger.values),
         assumptions=tuple(ledger.assumptions),
         case_toml=standalone_toml(case),
-        plugins=plugins,
+        plugins=_distributions(laws),
         markers={name: Marker(m.body, (m.x, m.y, m.z)) for name, m in case.markers.items()},
     )
 
 
-_UNKNOWN = Material("unknown", math.nan, math.nan, math.nan, math.nan, math.nan)
+def _distributions(laws: Mapping[str, Mapping[str, Law]]) -> tuple[str, ...]:
+    """Return "distribution version" of every plugin that a chosen law comes from."""
+    found = {law.model.distribution for roles in laws.values() for law in roles.values()}
+    return tuple(sorted(found - {""}))
 
 
 def _title(case: Case, row: BearingRow | None) -> str:
@@ -205,10 +212,10 @@ def _all_signals(case: Case) -> list[Any]:
 def case_hash(model: BearingModel) -> str:
     """Return a hash of all that decides the numbers of a run, equal in every process.
 
-    Name, title, sources and assumptions are left out: two cases that mean the same run
-    share one hash.
+    The laws count with everything their kernels reach: an edited law has another hash. Name,
+    title, sources and assumptions are left out: two cases that mean the same run share one.
     """
-    silent = {"name", "title", "values", "assumptions", "case_toml"}
+    silent = {"name", "title", "values", "assumptions", "case_toml", "plugins"}
     data = {f.name: _plain(getattr(model, f.name)) for f in dataclasses.fields(model) if f.name not in silent}
     text = json.dumps(data, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()
@@ -217,7 +224,8 @@ def case_hash(model: BearingModel) -> str:
 def _plain(value: Any) -> Any:
     """Return `value` as JSON data in which every float keeps all its digits."""
     if isinstance(value, Model):
-        return [value.role, value.name, value.distribution, value.role_api]
+        laws = [function for function in (value.kernel, value.prepare) if function is not None]
+        return [value.role, value.name, value.role_api, *(reach(law, lenient=True).key for law in laws)]
     if isinstance(value, BaseModel):
         return {name: _plain(getattr(value, name)) for name in type(value).model_fields}
     if dataclasses.is_dataclass(value) and not isinstance(value, type):

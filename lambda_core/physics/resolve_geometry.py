@@ -8,9 +8,11 @@ from dataclasses import dataclass, replace
 
 from lambda_core.physics.ledger import Ledger
 from lambda_core.physics.model import Geometry
+from lambda_core.physics.resolve_clearance import clearance_as_bought, picked
+from lambda_core.physics.tolerances import Limits
 from lambda_core.registry.catalogue import BearingRow, Catalogue
 from lambda_core.schema.parts import Bearing, InlineGeometry
-from lambda_core.schema.units import parse, show
+from lambda_core.schema.units import show
 
 # Contacts of a deep-groove bearing stay on the groove up to about this free contact angle.
 LARGEST_FREE_ANGLE = math.radians(45.0)
@@ -77,18 +79,25 @@ def bearing_row(bearing: Bearing, catalogue: Catalogue, ledger: Ledger) -> Beari
     return known
 
 
-def resolve_geometry(bearing: Bearing, row: BearingRow | None, catalogue: Catalogue, ledger: Ledger) -> Geometry | None:
-    """Return the geometry with the clearance as bought; None when it cannot be built (the ledger says why)."""
+def resolve_geometry(
+    bearing: Bearing, row: BearingRow | None, catalogue: Catalogue, ledger: Ledger
+) -> tuple[Geometry, Limits] | None:
+    """Return the geometry with the clearance as bought, and that clearance's limits.
+
+    None when it cannot be built; the ledger says why.
+    """
     inline = bearing.geometry or InlineGeometry()
     picker = Picker(inline, row, ledger)
     bore, outside, width = (picker.need(name) for name in SIZES)
     count, ball = picker.need("ball_count"), picker.need("ball_diameter")
-    races = (picker.take("race_diameter_inner"), picker.take("race_diameter_outer"))
+    races = _races(picker)
     pitch = _pitch(picker, races, bore, outside)
     grooves = (_groove(picker, "inner", ball), _groove(picker, "outer", ball))
-    clearance = _clearance(bearing, races, ball, bore, catalogue, ledger)
-    if any(math.isnan(x) for x in (bore, outside, width, count, ball, pitch, *grooves, clearance)):
+    bought = clearance_as_bought(bearing, races, ball, bore, catalogue, ledger)
+    _ratings(picker)
+    if bought is None or any(math.isnan(x) for x in (bore, outside, width, count, ball, pitch, *grooves)):
         return None
+    clearance = picked(bought, bearing.clearance_pick)
     shoulders = (_shoulder(picker, "inner", ball, pitch), _shoulder(picker, "outer", ball, pitch))
     series = inline.series or (row.series if row else "")
     as_bought = Geometry(
@@ -109,7 +118,29 @@ def resolve_geometry(bearing: Bearing, row: BearingRow | None, catalogue: Catalo
     )
     geometry = with_clearance(as_bought, clearance)
     check_geometry(geometry, races, ledger)
-    return geometry
+    return geometry, bought
+
+
+def _races(picker: Picker) -> tuple[float | None, float | None]:
+    """Return both raceway diameters; those of a catalogue row count only with the row's own balls and pitch."""
+    inline = picker.inline
+    edited = inline.ball_diameter is not None or inline.pitch_diameter is not None
+    own = inline.race_diameter_inner is not None and inline.race_diameter_outer is not None
+    if edited and picker.row and not own:
+        return None, None
+    return picker.take("race_diameter_inner"), picker.take("race_diameter_outer")
+
+
+def _ratings(picker: Picker) -> None:
+    """Record the load ratings for ratios, life and catalogue methods; a geometry of one's own has none of the row's."""
+    own_balls = picker.inline.ball_diameter is not None or picker.inline.ball_count is not None
+    for name in ("dynamic_rating", "static_rating", "fatigue_limit"):
+        written = getattr(picker.inline, name, None)
+        found = getattr(picker.row, name) if picker.row and not own_balls else None
+        if written is not None:
+            picker.ledger.given(f"bearing.{name}", written, "force")
+        elif found is not None:
+            picker.ledger.row(f"bearing.{name}", found, "force")
 
 
 def with_clearance(geometry: Geometry, clearance: float) -> Geometry:
@@ -154,6 +185,12 @@ def _groove(picker: Picker, ring: str, ball: float) -> float:
             )
         picker.ledger.record(path, conformity * ball, "length", "case (conformity)", "given")
         return float(conformity * ball)
+    known = getattr(picker.row, f"groove_radius_{ring}") if picker.row else None
+    own_ball = picker.row.ball_diameter if picker.row else None
+    if written is None and known and own_ball and picker.inline.ball_diameter is not None:
+        same_osculation = float(known.value / own_ball.value * ball)
+        picker.ledger.record(path, same_osculation, "length", "osculation of the catalogue row, other balls", "derived")
+        return same_osculation
     radius = picker.take(f"groove_radius_{ring}")
     if radius is None:
         usual = CONFORMITY_INNER if ring == "inner" else CONFORMITY_OUTER
@@ -174,56 +211,6 @@ def _shoulder(picker: Picker, ring: str, ball: float, pitch: float) -> float:
     return diameter
 
 
-def _clearance(
-    bearing: Bearing,
-    races: tuple[float | None, float | None],
-    ball: float,
-    bore: float,
-    catalogue: Catalogue,
-    ledger: Ledger,
-) -> float:
-    """Return the radial internal clearance as bought [m], NaN after a problem."""
-    inline = bearing.geometry
-    both_inline = bool(inline and inline.race_diameter_inner and inline.race_diameter_outer)
-    text = bearing.clearance or ("geometry" if both_inline else "CN")
-    from_races = races[1] - races[0] - 2.0 * ball if races[0] and races[1] else math.nan
-    path = "bearing.clearance"
-    if text == "geometry":
-        if math.isnan(from_races):
-            ledger.problem(path, '"geometry" needs the raceway diameters, which are not known here')
-        ledger.record(path, from_races, "small_length", "from the raceway diameters", "derived")
-        return from_races
-    if text in ("C2", "CN", "C3", "C4", "C5"):
-        return _from_class(bearing, text, bore, catalogue, ledger)
-    clearance = parse(text, "small_length")
-    ledger.given(path, clearance, "small_length")
-    if both_inline and abs(clearance - from_races) > 0.5e-6:
-        implied = show(from_races, "small_length", 4)
-        ledger.problem(path, f'"{text}" contradicts the raceway diameters, which leave {implied}: give one of them')
-    return clearance
-
-
-def _from_class(bearing: Bearing, name: str, bore: float, catalogue: Catalogue, ledger: Ledger) -> float:
-    if math.isnan(bore):
-        return math.nan
-    limits = ledger.ask("bearing.clearance", lambda: catalogue.clearance(bore, name))
-    if limits is None:
-        return math.nan
-    pick = bearing.clearance_pick
-    clearance = {
-        "minimum": limits.minimum,
-        "middle": 0.5 * (limits.minimum + limits.maximum),
-        "maximum": limits.maximum,
-    }[pick]
-    span = f"{limits.minimum * 1e6:.4g} to {limits.maximum * 1e6:.4g} um"
-    ledger.record(
-        "bearing.clearance", clearance, "small_length", f"{pick} of {name}: {limits.source}", "assumed", limits.grade
-    )
-    chosen = "class not stated, " if bearing.clearance is None else ""
-    ledger.assume(f"clearance {show(clearance, 'small_length', 4)}: {chosen}{pick} of {name} ({span})")
-    return clearance
-
-
 def mm(length: float) -> str:
     """Write a length for people."""
     return f"{length * 1e3:.6g} mm"
@@ -237,24 +224,27 @@ def check_geometry(geometry: Geometry, races: tuple[float | None, float | None],
 
     if not g.bore_diameter < pitch < g.outside_diameter:
         say(
-            "bearing.pitch_diameter",
+            "bearing.geometry.pitch_diameter",
             f"{mm(pitch)} does not lie between the bore of {mm(g.bore_diameter)} and {mm(g.outside_diameter)} outside",
         )
         return
     if ball > pitch * math.sin(math.pi / g.ball_count):
         fits = math.floor(math.pi / math.asin(min(ball / pitch, 1.0)))
         say(
-            "bearing.ball_count",
+            "bearing.geometry.ball_count",
             f"{g.ball_count} balls of {mm(ball)} do not fit on a pitch diameter of {mm(pitch)}: at most {fits}",
         )
     for ring, radius in (("inner", g.groove_radius_inner), ("outer", g.groove_radius_outer)):
         if radius <= 0.5 * ball:
             say(
-                f"bearing.groove_radius_{ring}",
+                f"bearing.geometry.groove_radius_{ring}",
                 f"{mm(radius)} is a conformity of {radius / ball:.4g}: it must be larger than half the ball diameter",
             )
     if not g.bore_diameter < g.race_diameter_inner or not g.race_diameter_outer < g.outside_diameter:
-        say("bearing.ball_diameter", f"{mm(ball)} leaves no ring between the raceways and bore or outside diameter")
+        say(
+            "bearing.geometry.ball_diameter",
+            f"{mm(ball)} leaves no ring between raceway and bore or outside diameter",
+        )
     if races[0] is not None and races[1] is not None:
         _check_races(g, races[0], races[1], say)
     inner_ok = g.race_diameter_inner < g.shoulder_diameter_inner < pitch
@@ -264,29 +254,31 @@ def check_geometry(geometry: Geometry, races: tuple[float | None, float | None],
         ("outer", outer_ok, g.shoulder_diameter_outer),
     ):
         if not fine:
-            say(f"bearing.shoulder_diameter_{ring}", f"{mm(shoulder)} must lie between raceway and pitch diameter")
-    _check_clearance(g, ledger)
+            say(
+                f"bearing.geometry.shoulder_diameter_{ring}",
+                f"{mm(shoulder)} must lie between raceway and pitch",
+            )
 
 
 def _check_races(g: Geometry, inner: float, outer: float, say: Callable[[str, str], None]) -> None:
     if not inner < g.pitch_diameter < outer:
         say(
-            "bearing.race_diameter_inner",
+            "bearing.geometry.race_diameter_inner",
             f"raceways of {mm(inner)} and {mm(outer)} do not enclose the pitch",
         )
     elif abs(0.5 * (inner + outer) - g.pitch_diameter) > 0.02 * g.ball_diameter:
         say(
-            "bearing.pitch_diameter",
+            "bearing.geometry.pitch_diameter",
             f"{mm(g.pitch_diameter)} contradicts the raceway diameters, whose mean is {mm(0.5 * (inner + outer))}",
         )
     elif abs(outer - inner - 2.0 * g.ball_diameter) > 0.05 * g.ball_diameter:
         say(
-            "bearing.ball_diameter",
+            "bearing.geometry.ball_diameter",
             f"{mm(g.ball_diameter)} contradicts the raceway diameters, which leave {mm(0.5 * (outer - inner))}",
         )
 
 
-def _check_clearance(g: Geometry, ledger: Ledger) -> None:
+def check_clearance(g: Geometry, ledger: Ledger) -> None:
     """Refuse a clearance with which the free contact angle, or the preload, is that of no real bearing."""
     curvature = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
     shown = f"{g.clearance * 1e6:.4g} um"

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 
 from lambda_core.errors import LambdaError, unknown_name
 from lambda_core.physics.ledger import Ledger, Status
@@ -194,15 +194,14 @@ class LawResolver:
         """Turn defaults and weak lubricant data into sentences, one per model."""
         for element, roles in laws.items():
             for role, law in roles.items():
-                defaults = [k for k, origin in law.origins.items() if origin == "default"]
+                self._record(element, role, law)
+                written = law.parameters.model_dump(mode="json")
+                defaults = [k for k in law.origins if law.origins[k] == "default" and _is_assumed(law, k)]
                 if defaults:
-                    written = law.parameters.model_dump(mode="json")
                     listed = ", ".join(f"{key} {_short(written[key])}" for key in defaults)
                     self.ledger.assume(f"{role} {law.model.name}: {listed} (defaults of the model)")
-                self._record(element, role, law)
                 for key, origin in law.origins.items():
                     if origin.endswith(("grade C)", "grade D)")):
-                        written = law.parameters.model_dump(mode="json")
                         self.ledger.assume(f"{role} {law.model.name}: {key} {_short(written[key])}, {origin}")
 
     def _record(self, element: str, role: str, law: Law) -> None:
@@ -215,10 +214,12 @@ class LawResolver:
             self.ledger.record(f"forces.{element}.parameters.{role}.{key}", plain, "", origin, status)
 
 
+def _is_assumed(law: Law, name: str) -> bool:
+    """Say whether a default is an assumption: neither published nor a numerical regularisation, and not absent."""
+    extra = type(law.parameters).model_fields[name].json_schema_extra
+    status = extra.get("status") if isinstance(extra, dict) else None
+    return status not in ("published", "numerical") and getattr(law.parameters, name) is not None
+
+
 def _short(value: object) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
-
-
-def parameter_values(parameters: BaseModel) -> dict[str, Any]:
-    """Return the SI values of a law's parameters by name."""
-    return {name: getattr(parameters, name) for name in type(parameters).model_fields}

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Literal
+import math
+from dataclasses import dataclass
 
+from lambda_core.physics.fits import Solid
 from lambda_core.physics.ledger import Ledger
 from lambda_core.registry.catalogue import Catalogue, LubricantRow, Value
 from lambda_core.registry.model import Material, Oil
 from lambda_core.schema.case import Case
 from lambda_core.schema.parts import InlineMaterial, Lubricant
 
-Part = Literal["inner", "outer", "balls", "cage"]
 _QUANTITIES = {
     "youngs_modulus": "modulus",
     "poisson_ratio": "",
@@ -22,21 +23,38 @@ _QUANTITIES = {
 _CLASS_OIL = {"thermal_conductivity": 0.137, "specific_heat": 1930.0}
 
 
+@dataclass(frozen=True)
+class PartMaterial:
+    """A material as the contact laws see it, and what its thermal growth needs."""
+
+    material: Material
+    thermal_expansion: float  # [1/K]
+
+    @property
+    def solid(self) -> Solid:
+        """Elastic and thermal properties for fits."""
+        return Solid(self.material.youngs_modulus, self.material.poisson_ratio, self.thermal_expansion)
+
+
+UNKNOWN = PartMaterial(Material("unknown", *[math.nan] * 5), math.nan)
+
+
 def resolve_material(
     part: str, case: Case, catalogue: Catalogue, ledger: Ledger, usual: str | None = None
-) -> Material | None:
-    """Return the material of a part; `usual` is the name where the case has none."""
+) -> PartMaterial:
+    """Return the material of a part (UNKNOWN after a problem); `usual` is the name where the case has none."""
     where = f"materials.{part}"
     choice = getattr(case.materials, part) or usual
     if choice is None:
-        return None
+        return UNKNOWN
     if isinstance(choice, InlineMaterial):
         for name, quantity in _QUANTITIES.items():
             ledger.given(f"{where}.{name}", getattr(choice, name), quantity)
-        return Material(f"{part} of the case", *(getattr(choice, name) for name in _QUANTITIES))
+        own = Material(f"{part} of the case", *(getattr(choice, name) for name in _QUANTITIES))
+        return PartMaterial(own, choice.thermal_expansion)
     row = ledger.ask(where, lambda: catalogue.material(choice))
     if row is None:
-        return None
+        return UNKNOWN
     if part in case.materials.model_fields_set:
         ledger.given(where, row.name)
     else:
@@ -44,7 +62,7 @@ def resolve_material(
         if part != "cage":
             ledger.assume(f"rings and balls of {row.name} where the case names no other material")
     numbers = [ledger.row(f"{where}.{name}", getattr(row, name), quantity) for name, quantity in _QUANTITIES.items()]
-    return Material(row.name, *numbers)
+    return PartMaterial(Material(row.name, *numbers), row.thermal_expansion.value)
 
 
 def resolve_lubricant(

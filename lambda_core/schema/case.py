@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from pydantic import PrivateAttr, ValidationError, model_validator
+from pydantic import PrivateAttr, model_validator
 
 from lambda_core.schema.modelling import Depth, Forces, Models, Output, Parameters, Solver
 from lambda_core.schema.motion import Bodies, Gravity, Loads, Marker, Operation
@@ -75,13 +75,9 @@ class Case(Section):
         CaseError
             With every problem of the changed case.
         """
-        from lambda_core.schema.problems import case_error
+        from lambda_core.schema.case_io import validate_case
 
-        data = merged(self.written(), changes)
-        try:
-            return Case.model_validate(data, context={"folder": self._folder})
-        except ValidationError as error:
-            raise case_error(self.name, error, Case, data) from None
+        return validate_case(merged(self.written(), changes), self.name, self._folder)
 
 
 def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:

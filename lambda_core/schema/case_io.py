@@ -13,7 +13,8 @@ from pydantic import ValidationError
 
 from lambda_core.errors import CaseError, Problem, UsageError, nearest
 from lambda_core.schema.case import Case, merged
-from lambda_core.schema.problems import case_error, field_at
+from lambda_core.schema.problems import field_at
+from lambda_core.schema.salvage import invalid_case
 
 _LOCATION = re.compile(r"\(at (?:line (\d+), column (\d+)|end of document)\)")
 _BARE_UNIT = re.compile(r"^(\s*[\w.\"-]+\s*=\s*)([+-]?[\d.,]+\s*[A-Za-z/][^#\"]*?)\s*(#.*)?$")
@@ -84,7 +85,7 @@ def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | 
     try:
         return Case.model_validate(data, context={"folder": folder})
     except ValidationError as error:
-        raise case_error(source, error, Case, data) from None
+        raise invalid_case(source, error, data, folder) from None
 
 
 def _syntax_problem(message: str, text: str) -> Problem:

@@ -13,7 +13,7 @@ from tomlkit.toml_document import TOMLDocument
 
 from lambda_core.errors import CaseError, UsageError
 from lambda_core.schema.case import Case
-from lambda_core.schema.case_io import parse_case
+from lambda_core.schema.case_io import builtin_cases, builtin_text, load_case, parse_case
 from lambda_core.schema.signals import Table as TimeTableFile
 
 _INLINE_KEYS = frozenset({"kind", "mode", "points"})  # small tables that read best on one line
@@ -71,6 +71,19 @@ def save_case(case: Case, path: str | Path, original: str | None = None) -> None
         os.replace(temporary, target)
     except OSError as error:
         raise UsageError(f'cannot write "{target}": {error.strerror}') from None
+
+
+def new_case(name: str, start: str, path: Path, overwrite: bool) -> Path:
+    """Write the case `start`, comments included, under another name; see :func:`lambda_core.api.init_case`."""
+    original = builtin_text(start) if start in builtin_cases() else None
+    source = load_case(start)
+    if original is None:
+        original = Path(start).read_text(encoding="utf-8-sig")
+    if path.exists() and not overwrite:
+        raise UsageError(f'"{path}" exists: choose another name, or --force to overwrite it')
+    renamed = source.with_(name=name)
+    save_case(renamed, path, original)
+    return path
 
 
 def _inlined(section: Any, written: Any) -> Any:

@@ -10,7 +10,7 @@ from typing import Any, Union, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
-from lambda_core.errors import CaseError, Problem, nearest
+from lambda_core.errors import Problem, nearest
 from lambda_core.schema.option import quantity_of
 from lambda_core.schema.signals import KINDS
 from lambda_core.schema.units import show
@@ -39,23 +39,18 @@ _EXPECTED = {
 }
 
 
-def case_error(source: str, error: ValidationError, model: type[BaseModel], data: Any) -> CaseError:
-    """Turn a failed validation into one CaseError with a sentence for every problem.
+def problems(error: ValidationError, model: type[BaseModel], data: Any, prefix: str = "") -> list[Problem]:
+    """Turn a failed validation into one sentence for every mistake.
 
     Parameters
     ----------
-    source : str
-        File or name that was read, for the first line.
     error : pydantic.ValidationError
         From validating `data` with `model`.
     data : object
         What stands in the file, as plain tables.
+    prefix : str
+        Path of `data` within the whole file.
     """
-    return CaseError(source, problems(error, model, data))
-
-
-def problems(error: ValidationError, model: type[BaseModel], data: Any, prefix: str = "") -> list[Problem]:
-    """Return one Problem for every error, in the order of the file."""
     found: dict[str, Problem] = {}
     for item in error.errors(include_url=False):
         path = _path(item["loc"])

@@ -130,8 +130,7 @@ def show(value: float, quantity: str, digits: int | None = None) -> str:
     between 0.1 and 1000.
     """
     if digits is not None:
-        unit = next(iter(UNITS[quantity]))
-        return f"{from_si(value, quantity):.{digits}g} {unit}"
+        return _rounded(value, quantity, digits)
     spellings: list[tuple[bool, bool, str]] = []
     for unit in UNITS[quantity]:
         converted = from_si(value, quantity, unit)
@@ -143,6 +142,18 @@ def show(value: float, quantity: str, digits: int | None = None) -> str:
     if not spellings:
         raise ValueError(f"{value!r} has no exact spelling as a {quantity}")
     return min(spellings, key=lambda spelling: spelling[:2])[2]
+
+
+# Quantities that people read in one unit, whatever the magnitude.
+_ONE_UNIT = ("temperature", "rotational_speed", "angle")
+
+
+def _rounded(value: float, quantity: str, digits: int) -> str:
+    """Write a number for people: the first unit in which it lies between 0.1 and 1000."""
+    units = list(UNITS[quantity])
+    handy = [u for u in units if 0.1 <= abs(from_si(value, quantity, u)) < 1000.0]
+    unit = units[0] if quantity in _ONE_UNIT or not handy else handy[0]
+    return f"{from_si(value, quantity, unit):.{digits}g} {unit}"
 
 
 @dataclass(frozen=True)

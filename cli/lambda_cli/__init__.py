@@ -1,0 +1,1 @@
+"""The command line of lambda-bearing; one module per command."""

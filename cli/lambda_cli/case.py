@@ -1,0 +1,65 @@
+"""The commands init, check and schema: make, look at and describe case files."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lambda_cli.options import CaseArgument, JsonOption, SetOption
+
+FileOption = Annotated[
+    Path | None, typer.Option("--out", metavar="FILE", help="Where to write; default: standard output.")
+]
+
+
+def init(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the new case.")],
+    start: Annotated[
+        str, typer.Option("--from", metavar="CASE", help="Built-in case or case file to start from.")
+    ] = "6319-cp10-1500",
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="FILE", help="File to write; default: NAME.toml.")
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
+) -> None:
+    """Write a commented case file to start from."""
+    from lambda_core import api
+
+    target = api.init_case(name, start, out, overwrite=force)
+    typer.echo(f"wrote {target}; next: lambda-bearing check {target}", err=True)
+
+
+def check(case: CaseArgument, changes: SetOption = None, as_json: JsonOption = False) -> None:
+    """Say what a case is, what it assumes, and everything that is wrong with it."""
+    from lambda_core import api
+
+    try:
+        report = api.describe(api.check(case, changes or ()))
+    except api.CaseError as error:
+        if not as_json:
+            raise
+        problems = [{"where": problem.where, "message": problem.message} for problem in error.problems]
+        typer.echo(json.dumps({"version": 1, "valid": False, "source": error.source, "errors": problems}, indent=2))
+        raise typer.Exit(error.exit_code) from None
+    if as_json:
+        typer.echo(json.dumps(report.model_dump(mode="json"), indent=2, allow_nan=False))
+        return
+    typer.echo(report.text())
+
+
+def schema(out: FileOption = None) -> None:
+    """Print the JSON schema of case files, for editors."""
+    from lambda_core import api
+
+    text = json.dumps(api.schema(), indent=2)
+    if out is None:
+        typer.echo(text)
+    else:
+        try:
+            out.write_text(text + "\n", encoding="utf-8")
+        except OSError as error:
+            raise api.UsageError(f'cannot write "{out}": {error.strerror}') from None
+        typer.echo(f"wrote {out}", err=True)

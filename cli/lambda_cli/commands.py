@@ -1,0 +1,85 @@
+"""The table of commands: where each one lives, loaded only when it is called.
+
+A command is a function or a typer application in a module of its own. One whose module is
+not installed is not listed. Further packages bring commands through the entry-point group
+``lambda_bearing.commands``; these are listed without being imported.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from importlib.metadata import entry_points
+from importlib.util import find_spec
+from typing import Any
+
+from lambda_core.errors import UsageError
+
+GROUP = "lambda_bearing.commands"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One command: its name, its line in the list, and how to get it."""
+
+    name: str
+    help: str
+    load: Callable[[], Any]  # a function, or a typer application
+    panel: str = "Commands"
+
+
+def _built_in(name: str, target: str, text: str) -> Entry:
+    return Entry(name, text, partial(_load, target))
+
+
+def _load(target: str) -> Any:
+    module, _, attribute = target.partition(":")
+    return getattr(importlib.import_module(module), attribute)
+
+
+COMMANDS: dict[str, tuple[str, str]] = {
+    "init": ("lambda_cli.case:init", "Write a commented case file to start from."),
+    "check": ("lambda_cli.case:check", "Say what a case is, what it assumes, and everything that is wrong with it."),
+    "schema": ("lambda_cli.case:schema", "Print the JSON schema of case files, for editors."),
+    "run": ("lambda_cli.run:run", "Run a case and write its result."),
+    "resume": ("lambda_cli.resume:resume", "Go on with an interrupted run."),
+    "quasistatic": ("lambda_cli.quasistatic:quasistatic", "Equilibrium of a case without running it."),
+    "show": ("lambda_cli.show:show", "Show the summary of a result."),
+    "view": ("lambda_cli.view:view", "Draw a view of one or more results."),
+    "compare": ("lambda_cli.compare:compare", "Put comparison methods beside the simulation."),
+    "study": ("lambda_cli.study:app", "Many runs: sweeps, samples, maps."),
+    "reproduce": ("lambda_cli.reproduce:reproduce", "Repeat the published experiments."),
+    "report": ("lambda_cli.report:report", "Write a report of results."),
+    "cite": ("lambda_cli.cite:cite", "Print the references of the models a result used."),
+    "db": ("lambda_cli.db:app", "Search and edit the catalogue of bearings, oils and materials."),
+    "plugins": ("lambda_cli.plugins:app", "List, show, check and start plugins."),
+    "warmup": ("lambda_cli.warmup:warmup", "Compile ahead of the first run."),
+    "gui": ("lambda_cli.gui:gui", "Build cases and look at results in the terminal."),
+}
+
+
+def entries() -> dict[str, Entry]:
+    """Return every command that exists here, by name; imports none of them."""
+    found = {
+        name: _built_in(name, target, text)
+        for name, (target, text) in COMMANDS.items()
+        if find_spec(target.partition(":")[0]) is not None
+    }
+    if entry_points(group=GROUP):
+        from lambda_core.registry.manager import commands
+
+        for source in commands():
+            load = partial(_load_foreign, source.load, source.distribution, source.name)
+            found.setdefault(source.name, Entry(source.name, f"From {source.distribution}.", load, "Plugins"))
+    return found
+
+
+def _load_foreign(load: Callable[[], Any], distribution: str, name: str) -> Any:
+    try:
+        return load()
+    except Exception as error:
+        from lambda_core.registry.faults import describe
+
+        raise UsageError(f"the command {name} of {distribution} cannot be loaded: {describe(error)}") from error

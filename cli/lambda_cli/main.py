@@ -1,0 +1,134 @@
+"""The program ``lambda-bearing``: finds the command, runs it, and turns errors into messages and exit codes.
+
+stdout carries data, stderr carries talk. Exit codes: 0 ok, 1 bug, 2 usage, 3 invalid case,
+4 solver failed, 5 partial result, 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from typing import Annotated, Any
+
+import typer
+from typer.core import TyperCommand, TyperGroup
+
+from lambda_cli.commands import Entry, entries
+from lambda_core.errors import LambdaError
+
+PROGRAM = "lambda-bearing"
+DEBUG_VARIABLE = "LAMBDA_BEARING_DEBUG"
+
+
+class LazyGroup(TyperGroup):
+    """A group that knows its commands' names and help, and imports only the one that is called."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
+        self._entries = entries()
+        for entry in self._entries.values():
+            self.add_command(TyperCommand(entry.name, help=entry.help, rich_help_panel=entry.panel))
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
+        """Find the command by name and load it."""
+        name, command, rest = super().resolve_command(ctx, args)
+        entry = self._entries.get(name or "")
+        return name, _command(entry) if entry else command, rest
+
+
+def _command(entry: Entry) -> Any:
+    """Return the loaded command: a function becomes a command, a typer application a group."""
+    loaded = entry.load()
+    if not isinstance(loaded, typer.Typer):
+        application = typer.Typer(add_completion=False)
+        application.command(entry.name)(loaded)
+        loaded = application
+    command = typer.main.get_command(loaded)
+    command.name = entry.name
+    return command
+
+
+application = typer.Typer(cls=LazyGroup, name=PROGRAM, no_args_is_help=True)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        typer.echo(f"{PROGRAM} {version(PROGRAM)}")
+        raise typer.Exit
+
+
+@application.callback()
+def _program(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")
+    ] = False,
+    no_plugin: Annotated[
+        list[str] | None, typer.Option("--no-plugin", metavar="NAME", help="Switch a plugin off for this call.")
+    ] = None,
+) -> None:
+    """Simulate the dynamics of deep-groove ball bearings: friction, kinematics, films, capacitance.
+
+    Start with: lambda-bearing run 6319-cp10-1500
+    """
+    if no_plugin:
+        from lambda_core.registry.manager import switch_off
+
+        switch_off(no_plugin)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the program and return its exit code.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        Command line without the program's name; default: that of the process.
+    """
+    try:
+        outcome = application(args=arguments, prog_name=PROGRAM, standalone_mode=False)
+        return outcome if isinstance(outcome, int) else 0
+    except LambdaError as error:
+        _say(str(error))
+        return error.exit_code
+    except (KeyboardInterrupt, typer.Abort):
+        _say("interrupted")
+        return 130
+    except BrokenPipeError:
+        # The reader (a pager, head) has gone: nothing more to say, not even at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except Exception as error:
+        if isinstance(code := getattr(error, "exit_code", None), int) and hasattr(error, "format_message"):
+            _say_usage(error)
+            return code
+        return _bug(error)
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr)
+
+
+def _say_usage(error: Any) -> None:
+    """Print what the command line did wrong, with the usage line of the command."""
+    context = getattr(error, "ctx", None)
+    if context is not None:
+        _say(context.get_usage())
+        _say(f"Try '{context.command_path} --help' for help.")
+    message = error.format_message()
+    if message:
+        _say(f"Error: {message}")
+
+
+def _bug(error: Exception) -> int:
+    if os.environ.get(DEBUG_VARIABLE):
+        import traceback
+
+        traceback.print_exc()
+    else:
+        text = " ".join(str(error).split())
+        _say(f"{PROGRAM} has a bug: {type(error).__name__}: {text}")
+        _say(f"Set {DEBUG_VARIABLE}=1 to see where, and please report it with the command and the case file.")
+    return LambdaError.exit_code
