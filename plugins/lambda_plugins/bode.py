@@ -14,7 +14,7 @@ from pydantic import Field
 from lambda_core.plugins import Context, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
 from lambda_plugins.rheology import capped
-from lambda_plugins.vector_math import log1p
+from lambda_plugins.vector_math import exp, log1p
 
 _T_LOW = 223.15  # [K]
 _T_HIGH = 573.15  # [K]; N(T) of the published oil turns negative near 660 K
@@ -124,7 +124,7 @@ def bode_permittivity(p: FloatArray, T: FloatArray, rho: FloatArray, par: FloatA
         temperature = within_range(T[i])
         density_T = par[0] * (1.0 - par[1] * temperature)
         stiffness = math.sqrt(pressure_scale(temperature, par) / par[2])
-        ambient = par[7] * stiffness * density_T ** (1.0 / 6.0) + par[8] * temperature
+        ambient = par[7] * stiffness * exp(log1p(density_T - 1.0) / 6.0) + par[8] * temperature
         eps_r[i] = ambient + par[9] * (bode_density(p[i], temperature, par) - density_T)
     return 1
 

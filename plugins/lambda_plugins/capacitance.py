@@ -103,8 +103,11 @@ def gap_scale(semi_a: float, semi_b: float, R_x: float, R_y: float) -> float:
     """
     i_b = 0.5 / (semi_b * semi_b * semi_a)
     i_a = 0.5 / (semi_a * semi_a * semi_a)
-    for i in range(1, 61):
-        t = semi_b * math.sinh(0.25 * i)
+    growth = math.exp(0.25)
+    grown = 1.0
+    for _ in range(60):
+        grown *= growth
+        t = 0.5 * semi_b * (grown - 1.0 / grown)
         A2 = semi_a * semi_a + t * t
         A = math.sqrt(A2)
         i_b += 1.0 / ((semi_b * semi_b + t * t) * A)
@@ -151,8 +154,11 @@ def gap_integral(
     last_a = 1.0 / (semi_a * semi_a * semi_a)
     last_1 = 1.0 / semi_a
     total = 0.0  # the integrand vanishes at the edge
+    growth = math.exp(step)
+    grown = 1.0
     for i in range(1, _STEPS + 1):
-        t = semi_b * math.sinh(i * step)
+        grown *= growth
+        t = 0.5 * semi_b * (grown - 1.0 / grown)  # b sinh(i step)
         A2 = semi_a * semi_a + t * t
         B2 = semi_b * semi_b + t * t
         A = math.sqrt(A2)
