@@ -9,12 +9,12 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from sqlalchemy import Connection, delete, insert, select
+from sqlalchemy import Connection, Engine, delete, insert, select
 from sqlalchemy.exc import IntegrityError
 
-from lambda_core.errors import CatalogueError, LambdaError, Problem
+from lambda_core.errors import CatalogueError, Problem
 from lambda_db.engine import file_uri, sqlite_engine
-from lambda_db.models import CHILDREN, SEED_TABLES, Base, Remark
+from lambda_db.models import CHILDREN, SEED_TABLES, Base
 from lambda_db.paths import cache_folder
 from lambda_db.records import Row, describe, key_columns, parse_row, table_of
 from lambda_db.seeds import BUILT_IN, Record, fingerprint, read_path
@@ -103,18 +103,17 @@ def _insert_all(connection: Connection, table: str, placed: list[tuple[str, Row]
 
 
 def fill(connection: Connection, plugin_folders: list[Path]) -> None:
-    """Create the tables and read the seeds; a plugin's bad folder is left out whole and remembered as a remark."""
+    """Create the tables and read the seeds; a plugin's rows stand in front of the built-in ones.
+
+    Raises
+    ------
+    CatalogueError
+        With every bad row of the first folder that has any; the registry then leaves that plugin's folder out.
+    """
     Base.metadata.create_all(connection)
     load(connection, read_path(BUILT_IN), "core")
     for folder in plugin_folders:
-        savepoint = connection.begin_nested()
-        try:
-            load(connection, read_path(folder), "plugin")
-        except (LambdaError, OSError) as error:
-            savepoint.rollback()
-            connection.execute(insert(Remark), {"text": f"rows of the plugin folder {folder} were left out: {error}"})
-        else:
-            savepoint.commit()
+        load(connection, read_path(folder), "plugin")
     derive_candidates(connection)
 
 
@@ -135,13 +134,21 @@ def build_file(target: Path, plugin_folders: list[Path]) -> None:
     os.close(handle)
     temporary = Path(name)
     try:
-        engine = sqlite_engine(file_uri(temporary, "rw"))
+        engine = sqlite_engine(file_uri(temporary, "rw"), "BEGIN")
         with engine.begin() as connection:
             fill(connection, plugin_folders)
         engine.dispose()
         os.replace(temporary, target)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def in_memory(plugin_folders: list[Path]) -> Engine:
+    """Build the database in memory, for a machine whose cache folder takes no files."""
+    engine = sqlite_engine("file::memory:")
+    with engine.begin() as connection:
+        fill(connection, plugin_folders)
+    return engine
 
 
 def is_sound(path: Path) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Literal
@@ -24,14 +23,12 @@ from lambda_db.models import (
     LubricantParameter,
     LubricantProperty,
     Material,
-    Remark,
     Source,
 )
 from lambda_db.overlay import attach_user, detach_user
 from lambda_db.paths import user_database
 from lambda_db.search import bearing_query
 
-log = logging.getLogger("lambda_db")
 Kind = Literal["bearing", "lubricant", "material", "cage", "clearance_class"]
 _NAMED: dict[str, type[Lubricant] | type[Material] | type[Cage]] = {
     "lubricant": Lubricant,
@@ -47,20 +44,18 @@ def open_catalogue(seed_folders: Sequence[Any] = ()) -> SqlCatalogue:
     ----------
     seed_folders : sequence of path-like
         Folders of seed files that plugins bring.
+
+    Raises
+    ------
+    CatalogueError
+        When a folder holds rows that cannot be taken, with every one and the reason.
     """
-    folders = []
-    for folder in map(Path, seed_folders):
-        if folder.is_dir():
-            folders.append(folder)
-        else:
-            log.warning("a plugin brings catalogue rows in %s, which is not a folder", folder)
+    folders = [Path(folder) for folder in seed_folders]
+    for folder in folders:
+        if not folder.is_dir():
+            raise _error(str(folder), "a plugin brings catalogue rows in it, but it is not a folder")
     path = build.core_database(folders)
-    if path is None:
-        engine = sqlite_engine("file::memory:")
-        with engine.begin() as connection:
-            build.fill(connection, folders)
-    else:
-        engine = sqlite_engine(file_uri(path, "ro"))
+    engine = build.in_memory(folders) if path is None else sqlite_engine(file_uri(path, "ro"))
     return SqlCatalogue(engine)
 
 
@@ -73,12 +68,9 @@ class SqlCatalogue:
 
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
-        # autocommit: each look-up sees what other processes have written to the user's database by then
-        self._connection: Connection = engine.connect().execution_options(isolation_level="AUTOCOMMIT")
+        self._connection: Connection = engine.connect()
         self._overlaid = False
         self.refresh()
-        for remark in self._session().scalars(select(Remark.text)):
-            log.warning("%s", remark)
 
     def refresh(self) -> None:
         """Overlay the user's database if it has appeared, and read the sources again."""
@@ -101,6 +93,11 @@ class SqlCatalogue:
     def connection(self) -> Connection:
         """The reading connection, for the parts of this package that need whole tables."""
         return self._connection
+
+    @property
+    def has_user_rows(self) -> bool:
+        """Whether the user's own database is overlaid."""
+        return self._overlaid
 
     def bearing(self, designation: str, maker: str | None = None) -> BearingRow:
         """Return one bearing by designation and maker (case ignored).

@@ -386,15 +386,6 @@ class LubricantParameter(Base):
     grade: Mapped[str]
 
 
-class Remark(Base):
-    """Something the build has to tell whoever opens the catalogue (a plugin's bad rows, for example)."""
-
-    __tablename__ = "remark"
-    __table_args__ = (_STRICT,)
-
-    text: Mapped[str] = mapped_column(primary_key=True)
-
-
 # Tables that people bring rows for, in the order in which they are read.
 SEED_TABLES: dict[str, type[Base]] = {
     model.__tablename__: model

@@ -11,7 +11,7 @@ from sqlalchemy import Column, Float, Integer, Table
 from lambda_core.errors import nearest
 from lambda_core.schema.units import UNITS, from_si, parse
 from lambda_db.models import SEED_TABLES
-from lambda_db.units import PROPERTIES, column_unit, to_si
+from lambda_db.units import PROPERTIES, bare_name, column_unit, to_si
 
 Row = dict[str, Any]
 
@@ -84,14 +84,8 @@ def parse_row(name: str, cells: Mapping[str, object]) -> tuple[Row, list[str]]:
         Why the row cannot be taken; empty if it can, as far as one cell at a time tells.
     """
     table = table_of(name)
-    known = columns_of(name)
     row: Row = {}
-    problems: list[str] = []
-    for key in cells:
-        if key not in known:
-            close = nearest(str(key), known)
-            hint = f"; nearest: {', '.join(close)}" if close else f"; known: {', '.join(known)}"
-            problems.append(f'"{key}" is not a column of {name}{hint}')
+    cells, problems = _by_column(name, cells)
     for column in table.columns:
         if column.name == "layer":
             continue
@@ -102,6 +96,34 @@ def parse_row(name: str, cells: Mapping[str, object]) -> tuple[Row, list[str]]:
     if not problems:
         problems += _unit_problems(name, row)
     return row, problems
+
+
+def _by_column(name: str, cells: Mapping[str, object]) -> tuple[dict[str, object], list[str]]:
+    """Match keys to columns; ``bore_diameter = "40 mm"`` stands for ``bore_diameter_mm = 40.0``."""
+    known = columns_of(name)
+    short = {bare_name(column): column for column in known if column_unit(column)}
+    found: dict[str, object] = {}
+    problems: list[str] = []
+    for key, cell in cells.items():
+        column = key if key in known else short.get(key)
+        if column is None:
+            close = nearest(str(key), [*known, *short])
+            hint = f"; nearest: {', '.join(close)}" if close else f"; known: {', '.join(known)}"
+            problems.append(f'"{key}" is not a column of {name}{hint}')
+        elif column in found:
+            problems.append(f"{column} is given twice")
+        elif column != key and not isinstance(cell, str):
+            problems.append(f'{key}: {cell} has no unit: write {column} = {cell} or {key} = "{cell} {_unit(column)}"')
+        elif column != key and str(cell).strip().replace(".", "", 1).isdigit():
+            problems.append(f'{key}: "{cell}" has no unit: write "{cell} {_unit(column)}"')
+        else:
+            found[column] = cell
+    return found, problems
+
+
+def _unit(column: str) -> str:
+    unit = column_unit(column)
+    return unit[1] if unit else ""
 
 
 def _unit_problems(name: str, row: Row) -> list[str]:

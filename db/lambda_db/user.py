@@ -27,9 +27,7 @@ def open_user_database(path: Path) -> Engine:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        engine = sqlite_engine(file_uri(path, "rwc"), immediate=True)
-        with engine.connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
-            connection.exec_driver_sql("PRAGMA journal_mode = WAL")
+        engine = sqlite_engine(file_uri(path, "rwc"), "BEGIN IMMEDIATE", pragmas=("journal_mode = WAL",))
         with engine.begin() as connection:
             _bring_up_to_date(connection, path)
     except OSError as error:
@@ -65,7 +63,7 @@ def migrate(path: Path) -> None:
     """Bring an older database up to date before it is read; anything else is the reader's to report."""
     try:
         engine = sqlite_engine(file_uri(path, "ro"))
-        with engine.connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
+        with engine.connect() as connection:
             found = connection.exec_driver_sql("PRAGMA user_version").scalar_one()
         engine.dispose()
         if 0 < found < SCHEMA_VERSION:
