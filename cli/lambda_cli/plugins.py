@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from lambda_cli.options import JsonOption
+
 if TYPE_CHECKING:
     from rich.table import Table
 
     from lambda_core.registry.survey import CheckCard, ModelCard
 
 app = typer.Typer(no_args_is_help=True, help="Models, methods and views that plugins bring.")
-
-Json = Annotated[bool, typer.Option("--json", help="Write one JSON object to stdout.")]
 
 
 def _table(*columns: str) -> Table:
@@ -38,7 +38,7 @@ def _print(item: object) -> None:
 @app.command("list")
 def list_plugins(
     role: Annotated[str, typer.Option(help="Only the models of one role.")] = "",
-    json: Json = False,
+    as_json: JsonOption = False,
 ) -> None:
     """List everything installed, with its distribution; plugins that are not in use, and why."""
     from lambda_core.errors import UsageError, unknown_name
@@ -51,7 +51,7 @@ def list_plugins(
     found = inventory(registry())
     if role:
         found.items = [item for item in found.items if item.role == role]
-    if json:
+    if as_json:
         typer.echo(found.model_dump_json(indent=2))
         return
     table = _table("kind", "role", "name", "distribution", "reference")
@@ -65,14 +65,14 @@ def list_plugins(
 @app.command()
 def show(
     model: Annotated[str, typer.Argument(metavar="ROLE/NAME", help="For example traction/ree-eyring.")],
-    json: Json = False,
+    as_json: JsonOption = False,
 ) -> None:
     """Show one model: parameters with units, limits, defaults and sources; validity and reference."""
     from lambda_core.registry.manager import registry
     from lambda_core.registry.survey import model_card
 
     card = model_card(registry(), model)
-    if json:
+    if as_json:
         typer.echo(card.model_dump_json(indent=2))
         return
     _show_card(card)
@@ -116,32 +116,26 @@ def check(
         list[str] | None,
         typer.Argument(metavar="[NAME]...", help="Distributions, roles or ROLE/NAME; everything when left out."),
     ] = None,
-    json: Json = False,
+    as_json: JsonOption = False,
 ) -> None:
     """Try models against the contract of their role; exit 3 when one does not keep it."""
-    from pydantic import TypeAdapter
-
     from lambda_core.registry.manager import registry
-    from lambda_core.registry.survey import CheckCard, FaultCard, check_installed
+    from lambda_core.registry.survey import FaultCard, Verdict, check_installed
 
     installed = registry()
     wanted = tuple(names or ())
     cards: list[CheckCard] = []
     for card in check_installed(installed, wanted):
         cards.append(card)
-        if not json:
+        if not as_json:
             _print(_verdict(card))
     faults = [
         FaultCard(**vars(fault))
         for fault in installed.faults
         if fault.is_broken and (not wanted or fault.distribution.split(" ")[0] in wanted)
     ]
-    if json:
-        data = {
-            "models": TypeAdapter(list[CheckCard]).dump_python(cards, mode="json"),
-            "faults": TypeAdapter(list[FaultCard]).dump_python(faults, mode="json"),
-        }
-        typer.echo(TypeAdapter(dict[str, object]).dump_json(data, indent=2))
+    if as_json:
+        typer.echo(Verdict(models=cards, faults=faults).model_dump_json(indent=2))
     else:
         for fault in faults:
             _print(f"not in use: {fault.distribution} ({fault.entry_point}): {fault.message}")

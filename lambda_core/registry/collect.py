@@ -11,6 +11,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from lambda_core.errors import unknown_name
+from lambda_core.registry.method import METHOD_API, Method
 from lambda_core.registry.model import LazyModel, Model
 from lambda_core.registry.roles import ROLE_API, ROLES
 
@@ -97,6 +98,8 @@ def _fault(entry: Entry) -> str:
         if not isinstance(item, Model | LazyModel):
             return f"lambda_models registers a {type(item).__name__}: wrap the kernel in model(role, name, ...)"
         return model_fault(item) if isinstance(item, Model) else _lazy_fault(item)
+    if entry.hook == "lambda_methods":
+        return _method_fault(item)
     if not isinstance(getattr(item, "name", None), str):
         return f"{entry.hook} registers a {type(item).__name__} without a name"
     return _name_fault(_KINDS[entry.hook], item.name)
@@ -130,6 +133,18 @@ def model_fault(item: Model) -> str:
     if not item.reference.strip():
         return f'{label} has no reference: name its source ("own work" is one)'
     return _name_fault(item.role, item.name)
+
+
+def _method_fault(item: Any) -> str:
+    if not isinstance(item, Method):
+        return f"lambda_methods registers a {type(item).__name__}: wrap the function in Method(name, title, ...)"
+    if item.method_api != METHOD_API:
+        return f"the method {item.name} is written for version {item.method_api} of the interface; this is {METHOD_API}"
+    if not callable(item.evaluate):
+        return f"the method {item.name} evaluates with a {type(item.evaluate).__name__}, not a function"
+    if not item.reference.strip():
+        return f'the method {item.name} has no reference: name its source ("own work" is one)'
+    return _name_fault("method", item.name)
 
 
 def _folder_fault(item: Any) -> str:

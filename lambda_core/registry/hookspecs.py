@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pluggy
 
+from lambda_core.registry.method import Method
 from lambda_core.registry.model import LazyModel, Model
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def lambda_models(register: Callable[[Model | LazyModel], None]) -> None:
 
 
 @hookspec
-def lambda_methods(register: Callable[[Any], None]) -> None:
+def lambda_methods(register: Callable[[Method], None]) -> None:
     """Register comparison methods (case -> table), shown beside the simulation."""
 
 

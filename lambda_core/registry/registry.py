@@ -14,6 +14,7 @@ import pluggy
 from lambda_core.errors import nearest, unknown_name
 from lambda_core.registry.collect import Collection, is_own, model_fault
 from lambda_core.registry.faults import PluginError, PluginFault, describe
+from lambda_core.registry.method import Method
 from lambda_core.registry.model import LazyModel, Model
 from lambda_core.registry.roles import ROLES
 
@@ -28,8 +29,10 @@ class Registry:
     ----------
     faults : tuple of PluginFault
         Installed plugins that are not in use, and why.
-    methods, views : mapping of str to object
-        Comparison methods and views by name.
+    methods : mapping of str to Method
+        Comparison methods by name.
+    views : mapping of str to object
+        Views by name.
     data_folders : tuple of (str, pathlib.Path)
         Distribution and folder of catalogue rows.
     """
@@ -40,7 +43,7 @@ class Registry:
         self._loaded: dict[tuple[str, str], Model] = {}
         self._hooks = hooks
         self.faults = faults
-        self.methods = _of_kind(collection, "method")
+        self.methods: Mapping[str, Method] = _of_kind(collection, "method")
         self.views = _of_kind(collection, "view")
         self.data_folders: tuple[tuple[str, Path], ...] = tuple(collection.folders)
 
@@ -75,9 +78,10 @@ class Registry:
         """Return every model for `role` by name; one that cannot be imported is an error."""
         return {name: self.model(role, name) for name in self.names(role)}
 
-    def method(self, name: str) -> Any:
+    def method(self, name: str) -> Method:
         """Return one comparison method; PluginError with the nearest names when unknown."""
-        return self._named("method", name, self.methods)
+        found: Method = self._named("method", name, self.methods)
+        return found
 
     def view(self, name: str) -> Any:
         """Return one view; PluginError with the nearest names when unknown."""

@@ -43,6 +43,7 @@ class ParameterCard(BaseModel):
 class ModelCard(BaseModel):
     """One model: what it is, where it comes from, and what can be set."""
 
+    version: int = 1  # of this form
     role: str
     name: str
     distribution: str
@@ -78,6 +79,7 @@ class FaultCard(BaseModel):
 class Inventory(BaseModel):
     """Everything installed."""
 
+    version: int = 1  # of this form
     items: list[Item]
     faults: list[FaultCard]
 
@@ -93,6 +95,14 @@ class CheckCard(BaseModel):
     warnings: list[str]
     not_tried: str  # why, when no parameters were at hand
     nanoseconds: float | None  # per call, or per cell of an elementwise role
+
+
+class Verdict(BaseModel):
+    """What came out of trying models, and the plugins that could not be loaded at all."""
+
+    version: int = 1  # of this form
+    models: list[CheckCard]
+    faults: list[FaultCard]
 
 
 def inventory(registry: Registry) -> Inventory:

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from lambda_core.errors import UsageError
-from lambda_core.plugins import LazyModel, Model, hookimpl, model
+from lambda_core.plugins import LazyModel, Method, MethodTable, Model, hookimpl, model
 from lambda_core.registry import manager
 from lambda_core.registry.faults import PluginError
 from lambda_core.registry.manager import Source, discover
@@ -25,6 +25,11 @@ def kernel(Lambda: float, par: Any, out: Any) -> int:
 
 def law(name: str = "half", **changes: Any) -> Model:
     return model("asperity_load", name, kernel, **({"reference": "own work"} | changes))
+
+
+def method(**changes: Any) -> Method:
+    given = {"name": "trial", "title": "A trial", "reference": "own work", "evaluate": lambda inputs: MethodTable(())}
+    return Method(**(given | changes))
 
 
 def hooks(**functions: Any) -> ModuleType:
@@ -92,7 +97,11 @@ def test_models_know_their_distribution_and_keep_their_order() -> None:
         (plugin(kernel), ["registers a function", "model(role, name"]),
         (plugin(LazyModel("asperity_load", "x", "no target")), ['"package.module:attribute"']),
         (plugin("/nowhere/at/all", hook="lambda_data"), ["/nowhere/at/all does not exist"]),
-        (plugin(object(), hook="lambda_methods"), ["lambda_methods registers a object without a name"]),
+        (plugin(object(), hook="lambda_methods"), ["lambda_methods registers a object", "Method(name, title"]),
+        (plugin(method(method_api=7), hook="lambda_methods"), ["method trial is written for version 7"]),
+        (plugin(method(reference=""), hook="lambda_methods"), ["method trial has no reference"]),
+        (plugin(method(evaluate=3), hook="lambda_methods"), ["evaluates with a int, not a function"]),
+        (plugin(object(), hook="lambda_views"), ["lambda_views registers a object without a name"]),
     ],
 )
 def test_a_broken_plugin_is_named_and_the_rest_works(broken: Any, words: list[str]) -> None:
@@ -106,6 +115,14 @@ def test_a_broken_plugin_is_named_and_the_rest_works(broken: Any, words: list[st
 def test_a_plugin_is_taken_whole_or_not_at_all() -> None:
     registry = discover([GOOD, source("broken", plugin(law("fine"), law("good-law")))])
     assert registry.names("asperity_load") == ("good-law",)
+
+
+def test_methods_know_their_distribution() -> None:
+    registry = discover([source("good", plugin(method(), hook="lambda_methods"))])
+    assert registry.method("trial").distribution == "good 1.2"
+    assert registry.origin("method", "trial") == "good 1.2"
+    with pytest.raises(PluginError, match='"trail" is not a known method; nearest: trial'):
+        registry.method("trail")
 
 
 def test_the_catalogue_hook_of_a_refused_plugin_is_not_called() -> None:
