@@ -20,6 +20,7 @@ from lambda_core.registry import check
 from lambda_core.registry.check import ModelReport
 from lambda_core.registry.kernels import compile_kernel
 from lambda_core.registry.manager import registry
+from lambda_core.registry.method import MethodInputs
 from lambda_core.registry.model import Context, FloatArray, Model
 from lambda_core.registry.par import make_par
 from lambda_core.registry.probe import VECTORS, output_size, trial_context
@@ -28,7 +29,15 @@ from lambda_core.registry.survey import split_label
 
 Parameters = BaseModel | Mapping[str, Any] | None
 
-__all__ = ["ModelReport", "assert_increasing", "assert_limit", "assert_symmetric", "check_model", "evaluate"]
+__all__ = [
+    "ModelReport",
+    "assert_increasing",
+    "assert_limit",
+    "assert_symmetric",
+    "check_model",
+    "evaluate",
+    "method_inputs",
+]
 
 
 def _model(model: Model | str) -> Model:
@@ -133,6 +142,39 @@ def _along(model: Model | str, argument: str, values: ArrayLike, output: int, gi
         found = evaluate(model, **arguments)
         results.append(found[output][0] if isinstance(found, tuple) else found[min(output, found.size - 1)])
     return np.array(results)
+
+
+def method_inputs(**changes: Any) -> MethodInputs:
+    """Return what a comparison method sees of a 6208 at 40 degC, 2750 1/min and 2 kN radial load.
+
+    Parameters
+    ----------
+    **changes
+        Fields of :class:`lambda_core.plugins.MethodInputs` that differ, SI.
+    """
+    inner = trial_context("ball_inner")
+    groove = inner.groove_radius
+    given: dict[str, Any] = {
+        "title": "6208 (trial)",
+        "series": inner.series,
+        "bore_diameter": inner.bore_diameter,
+        "outside_diameter": inner.outside_diameter,
+        "width": inner.width,
+        "ball_count": inner.ball_count,
+        "ball_diameter": inner.ball_diameter,
+        "pitch_diameter": inner.pitch_diameter,
+        "groove_radius_inner": groove,
+        "groove_radius_outer": groove,
+        "ball": inner.ball,
+        "inner_ring": inner.partner,
+        "outer_ring": inner.partner,
+        "oil": inner.oil,
+        "radial_load": 2000.0,
+        "axial_load": 0.0,
+        "inner_speed": inner.speed,
+        "outer_speed": 0.0,
+    }
+    return MethodInputs(**(given | changes))
 
 
 def assert_increasing(model: Model | str, argument: str, values: ArrayLike, *, output: int = 0, **given: Any) -> None:

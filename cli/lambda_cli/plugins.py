@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -108,6 +110,26 @@ def _show_card(card: ModelCard) -> None:
         )
     _print("")
     _print(table)
+
+
+@app.command()
+def new(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Lower case and hyphens, for example my-traction.")],
+    folder: Annotated[
+        Path, typer.Option("--in", metavar="FOLDER", help="Where the package's folder is made.")
+    ] = Path(),
+    as_json: JsonOption = False,
+) -> None:
+    """Write a small plugin package to start from: law, method, view, rows, command, tests."""
+    from lambda_core.registry.scaffold import new_plugin
+
+    files = new_plugin(name, folder)
+    if as_json:
+        typer.echo(json.dumps({"version": 1, "folder": str(folder / name), "files": [str(file) for file in files]}))
+        return
+    for file in files:
+        typer.echo(str(file))
+    typer.echo(f"next: pip install -e {folder / name}; lambda-bearing plugins check {name}", err=True)
 
 
 @app.command()
