@@ -1,0 +1,388 @@
+"""From a resolved model to the arrays and pointers that compiled code works on."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from lambda_core.errors import SolverError
+from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.compiled.jacobian import make_blocks
+from lambda_core.physics.model import DOFS, BearingModel, Law, TimeFunction
+from lambda_core.registry.kernels import compile_kernel
+from lambda_core.registry.model import Context, Material, Oil, default_par
+
+FloatArray = NDArray[np.float64]
+Announce = Callable[[str], None] | None
+
+# Below this mean surface velocity the rolling losses change sign smoothly: far below any running speed, wide
+# enough for the integrator to cross when a bearing starts, stops or reverses.
+ROLL_FLOOR = 1e-3  # [m/s]
+# Slip below which the direction of shear fades out; small against creep at any running speed.
+SLIP_FLOOR = 1e-6  # [m/s]
+_MODES = {"free": L.FREE, "locked": L.LOCKED, "prescribed": L.PRESCRIBED}
+_KINDS = {"constant": L.TF_CONSTANT, "ramp": L.TF_RAMP, "harmonic": L.TF_HARMONIC, "table": L.TF_TABLE}
+
+
+@dataclass(frozen=True)
+class ContactFrame:
+    """Frozen geometry of the two raceway force elements: inner, outer."""
+
+    angles: tuple[float, float]  # contact angles at which R_x is frozen [rad]
+    mean_loads: tuple[float, float]  # [N]
+
+
+def reduced_modulus(one: Material, other: Material) -> float:
+    """Return E' with 2/E' = sum (1 - nu^2)/E [Pa]."""
+    soft = sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus for m in (one, other))
+    return 2.0 / soft
+
+
+def contact_radii(ball_diameter: float, pitch: float, groove: float, angle: float, inner: bool) -> tuple[float, float]:
+    """Return reduced radii along and across rolling [m] of a ball in a groove.
+
+    1/R_x = 2/D_w +- 2 gamma/(D_w (1 -+ gamma)), gamma = D_w cos(alpha)/d_m, upper signs inner;
+    1/R_y = 2/D_w - 1/r_g (Harris and Kotzalas 2006, eq. 2.28-2.31).
+    """
+    gamma = ball_diameter * math.cos(angle) / pitch
+    sign = 1.0 if inner else -1.0
+    along = 2.0 / ball_diameter + sign * 2.0 * gamma / (ball_diameter * (1.0 - sign * gamma))
+    return 1.0 / along, 1.0 / (2.0 / ball_diameter - 1.0 / groove)
+
+
+def ball_mass(model: BearingModel) -> float:
+    """Return the mass of one ball [kg]."""
+    return model.ball_material.density * math.pi * model.geometry.ball_diameter**3 / 6.0
+
+
+def unit_grid(strips: int, rows: int) -> L.Grid:
+    """Divide the unit ellipse into strips and rows; weights carry area and load exactly.
+
+    Returns
+    -------
+    Grid
+        Each array has shape (strips * rows,). sum(area) = pi and sum(area * pressure) = 2 pi/3, the Hertzian load over
+        a b p_max.
+    """
+    edges = np.linspace(-1.0, 1.0, strips + 1)
+    mid = 0.5 * (edges[1:] + edges[:-1])
+    area_of = lambda x: x * np.sqrt(np.maximum(1.0 - x * x, 0.0)) + np.arcsin(x)  # noqa: E731
+    load_of = lambda x: 0.5 * np.pi * (x - x**3 / 3.0)  # noqa: E731
+    area, load = np.diff(area_of(edges)), np.diff(load_of(edges))
+    half = np.sqrt(1.0 - mid * mid)
+    row_edges = np.linspace(-1.0, 1.0, rows + 1)
+    row_mid = 0.5 * (row_edges[1:] + row_edges[:-1])
+    row_load = np.diff(area_of(row_edges)) / np.pi
+    shape = (strips, rows)
+    per_area = np.repeat(area[:, None] / rows, rows, 1)
+    return L.Grid(
+        np.repeat(mid[:, None], rows, 1).ravel(),
+        (half[:, None] * row_mid[None, :]).ravel(),
+        (load[:, None] * row_load[None, :] / per_area).ravel(),
+        per_area.ravel(),
+        np.full(shape, 2.0 / strips).ravel(),
+        np.repeat(half[:, None] * 2.0 / rows, rows, 1).ravel(),
+    )
+
+
+def _terms(channel: int, function: TimeFunction, rows: list[list[float]], table: list[float]) -> None:
+    """Append a time function's terms to the flat tables that compiled code reads."""
+    for term in function.terms:
+        row = [float(channel), float(_KINDS[term.kind]), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+        if term.kind == "table":
+            times, values = np.array(term.values[0::2]), np.array(term.values[1::2])
+            row[6], row[7] = len(table), times.size
+            spline = CubicSpline(times, values, bc_type="clamped" if times.size > 2 else "natural")
+            for i in range(times.size - 1):
+                table += [times[i], *(float(spline.c[3 - k, i]) for k in range(4))]
+            table += [times[-1], values[-1], 0.0, 0.0, 0.0]
+        else:
+            row[2 : 2 + len(term.values)] = term.values
+        rows.append(row)
+
+
+def build_times(model: BearingModel) -> L.Times:
+    """Flatten loads and motions, and list the free entries of the shared state."""
+    rows: list[list[float]] = []
+    table: list[float] = []
+    active: list[int] = []
+    for b, body in enumerate((model.inner_ring, model.outer_ring, model.cage_body)):
+        if b == L.CAGE and not model.depth.cage:
+            continue
+        for d, name in enumerate(DOFS):
+            dof = body.dofs[name]
+            if dof.mode == "prescribed":
+                _terms(L.CH_MOTION + 6 * b + d, dof.motion, rows, table)
+            if dof.mode == "free":
+                # Turning about y moves a_z, turning about z moves a_y.
+                position = {3: L.SAZ, 4: L.SAY}.get(d, d)
+                active += [L.NS * b + position, L.NS * b + 6 + d]
+            elif d == 5 and dof.mode == "prescribed":
+                active.append(L.NS * b + L.STHETA)
+        for axis in range(3):
+            _terms(L.CH_FORCE + 3 * b + axis, body.force[axis], rows, table)
+            _terms(L.CH_MOMENT + 3 * b + axis, body.moment[axis], rows, table)
+    terms = np.array(rows, dtype=np.float64).reshape(-1, 8)
+    return L.Times(terms, np.array(table or [0.0]), np.array(sorted(active), dtype=np.int64))
+
+
+def build_system(model: BearingModel, frame: ContactFrame, oil: Oil) -> Any:
+    """Fill the record of constants."""
+    g = model.geometry
+    system = np.zeros(1, dtype=L.SYSTEM)
+    s = system[0]
+    radius = 0.5 * g.ball_diameter
+    mass = ball_mass(model)
+    grooves = (g.groove_radius_inner, g.groove_radius_outer)
+    s["balls"], s["cage_on"] = g.ball_count, int(model.depth.cage)
+    s["ball_radius"], s["ball_mass"], s["ball_inertia"] = radius, mass, 0.4 * mass * radius**2
+    s["groove_circle"] = (
+        0.5 * g.race_diameter_inner + grooves[0],
+        0.5 * g.race_diameter_outer - grooves[1],
+    )
+    s["groove_radius"] = grooves
+    for i, ring in enumerate((model.inner_material, model.outer_material)):
+        rx, ry = contact_radii(g.ball_diameter, g.pitch_diameter, grooves[i], frame.angles[i], i == 0)
+        s["radius_x"][i], s["radius_y"][i] = rx, ry
+        s["e_eff"][i] = reduced_modulus(model.ball_material, ring)
+        s["radius_deformed"][i] = 2.0 * grooves[i] * radius / (grooves[i] + radius)
+    for b, body in enumerate((model.inner_ring, model.outer_ring, model.cage_body)):
+        s["mass"][b] = body.mass
+        s["transverse_inertia"][b] = body.transverse_inertia
+        s["polar_inertia"][b] = body.polar_inertia
+        s["unbalance"][b] = body.unbalance
+        for d, name in enumerate(DOFS):
+            dof = body.dofs[name]
+            s["mode"][6 * b + d] = _MODES[dof.mode]
+            s["stiffness"][6 * b + d], s["damping"][6 * b + d] = dof.stiffness, dof.damping
+    s["gravity"] = model.gravity
+    s["oil_temperature"], s["k_oil"] = oil.temperature, oil.thermal_conductivity
+    s["eta0"], s["alpha_p"], s["beta"], s["rho0"] = oil.viscosity, oil.alpha_p, oil.beta, oil.density
+    s["roughness"], s["starvation"] = model.roughness, model.starvation
+    s["pocket_circle"] = 0.5 * g.pitch_diameter
+    s["land_offset"] = 0.5 * model.cage.width
+    s["land_on"] = [int(model.laws[e]["cage_contact"].model.name != "none") for e in ("cage_inner", "cage_outer")]
+    s["drag_on"] = int(model.laws["fluid_drag"]["fluid_drag"].model.name != "none")
+    s["roll_floor"], s["slip_floor"] = ROLL_FLOOR, SLIP_FLOOR
+    s["friction_on"], s["guides_on"] = 1, 1
+    return system
+
+
+def build_context(model: BearingModel, element: str, frame: ContactFrame, oil: Oil) -> Context:
+    """Return what the `prepare` of this force element's laws may look at."""
+    g = model.geometry
+    speed = max_speed(model)
+    partner = {"ball_inner": model.inner_material, "ball_outer": model.outer_material}.get(element, model.cage_material)
+    common = Context(
+        element=element,
+        ball_count=g.ball_count,
+        ball_diameter=g.ball_diameter,
+        pitch_diameter=g.pitch_diameter,
+        bore_diameter=g.bore_diameter,
+        outside_diameter=g.outside_diameter,
+        width=g.width,
+        series=g.series,
+        speed=speed,
+        mean_load=max(frame.mean_loads),
+        ball=model.ball_material,
+        partner=partner,
+        oil=oil,
+        pocket_clearance=model.cage.pocket_clearance,
+        cage_width=model.cage.width,
+        oil_level=model.oil_level,
+    )
+    if element in ("ball_inner", "ball_outer"):
+        i = 0 if element == "ball_inner" else 1
+        groove = (g.groove_radius_inner, g.groove_radius_outer)[i]
+        rx, ry = contact_radii(g.ball_diameter, g.pitch_diameter, groove, frame.angles[i], i == 0)
+        return dataclasses.replace(
+            common,
+            mean_load=frame.mean_loads[i],
+            contact_angle=frame.angles[i],
+            groove_radius=groove,
+            race_diameter=(g.race_diameter_inner, g.race_diameter_outer)[i],
+            radius_x=rx,
+            radius_y=ry,
+            e_eff=reduced_modulus(model.ball_material, partner),
+        )
+    if element in ("cage_inner", "cage_outer"):
+        land = g.shoulder_diameter_inner if element == "cage_inner" else g.shoulder_diameter_outer
+        ring = model.inner_material if element == "cage_inner" else model.outer_material
+        return dataclasses.replace(common, land_clearance=model.cage.land_clearance, land_diameter=land, partner=ring)
+    return common
+
+
+def max_speed(model: BearingModel) -> float:
+    """Return the largest planned |Omega_i - Omega_o| [rad/s]; 0 when both spins are free."""
+    speeds = []
+    for body in (model.inner_ring, model.outer_ring):
+        dof = body.dofs["spin"]
+        speeds.append(sum(max(abs(v) for v in _extremes(t)) for t in dof.motion.terms) if dof.motion.terms else 0.0)
+    return max(speeds)
+
+
+def _extremes(term: Any) -> tuple[float, ...]:
+    if term.kind == "ramp":
+        return tuple(term.values[:2])
+    if term.kind == "harmonic":
+        return (term.values[0],)
+    if term.kind == "table":
+        return tuple(term.values[1::2])
+    return tuple(term.values)
+
+
+class Kernels:
+    """Compiled kernels of a model's laws; pointers and code stay alive with this object."""
+
+    def __init__(self, model: BearingModel, announce: Announce = None) -> None:
+        self._laws = model.laws
+        # one model in several force elements is compiled once
+        known: dict[tuple[str, str], Any] = {}
+        self.compiled: dict[tuple[str, str], Any] = {}
+        for element, roles in model.laws.items():
+            for role, law in roles.items():
+                name = (role, law.model.name)
+                if name not in known:
+                    known[name] = compile_kernel(law.model, announce)
+                self.compiled[element, role] = known[name]
+
+    def keys(self) -> dict[str, str]:
+        """Return "element/role/model" -> hash of everything the kernel reaches."""
+        return {f"{e}/{r}/{self._laws[e][r].model.name}": k.key for (e, r), k in sorted(self.compiled.items())}
+
+    def pointers(self) -> L.Laws:
+        """Return the pointers in the solver's order."""
+
+        def raceway(element: str) -> L.RacewayLaws:
+            return L.RacewayLaws(*(self.compiled[element, role].pointer for role in L.RacewayLaws._fields))
+
+        def guide(element: str) -> Any:
+            return self.compiled[element, "cage_contact"].pointer
+
+        return L.Laws(
+            raceway("ball_inner"),
+            raceway("ball_outer"),
+            guide("ball_cage"),
+            guide("cage_inner"),
+            guide("cage_outer"),
+            self.compiled["fluid_drag", "fluid_drag"].pointer,
+        )
+
+
+def prepare(law: Law, context: Context) -> FloatArray:
+    """Run a law's set-up and check what it returns."""
+    model = law.model
+    try:
+        par = model.prepare(law.parameters, context) if model.prepare else default_par(law.parameters)
+    except Exception as error:
+        raise SolverError(f"{model.label}: its set-up failed for {context.element}: {error}") from error
+    par = np.ascontiguousarray(par, dtype=np.float64)
+    if par.ndim != 1 or not np.all(np.isfinite(par)):
+        raise SolverError(f"{model.label}: its set-up for {context.element} returned {par!r}, not finite numbers")
+    # Compiled code takes par[0] even of laws without parameters.
+    return par if par.size else np.zeros(1)
+
+
+def prepare_all(model: BearingModel, frame: ContactFrame, oil: Oil) -> L.Pars:
+    """Return the parameters of every kernel."""
+
+    def raceway(element: str) -> L.RacewayPars:
+        context = build_context(model, element, frame, oil)
+        return L.RacewayPars(*(prepare(model.laws[element][role], context) for role in L.RacewayPars._fields))
+
+    def single(element: str, role: str = "cage_contact") -> FloatArray:
+        return prepare(model.laws[element][role], build_context(model, element, frame, oil))
+
+    return L.Pars(
+        raceway("ball_inner"),
+        raceway("ball_outer"),
+        single("ball_cage"),
+        single("cage_inner"),
+        single("cage_outer"),
+        single("fluid_drag", "fluid_drag"),
+    )
+
+
+def derive_oil(model: BearingModel, kernels: Kernels, frame: ContactFrame) -> Oil:
+    """Return the oil with viscosity, density, alpha_p and beta from the chosen rheology kernel.
+
+    alpha_p is the tangent d ln(eta)/dp at p = 0, beta is -d ln(eta)/dT at the bulk temperature.
+    """
+    law = model.laws["ball_inner"]["rheology"]
+    par = prepare(law, build_context(model, "ball_inner", frame, model.oil))
+    t, dp, dt = model.oil.temperature, 1e6, 0.5
+    p = np.array([0.0, dp, 2.0 * dp, 0.0, 0.0])
+    temperatures = np.array([t, t, t, t - dt, t + dt])
+    ln_eta, rho = np.full(5, np.nan), np.full(5, np.nan)
+    status = kernels.compiled["ball_inner", "rheology"].dispatcher(p, temperatures, par, ln_eta, rho)
+    if status != 1 or not np.all(np.isfinite(ln_eta)) or not np.all(rho > 0.0):
+        raise SolverError(f"{law.model.label}: no finite viscosity and density at {t:.2f} K (status {status})")
+    alpha = (-3.0 * ln_eta[0] + 4.0 * ln_eta[1] - ln_eta[2]) / (2.0 * dp)
+    beta = (ln_eta[3] - ln_eta[4]) / (2.0 * dt)
+    return dataclasses.replace(
+        model.oil, viscosity=math.exp(ln_eta[0]), density=float(rho[0]), alpha_p=float(alpha), beta=float(beta)
+    )
+
+
+def make_work(balls: int, cells: int) -> L.Work:
+    """Allocate the workspaces."""
+    z = np.zeros
+    return L.Work(
+        z(36), z((L.NCH, 3)), z(L.NKIN), z(L.NKIN), z(L.NW), z(L.NW), z(L.NC), z(L.NC), z(8),
+        z((12, cells)), z((12, cells)), z(24), z(9), z((balls, 6)), z((3, 6)), z(6), z(L.NS), z(16),
+    )  # fmt: skip
+
+
+def state_scales(model: BearingModel, active: NDArray[np.int64]) -> FloatArray:
+    """Return the absolute scales that the tolerance multiplies, shape (9 Z + n_active,).
+
+    Positions 50 um, velocities 0.1 m/s, ball spins 7 rad/s; angles and angular speeds of the big bodies and
+    azimuths are the same lengths and velocities at the pitch radius.
+    """
+    arm = 0.5 * model.geometry.pitch_diameter
+    length, speed, spin = 50e-6, 0.1, 7.0
+    ball = [length, length, length / arm, speed, speed, speed, spin, spin, spin]
+    body = [length] * 3 + [length / arm] * 3 + [speed] * 3 + [speed / arm] * 3
+    shared = np.array(body * 3)
+    return np.concatenate([np.tile(ball, model.geometry.ball_count), shared[active]])
+
+
+@dataclass
+class Assembly:
+    """Everything compiled code needs for one model at one contact frame."""
+
+    model: BearingModel
+    kernels: Kernels
+    oil: Oil
+    frame: ContactFrame
+    bundle: L.Bundle
+    blocks: Any
+    scale: FloatArray
+
+    @property
+    def size(self) -> int:
+        """Number of states."""
+        return int(self.scale.size)
+
+
+def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oil: Oil) -> Assembly:
+    """Build the bundle for given frozen contact angles and mean loads."""
+    times = build_times(model)
+    grid = unit_grid(model.depth.strips, model.depth.rows)
+    bundle = L.Bundle(
+        build_system(model, frame, oil),
+        kernels.pointers(),
+        prepare_all(model, frame, oil),
+        grid,
+        times,
+        make_work(model.geometry.ball_count, grid.xi.size),
+    )
+    blocks = make_blocks(model.geometry.ball_count, times.active)
+    return Assembly(model, kernels, oil, frame, bundle, blocks, state_scales(model, times.active))

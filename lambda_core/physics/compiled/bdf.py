@@ -1,0 +1,277 @@
+"""Our integrator: variable-step BDF of order 2 with a block-arrow Newton iteration.
+
+Order 2 because lightly damped contact modes sit in the unstable wedge of the higher
+orders. Error is controlled on absolute scales per state. The step sequence depends on
+nothing but the state, so a continued run is the uninterrupted one, bit for bit.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import types
+
+from lambda_core.physics.compiled.arrow import arrow_factor, arrow_solve, factors_t
+from lambda_core.physics.compiled.jacobian import blocks_t
+from lambda_core.physics.compiled.layout import (
+    NI,
+    array1,
+    array2,
+    bundle_t,
+    f8,
+    helper,
+    i8,
+    iarray1,
+)
+
+evaluate_sig = i8(f8, array1, bundle_t, array1, array1, i8)
+jacobian_sig = i8(f8, array1, bundle_t, blocks_t)
+evaluate_t = types.FunctionType(evaluate_sig)
+jacobian_t = types.FunctionType(jacobian_sig)
+
+# control: reals of the integrator
+T, H, H1, H2, G_FACTORED, RATE, NEXT_SAMPLE, SAMPLE_STEP, H_MAX, H_MIN, T_LAST = range(11)
+N_CONTROL = 16
+# count: integers of the integrator
+HISTORY, STEPS, REJECTED, NEWTON, RHS, JACOBIANS, FACTORS, STALE, SAMPLES, AGE, FAILED = range(11)
+N_COUNT = 16
+
+OK, FULL, STEP_TOO_SMALL, FAULT = 0, 1, 2, 3
+
+_NEWTON_TOLERANCE = 0.1  # of the error allowed per step
+_MAX_NEWTON = 4
+_REFACTOR = 0.25  # relative change of gamma beyond which M is factored anew
+_SLOW = 0.4  # convergence rate beyond which the Jacobian is renewed
+_MAX_AGE = 60  # steps after which the Jacobian is renewed in any case
+
+
+class Memory(NamedTuple):
+    """Everything the integrator remembers; saved as it is for a continuation."""
+
+    y: object  # (n,) at control[T]
+    y1: object  # (n,) one step before
+    y2: object  # (n,) two steps before
+    weight: object  # (n,) 1 / (tolerance * scale)
+    integrals: object  # (NI,)
+    rates: object  # (NI,) at control[T]
+    control: object  # (N_CONTROL,)
+    count: object  # int64 (N_COUNT,)
+    predicted: object  # (n,)
+    base: object  # (n,)
+    new: object  # (n,)
+    slope: object  # (n,)
+    change: object  # (n,)
+    new_rates: object  # (NI,)
+    sample_y: object  # (capacity, n)
+    sample_t: object  # (capacity,)
+
+
+memory_t = types.NamedTuple(
+    [{"count": iarray1, "sample_y": array2}.get(name, array1) for name in Memory._fields], Memory
+)
+advance_sig = i8(evaluate_t, jacobian_t, f8, i8, bundle_t, blocks_t, factors_t, memory_t)
+
+
+def make_memory(y0: np.ndarray, scale: np.ndarray, tolerance: float, capacity: int = 256) -> Memory:
+    """Allocate for the initial state y0 and absolute scales, both (n,)."""
+    n = y0.size
+    new = lambda: np.zeros(n)  # noqa: E731
+    return Memory(
+        y0.copy(),
+        new(),
+        new(),
+        1.0 / (tolerance * scale),
+        np.zeros(NI),
+        np.zeros(NI),
+        np.zeros(N_CONTROL),
+        np.zeros(N_COUNT, dtype=np.int64),
+        new(),
+        new(),
+        new(),
+        new(),
+        new(),
+        np.zeros(NI),
+        np.zeros((capacity, n)),
+        np.zeros(capacity),
+    )
+
+
+@helper
+def _norm(v, weight):
+    total = 0.0
+    for i in range(v.size):
+        x = v[i] * weight[i]
+        total += x * x
+    return math.sqrt(total / v.size)
+
+
+@helper
+def _predict(mem, h):
+    """Extrapolate to the next time; returns (gamma, share of the correction that is error)."""
+    y, y1, y2 = mem.y, mem.y1, mem.y2
+    predicted, base = mem.predicted, mem.base
+    h1, h2 = mem.control[H1], mem.control[H2]
+    history = mem.count[HISTORY]
+    if history < 2:
+        for i in range(y.size):
+            if history == 0:
+                predicted[i] = y[i] + h * y1[i]  # y1 holds dy/dt at the start
+            else:
+                predicted[i] = y[i] + h * (y[i] - y1[i]) / h1
+            base[i] = y[i]
+        ahead = h if history == 0 else h + h1
+        return h, h / (h + ahead)
+    w = h / h1
+    a0, a1 = (1.0 + w) * (1.0 + w) / (1.0 + 2.0 * w), w * w / (1.0 + 2.0 * w)
+    for i in range(y.size):
+        d1 = (y[i] - y1[i]) / h1
+        d2 = (d1 - (y1[i] - y2[i]) / h2) / (h1 + h2)
+        predicted[i] = y[i] + h * (d1 + (h + h1) * d2)
+        base[i] = a0 * y[i] - a1 * y1[i]
+    own = h * h * h * (1.0 + w) * (1.0 + w) / (w * (1.0 + 2.0 * w))
+    ahead = h * (h + h1) * (h + h1 + h2)
+    return h * (1.0 + w) / (1.0 + 2.0 * w), own / (own + ahead)
+
+
+@helper
+def _newton(evaluate, jacobian, t, gamma, bundle, bl, fa, mem):
+    """Solve new = base + gamma f(new); returns 1 converged, 0 not, -1 a kernel refused."""
+    new, change, weight, count, control = mem.new, mem.change, mem.weight, mem.count, mem.control
+    n = new.size
+    for i in range(n):
+        new[i] = mem.predicted[i]
+    before = 0.0
+    for iteration in range(_MAX_NEWTON):
+        count[RHS] += 1
+        if evaluate(t, new, bundle, mem.slope, mem.new_rates, 0) != 1:
+            return -1
+        if iteration == 0:
+            if count[STALE] == 1:
+                count[JACOBIANS] += 1
+                if jacobian(t, new, bundle, bl) != 1:
+                    return -1
+                count[STALE], count[AGE] = 0, 0
+                control[G_FACTORED] = 0.0
+            if abs(gamma / (control[G_FACTORED] + 1e-300) - 1.0) > _REFACTOR:
+                count[FACTORS] += 1
+                if arrow_factor(bl, 1.0, gamma, fa) != 1:
+                    return -1
+                control[G_FACTORED] = gamma
+                control[RATE] = 1.0
+        count[NEWTON] += 1
+        for i in range(n):
+            change[i] = mem.base[i] + gamma * mem.slope[i] - new[i]
+        arrow_solve(fa, change)
+        # A matrix factored for another gamma over- or undershoots by a known amount.
+        relax = 2.0 / (1.0 + gamma / control[G_FACTORED])
+        for i in range(n):
+            change[i] *= relax
+            new[i] += change[i]
+        size = _norm(change, weight)
+        if not size < 1e12:
+            return 0
+        if iteration > 0:
+            control[RATE] = max(0.2 * control[RATE], size / (before + 1e-300))
+            if size > 2.0 * before and size > _NEWTON_TOLERANCE:
+                return 0
+        if size * min(1.0, control[RATE]) <= _NEWTON_TOLERANCE:
+            return 1
+        before = size
+    return 0
+
+
+@helper
+def _interpolate(mem, t, h, at, row):
+    """Write the state at `at` in (t - h, t] from the parabola through the last three points."""
+    h1 = mem.control[H1]
+    out = mem.sample_y[row]
+    x = at - t
+    for i in range(out.size):
+        d1 = (mem.new[i] - mem.y[i]) / h
+        out[i] = mem.new[i] + x * d1
+        if mem.count[HISTORY] > 0:
+            d2 = (d1 - (mem.y[i] - mem.y1[i]) / h1) / (h + h1)
+            out[i] += x * (x + h) * d2
+
+
+@helper
+def _accept(mem, h):
+    """Make the new point the current one, add to the integrals, take samples."""
+    control, count = mem.control, mem.count
+    t = control[T] + h
+    while control[NEXT_SAMPLE] <= t and count[SAMPLES] < mem.sample_t.size:
+        row = count[SAMPLES]
+        _interpolate(mem, t, h, control[NEXT_SAMPLE], row)
+        mem.sample_t[row] = control[NEXT_SAMPLE]
+        count[SAMPLES] += 1
+        control[T_LAST] += 1.0
+        control[NEXT_SAMPLE] = control[T_LAST] * control[SAMPLE_STEP]
+    for i in range(NI):
+        mem.integrals[i] += 0.5 * h * (mem.rates[i] + mem.new_rates[i])
+        mem.rates[i] = mem.new_rates[i]
+    for i in range(mem.y.size):
+        mem.y2[i] = mem.y1[i]
+        mem.y1[i] = mem.y[i]
+        mem.y[i] = mem.new[i]
+    control[H2], control[H1] = control[H1], h
+    control[T] = t
+    if count[HISTORY] < 2:
+        count[HISTORY] += 1
+    count[STEPS] += 1
+    count[AGE] += 1
+
+
+@helper
+def advance(evaluate, jacobian, until, max_steps, bundle, bl, fa, mem):
+    """Take steps until control[T] >= until, the sample buffer is full, or `max_steps` were taken.
+
+    Returns
+    -------
+    int
+        OK, FULL (drain the samples or go on), STEP_TOO_SMALL, or FAULT (see work.fault).
+    """
+    control, count = mem.control, mem.count
+    for _ in range(max_steps):
+        if control[T] >= until:
+            return OK
+        # One step may cross several sample times: leave room for all of them.
+        if count[SAMPLES] + control[H_MAX] / control[SAMPLE_STEP] + 2.0 > mem.sample_t.size:
+            return FULL
+        if count[HISTORY] == 0 and evaluate(control[T], mem.y, bundle, mem.y1, mem.rates, 1) != 1:
+            return FAULT
+        if count[AGE] > _MAX_AGE:
+            count[STALE] = 1
+        renewed = count[STALE] == 1
+        while True:
+            h = control[H]
+            gamma, share = _predict(mem, h)
+            ok = _newton(evaluate, jacobian, control[T] + h, gamma, bundle, bl, fa, mem)
+            if ok == 1:
+                for i in range(mem.change.size):
+                    mem.change[i] = share * (mem.new[i] - mem.predicted[i])
+                error = _norm(mem.change, mem.weight)
+                factor = 0.9 * (error + 1e-10) ** (-1.0 / 3.0 if count[HISTORY] >= 2 else -0.5)
+                if error <= 1.0:
+                    break
+                count[REJECTED] += 1
+                control[H] = h * max(0.2, min(0.9, factor))
+            else:
+                count[FAILED] += 1
+                count[STALE] = 1
+                if ok == -1 or renewed:
+                    control[H] = 0.3 * h
+                renewed = True
+            if control[H] < control[H_MIN]:
+                return FAULT if ok == -1 else STEP_TOO_SMALL
+        count[RHS] += 1
+        if evaluate(control[T] + h, mem.new, bundle, mem.slope, mem.new_rates, 1) != 1:
+            return FAULT
+        _accept(mem, h)
+        if control[RATE] > _SLOW and control[RATE] < 1.0:
+            count[STALE] = 1
+        # Small changes of step are not worth a new factorisation.
+        if factor > 1.15 or factor < 1.0:
+            control[H] = min(h * min(1.8, factor), control[H_MAX])
+    return OK

@@ -1,0 +1,316 @@
+"""The right-hand side: forces of every element, equations of motion, powers."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from lambda_core.physics.compiled.cage import (
+    G_R,
+    guide_force,
+    guide_loss,
+    land_apply,
+    land_state,
+    neighbour_apply,
+    neighbour_state,
+    pocket_apply,
+    pocket_state,
+)
+from lambda_core.physics.compiled.kinematics import apply_wrench, axis_x, contact_kinematics
+from lambda_core.physics.compiled.layout import (
+    BPSI,
+    BR,
+    BVR,
+    BVT,
+    BVX,
+    BWR,
+    BWT,
+    BWX,
+    CAGE,
+    CH_FORCE,
+    CH_MOMENT,
+    CH_MOTION,
+    FREE,
+    I_ANGLE,
+    I_DRIVE,
+    I_INPUT,
+    I_INPUT_ABS,
+    I_X,
+    INNER,
+    L_DRAG,
+    L_LAND,
+    L_POCKET,
+    L_SUPPORT,
+    NB,
+    NS,
+    OUTER,
+    PRESCRIBED,
+    R_DRAG,
+    SAY,
+    SAZ,
+    SSIGMA,
+    STHETA,
+    SVX,
+    SWY,
+    SWZ,
+    helper,
+)
+from lambda_core.physics.compiled.raceway import raceway_losses, raceway_wrench, report
+from lambda_core.physics.compiled.timefunctions import fill_shared
+
+_SPIN_FLOOR = 1e-3  # [rad/s] below which a ball's churning moment fades out
+
+
+@helper
+def raceway_forces(y, j, bundle, rates, want):
+    """Add both raceway contacts of ball j; with `want`, add their losses to rates."""
+    work, system = bundle.work, bundle.system[0]
+    ball = y[NB * j : NB * j + NB]
+    ball_fm = work.ball_fm[j]
+    for which in range(2):
+        ring = work.shared[NS * which : NS * which + NS]
+        delta = contact_kinematics(ball, ring, which, system, work.kin)
+        if delta <= 0.0:
+            continue
+        if which == INNER:
+            ok = raceway_wrench(
+                which, work.kin, bundle.laws.inner, bundle.pars.inner, system, bundle.grid, work.scalars,
+                work.cells, work.out, work.fault, work.wrench,
+            )  # fmt: skip
+        else:
+            ok = raceway_wrench(
+                which, work.kin, bundle.laws.outer, bundle.pars.outer, system, bundle.grid, work.scalars,
+                work.cells, work.out, work.fault, work.wrench,
+            )  # fmt: skip
+        if ok != 1:
+            work.fault[2] = j
+            return 0
+        apply_wrench(ball, work.kin, work.wrench, ball_fm, work.ring_fm)
+        for k in range(6):
+            work.body_fm[which, k] += work.ring_fm[k]
+        if want == 1 and system.friction_on == 1:
+            raceway_losses(which, work.kin, system, bundle.grid, work.scalars, work.cells, rates)
+    return 1
+
+
+@helper
+def drag_force(ball, bundle, ball_fm):
+    """Add fluid drag and churning of one ball; returns the power lost [W], or -1 on a fault."""
+    work, system = bundle.work, bundle.system[0]
+    w = math.sqrt(ball[BWX] ** 2 + ball[BWR] ** 2 + ball[BWT] ** 2)
+    nu = system.eta0 / system.rho0
+    work.out[:2] = np.nan
+    status = bundle.laws.drag(ball[BVT], w, ball[BPSI], nu, system.rho0, bundle.pars.drag, work.out)
+    force, moment = work.out[0], work.out[1]
+    if status != 1 or not abs(force) + abs(moment) < np.inf:
+        report(work.fault, R_DRAG, status, -1.0, ball[BVT], w, ball[BPSI], nu)
+        return -1.0
+    moment /= math.sqrt(w * w + _SPIN_FLOOR * _SPIN_FLOOR)
+    ball_fm[2] -= force
+    ball_fm[3] -= moment * ball[BWX]
+    ball_fm[4] -= moment * ball[BWR]
+    ball_fm[5] -= moment * ball[BWT]
+    return force * ball[BVT] + moment * w * w
+
+
+@helper
+def cage_forces(y, bundle, rates, want):
+    """Add pockets and lands, or ball-ball contacts when there is no cage."""
+    work, system = bundle.work, bundle.system[0]
+    g, out, fault, eta0 = work.guide, work.out, work.fault, system.eta0
+    cage = work.shared[NS * CAGE : NS * CAGE + NS]
+    z = system.balls
+    if system.cage_on == 0:
+        for j in range(z):
+            k = (j + 1) % z
+            ball, other = y[NB * j : NB * j + NB], y[NB * k : NB * k + NB]
+            neighbour_state(ball, other, g)
+            if guide_force(bundle.laws.pocket, bundle.pars.pocket, g, eta0, out, fault, -1.0) != 1:
+                fault[2] = j
+                return 0
+            if want == 1:
+                rates[L_LAND] += guide_loss(
+                    bundle.laws.pocket, bundle.pars.pocket, g, eta0, out, work.still, fault, -1.0
+                )
+                guide_force(bundle.laws.pocket, bundle.pars.pocket, g, eta0, out, fault, -1.0)
+            a0, a1, a2 = out[3] - g[G_R], out[4] - g[G_R + 1], out[5] - g[G_R + 2]
+            neighbour_apply(ball[BPSI], a0, a1, a2, out, 1.0, work.ball_fm[j])
+            neighbour_apply(other[BPSI], out[3], out[4], out[5], out, -1.0, work.ball_fm[k])
+        return 1
+    for j in range(z):
+        ball = y[NB * j : NB * j + NB]
+        pocket_state(ball, cage, j, system, g)
+        if want == 1:
+            rates[L_POCKET] += guide_loss(bundle.laws.pocket, bundle.pars.pocket, g, eta0, out, work.still, fault, -1.0)
+        if guide_force(bundle.laws.pocket, bundle.pars.pocket, g, eta0, out, fault, -1.0) != 1:
+            fault[2] = j
+            return 0
+        pocket_apply(ball, cage, g, out, work.ball_fm[j], work.body_fm[CAGE])
+    for which in range(2):
+        if system.land_on[which] == 0:
+            continue
+        ring = work.shared[NS * which : NS * which + NS]
+        law = bundle.laws.land_inner if which == INNER else bundle.laws.land_outer
+        par = bundle.pars.land_inner if which == INNER else bundle.pars.land_outer
+        for side in range(2):
+            land_state(cage, ring, (2 * side - 1) * system.land_offset, g)
+            if want == 1:
+                rates[L_LAND] += guide_loss(law, par, g, eta0, out, work.still, fault, which)
+            if guide_force(law, par, g, eta0, out, fault, which) != 1:
+                return 0
+            land_apply(cage, ring, g, out, work.body_fm[CAGE], work.body_fm[which])
+    return 1
+
+
+@helper
+def ball_rates(ball, fm, system, dydt):
+    """Equations of motion of one ball in its turning frame (Coriolis and gyroscopic terms)."""
+    r = ball[BR]
+    orbit = ball[BVT] / r
+    dydt[0] = ball[BVX]
+    dydt[1] = ball[BVR]
+    dydt[2] = orbit
+    dydt[3] = fm[0] / system.ball_mass
+    dydt[4] = fm[1] / system.ball_mass + ball[BVT] * orbit
+    dydt[5] = fm[2] / system.ball_mass - ball[BVR] * orbit
+    dydt[6] = fm[3] / system.ball_inertia
+    dydt[7] = fm[4] / system.ball_inertia + orbit * ball[BWT]
+    dydt[8] = fm[5] / system.ball_inertia - orbit * ball[BWR]
+
+
+@helper
+def body_rates(body, b, fm, channels, system, rate, rates, want):
+    """Equations of motion of one shared body under contact force and moment fm (6,).
+
+    Adds loads, gravity, unbalance and supports. With `want`, adds to rates the work of everything
+    external: loads, gravity, and whatever holds or drives the driven degrees of freedom.
+    """
+    ay, az = body[SAY], body[SAZ]
+    ax = axis_x(ay, az)
+    wy, wz, sigma = body[SWY], body[SWZ], body[SSIGMA]
+    wx = -(wy * ay + wz * az) / ax
+    mass, ip, it = system.mass[b], system.polar_inertia[b], system.transverse_inertia[b]
+    # Axis rate w x a and the spin angle relative to the frame of least rotation.
+    ty, tz = wz * ax - wx * az, wx * ay - wy * ax
+    for i in range(3):
+        rate[i] = body[SVX + i]
+    rate[SAY], rate[SAZ] = ty, tz
+    rate[STHETA] = sigma - (az * ty - ay * tz) / (1.0 + ax)
+    power, support = 0.0, 0.0
+    ub = system.unbalance[b] * sigma * sigma
+    for i in range(3):
+        v = body[SVX + i]
+        load = channels[CH_FORCE + 3 * b + i, 0] + mass * system.gravity[i]
+        if i == 1:
+            load += ub * math.cos(body[STHETA])
+        elif i == 2:
+            load += ub * math.sin(body[STHETA])
+        dof = 6 * b + i
+        force = fm[i] + load - system.stiffness[dof] * body[i] - system.damping[dof] * v
+        support += system.damping[dof] * v * v
+        power += load * v
+        if system.mode[dof] == FREE:
+            rate[SVX + i] = force / mass
+        else:
+            rate[SVX + i] = channels[CH_MOTION + dof, 2] if system.mode[dof] == PRESCRIBED else 0.0
+            power += (mass * rate[SVX + i] - force) * v
+    # Moments: contacts, loads, supports against the tilt (phi_y, phi_z) = (-a_z, a_y).
+    lx, ly, lz = channels[CH_MOMENT + 3 * b, 0], channels[CH_MOMENT + 3 * b + 1, 0], channels[CH_MOMENT + 3 * b + 2, 0]
+    d = 6 * b
+    cy, cz, cs = system.damping[d + 3], system.damping[d + 4], system.damping[d + 5]
+    mx = fm[3] + lx - cs * sigma
+    my = fm[4] + ly + system.stiffness[d + 3] * az - cy * wy
+    mz = fm[5] + lz - system.stiffness[d + 4] * ay - cz * wz
+    support += cy * wy * wy + cz * wz * wz + cs * sigma * sigma
+    power += lx * (wx + sigma * ax) + ly * (wy + sigma * ay) + lz * (wz + sigma * az)
+    along = mx * ax + my * ay + mz * az
+    if system.mode[d + 5] == FREE:
+        rate[SSIGMA] = along / ip
+    else:
+        rate[SSIGMA] = channels[CH_MOTION + d + 5, 1] if system.mode[d + 5] == PRESCRIBED else 0.0
+        drive = (ip * rate[SSIGMA] - along) * sigma
+        power += drive
+        if want == 1:
+            rates[I_DRIVE] += drive
+    gy, gz = my - along * ay - ip * sigma * ty, mz - along * az - ip * sigma * tz
+    if system.mode[d + 3] == FREE:
+        rate[SWY] = gy / it
+    else:
+        rate[SWY] = channels[CH_MOTION + d + 3, 2] if system.mode[d + 3] == PRESCRIBED else 0.0
+        power += (it * rate[SWY] - gy) * wy
+    if system.mode[d + 4] == FREE:
+        rate[SWZ] = gz / it
+    else:
+        rate[SWZ] = channels[CH_MOTION + d + 4, 2] if system.mode[d + 4] == PRESCRIBED else 0.0
+        power += (it * rate[SWZ] - gz) * wz
+    if want == 1:
+        rates[I_INPUT] += power
+        rates[L_SUPPORT] += support
+
+
+@helper
+def evaluate(t, y, bundle, dydt, rates, want):
+    """Write dy/dt; with `want` = 1 also the powers and rates of the running integrals.
+
+    Parameters
+    ----------
+    t : float
+        Time [s].
+    y, dydt : float64[:], shape (9 Z + n_active,)
+    rates : float64[:], shape (NI,)
+        Losses by mechanism [W], input power [W], its absolute value, drive power, |relative speed| [rad/s],
+        position of the inner ring [m].
+
+    Returns
+    -------
+    int
+        1 when every kernel was well; otherwise 0 and work.fault says which was not.
+    """
+    work, system = bundle.work, bundle.system[0]
+    work.fault[0] = -1.0
+    fill_shared(t, y, bundle)
+    work.ball_fm[:, :] = 0.0
+    work.body_fm[:, :] = 0.0
+    rates[:] = 0.0
+    z = system.balls
+    for j in range(z):
+        if raceway_forces(y, j, bundle, rates, want) != 1:
+            return 0
+    if system.guides_on == 1 and cage_forces(y, bundle, rates, want) != 1:
+        return 0
+    gx, gy, gz = system.gravity[0], system.gravity[1], system.gravity[2]
+    for j in range(z):
+        ball = y[NB * j : NB * j + NB]
+        fm = work.ball_fm[j]
+        if system.drag_on == 1 and system.friction_on == 1:
+            lost = drag_force(ball, bundle, fm)
+            if lost < -0.5:
+                work.fault[2] = j
+                return 0
+            rates[L_DRAG] += lost
+        c, s = math.cos(ball[BPSI]), math.sin(ball[BPSI])
+        m = system.ball_mass
+        wx, wr, wt = m * gx, m * (gy * c + gz * s), m * (-gy * s + gz * c)
+        fm[0] += wx
+        fm[1] += wr
+        fm[2] += wt
+        if want == 1:
+            rates[I_INPUT] += wx * ball[BVX] + wr * ball[BVR] + wt * ball[BVT]
+        ball_rates(ball, fm, system, dydt[NB * j : NB * j + NB])
+    active = bundle.times.active
+    k = 0
+    for b in range(3):
+        if b == CAGE and system.cage_on == 0:
+            continue
+        body = work.shared[NS * b : NS * b + NS]
+        body_rates(body, b, work.body_fm[b], work.channels, system, work.rate, rates, want)
+        while k < active.size and active[k] < NS * (b + 1):
+            dydt[NB * z + k] = work.rate[active[k] - NS * b]
+            k += 1
+    if want == 1:
+        rates[I_INPUT_ABS] = abs(rates[I_INPUT])
+        rates[I_ANGLE] = abs(work.shared[SSIGMA] - work.shared[NS * OUTER + SSIGMA])
+        for i in range(3):
+            rates[I_X + i] = work.shared[i]
+    return 1

@@ -1,0 +1,204 @@
+"""Contact identification: exact sphere in torus with ring tilt, and the velocities there.
+
+Vectors have components along x (shaft), r (radial at the ball), t (tangential), a right-handed frame
+that turns with the ball's azimuth.
+"""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.physics.compiled.layout import (
+    BPSI,
+    BR,
+    BVR,
+    BVT,
+    BVX,
+    BWR,
+    BWT,
+    BWX,
+    BX,
+    INNER,
+    K_ALPHA,
+    K_ARM,
+    K_D,
+    K_L,
+    K_N,
+    K_S,
+    K_T,
+    Q_DELTA,
+    Q_UT,
+    Q_VN,
+    Q_VS,
+    Q_VT,
+    Q_WN,
+    Q_WS,
+    Q_WT,
+    SAY,
+    SAZ,
+    SSIGMA,
+    SVX,
+    SVY,
+    SVZ,
+    SWY,
+    SWZ,
+    SX,
+    SY,
+    SZ,
+    helper,
+)
+
+
+@helper
+def axis_x(ay, az):
+    """Return the x component of a unit axis from its other two."""
+    return math.sqrt(max(1.0 - ay * ay - az * az, 1e-12))
+
+
+@helper
+def contact_kinematics(ball, ring, which, system, kin):
+    """Identify the contact of one ball with one ring.
+
+    Parameters
+    ----------
+    ball : float64[:], shape (9,)
+    ring : float64[:], shape (12,)
+        Shared state of the ring.
+    which : int
+        INNER or OUTER.
+    kin : float64[:], shape (NKIN,)
+        Result: q (penetration, velocities), frame, arms, contact angle.
+
+    Returns
+    -------
+    float
+        Penetration [m]; velocities are written only where it is positive.
+    """
+    c, s = math.cos(ball[BPSI]), math.sin(ball[BPSI])
+    ay, az = ring[SAY], ring[SAZ]
+    ax = axis_x(ay, az)
+    a0, a1, a2 = ax, ay * c + az * s, -ay * s + az * c
+    # Ball centre from the ring's centre.
+    d0 = ball[BX] - ring[SX]
+    d1 = ball[BR] - (ring[SY] * c + ring[SZ] * s)
+    d2 = -(-ring[SY] * s + ring[SZ] * c)
+    axial = d0 * a0 + d1 * a1 + d2 * a2
+    p0, p1, p2 = d0 - axial * a0, d1 - axial * a1, d2 - axial * a2
+    rho = math.sqrt(p0 * p0 + p1 * p1 + p2 * p2)
+    p0, p1, p2 = p0 / rho, p1 / rho, p2 / rho
+    radial = rho - system.groove_circle[which]
+    length = math.sqrt(axial * axial + radial * radial)
+    delta = length + system.ball_radius - system.groove_radius[which]
+    kin[Q_DELTA] = delta
+    kin[K_L] = length
+    if which == INNER:
+        kin[K_ALPHA] = math.atan2(-axial, -radial)
+    else:
+        kin[K_ALPHA] = math.atan2(axial, radial)
+    if delta <= 0.0:
+        return delta
+    na, nr = axial / length, radial / length
+    n0, n1, n2 = na * a0 + nr * p0, na * a1 + nr * p1, na * a2 + nr * p2
+    # t = axis x radial, s = n x t
+    t0, t1, t2 = a1 * p2 - a2 * p1, a2 * p0 - a0 * p2, a0 * p1 - a1 * p0
+    s0, s1, s2 = n1 * t2 - n2 * t1, n2 * t0 - n0 * t2, n0 * t1 - n1 * t0
+    dist = system.ball_radius - 0.5 * delta
+    # Arm of the contact's centre from the ring's centre.
+    r0, r1, r2 = d0 + dist * n0, d1 + dist * n1, d2 + dist * n2
+    # Angular velocity of the ring: across its axis (w) and about it (sigma).
+    wy, wz = ring[SWY], ring[SWZ]
+    w0 = -(wy * ay + wz * az) / ax
+    w1, w2 = wy * c + wz * s, -wy * s + wz * c
+    sigma = ring[SSIGMA]
+    o0, o1, o2 = w0 + sigma * a0, w1 + sigma * a1, w2 + sigma * a2
+    v0 = ring[SVX]
+    v1 = ring[SVY] * c + ring[SVZ] * s
+    v2 = -ring[SVY] * s + ring[SVZ] * c
+    # Surface velocities at the contact's centre.
+    b0, b1, b2 = ball[BWX], ball[BWR], ball[BWT]
+    e0 = ball[BVX] + dist * (b1 * n2 - b2 * n1)
+    e1 = ball[BVR] + dist * (b2 * n0 - b0 * n2)
+    e2 = ball[BVT] + dist * (b0 * n1 - b1 * n0)
+    g0 = v0 + o1 * r2 - o2 * r1
+    g1 = v1 + o2 * r0 - o0 * r2
+    g2 = v2 + o0 * r1 - o1 * r0
+    f0, f1, f2 = e0 - g0, e1 - g1, e2 - g2
+    kin[Q_VN] = f0 * n0 + f1 * n1 + f2 * n2
+    kin[Q_VT] = f0 * t0 + f1 * t1 + f2 * t2
+    kin[Q_VS] = f0 * s0 + f1 * s1 + f2 * s2
+    h0, h1, h2 = b0 - o0, b1 - o1, b2 - o2
+    kin[Q_WT] = h0 * t0 + h1 * t1 + h2 * t2
+    kin[Q_WS] = h0 * s0 + h1 * s1 + h2 * s2
+    kin[Q_WN] = h0 * n0 + h1 * n1 + h2 * n2
+    # Velocity of the contact point itself: it follows the ball's centre round the ring's axis and
+    # along the groove; u is the ball centre's velocity in the ring's frame without its spin.
+    u0 = ball[BVX] - v0 - (w1 * d2 - w2 * d1)
+    u1 = ball[BVR] - v1 - (w2 * d0 - w0 * d2)
+    u2 = ball[BVT] - v2 - (w0 * d1 - w1 * d0)
+    orbit = (u0 * t0 + u1 * t1 + u2 * t2) / rho
+    along = (u0 * s0 + u1 * s1 + u2 * s2) / length
+    x0, x1, x2 = w1 * n2 - w2 * n1, w2 * n0 - w0 * n2, w0 * n1 - w1 * n0
+    ct = ball[BVX] * t0 + ball[BVR] * t1 + ball[BVT] * t2
+    ct += dist * (orbit * nr + x0 * t0 + x1 * t1 + x2 * t2)
+    cs = ball[BVX] * s0 + ball[BVR] * s1 + ball[BVT] * s2
+    cs += dist * (along + x0 * s0 + x1 * s1 + x2 * s2)
+    kin[Q_UT] = 0.5 * ((e0 + g0) * t0 + (e1 + g1) * t1 + (e2 + g2) * t2) - ct
+    kin[Q_UT + 1] = 0.5 * ((e0 + g0) * s0 + (e1 + g1) * s1 + (e2 + g2) * s2) - cs
+    kin[K_T], kin[K_T + 1], kin[K_T + 2] = t0, t1, t2
+    kin[K_S], kin[K_S + 1], kin[K_S + 2] = s0, s1, s2
+    kin[K_N], kin[K_N + 1], kin[K_N + 2] = n0, n1, n2
+    kin[K_D] = dist
+    kin[K_ARM], kin[K_ARM + 1], kin[K_ARM + 2] = r0, r1, r2
+    return delta
+
+
+@helper
+def apply_wrench(ball, kin, wrench, ball_fm, ring_fm):
+    """Turn a contact wrench into force and moment on ball and ring, equal and opposite.
+
+    Parameters
+    ----------
+    wrench : float64[:], shape (6,)
+        Force and couple on the ball at the contact's centre, axes t, s, n.
+    ball_fm : float64[:], shape (6,)
+        Added to: force and moment about the ball's centre, axes x, r, t [N, N m].
+    ring_fm : float64[:], shape (6,)
+        Set: force and moment about the ring's centre, inertial axes x, y, z [N, N m].
+    """
+    f0 = wrench[0] * kin[K_T] + wrench[1] * kin[K_S] + wrench[2] * kin[K_N]
+    f1 = wrench[0] * kin[K_T + 1] + wrench[1] * kin[K_S + 1] + wrench[2] * kin[K_N + 1]
+    f2 = wrench[0] * kin[K_T + 2] + wrench[1] * kin[K_S + 2] + wrench[2] * kin[K_N + 2]
+    m0 = wrench[3] * kin[K_T] + wrench[4] * kin[K_S] + wrench[5] * kin[K_N]
+    m1 = wrench[3] * kin[K_T + 1] + wrench[4] * kin[K_S + 1] + wrench[5] * kin[K_N + 1]
+    m2 = wrench[3] * kin[K_T + 2] + wrench[4] * kin[K_S + 2] + wrench[5] * kin[K_N + 2]
+    d = kin[K_D]
+    n0, n1, n2 = kin[K_N], kin[K_N + 1], kin[K_N + 2]
+    ball_fm[0] += f0
+    ball_fm[1] += f1
+    ball_fm[2] += f2
+    ball_fm[3] += m0 + d * (n1 * f2 - n2 * f1)
+    ball_fm[4] += m1 + d * (n2 * f0 - n0 * f2)
+    ball_fm[5] += m2 + d * (n0 * f1 - n1 * f0)
+    r0, r1, r2 = kin[K_ARM], kin[K_ARM + 1], kin[K_ARM + 2]
+    to_inertial(
+        ball[BPSI],
+        -f0,
+        -f1,
+        -f2,
+        -m0 - (r1 * f2 - r2 * f1),
+        -m1 - (r2 * f0 - r0 * f2),
+        -m2 - (r0 * f1 - r1 * f0),
+        ring_fm,
+    )
+
+
+@helper
+def to_inertial(psi, f0, f1, f2, m0, m1, m2, out):
+    """Write force and moment given along x, r, t at azimuth psi along x, y, z."""
+    c, s = math.cos(psi), math.sin(psi)
+    out[0] = f0
+    out[1] = f1 * c - f2 * s
+    out[2] = f1 * s + f2 * c
+    out[3] = m0
+    out[4] = m1 * c - m2 * s
+    out[5] = m1 * s + m2 * c

@@ -1,0 +1,328 @@
+"""Layout of states, records and arrays that the compiled code works on.
+
+State vector y, float64, shape (9 Z + n_active,):
+
+* ball j, ``y[9 j : 9 j + 9]``: x, r, psi, v_x, v_r, v_t, omega_x, omega_r, omega_t
+  [m, m, rad, m/s x 3, rad/s x 3], cylindrical frame (x, r, t) that turns with the ball's azimuth.
+* the rest: the free entries of the *shared* state, shape (36,), three bodies (inner ring,
+  outer ring, cage) of 12: x, y, z, a_y, a_z, theta, v_x, v_y, v_z, w_y, w_z, sigma in the inertial
+  frame. (a_x, a_y, a_z) is the unit vector of the body's axis, w its angular velocity
+  across that axis, theta and sigma angle and speed about it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numba
+import numpy as np
+from numba import types
+
+NB = 9  # states of a ball
+NS = 12  # states of a shared body
+BX, BR, BPSI, BVX, BVR, BVT, BWX, BWR, BWT = range(9)
+SX, SY, SZ, SAY, SAZ, STHETA, SVX, SVY, SVZ, SWY, SWZ, SSIGMA = range(12)
+INNER, OUTER, CAGE = range(3)
+
+# Contact kinematics q (the inputs of the contact laws) and wrench (force and couple on the ball
+# at the contact's centre, axes t along rolling, s across, n from ball to ring).
+Q_DELTA, Q_VN, Q_VT, Q_VS, Q_WT, Q_WS, Q_WN, Q_UT, Q_US = range(9)
+NQ = 9
+W_FT, W_FS, W_FN, W_MT, W_MS, W_MN = range(6)
+NW = 6
+
+# Scalars of one contact, kept for output and for the tangent.
+(
+    C_LOAD,
+    C_A,
+    C_B,
+    C_PMAX,
+    C_DAMP,
+    C_HCEN,
+    C_HMIN,
+    C_LAMBDA,
+    C_PSI,
+    C_ROLL,
+    C_HYST,
+    C_UMEAN,
+    C_TMEAN,
+    C_CHANGE,
+    C_HISO,
+    C_WET,
+) = range(16)
+NC = 16
+
+# Dissipators, in the order of lambda_core.physics.channels.LOSSES.
+(
+    L_SLIDE,
+    L_SPIN,
+    L_BOUNDARY,
+    L_ROLL,
+    L_HYST,
+    L_DAMP,
+) = (0, 2, 4, 6, 8, 10)  # + ring
+L_POCKET, L_LAND, L_DRAG, L_SUPPORT = 12, 13, 14, 15
+NL = 16
+# Running integrals: the losses, then these.
+I_INPUT, I_INPUT_ABS, I_DRIVE, I_ANGLE, I_X, I_Y, I_Z = range(NL, NL + 7)
+NI = NL + 7
+
+# Channels of time functions: motion of (body, dof), then force and moment of (body, axis).
+CH_MOTION, CH_FORCE, CH_MOMENT = 0, 18, 27
+NCH = 36
+FREE, LOCKED, PRESCRIBED = range(3)
+TF_CONSTANT, TF_RAMP, TF_HARMONIC, TF_TABLE = range(4)
+
+# Order of the raceway roles: index in the fault report.
+RACEWAY_ROLES = (
+    "normal_contact",
+    "damping",
+    "rheology",
+    "film_thickness",
+    "thermal_correction",
+    "contact_temperature",
+    "traction",
+    "rolling_resistance",
+    "elastic_hysteresis",
+    "asperity_load",
+    "boundary_friction",
+    "permittivity",
+    "capacitance",
+    "cage_contact",
+    "fluid_drag",
+)
+(
+    R_NORMAL,
+    R_DAMPING,
+    R_RHEOLOGY,
+    R_FILM,
+    R_THERMAL,
+    R_TEMPERATURE,
+    R_TRACTION,
+    R_ROLLING,
+    R_HYSTERESIS,
+    R_ASPERITY,
+    R_BOUNDARY,
+    R_PERMITTIVITY,
+    R_CAPACITANCE,
+    R_CAGE,
+    R_DRAG,
+) = range(15)
+
+# Constants of the system, one record. [2]: inner, outer. [3]: inner ring, outer ring, cage.
+SYSTEM = np.dtype(
+    [
+        ("balls", np.int64),
+        ("cage_on", np.int64),
+        ("active", np.int64),  # number of free shared states
+        ("ball_radius", np.float64),  # [m]
+        ("ball_mass", np.float64),  # [kg]
+        ("ball_inertia", np.float64),  # [kg m2]
+        ("groove_circle", np.float64, (2,)),  # radius of the circle of groove centres [m]
+        ("groove_radius", np.float64, (2,)),  # [m]
+        ("radius_x", np.float64, (2,)),  # reduced, along rolling [m]
+        ("radius_y", np.float64, (2,)),  # reduced, across rolling [m]
+        ("e_eff", np.float64, (2,)),  # [Pa]
+        ("radius_deformed", np.float64, (2,)),  # common radius across rolling [m]
+        ("mass", np.float64, (3,)),  # [kg]
+        ("transverse_inertia", np.float64, (3,)),  # [kg m2]
+        ("polar_inertia", np.float64, (3,)),  # [kg m2]
+        ("unbalance", np.float64, (3,)),  # [kg m]
+        ("mode", np.int64, (18,)),  # FREE, LOCKED, PRESCRIBED of (body, dof)
+        ("stiffness", np.float64, (18,)),  # support of (body, dof) [N/m, N m/rad]
+        ("damping", np.float64, (18,)),  # [N s/m, N m s/rad]
+        ("gravity", np.float64, (3,)),  # [m/s2]
+        ("oil_temperature", np.float64),  # [K]
+        ("eta0", np.float64),  # [Pa s]
+        ("alpha_p", np.float64),  # [1/Pa]
+        ("beta", np.float64),  # [1/K]
+        ("k_oil", np.float64),  # [W/(m K)]
+        ("rho0", np.float64),  # [kg/m3]
+        ("roughness", np.float64),  # [m]
+        ("starvation", np.float64),  # [-]
+        ("pocket_circle", np.float64),  # radius of the pockets' circle [m]
+        ("land_offset", np.float64),  # half the distance of the two land stations [m]
+        ("land_on", np.int64, (2,)),
+        ("drag_on", np.int64),
+        ("roll_floor", np.float64),  # width of the change of sign of rolling losses [m/s]
+        ("slip_floor", np.float64),  # smallest slip that directions are computed with [m/s]
+        ("friction_on", np.int64),  # 0: normal forces only (static equilibrium)
+        ("guides_on", np.int64),  # 0: no cage forces (quasi-static equilibrium)
+    ],
+    align=True,
+)
+
+f8 = types.float64
+i8 = types.int64
+array1 = types.float64[::1]
+array2 = types.float64[:, ::1]
+array3 = types.float64[:, :, ::1]
+iarray1 = types.int64[::1]
+system_t = types.Array(numba.from_dtype(SYSTEM), 1, "C")
+
+_S = {"f": f8, "a": array1}
+
+
+def _sig(spec: str) -> object:
+    return i8(*(_S[c] for c in spec))
+
+
+class RacewayLaws(NamedTuple):
+    """Pointers to the kernels of one ball-raceway force element."""
+
+    normal_contact: object
+    damping: object
+    rheology: object
+    film_thickness: object
+    thermal_correction: object
+    contact_temperature: object
+    traction: object
+    rolling_resistance: object
+    elastic_hysteresis: object
+    asperity_load: object
+    boundary_friction: object
+    permittivity: object
+    capacitance: object
+
+
+class RacewayPars(NamedTuple):
+    """Parameters of those kernels, each float64[:]."""
+
+    normal_contact: object
+    damping: object
+    rheology: object
+    film_thickness: object
+    thermal_correction: object
+    contact_temperature: object
+    traction: object
+    rolling_resistance: object
+    elastic_hysteresis: object
+    asperity_load: object
+    boundary_friction: object
+    permittivity: object
+    capacitance: object
+
+
+class Laws(NamedTuple):
+    """All kernels of the model."""
+
+    inner: object
+    outer: object
+    pocket: object
+    land_inner: object
+    land_outer: object
+    drag: object
+
+
+class Pars(NamedTuple):
+    """All parameters of the model."""
+
+    inner: object
+    outer: object
+    pocket: object
+    land_inner: object
+    land_outer: object
+    drag: object
+
+
+class Grid(NamedTuple):
+    """Cells on the unit ellipse, each float64, shape (cells,)."""
+
+    xi: object  # position across rolling over a
+    zeta: object  # position along rolling over b
+    pressure: object  # mean pressure over p_max
+    area: object  # over a b
+    width_s: object  # cell width across rolling over a
+    width_t: object  # cell width along rolling over b
+
+
+class Times(NamedTuple):
+    """Time functions of loads and motions."""
+
+    terms: object  # float64 (n, 8): channel, kind, 4 values, offset and length in `table`
+    table: object  # float64: knots and spline coefficients
+    active: object  # int64 (n_active,): free entries of the shared state
+
+
+class Work(NamedTuple):
+    """Workspaces; contents do not survive a call, but for `fault`."""
+
+    shared: object  # (36,) shared state
+    channels: object  # (36, 3) value and two derivatives of every time function
+    kin: object  # (NKIN,)
+    kin2: object
+    wrench: object  # (NW,)
+    wrench2: object
+    scalars: object  # (NC,)
+    scalars2: object
+    out: object  # (8,) results of scalar kernels
+    cells: object  # (12, cells)
+    cells2: object
+    guide: object  # (24,) state of one cage contact
+    still: object  # (9,) the same at rest
+    ball_fm: object  # (Z, 6) force and moment on each ball, axes x, r, t
+    body_fm: object  # (3, 6) force and moment on each shared body by contacts, inertial
+    ring_fm: object  # (6,) of one contact
+    rate: object  # (12,) time derivative of one shared body
+    fault: object  # (8,) role, status, ball, ring, inputs
+
+
+# Kinematics of one contact beyond q: frame and arms (components x, r, t).
+K_T, K_S, K_N, K_D, K_ARM, K_ALPHA, K_L = NQ, NQ + 3, NQ + 6, NQ + 9, NQ + 10, NQ + 13, NQ + 14
+NKIN = NQ + 16
+
+# Rows of Work.cells.
+(X_SLIP, X_P, X_T, X_LN, X_RHO, X_TAU, X_MU, X_VT, X_VS, X_TAU0, X_SPIN2, X_T1) = range(12)
+
+_raceway_sigs = [
+    _sig(s)
+    for s in (
+        "ffffaa",
+        "fffaa",
+        "aaaaa",
+        "ffffffffaa",
+        "fffffffaa",
+        "ffffaaaa",
+        "aaaafaa",
+        "fffffffffffaa",
+        "ffffffaa",
+        "faa",
+        "aaaa",
+        "aaaaa",
+        "ffffffffffaa",
+    )
+]
+CAGE_SIG = _sig("aaafaa")
+DRAG_SIG = _sig("fffffaa")
+RACEWAY_SIGS = dict(zip(RacewayLaws._fields, _raceway_sigs, strict=True))
+
+raceway_laws_t = types.NamedTuple([types.FunctionType(s) for s in _raceway_sigs], RacewayLaws)
+raceway_pars_t = types.NamedUniTuple(array1, len(RacewayPars._fields), RacewayPars)
+_cage_t = types.FunctionType(CAGE_SIG)
+laws_t = types.NamedTuple(
+    [raceway_laws_t, raceway_laws_t, _cage_t, _cage_t, _cage_t, types.FunctionType(DRAG_SIG)], Laws
+)
+pars_t = types.NamedTuple([raceway_pars_t, raceway_pars_t, array1, array1, array1, array1], Pars)
+grid_t = types.NamedUniTuple(array1, 6, Grid)
+times_t = types.NamedTuple([array2, array1, iarray1], Times)
+_WORK_2D = ("channels", "cells", "cells2", "ball_fm", "body_fm")
+work_t = types.NamedTuple([array2 if name in _WORK_2D else array1 for name in Work._fields], Work)
+
+
+class Bundle(NamedTuple):
+    """Everything constant that the compiled code needs, in one argument."""
+
+    system: object
+    laws: object
+    pars: object
+    grid: object
+    times: object
+    work: object
+
+
+bundle_t = types.NamedTuple([system_t, laws_t, pars_t, grid_t, times_t, work_t], Bundle)
+
+
+def helper(function):  # type: ignore[no-untyped-def]
+    """Compile a helper of the core; never cached by itself, its callers are."""
+    return numba.njit(error_model="numpy")(function)

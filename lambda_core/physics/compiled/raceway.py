@@ -1,0 +1,342 @@
+"""The contact pipeline of one ball-raceway contact: from kinematics q to the wrench on the ball.
+
+Stages, each a kernel of the model: normal force, damping, film with thermal correction, asperity
+share, shear in every cell (rheology, traction, temperature), rolling resistance, hysteresis.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from lambda_core.physics.compiled.layout import (
+    C_A,
+    C_B,
+    C_CHANGE,
+    C_DAMP,
+    C_HCEN,
+    C_HISO,
+    C_HMIN,
+    C_HYST,
+    C_LAMBDA,
+    C_LOAD,
+    C_PMAX,
+    C_PSI,
+    C_ROLL,
+    C_TMEAN,
+    C_UMEAN,
+    C_WET,
+    L_BOUNDARY,
+    L_DAMP,
+    L_HYST,
+    L_ROLL,
+    L_SLIDE,
+    L_SPIN,
+    Q_DELTA,
+    Q_UT,
+    Q_VN,
+    Q_VS,
+    Q_VT,
+    Q_WN,
+    Q_WS,
+    Q_WT,
+    R_ASPERITY,
+    R_BOUNDARY,
+    R_DAMPING,
+    R_FILM,
+    R_HYSTERESIS,
+    R_NORMAL,
+    R_RHEOLOGY,
+    R_ROLLING,
+    R_TEMPERATURE,
+    R_THERMAL,
+    R_TRACTION,
+    X_LN,
+    X_MU,
+    X_P,
+    X_RHO,
+    X_SLIP,
+    X_SPIN2,
+    X_T,
+    X_T1,
+    X_TAU,
+    X_TAU0,
+    X_VS,
+    X_VT,
+    helper,
+)
+
+# Variance of a uniform distribution over a cell of unit width: the slip's own spread in a cell.
+_CELL_VARIANCE = 1.0 / 12.0
+
+
+@helper
+def report(fault, role, status, which, i0, i1, i2, i3):
+    """Record the first fault of an evaluation: role, the kernel's status, ring, inputs."""
+    if fault[0] < 0.0:
+        fault[0] = role
+        fault[1] = status
+        fault[3] = which
+        fault[4], fault[5], fault[6], fault[7] = i0, i1, i2, i3
+    return 0
+
+
+@helper
+def _finite(values):
+    total = 0.0
+    for i in range(values.size):
+        total += abs(values[i])
+    return total < np.inf
+
+
+@helper
+def normal_stage(which, q, laws, pars, system, scalars, out, fault):
+    """Elastic load, contact ellipse and damping force."""
+    delta = q[Q_DELTA]
+    rx, ry, e = system.radius_x[which], system.radius_y[which], system.e_eff[which]
+    out[:] = np.nan
+    status = laws.normal_contact(delta, rx, ry, e, pars.normal_contact, out)
+    if status != 1 or not _finite(out[:4]):
+        return report(fault, R_NORMAL, status, which, delta, rx, ry, e)
+    load, a, b, pmax = out[0], out[1], out[2], out[3]
+    scalars[C_LOAD], scalars[C_A], scalars[C_B], scalars[C_PMAX] = load, a, b, pmax
+    if system.guides_on == 0:  # quasi-static: nothing moves along the normal
+        scalars[C_DAMP] = 0.0
+        return 1
+    out[0] = np.nan
+    status = laws.damping(delta, q[Q_VN], load, pars.damping, out)
+    if status != 1 or not abs(out[0]) < np.inf:
+        return report(fault, R_DAMPING, status, which, delta, q[Q_VN], load, 0.0)
+    # A contact never pulls: the damping force cannot exceed the elastic one.
+    scalars[C_DAMP] = max(out[0], -load)
+    return 1
+
+
+@helper
+def film_stage(which, q, laws, pars, system, scalars, out, fault):
+    """Film thickness, asperity share, rolling resistance and hysteresis (scalar laws)."""
+    load, a, b, pmax = scalars[C_LOAD], scalars[C_A], scalars[C_B], scalars[C_PMAX]
+    rx, ry, e = system.radius_x[which], system.radius_y[which], system.e_eff[which]
+    eta0, alpha, beta, k_oil = system.eta0, system.alpha_p, system.beta, system.k_oil
+    ut, us = q[Q_UT], q[Q_UT + 1]
+    u = math.sqrt(ut * ut + us * us)
+    theta = math.atan2(abs(us), abs(ut)) if u > 0.0 else 0.0
+    scalars[C_UMEAN] = u
+    out[:] = np.nan
+    status = laws.film_thickness(u, theta, load, rx, ry, e, eta0, alpha, pars.film_thickness, out)
+    if status != 1 or not _finite(out[:2]):
+        return report(fault, R_FILM, status, which, u, theta, load, eta0)
+    h_cen, h_min = out[0], out[1]
+    slide = math.sqrt(q[Q_VT] ** 2 + q[Q_VS] ** 2)
+    out[0] = np.nan
+    status = laws.thermal_correction(u, slide, pmax, e, eta0, beta, k_oil, pars.thermal_correction, out)
+    if status != 1 or not abs(out[0]) < np.inf:
+        return report(fault, R_THERMAL, status, which, u, slide, pmax, eta0)
+    factor = out[0] * system.starvation
+    scalars[C_HISO] = h_cen
+    scalars[C_HCEN] = h_cen * factor
+    scalars[C_HMIN] = h_min * factor
+    scalars[C_LAMBDA] = scalars[C_HCEN] / system.roughness
+    out[0] = np.nan
+    status = laws.asperity_load(scalars[C_LAMBDA], pars.asperity_load, out)
+    if status != 1 or not abs(out[0]) < np.inf:
+        return report(fault, R_ASPERITY, status, which, scalars[C_LAMBDA], load, 0.0, 0.0)
+    scalars[C_PSI] = out[0]
+    out[0] = np.nan
+    status = laws.rolling_resistance(u, load, a, b, rx, ry, e, eta0, alpha, beta, k_oil, pars.rolling_resistance, out)
+    if status != 1 or not abs(out[0]) < np.inf:
+        return report(fault, R_ROLLING, status, which, u, load, a, b)
+    scalars[C_ROLL] = out[0]
+    out[0] = np.nan
+    status = laws.elastic_hysteresis(load, a, b, rx, ry, system.ball_radius, pars.elastic_hysteresis, out)
+    if status != 1 or not abs(out[0]) < np.inf:
+        return report(fault, R_HYSTERESIS, status, which, load, a, b, rx)
+    scalars[C_HYST] = out[0]
+    scalars[C_WET] = 1.0
+    return 1
+
+
+@helper
+def slip_field(which, q, system, grid, scalars, cells):
+    """Slip of every cell with the spread of slip inside the cell, and its pressure."""
+    a, b, pmax = scalars[C_A], scalars[C_B], scalars[C_PMAX]
+    vt0, vs0 = q[Q_VT], q[Q_VS]
+    wt, ws, wn = q[Q_WT], q[Q_WS], q[Q_WN]
+    curvature = 1.0 / system.radius_deformed[which]
+    floor = system.slip_floor * system.slip_floor
+    n = grid.xi.size
+    slip, p, vt, vs, spin2 = cells[X_SLIP], cells[X_P], cells[X_VT], cells[X_VS], cells[X_SPIN2]
+    for i in range(n):
+        s = a * grid.xi[i]
+        tau = b * grid.zeta[i]
+        z = 0.5 * s * s * curvature
+        vt[i] = vt0 - wn * s - ws * z
+        vs[i] = vs0 + wn * tau + wt * z
+        slope = s * curvature
+        ds, dt = a * grid.width_s[i], b * grid.width_t[i]
+        spread = ds * ds * ((wn + ws * slope) ** 2 + (wt * slope) ** 2) + dt * dt * wn * wn
+        slip[i] = math.sqrt(vt[i] * vt[i] + vs[i] * vs[i] + _CELL_VARIANCE * spread + floor)
+        spin2[i] = wn * wn * (s * s + tau * tau + _CELL_VARIANCE * (ds * ds + dt * dt))
+        p[i] = pmax * grid.pressure[i]
+
+
+@helper
+def shear_stage(which, laws, pars, system, scalars, cells, fault):
+    """Shear stress of film and asperities in every cell.
+
+    Temperature and traction form a loop (T -> eta -> tau -> T). Two sweeps: at the inlet temperature,
+    and at the temperature that this shear would cause; between them the shear stress is
+    taken as linear in temperature, which closes the loop. The relative change of
+    the mean shear stress from the second sweep to the result is kept in scalars[C_CHANGE].
+    """
+    slip, p, temp, ln_eta, rho = cells[X_SLIP], cells[X_P], cells[X_T], cells[X_LN], cells[X_RHO]
+    tau, tau0, hot, mu = cells[X_TAU], cells[X_TAU0], cells[X_T1], cells[X_MU]
+    h, b, u, psi = scalars[C_HCEN], scalars[C_B], scalars[C_UMEAN], scalars[C_PSI]
+    temp[:] = system.oil_temperature
+    ln_eta[:] = np.nan
+    tau0[:] = np.nan
+    status = laws.rheology(p, temp, pars.rheology, ln_eta, rho)
+    if status != 1 or not _finite(ln_eta):
+        return report(fault, R_RHEOLOGY, status, which, scalars[C_PMAX], system.oil_temperature, 0.0, 0.0)
+    status = laws.traction(slip, p, temp, ln_eta, h, pars.traction, tau0)
+    if status != 1 or not _finite(tau0):
+        return report(fault, R_TRACTION, status, which, scalars[C_PMAX], h, slip[0], ln_eta[0])
+    hot[:] = np.nan
+    status = laws.contact_temperature(system.oil_temperature, u, h, b, tau0, slip, pars.contact_temperature, hot)
+    if status != 1 or not _finite(hot):
+        return report(fault, R_TEMPERATURE, status, which, u, h, b, tau0[0])
+    ln_eta[:] = np.nan
+    tau[:] = np.nan
+    status = laws.rheology(p, hot, pars.rheology, ln_eta, rho)
+    if status != 1 or not _finite(ln_eta):
+        return report(fault, R_RHEOLOGY, status, which, scalars[C_PMAX], hot[0], 0.0, 0.0)
+    status = laws.traction(slip, p, hot, ln_eta, h, pars.traction, tau)
+    if status != 1 or not _finite(tau):
+        return report(fault, R_TRACTION, status, which, scalars[C_PMAX], h, slip[0], ln_eta[0])
+    first, second, heat = 0.0, 0.0, 0.0
+    for i in range(tau.size):
+        closed = tau0[i] * tau0[i] / max(2.0 * tau0[i] - tau[i], 1e-3 * tau0[i] + 1e-30)
+        second += tau[i]
+        first += closed
+        share = closed / (tau0[i] + 1e-30)
+        temp[i] = system.oil_temperature + (hot[i] - system.oil_temperature) * share
+        heat += temp[i]
+        tau[i] = closed
+    scalars[C_CHANGE] = abs(first - second) / (first + 1e-30)
+    scalars[C_TMEAN] = heat / tau.size
+    mu[:] = np.nan
+    status = laws.boundary_friction(slip, p, pars.boundary_friction, mu)
+    if status != 1 or not _finite(mu):
+        return report(fault, R_BOUNDARY, status, which, slip[0], p[0], 0.0, 0.0)
+    for i in range(tau.size):
+        tau0[i] = (1.0 - psi) * tau[i]
+        mu[i] = psi * mu[i] * p[i]
+        tau[i] = tau0[i] + mu[i]
+    return 1
+
+
+@helper
+def sum_wrench(which, q, system, grid, scalars, cells, wrench):
+    """Integrate the shear over the ellipse and add the scalar laws: wrench on the ball."""
+    a, b = scalars[C_A], scalars[C_B]
+    tau, slip, vt, vs = cells[X_TAU], cells[X_SLIP], cells[X_VT], cells[X_VS]
+    half_curvature = 0.5 / system.radius_deformed[which]
+    ft, fs, mt, ms, mn = 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(grid.xi.size):
+        g = tau[i] * grid.area[i] / slip[i]
+        dt, ds = -g * vt[i], -g * vs[i]
+        s, t = a * grid.xi[i], b * grid.zeta[i]
+        z = half_curvature * s * s
+        ft += dt
+        fs += ds
+        ms -= z * dt
+        mt += z * ds
+        mn += t * ds - s * dt
+    ab = a * b
+    wrench[0], wrench[1] = ab * ft, ab * fs
+    wrench[2] = -(scalars[C_LOAD] + scalars[C_DAMP])
+    wrench[3], wrench[4], wrench[5] = ab * mt, ab * ms, ab * mn
+    add_rolling(which, q, system, scalars, wrench)
+
+
+@helper
+def rolling_speeds(which, q, system):
+    """Return the speeds that rolling resistance and hysteresis dissipate with [m/s].
+
+    In pure rolling both are the mean surface velocity; defined by the work of their forces so that
+    each loss is non-negative whatever the slip.
+    """
+    rx = system.radius_x[which]
+    roll = rx * q[Q_WS] - (rx / system.ball_radius - 0.5) * q[Q_VT]
+    return roll, rx * q[Q_WS]
+
+
+@helper
+def add_rolling(which, q, system, scalars, wrench):
+    """Add rolling resistance and hysteresis.
+
+    With force F of the inlet on each surface: F (2 R_x/R_b - 1) along rolling on the ball, the opposite on
+    the ring, and a couple 2 F R_x against the relative rolling; loss 2 F u. Hysteresis is a pure couple.
+    """
+    rx = system.radius_x[which]
+    roll, bend = rolling_speeds(which, q, system)
+    floor = system.roll_floor
+    sign = roll / math.sqrt(roll * roll + floor * floor)
+    force = scalars[C_ROLL] * sign
+    wrench[0] += force * (2.0 * rx / system.ball_radius - 1.0)
+    wrench[4] -= 2.0 * force * rx
+    wrench[4] -= scalars[C_HYST] * bend / math.sqrt(bend * bend + floor * floor)
+
+
+@helper
+def raceway_wrench(which, q, laws, pars, system, grid, scalars, cells, out, fault, wrench):
+    """Run the whole pipeline of one contact; 1 when every kernel was well."""
+    if normal_stage(which, q, laws, pars, system, scalars, out, fault) != 1:
+        return 0
+    if system.friction_on == 0:
+        wrench[:] = 0.0
+        wrench[2] = -(scalars[C_LOAD] + scalars[C_DAMP])
+        return 1
+    if film_stage(which, q, laws, pars, system, scalars, out, fault) != 1:
+        return 0
+    slip_field(which, q, system, grid, scalars, cells)
+    if shear_stage(which, laws, pars, system, scalars, cells, fault) != 1:
+        return 0
+    sum_wrench(which, q, system, grid, scalars, cells, wrench)
+    return 1
+
+
+@helper
+def raceway_losses(which, q, system, grid, scalars, cells, losses):
+    """Add the power that this contact dissipates, by mechanism [W]; call after raceway_wrench.
+
+    Power of the film's shear in a cell is split between sliding and spin in proportion
+    to the squares of the two velocity fields, so that both are non-negative.
+    """
+    if scalars[C_WET] == 0.0:
+        return
+    a, b = scalars[C_A], scalars[C_B]
+    slip, vt, vs = cells[X_SLIP], cells[X_VT], cells[X_VS]
+    fluid, solid, spin2 = cells[X_TAU0], cells[X_MU], cells[X_SPIN2]
+    wn = q[Q_WN]
+    slide, spin, boundary = 0.0, 0.0, 0.0
+    for i in range(grid.xi.size):
+        v2 = (vt[i] * vt[i] + vs[i] * vs[i]) * grid.area[i] / slip[i]
+        power = fluid[i] * v2
+        rest_t = vt[i] + wn * a * grid.xi[i]
+        rest_s = vs[i] - wn * b * grid.zeta[i]
+        rest2 = rest_t * rest_t + rest_s * rest_s
+        share = spin2[i] / (spin2[i] + rest2 + 1e-30)
+        spin += power * share
+        slide += power * (1.0 - share)
+        boundary += solid[i] * v2
+    roll, bend = rolling_speeds(which, q, system)
+    floor = system.roll_floor
+    losses[L_SLIDE + which] += a * b * slide
+    losses[L_SPIN + which] += a * b * spin
+    losses[L_BOUNDARY + which] += a * b * boundary
+    losses[L_ROLL + which] += 2.0 * scalars[C_ROLL] * roll * roll / math.sqrt(roll * roll + floor * floor)
+    turn = bend / system.radius_x[which]
+    losses[L_HYST + which] += scalars[C_HYST] * turn * bend / math.sqrt(bend * bend + floor * floor)
+    losses[L_DAMP + which] += scalars[C_DAMP] * q[Q_VN]

@@ -1,0 +1,224 @@
+"""Quasi-static equilibrium on the dynamic model's own forces, by pseudo-transient continuation.
+
+Every ball stays at its azimuth. Unknowns: axial and radial position, orbital speed and spin
+vector of each ball, position and tilt of the free rings. Positions follow their accelerations like an overdamped
+system, speeds follow theirs; implicit Euler with a step that grows as the residual falls turns into
+Newton's method at the end (Kelley and Keyes 1998, SIAM J. Numer. Anal. 35, 508).
+Centrifugal force and gyroscopic moment are those of the equations of motion.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from lambda_core.physics.compiled.arrow import arrow_factor, arrow_solve, factors_t
+from lambda_core.physics.compiled.bdf import evaluate_t, jacobian_t
+from lambda_core.physics.compiled.jacobian import blocks_t
+from lambda_core.physics.compiled.kinematics import contact_kinematics
+from lambda_core.physics.compiled.layout import (
+    BR,
+    BVT,
+    BX,
+    CAGE,
+    INNER,
+    NB,
+    NI,
+    NS,
+    SAY,
+    SAZ,
+    array1,
+    bundle_t,
+    helper,
+    i8,
+)
+
+settle_sig = i8(evaluate_t, jacobian_t, bundle_t, blocks_t, factors_t, array1, array1, array1, i8)
+
+_MOBILITY = 1e-4  # [s2] turns an acceleration into the rate of a position
+_HOLD = 1e4  # [1/s] rate at which an unloaded ball takes the speed of the others
+_LARGEST_MOVE = 5e-6  # [m] per iteration, so that no iterate jumps through a contact
+_FIRST_STEP, _LAST_STEP = 1e-6, 1e6  # [s] of pseudo-time
+
+
+@helper
+def _ball_rows(system, held):
+    """Say for each ball state which acceleration drives it: row index, or -1 when it is fixed."""
+    rows = np.full(NB, -1, dtype=np.int64)
+    rows[BX], rows[BR] = 3, 4
+    if system.friction_on == 1:
+        if not held:
+            rows[BVT] = 5
+        for i in range(6, NB):
+            rows[i] = i
+    return rows
+
+
+@helper
+def _shared_row(state):
+    """Return the acceleration that drives a shared position, its sign, or (-1, 0) when fixed."""
+    body, c = state // NS, state % NS
+    if body == CAGE:
+        return -1, 0.0
+    if c < 3:
+        return NS * body + 6 + c, 1.0
+    # The axis leans to a_y when turned about +z and to -a_z when turned about +y.
+    if c == SAY:
+        return NS * body + 10, 1.0
+    if c == SAZ:
+        return NS * body + 9, -1.0
+    return -1, 0.0
+
+
+@helper
+def _residual(bundle, index, y, dydt, held, orbit, f):
+    """Write the rates of the pseudo-transient system."""
+    system = bundle.system[0]
+    z = system.balls
+    f[:] = 0.0
+    for j in range(z):
+        rows = _ball_rows(system, held[j])
+        for i in range(NB):
+            if rows[i] >= 0:
+                scale = _MOBILITY if i < 3 else 1.0
+                f[NB * j + i] = scale * dydt[NB * j + rows[i]]
+        if held[j] and system.friction_on == 1:
+            f[NB * j + BVT] = _HOLD * (orbit * y[NB * j + BR] - y[NB * j + BVT])
+    active = bundle.times.active
+    for k in range(active.size):
+        row, sign = _shared_row(active[k])
+        if row >= 0 and index[row] >= 0:
+            f[NB * z + k] = _MOBILITY * sign * dydt[NB * z + index[row]]
+
+
+@helper
+def _mask(bundle, bl, held):
+    """Turn the blocks of dy/dt into those of the pseudo-transient system, in place."""
+    system = bundle.system[0]
+    z, n = system.balls, bl.d.shape[0]
+    active = bundle.times.active
+    column_on = np.zeros(n, dtype=np.int64)
+    for k in range(n):
+        row, sign = _shared_row(active[k])
+        column_on[k] = 1 if row >= 0 and bl.index[row] >= 0 else 0
+    a2, b2 = np.zeros((NB, NB)), np.zeros((NB, n))
+    for j in range(z):
+        rows = _ball_rows(system, held[j])
+        a, b = bl.a[j], bl.b[j]
+        a2[:, :] = 0.0
+        b2[:, :] = 0.0
+        for i in range(NB):
+            if rows[i] < 0:
+                continue
+            scale = _MOBILITY if i < 3 else 1.0
+            for c in range(NB):
+                if rows[c] >= 0 or (c == BVT and system.friction_on == 1):
+                    a2[i, c] = scale * a[rows[i], c]
+            for k in range(n):
+                b2[i, k] = scale * b[rows[i], k] * column_on[k]
+        if held[j] and system.friction_on == 1:
+            a2[BVT, BVT] = -_HOLD
+        a[:, :] = a2
+        b[:, :] = b2
+    d2, c2 = np.zeros((n, n)), np.zeros((n, NB))
+    for k in range(n):
+        row, sign = _shared_row(active[k])
+        if column_on[k] == 1:
+            for m in range(n):
+                d2[k, m] = _MOBILITY * sign * bl.d[bl.index[row], m] * column_on[m]
+    bl.d[:, :] = d2
+    for j in range(z):
+        rows = _ball_rows(system, held[j])
+        c = bl.c[j]
+        c2[:, :] = 0.0
+        for k in range(n):
+            row, sign = _shared_row(active[k])
+            if column_on[k] == 1:
+                for i in range(NB):
+                    if rows[i] >= 0 or (i == BVT and system.friction_on == 1):
+                        c2[k, i] = _MOBILITY * sign * c[bl.index[row], i]
+        c[:, :] = c2
+
+
+@helper
+def _held_balls(y, bundle, held):
+    """Mark the balls that the inner ring does not touch; returns the mean orbital speed of the rest."""
+    system, work = bundle.system[0], bundle.work
+    total, count = 0.0, 0
+    ring = work.shared[NS * INNER : NS * INNER + NS]
+    for j in range(system.balls):
+        ball = y[NB * j : NB * j + NB]
+        held[j] = contact_kinematics(ball, ring, INNER, system, work.kin) <= 0.0
+        if not held[j]:
+            total += ball[BVT] / ball[BR]
+            count += 1
+    if count == 0:
+        return y[BVT] / y[BR]
+    return total / count
+
+
+@helper
+def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations):
+    """Find the equilibrium from the state y, in place.
+
+    Parameters
+    ----------
+    y : float64[:], shape (9 Z + n_active,)
+        Start and result.
+    weight : float64[:]
+        1 / scale of each state; the last Newton step is measured with it.
+    report : float64[:], shape (4,)
+        Iterations, size of the last step, pseudo-time step, mean orbital speed [rad/s].
+
+    Returns
+    -------
+    int
+        1 converged, 0 not, -1 a kernel refused (work.fault).
+    """
+    system = bundle.system[0]
+    n = y.size
+    dydt, f, step, trial, rates = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(NI)
+    held = np.zeros(system.balls, dtype=np.bool_)
+    dt, before = _FIRST_STEP, 0.0
+    if evaluate(0.0, y, bundle, dydt, rates, 0) != 1:
+        return -1
+    for iteration in range(max_iterations):
+        orbit = _held_balls(y, bundle, held)
+        _residual(bundle, bl.index, y, dydt, held, orbit, f)
+        if jacobian(0.0, y, bundle, bl) != 1:
+            return -1
+        _mask(bundle, bl, held)
+        tries = 0
+        while True:
+            for i in range(n):
+                step[i] = dt * f[i]
+            if arrow_factor(bl, 1.0, dt, fa) == 1:
+                arrow_solve(fa, step)
+                largest, size = 0.0, 0.0
+                for j in range(system.balls):
+                    largest = max(largest, abs(step[NB * j + BX]), abs(step[NB * j + BR]))
+                for i in range(NB * system.balls, n):
+                    largest = max(largest, abs(step[i]))
+                shrink = min(1.0, _LARGEST_MOVE / (largest + 1e-300))
+                for i in range(n):
+                    size += (step[i] * weight[i]) ** 2
+                    trial[i] = y[i] + shrink * step[i]
+                size = math.sqrt(size / n)
+                if size < np.inf and evaluate(0.0, trial, bundle, dydt, rates, 0) == 1:
+                    break
+            dt *= 0.1
+            tries += 1
+            if tries > 12:
+                return -1
+        for i in range(n):
+            y[i] = trial[i]
+        report[0], report[1], report[2], report[3] = iteration + 1.0, size, dt, orbit
+        if dt >= 1.0 and size < 1e-7 and shrink == 1.0:
+            return 1
+        if shrink < 1.0 or (before > 0.0 and size > 4.0 * before):
+            dt = max(_FIRST_STEP, 0.5 * dt) if shrink < 0.2 else dt
+        else:
+            dt = min(_LAST_STEP, 3.0 * dt)
+        before = size
+    return 0

@@ -1,0 +1,266 @@
+"""Quasi-static equilibrium: loads, contact angles, ball kinematics and friction without time.
+
+A five-degree-of-freedom inner ring, every ball at its azimuth with centrifugal force, gyroscopic
+moment and the ball's motion from the equilibrium of its own friction, on the same kernels as
+the dynamics, which it starts. The cage is left out: a ball that the inner ring does not touch takes
+the mean orbital speed of the others.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from lambda_core.errors import SolverError
+from lambda_core.physics import assembly as A
+from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.compiled.arrow import make_factors
+from lambda_core.physics.model import DOFS, BearingModel, TimeFunction
+
+FloatArray = A.FloatArray
+
+_FRAME_ITERATIONS = 4
+_FRAME_TOLERANCE = 1e-4  # [rad] change of the frozen contact angle that ends the iteration
+_MAX_ITERATIONS = 400
+
+
+@dataclass
+class Equilibrium:
+    """The quasi-static solution.
+
+    Attributes
+    ----------
+    state : float64[:], shape (9 Z + n_active,)
+        State vector (layout in lambda_core.physics.compiled.layout), balls at their own orbital speeds.
+    contacts : float64[:, :, :], shape (Z, 2, 16)
+        Contact channels (compiled.observe.CONTACT_CHANNELS), inner then outer.
+    losses : float64[:], shape (16,)
+        Dissipated power by mechanism [W].
+    displacement : tuple of 5 floats
+        Inner ring x, y, z [m], tilt about y and z [rad].
+    orbit : float
+        Mean orbital speed of the loaded balls [rad/s].
+    iterations : int
+        Of the pseudo-transient continuation with friction.
+    """
+
+    assembly: A.Assembly
+    state: FloatArray
+    contacts: FloatArray
+    losses: FloatArray
+    displacement: tuple[float, float, float, float, float]
+    orbit: float
+    iterations: int
+
+    @property
+    def relative_speed(self) -> float:
+        """|Omega_i - Omega_o| [rad/s]."""
+        shared = self.assembly.bundle.work.shared
+        return abs(float(shared[L.SSIGMA] - shared[L.NS + L.SSIGMA]))
+
+
+def start_values(function: TimeFunction) -> float:
+    """Return the value of a time function at t = 0."""
+    total = 0.0
+    for term in function.terms:
+        if term.kind == "harmonic":
+            total += term.values[0] * math.sin(term.values[2])
+        elif term.kind == "table":
+            total += term.values[1]
+        else:
+            total += term.values[0]
+    return total
+
+
+def solve(model: BearingModel, kernels: A.Kernels | None = None, announce: A.Announce = None) -> Equilibrium:
+    """Find the quasi-static equilibrium at t = 0.
+
+    Raises
+    ------
+    SolverError
+        When there is none, with what was tried.
+    """
+    from lambda_core.physics.compiled.entry import core
+
+    kernels = kernels or A.Kernels(model, announce)
+    compiled = core(announce)
+    frame = _first_frame(model)
+    oil = A.derive_oil(model, kernels, frame)
+    state: FloatArray | None = None
+    for _ in range(_FRAME_ITERATIONS):
+        assembly = A.assemble(model, kernels, frame, oil)
+        if state is None:
+            state = first_state(assembly)
+        _settle(compiled, assembly, state, friction=False)
+        contacts, _ = _contacts(compiled, assembly, state)
+        new = _frame_of(contacts, frame)
+        change = max(abs(a - b) for a, b in zip(new.angles, frame.angles, strict=True))
+        frame = new
+        if change < _FRAME_TOLERANCE:
+            break
+    assembly = A.assemble(model, kernels, frame, oil)
+    assert state is not None
+    _settle(compiled, assembly, state, friction=False)
+    _roll(assembly, state)
+    report = _settle(compiled, assembly, state, friction=True)
+    contacts, losses = _contacts(compiled, assembly, state)
+    shared = assembly.bundle.work.shared
+    displacement = (shared[L.SX], shared[L.SY], shared[L.SZ], -shared[L.SAZ], shared[L.SAY])
+    x, y, z, tilt_y, tilt_z = (float(v) for v in displacement)
+    return Equilibrium(assembly, state, contacts, losses, (x, y, z, tilt_y, tilt_z), float(report[3]), int(report[0]))
+
+
+def _first_frame(model: BearingModel) -> A.ContactFrame:
+    """Guess contact angle and load from the external loads at t = 0."""
+    force = [start_values(f) for f in model.inner_ring.force]
+    force = [f + model.inner_ring.mass * a for f, a in zip(force, model.gravity, strict=True)]
+    total = math.sqrt(sum(f * f for f in force))
+    load = max(total * 3.0 / model.geometry.ball_count, 1.0)
+    free = free_contact_angle(model) if abs(force[0]) > 0.1 * total else 0.0
+    return A.ContactFrame((free, free), (load, load))
+
+
+def free_contact_angle(model: BearingModel) -> float:
+    """Return the contact angle when the axial play is just taken up, without load [rad].
+
+    cos(alpha_0) = 1 - G_r/(2 A), A = r_i + r_o - D_w (Harris and Kotzalas 2006, eq. 2.9).
+    """
+    g = model.geometry
+    distance = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
+    return math.acos(max(-1.0, min(1.0, 1.0 - 0.5 * max(g.clearance, 0.0) / distance)))
+
+
+def first_state(assembly: A.Assembly) -> FloatArray:
+    """Return balls evenly spaced, one of them lowest, and the inner ring moved into contact."""
+    model = assembly.model
+    g = model.geometry
+    z = g.ball_count
+    force = [start_values(f) for f in model.inner_ring.force]
+    force = [f + model.inner_ring.mass * a for f, a in zip(force, model.gravity, strict=True)]
+    total = math.sqrt(sum(f * f for f in force))
+    move = [0.0, 0.0, 0.0]
+    if total > 0.0:
+        distance = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
+        axial_play = distance * math.sin(free_contact_angle(model))
+        move[0] = (axial_play + 2e-6) * force[0] / total if abs(force[0]) > 0.1 * total else 0.0
+        radial = math.hypot(force[1], force[2])
+        if radial > 0.1 * total:
+            for i in (1, 2):
+                move[i] = (0.5 * g.clearance + 2e-6) * force[i] / total
+    shared = np.zeros(3 * L.NS)
+    for b, body in enumerate((model.inner_ring, model.outer_ring, model.cage_body)):
+        for d, name in enumerate(DOFS[:3]):
+            dof = body.dofs[name]
+            if dof.mode == "prescribed":
+                shared[L.NS * b + d] = start_values(dof.motion)
+            elif b == L.INNER and dof.mode == "free":
+                shared[L.NS * b + d] = move[d]
+    y = np.zeros(assembly.size)
+    axial = 0.5 * (shared[L.SX] + shared[L.NS + L.SX])
+    for j in range(z):
+        y[L.NB * j + L.BX] = axial
+        y[L.NB * j + L.BR] = 0.5 * g.pitch_diameter
+        y[L.NB * j + L.BPSI] = -0.5 * math.pi + 2.0 * math.pi * j / z
+    y[L.NB * z :] = shared[assembly.bundle.times.active]
+    _roll(assembly, y)
+    return y
+
+
+def _roll(assembly: A.Assembly, y: FloatArray) -> None:
+    """Set orbital speeds and spins to pure rolling at the frozen contact angle, in place."""
+    model = assembly.model
+    g = model.geometry
+    inner, outer = (start_values(b.dofs["spin"].motion) for b in (model.inner_ring, model.outer_ring))
+    angle = float(np.mean(assembly.frame.angles))
+    lever = 0.5 * g.ball_diameter * math.cos(angle)
+    v_inner, v_outer = inner * (0.5 * g.pitch_diameter - lever), outer * (0.5 * g.pitch_diameter + lever)
+    spin = (v_outer - v_inner) / g.ball_diameter
+    for j in range(g.ball_count):
+        o = L.NB * j
+        y[o + L.BVT] = 0.5 * (v_inner + v_outer)
+        y[o + L.BWX : o + 9] = spin * math.cos(angle), -spin * math.sin(angle), 0.0
+
+
+def _settle(compiled: object, assembly: A.Assembly, state: FloatArray, *, friction: bool) -> FloatArray:
+    """Run the continuation from `state`, in place; returns its report."""
+    system = assembly.bundle.system[0]
+    system["friction_on"], system["guides_on"] = int(friction), 0
+    report = np.zeros(4)
+    factors = make_factors(assembly.model.geometry.ball_count, assembly.bundle.times.active.size)
+    status = compiled.settle(  # type: ignore[attr-defined]
+        compiled.evaluate_pointer,  # type: ignore[attr-defined]
+        compiled.jacobian_pointer,  # type: ignore[attr-defined]
+        assembly.bundle,
+        assembly.blocks,
+        factors,
+        state,
+        1.0 / assembly.scale,
+        report,
+        _MAX_ITERATIONS,
+    )
+    system["friction_on"], system["guides_on"] = 1, 1
+    if status == -1:
+        raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(assembly)}")
+    if status != 1:
+        kind = "with" if friction else "without"
+        raise SolverError(
+            f"no quasi-static equilibrium {kind} friction after {report[0]:.0f} iterations (last step {report[1]:.2e} of "
+            "the states' scales): is every free degree of freedom of the ring held by a load or a support?"
+        )
+    return report
+
+
+def _contacts(compiled: object, assembly: A.Assembly, state: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return contact channels (Z, 2, 16) and losses (16,) [W] at a state."""
+    z = assembly.model.geometry.ball_count
+    bundle = assembly.bundle
+    contacts = np.zeros((z, 2, 16))
+    extra = np.zeros(L.NI + 2)
+    rates, dydt = np.zeros(L.NI), np.zeros(state.size)
+    system = bundle.system[0]
+    system["guides_on"] = 0
+    ok = compiled.observe(0.0, state, bundle, 1.0, contacts, np.zeros((z, 3)), np.zeros((2, 3)), extra)  # type: ignore[attr-defined]
+    if ok == 1:
+        ok = compiled.evaluate(0.0, state, bundle, dydt, rates, 1)  # type: ignore[attr-defined]
+    system["guides_on"] = 1
+    if ok != 1:
+        raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(assembly)}")
+    return contacts, rates[: L.NL].copy()
+
+
+def _frame_of(contacts: FloatArray, before: A.ContactFrame) -> A.ContactFrame:
+    """Return load-weighted contact angles (absolute) and mean loads of the loaded contacts."""
+    angles, loads = [], []
+    for i in range(2):
+        load, angle = contacts[:, i, 0], np.abs(contacts[:, i, 1])
+        angles.append(float(np.sum(load * angle) / np.sum(load)) if np.sum(load) > 0.0 else before.angles[i])
+        loads.append(float(np.mean(load[load > 0.0])) if np.any(load > 0.0) else before.mean_loads[i])
+    return A.ContactFrame((angles[0], angles[1]), (loads[0], loads[1]))
+
+
+def fault_sentence(assembly: A.Assembly, time: float | None = None) -> str:
+    """Say which kernel refused, where, and with what inputs."""
+    fault = assembly.bundle.work.fault
+    if fault[0] < 0.0:
+        return "the time step became too small"
+    role = L.RACEWAY_ROLES[int(fault[0])]
+    ball, which = int(fault[2]), int(fault[3])
+    if role == "fluid_drag":
+        element = "fluid_drag"
+    elif role == "cage_contact":
+        element = {0: "cage_inner", 1: "cage_outer"}.get(which, "ball_cage")
+    else:
+        element = ("ball_inner", "ball_outer")[max(which, 0)]
+    model = assembly.model.laws[element][role].model
+    status = int(fault[1])
+    if status == 1:
+        what = "returned a number that is not finite"
+    elif status == 0:
+        what = "raised an exception"
+    else:
+        what = f"returned status {status}: {model.errors.get(status, 'not declared')}"
+    place = f"ball {ball}, {element.replace('_', ' - ')}" + (f", t = {time:.6g} s" if time is not None else "")
+    inputs = ", ".join(f"{v:.6g}" for v in fault[4:8])
+    return f"{model.label} {what} ({place}; inputs {inputs})"

@@ -1,0 +1,279 @@
+"""The dynamics of one bearing: the compiled integrator behind the Engine protocol."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.errors import SolverError
+from lambda_core.physics import assembly as A
+from lambda_core.physics.channels import CHANNELS, LOSSES
+from lambda_core.physics.compiled import bdf
+from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.compiled.arrow import make_factors
+from lambda_core.physics.compiled.entry import core
+from lambda_core.physics.compiled.observe import CONTACT_CHANNELS
+from lambda_core.physics.equilibrium import Equilibrium, fault_sentence, solve
+from lambda_core.physics.model import BearingModel
+from lambda_core.simulate.engine import Advance
+
+FloatArray = NDArray[np.float64]
+
+SAMPLES_PER_REVOLUTION = 200.0
+# Asperities that carry more than this share of the load short the contact electrically.
+SHORTED = 0.01
+_CAPACITY = 512
+_FIRST_STEP = 1e-7  # [s]
+_SMALLEST_STEP = 1e-14  # [s]
+_STEPS_PER_CALL = 2000
+_SPIN_FOR_SAMPLES = 1.0  # [rad/s] slowest cage speed that the default sampling interval is made for
+
+
+class BearingEngine:
+    """Dynamics of one bearing, started from its quasi-static equilibrium.
+
+    Parameters
+    ----------
+    model : BearingModel
+        Resolved model.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+    equilibrium : Equilibrium, optional
+        Start from this instead of solving for it.
+
+    Raises
+    ------
+    SolverError
+        When there is no equilibrium to start from.
+    """
+
+    channels = CHANNELS
+
+    def __init__(
+        self, model: BearingModel, announce: A.Announce = None, equilibrium: Equilibrium | None = None
+    ) -> None:
+        self.model = model
+        self._core = core(announce)
+        self._equilibrium = equilibrium or solve(model, announce=announce)
+        self._assembly = self._equilibrium.assembly
+        self._balls = model.geometry.ball_count
+        start = initial_state(self._equilibrium)
+        active = self._assembly.bundle.times.active
+        self._factors = make_factors(self._balls, active.size)
+        self._memory = bdf.make_memory(start, self._assembly.scale, model.solver.tolerance, _CAPACITY)
+        orbit = max(abs(self._equilibrium.orbit), _SPIN_FOR_SAMPLES)
+        self.sample_interval = model.output.interval or 2.0 * math.pi / orbit / SAMPLES_PER_REVOLUTION
+        control, count = self._memory.control, self._memory.count
+        control[bdf.H], control[bdf.H_MIN] = _FIRST_STEP, _SMALLEST_STEP
+        control[bdf.H_MAX] = model.solver.max_step
+        control[bdf.SAMPLE_STEP] = self.sample_interval
+        count[bdf.STALE] = 1
+        self._start_angles = self._angles()
+        self._start_energy = self._observe(0.0, start)["stored_energy"]
+
+    @property
+    def time(self) -> float:
+        """Start of the next step [s]."""
+        return float(self._memory.control[bdf.T])
+
+    @property
+    def kernel_keys(self) -> dict[str, str]:
+        """Hash of everything each kernel reaches."""
+        return self._assembly.kernels.keys()
+
+    def advance(self, until: float) -> Advance:
+        """Integrate until `time` >= `until` [s]; samples gather in the buffer meanwhile."""
+        status = bdf.OK
+        while self.time < until:
+            status = self._core.advance(
+                self._core.evaluate_pointer,
+                self._core.jacobian_pointer,
+                until,
+                _STEPS_PER_CALL,
+                self._assembly.bundle,
+                self._assembly.blocks,
+                self._factors,
+                self._memory,
+            )
+            if status == bdf.FULL:
+                self._drain()
+            elif status != bdf.OK:
+                break
+        if status in (bdf.OK, bdf.FULL):
+            return Advance(True, "")
+        if status == bdf.FAULT:
+            return Advance(False, fault_sentence(self._assembly, self.time))
+        return Advance(False, f"the time step fell below {_SMALLEST_STEP:g} s at t = {self.time:.6g} s")
+
+    def samples(self) -> dict[str, FloatArray]:
+        """Return and clear the buffered samples: channel -> array, first axis is time."""
+        self._drain()
+        rows, self._rows = self._rows, []
+        return {c.name: np.array([row[c.name] for row in rows], dtype=np.float64) for c in CHANNELS}
+
+    _rows: list[dict[str, Any]]
+
+    def _drain(self) -> None:
+        """Turn buffered states into rows of channels."""
+        if not hasattr(self, "_rows"):
+            self._rows = []
+        count = self._memory.count
+        for i in range(int(count[bdf.SAMPLES])):
+            self._rows.append(self._observe(float(self._memory.sample_t[i]), self._memory.sample_y[i]))
+        count[bdf.SAMPLES] = 0
+
+    def integrals(self) -> dict[str, float]:
+        """Return running time integrals from t = 0 (see the Engine protocol)."""
+        values = self._memory.integrals
+        now = self._angles()
+        result = {f"loss.{name}": float(values[i]) for i, name in enumerate(LOSSES)}
+        stored = self._observe(self.time, self._memory.y)["stored_energy"] - self._start_energy
+        result.update(
+            input=float(values[L.I_INPUT]),
+            input_abs=float(values[L.I_INPUT_ABS]),
+            drive=float(values[L.I_DRIVE]),
+            stored=float(stored),
+            relative_angle=float(values[L.I_ANGLE]),
+            cage_angle=now[0] - self._start_angles[0],
+            inner_angle=now[1] - self._start_angles[1],
+            x=float(values[L.I_X]),
+            y=float(values[L.I_Y]),
+            z=float(values[L.I_Z]),
+        )
+        return result
+
+    def statistics(self) -> dict[str, float]:
+        """Return counters of the integrator."""
+        names = {
+            "steps": bdf.STEPS,
+            "rejected": bdf.REJECTED,
+            "failed": bdf.FAILED,
+            "newton_iterations": bdf.NEWTON,
+            "rhs_calls": bdf.RHS,
+            "jacobians": bdf.JACOBIANS,
+            "factorisations": bdf.FACTORS,
+        }
+        return {name: float(self._memory.count[i]) for name, i in names.items()}
+
+    def state(self) -> dict[str, NDArray[np.float64]]:
+        """Return everything that a continuation needs: memory, Jacobian blocks, factors."""
+        parts: dict[str, NDArray[np.float64]] = {}
+        for prefix, group in (("memory", self._memory), ("factors", self._factors)):
+            for name, array in zip(group._fields, group, strict=True):
+                parts[f"{prefix}.{name}"] = np.array(array, copy=True)
+        for name in ("a", "b", "c", "d"):
+            parts[f"blocks.{name}"] = getattr(self._assembly.blocks, name).copy()
+        parts["start"] = np.array([*self._start_angles, self._start_energy])
+        return parts
+
+    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
+        """Continue from what `state` returned.
+
+        Raises
+        ------
+        SolverError
+            When the state is of another model.
+        """
+        groups = {"memory": self._memory, "factors": self._factors, "blocks": self._assembly.blocks}
+        for key, saved in state.items():
+            if key == "start":
+                self._start_angles, self._start_energy = (float(saved[0]), float(saved[1])), float(saved[2])
+                continue
+            group, name = key.split(".")
+            array = getattr(groups[group], name)
+            if array.shape != saved.shape:
+                raise SolverError(f"the checkpoint does not fit this model: {key} has shape {saved.shape}")
+            array[...] = saved
+
+    def equilibrium(self) -> Mapping[str, object]:
+        """Return the quasi-static solution the run started from."""
+        e = self._equilibrium
+        return {
+            "contacts": e.contacts,
+            "contact_channels": CONTACT_CHANNELS,
+            "losses": e.losses,
+            "displacement": e.displacement,
+            "orbit": e.orbit,
+            "relative_speed": e.relative_speed,
+        }
+
+    def _angles(self) -> tuple[float, float]:
+        """Return cage angle (mean of the balls when there is no cage) and inner spin angle, to the outer ring [rad]."""
+        bundle = self._assembly.bundle
+        shared = np.zeros(3 * L.NS)
+        shared[bundle.times.active] = self._memory.y[L.NB * self._balls :]
+        outer = shared[L.NS + L.STHETA]
+        if self.model.depth.cage:
+            cage = shared[2 * L.NS + L.STHETA]
+        else:
+            cage = float(np.mean(self._memory.y[L.BPSI : L.NB * self._balls : L.NB]))
+        return float(cage - outer), float(shared[L.STHETA] - outer)
+
+    def _observe(self, t: float, y: FloatArray) -> dict[str, Any]:
+        """Return every channel at (t, y)."""
+        z, bundle = self._balls, self._assembly.bundle
+        contacts, pockets, lands = np.zeros((z, 2, 16)), np.zeros((z, 3)), np.zeros((2, 3))
+        extra, rates, dydt = np.zeros(L.NI + 2), np.zeros(L.NI), np.zeros(y.size)
+        ok = self._core.observe(t, y, bundle, SHORTED, contacts, pockets, lands, extra)
+        if ok == 1:
+            ok = self._core.evaluate(t, y, bundle, dydt, rates, 1)
+        if ok != 1:
+            raise SolverError(fault_sentence(self._assembly, t))
+        shared = bundle.work.shared.reshape(3, L.NS).copy()
+        balls = y[: L.NB * z].reshape(z, L.NB)
+        row: dict[str, Any] = {
+            "time": t,
+            "body_position": shared[:, L.SX : L.SX + 3],
+            "body_velocity": shared[:, L.SVX : L.SVX + 3],
+            "body_tilt": np.stack([-shared[:, L.SAZ], shared[:, L.SAY]], axis=1),
+            "body_spin_angle": shared[:, L.STHETA],
+            "body_spin": shared[:, L.SSIGMA],
+            "ball_axial": balls[:, L.BX].copy(),
+            "ball_radius": balls[:, L.BR].copy(),
+            "ball_azimuth": balls[:, L.BPSI].copy(),
+            "ball_velocity": balls[:, L.BVX : L.BVX + 3].copy(),
+            "ball_spin": balls[:, L.BWX : L.BWX + 3].copy(),
+            "pocket_force": pockets,
+            "land_force": lands,
+            "bearing_capacitance": float(extra[1]),
+            "input_torque": self._drive_torque(shared[L.INNER]),
+            "loss": rates[: L.NL],
+            "input_power": float(rates[L.I_INPUT]),
+            "stored_energy": float(extra[0]),
+        }
+        for i, name in enumerate(CONTACT_CHANNELS):
+            row[name] = contacts[:, :, i]
+        return row
+
+    def _drive_torque(self, ring: FloatArray) -> float:
+        """Return the torque about the inner ring's axis that balances its contacts [N m]."""
+        ay, az = ring[L.SAY], ring[L.SAZ]
+        axis = np.array([math.sqrt(1.0 - ay * ay - az * az), ay, az])
+        return float(-self._assembly.bundle.work.body_fm[L.INNER, 3:] @ axis)
+
+
+def initial_state(equilibrium: Equilibrium) -> FloatArray:
+    """Return the state that the dynamics start from: equilibrium with every ball at the cage's speed.
+
+    The cage stands centred on the balls and turns with them; its pockets are where the balls are.
+    """
+    assembly = equilibrium.assembly
+    model = assembly.model
+    z = model.geometry.ball_count
+    y = equilibrium.state.copy()
+    balls = y[: L.NB * z].reshape(z, L.NB)
+    balls[:, L.BVT] = equilibrium.orbit * balls[:, L.BR]
+    if model.depth.cage:
+        shared = np.zeros(3 * L.NS)
+        shared[assembly.bundle.times.active] = y[L.NB * z :]
+        cage = shared[2 * L.NS :]
+        cage[:] = 0.0
+        cage[L.SX] = float(np.mean(balls[:, L.BX]))
+        cage[L.STHETA] = float(balls[0, L.BPSI])
+        cage[L.SSIGMA] = equilibrium.orbit
+        y[L.NB * z :] = shared[assembly.bundle.times.active]
+    return y
