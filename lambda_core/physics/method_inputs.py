@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+import numpy as np
+
+from lambda_core.errors import SolverError
 from lambda_core.physics.model import BearingModel, Body
 from lambda_core.physics.time_functions import initial
 from lambda_core.registry.method import EquilibriumState, MethodInputs
-from lambda_core.registry.model import Oil
+from lambda_core.registry.model import FloatArray, Model, Oil
 
 
 def carried_load(state: EquilibriumState) -> tuple[float, float]:
@@ -18,6 +21,32 @@ def carried_load(state: EquilibriumState) -> tuple[float, float]:
     horizontal = sum(force * math.cos(azimuth) for force, azimuth in inward)
     vertical = sum(force * math.sin(azimuth) for force, azimuth in inward)
     return math.hypot(horizontal, vertical), abs(axial)
+
+
+def permittivity_over_pressure(
+    permittivity: Model, permittivity_par: FloatArray, rheology: Model, rheology_par: FloatArray, temperature: float
+) -> Callable[[float], float]:
+    """Relative permittivity over pressure [Pa] at `temperature` [K], from the chosen laws as plain Python.
+
+    Parameters
+    ----------
+    permittivity_par, rheology_par : float64[:]
+        What `prepare` of each law returned.
+    """
+
+    def value(pressure: float) -> float:
+        p, t = np.array([pressure]), np.array([temperature])
+        ln_eta, rho, eps_r = np.empty(1), np.empty(1), np.empty(1)
+        for model, status in (
+            (rheology, rheology.kernel(p, t, rheology_par, ln_eta, rho)),
+            (permittivity, permittivity.kernel(p, t, rho, permittivity_par, eps_r)),
+        ):
+            if status != 1:
+                sentence = model.errors.get(status, f"status {status}")
+                raise SolverError(f"{model.role} {model.name} at {pressure:g} Pa, {temperature:.2f} K: {sentence}")
+        return float(eps_r[0])
+
+    return value
 
 
 def _applied_load(body: Body) -> tuple[float, float]:

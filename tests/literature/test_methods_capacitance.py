@@ -15,8 +15,8 @@ from lambda_core.registry.method import (
 )
 from lambda_core.registry.model import Material, Oil
 
+from .paper_6208 import BALL, INNER, OUTER, PITCH, SPEED, axial_6208
 from .published import Published
-from .test_methods_load_distribution import BALL, INNER, OUTER, PITCH, SPEED, axial_6208
 
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 46.0, 460.0)
 KELVIN = 313.15

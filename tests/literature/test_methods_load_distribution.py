@@ -11,12 +11,11 @@ import numpy as np
 import pytest
 
 from lambda_core.physics.hertz import ball_raceway_radii, reduced_modulus, stiffness_constant
-from lambda_core.physics.kinematics import cage_speed
 from lambda_core.physics.life import reference_rating_life
 
+from .paper_6208 import axial_6208
 from .published import Published
 from .reference import (
-    AxialEquilibrium,
     axial_equilibrium,
     sjovall_integrals,
     specification_equilibrium,
@@ -60,29 +59,7 @@ def test_stribeck_number_without_clearance() -> None:
     assert 1.0 / sjovall_integrals(0.5)[0] == pytest.approx(4.37, abs=0.005)
 
 
-# --- the 6208 of Syla et al. 2026, tables 5 and 6, under pure axial load --------------------------------------------
-
-BALL, PITCH, INNER, OUTER = 11.91e-3, 60e-3, 6.19e-3, 6.31e-3
-CLEARANCE = 71.917e-3 - 48.083e-3 - 2.0 * BALL
-SPEED = 2750.0 * math.pi / 30.0
-
-
-def axial_6208(axial_load: float, *, running: bool) -> AxialEquilibrium:
-    """Equilibrium with radii frozen at the angles found (fixed-point)."""
-    angles = (0.25, 0.25)
-    mass = math.pi / 6.0 * BALL**3 * 7850.0
-    for _ in range(30):
-        stiffness = tuple(
-            stiffness_constant(*ball_raceway_radii(BALL, PITCH, groove, angle, inner=inner), STEEL)
-            for groove, angle, inner in ((INNER, angles[0], True), (OUTER, angles[1], False))
-        )
-        orbit = cage_speed(SPEED, 0.0, BALL * math.cos(0.5 * sum(angles)) / PITCH)
-        force = mass * 0.5 * PITCH * orbit**2 if running else 0.0
-        result = axial_equilibrium(
-            axial_load, 9, (INNER - BALL / 2, OUTER - BALL / 2), CLEARANCE, (stiffness[0], stiffness[1]), force
-        )
-        angles = (result.angle_inner, result.angle_outer)
-    return result
+# --- the 6208 of Syla et al. 2026, table 6, under pure axial load ----------------------------------------------------
 
 
 @pytest.mark.parametrize(("load", "angle", "ball"), [(700, 13.59, 330.9), (1300, 15.09, 554.7), (2000, 16.33, 790.3)])

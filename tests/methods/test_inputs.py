@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
+import numpy as np
 import pytest
+from lambda_db.catalogue import SqlCatalogue
 
-from lambda_core.physics.method_inputs import carried_load
-from lambda_core.registry.method import ContactLoad, EquilibriumState
+from lambda_core.errors import SolverError
+from lambda_core.physics.method_inputs import carried_load, method_inputs, permittivity_over_pressure
+from lambda_core.physics.model import BearingModel
+from lambda_core.physics.resolve import resolve
+from lambda_core.registry.manager import registry
+from lambda_core.registry.method import ContactLoad, EquilibriumState, MethodInputs, evaluate_methods
+from lambda_core.registry.model import Context, Material, NoParameters, Oil, model
+from lambda_core.schema.case_io import load_case
 
 
 def test_carried_load_of_an_axially_loaded_bearing() -> None:
@@ -23,3 +32,89 @@ def test_carried_load_of_one_ball() -> None:
     radial, axial = carried_load(EquilibriumState((contact,), (0.0,) * 5))
     assert radial == pytest.approx(1000.0 * math.cos(0.1))
     assert axial == pytest.approx(1000.0 * math.sin(0.1))
+
+
+def _oil(resolved: BearingModel) -> Oil:
+    """The model's oil by its own rheology kernel, in plain Python."""
+    law = resolved.laws["ball_inner"]["rheology"]
+    prepare = law.model.prepare
+    assert prepare is not None
+    par = prepare(law.parameters, _context(resolved))
+    t = resolved.oil.temperature
+    ln_eta, rho = np.empty(2), np.empty(2)
+    assert law.model.kernel(np.array([0.0, 1e6]), np.array([t, t]), par, ln_eta, rho) == 1
+    alpha = float(ln_eta[1] - ln_eta[0]) / 1e6
+    return dataclasses.replace(
+        resolved.oil, viscosity=math.exp(ln_eta[0]), density=float(rho[0]), alpha_p=alpha, beta=0.04
+    )
+
+
+def _context(resolved: BearingModel) -> Context:
+    g = resolved.geometry
+    return Context(
+        "ball_inner",
+        g.ball_count,
+        g.ball_diameter,
+        g.pitch_diameter,
+        g.bore_diameter,
+        g.outside_diameter,
+        g.width,
+        g.series,
+        100.0,
+        1000.0,
+        resolved.ball_material,
+        resolved.inner_material,
+        resolved.oil,
+    )
+
+
+@pytest.fixture
+def resolved(catalogue: SqlCatalogue) -> BearingModel:
+    return resolve(load_case("6319-cp10-1500"), registry(), catalogue)
+
+
+def test_inputs_of_the_6319(resolved: BearingModel) -> None:
+    inputs = method_inputs(resolved, _oil(resolved))
+    assert inputs.series == "63"
+    assert inputs.ball_diameter == pytest.approx(0.03)
+    assert inputs.radial_load == pytest.approx(16e3)
+    assert inputs.axial_load == 0.0
+    assert inputs.relative_speed == pytest.approx(1500 * math.pi / 30)
+    # FVA3 at 62.5 degC: 36.6 mm2/s by Vogel and its density
+    assert inputs.kinematic_viscosity * 1e6 == pytest.approx(36.57, abs=0.05)
+    answers = {answer.method.name: answer for answer in evaluate_methods(registry().methods.values(), inputs)}
+    skf = answers["skf"].table
+    assert skf is not None
+    # the SKF row of Syla et al. 2026, table 4, prints 1190 N mm
+    assert skf.value("friction", "total") == pytest.approx(1190.0, rel=0.07)
+    assert answers["quasi-static"].table is None
+
+
+def test_loads_come_from_the_equilibrium_where_there_is_one(resolved: BearingModel) -> None:
+    contacts = (ContactLoad(-math.pi / 2, 15e3, 15e3, 0.0, 0.0),)
+    state = EquilibriumState(contacts, (0.0,) * 5)
+    inputs: MethodInputs = method_inputs(resolved, _oil(resolved), state=state)
+    assert inputs.radial_load == pytest.approx(15e3)
+    assert inputs.state is state
+
+
+def test_permittivity_uses_the_chosen_laws() -> None:
+    from lambda_plugins.bode import CONSTANT_PERMITTIVITY
+
+    def thin(p: np.ndarray, t: np.ndarray, par: np.ndarray, ln_eta: np.ndarray, rho: np.ndarray) -> int:
+        rho[0] = 870.0
+        return 2 if p[0] > 1e9 else 1
+
+    rheology = model(
+        "rheology", "thin", thin, NoParameters, reference="test", errors={2: "beyond the measured pressures"}
+    )
+    value = permittivity_over_pressure(CONSTANT_PERMITTIVITY, np.array([2.3]), rheology, np.zeros(1), 313.15)
+    assert value(0.5e9) == 2.3
+    with pytest.raises(SolverError, match="beyond the measured pressures"):
+        value(2e9)
+
+
+def test_material_of_the_balls_is_handed_on(resolved: BearingModel) -> None:
+    ceramic = Material("silicon nitride", 310e9, 0.27, 3200.0, 25.0, 700.0)
+    changed = dataclasses.replace(resolved, ball_material=ceramic)
+    assert method_inputs(changed, _oil(resolved)).ball == ceramic

@@ -18,6 +18,9 @@ K_Z = 3.1  # geometric constant of single-row deep-groove ball bearings
 MU_BOUNDARY = 0.12  # mu_bl while running
 MU_BOUNDARY_STARTING = 0.15  # mu_bl at rest
 _STARVATION = {"oil bath": 3e-8, "oil jet": 3e-8, "oil-air": 6e-8, "grease": 6e-8}  # K_rs
+# Axial load below this share of the radial one counts as none: the catalogue has separate formulas for F_a = 0, and
+# the axial load of a computed equilibrium is never exactly zero.
+NEGLIGIBLE_AXIAL_SHARE = 1e-3
 # V_M of the newer formula that Table 4 of Syla et al. 2026 does not tell apart (6319, oil to the middle of the
 # lowest ball): with the FVA3 oil between 60 and 63 degC each explains the printed SKF row within 5 %
 VOLUME_FACTOR_RANGE = (0.0, 4.5e-5)
@@ -95,7 +98,7 @@ def load_variables(
 ) -> tuple[float, float]:
     """Load and geometry variables (G_rr, G_sl) in the catalogue's units (torque in N mm).
 
-    F_a = 0: G_rr = R1 d_m^1.96 F_r^0.54, G_sl = S1 d_m^-0.26 F_r^(5/3); else G_rr = R1 d_m^1.96
+    F_a = 0 (below 0.1 % of F_r): G_rr = R1 d_m^1.96 F_r^0.54, G_sl = S1 d_m^-0.26 F_r^(5/3); else G_rr = R1 d_m^1.96
     (F_r + R2 F_a/sin alpha_F)^0.54, G_sl = S1 d_m^-0.145 (F_r^5 + S2 d_m^1.5 F_a^4/sin alpha_F)^(1/3). The
     catalogue's G_sl jumps by d_m^0.115 where F_a leaves zero (a factor 1.6 to 1.8); that is its own, kept as printed.
 
@@ -107,7 +110,7 @@ def load_variables(
         C_0 [N]; needed with an axial load.
     """
     diameter = mean_diameter * 1e3
-    if axial_load <= 0.0:
+    if axial_load <= NEGLIGIBLE_AXIAL_SHARE * radial_load:
         rolling = constants.r1 * diameter**1.96 * radial_load**0.54
         return rolling, constants.s1 * diameter**-0.26 * radial_load ** (5.0 / 3.0)
     if static_rating is None:

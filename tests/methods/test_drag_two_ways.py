@@ -1,0 +1,46 @@
+"""The catalogues' fluid losses, written twice: as a comparison method and as a law on each ball."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from lambda_plugins.fluid_drag import Schaeffler, Skf, prepare_schaeffler, skf_torque
+from lambda_plugins.methods.schaeffler import SERIES, idle_torque
+from lambda_plugins.methods.skf import drag_torque, drag_torque_2008
+
+from lambda_core.registry.model import Context, Material, Oil
+
+RPM = math.pi / 30.0
+STEEL = Material("steel", 210e9, 0.3, 7850.0, 46.0, 460.0)
+OIL = Oil("oil", "mineral", 335.65, 0.134, 2000.0)
+
+
+def _context(series: str = "63") -> Context:
+    """The 6319 of Syla et al. 2026, whose pitch diameter is the mean of bore and outside diameter."""
+    return Context(
+        "fluid_drag", 9, 0.03, 0.1475, 0.095, 0.2, 0.045, series, 157.0, 4e3, STEEL, STEEL, OIL, oil_level=0.0
+    )
+
+
+@pytest.mark.parametrize("rpm", [500.0, 1500.0, 3000.0])
+def test_skf(rpm: float) -> None:
+    nu, v_m = 36.6e-6, 3e-5
+    for edition, method in (
+        ("2008", drag_torque_2008(0.095, 0.2, rpm * RPM, v_m)),
+        ("2018", drag_torque(0.095, 0.2, rpm * RPM, nu, 0.015, v_m)),
+    ):
+        square, viscous = skf_torque(Skf(v_m=v_m, edition=edition), _context())
+        law = square * rpm**2 + viscous * rpm**0.621 * (nu * 1e6) ** 1.379
+        assert law == pytest.approx(sum(method) * 1e3, rel=1e-9)
+
+
+@pytest.mark.parametrize("series", SERIES)
+def test_schaeffler_factors(series: str) -> None:
+    par = [float(value) for value in prepare_schaeffler(Schaeffler(fluid_share=1.0), _context(series))]
+    reference = [float(value) for value in prepare_schaeffler(Schaeffler(fluid_share=1.0, f0=1.0), _context(series))]
+    assert par[5] / reference[5] == pytest.approx(SERIES[series].f0_bath)
+    per_factor = idle_torque(1.0, 0.1475, 1500 * RPM, 36.6e-6)
+    assert idle_torque(SERIES[series].f0_bath, 0.1475, 1500 * RPM, 36.6e-6) == pytest.approx(
+        per_factor * par[5] / reference[5]
+    )
