@@ -64,7 +64,7 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingM
     """
     ledger = Ledger(assumptions=list(case.assumptions))
     row = bearing_row(case.bearing, catalogue, ledger)
-    known = row is not None or case.bearing.designation is None
+    known = row is not None or (case.bearing.designation is None and case.bearing.geometry is not None)
     bare = resolve_geometry(case.bearing, row, catalogue, ledger) if known else None
     parts = {part: resolve_material(part, case, catalogue, ledger) for part in ("inner", "outer", "balls")}
     cage_row = ledger.ask("bodies.cage.type", lambda: catalogue.cage(case.bodies.cage.type))

@@ -51,7 +51,7 @@ class _Dof(Section):
     @model_serializer(mode="wrap")
     def _shorten(self, handler: Any) -> Any:
         written = handler(self)
-        return written["mode"] if self.model_fields_set <= {"mode"} else {"mode": self.mode, **written}
+        return self.mode if self.model_fields_set <= {"mode"} else {"mode": self.mode, **written}
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:

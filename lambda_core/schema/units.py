@@ -134,14 +134,23 @@ def show(value: float, quantity: str, digits: int | None = None) -> str:
     spellings: list[tuple[bool, bool, str]] = []
     for unit in UNITS[quantity]:
         converted = from_si(value, quantity, unit)
+        if not math.isfinite(converted):
+            continue
         for number in (f"{converted:.12g}", repr(converted)):
-            if parse(f"{number} {unit}", quantity) == value:
+            if _reads_back(f"{number} {unit}", quantity, value):
                 handy = value == 0.0 or 0.1 <= abs(converted) < 1000.0 or quantity == "temperature"
                 spellings.append((len(number) > 9, not handy, f"{number} {unit}"))
                 break
     if not spellings:
         raise ValueError(f"{value!r} has no exact spelling as a {quantity}")
     return min(spellings, key=lambda spelling: spelling[:2])[2]
+
+
+def _reads_back(text: str, quantity: str, value: float) -> bool:
+    try:
+        return parse(text, quantity) == value
+    except ValueError:  # rounding at the end of the floats' range
+        return False
 
 
 # Quantities that people read in one unit, whatever the magnitude.
