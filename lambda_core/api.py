@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.errors import CaseError, LambdaError, Problem, UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from lambda_core.physics.describe import CaseReport
     from lambda_core.physics.model import BearingModel
+    from lambda_core.registry.catalogue import Catalogue
+    from lambda_core.registry.survey import CheckCard, FaultCard, Inventory, ModelCard
     from lambda_core.schema.case import Case
 
 __all__ = [
@@ -23,9 +25,15 @@ __all__ = [
     "UsageError",
     "builtin_cases",
     "case",
+    "catalogue",
     "check",
+    "check_plugins",
     "describe",
     "init_case",
+    "new_plugin",
+    "plugin_faults",
+    "plugin_model",
+    "plugins",
     "problems",
     "resolve",
     "save",
@@ -170,3 +178,61 @@ def describe(model: BearingModel) -> CaseReport:
     from lambda_core.physics.describe import describe as report
 
     return report(model)
+
+
+def catalogue() -> Catalogue:
+    """Open the catalogue of bearings, lubricants, materials and cages; the caller closes it."""
+    from lambda_core.registry.manager import registry
+
+    return registry().catalogue()
+
+
+def plugins() -> Inventory:
+    """Return every installed model, method, view and data folder, and the plugins that are not in use."""
+    from lambda_core.registry.manager import registry
+    from lambda_core.registry.survey import inventory
+
+    return inventory(registry())
+
+
+def plugin_model(label: str) -> ModelCard:
+    """Return everything about one model: parameters with units, limits and sources, validity, reference.
+
+    Parameters
+    ----------
+    label : str
+        "role/name", for example "traction/ree-eyring".
+    """
+    from lambda_core.registry.manager import registry
+    from lambda_core.registry.survey import model_card
+
+    return model_card(registry(), label)
+
+
+def check_plugins(names: Sequence[str] = ()) -> Iterator[CheckCard]:
+    """Try models against the contract of their role, one after the other.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Distributions, roles or "role/name"; everything when empty.
+    """
+    from lambda_core.registry.manager import registry
+    from lambda_core.registry.survey import check_installed
+
+    return check_installed(registry(), names)
+
+
+def plugin_faults(names: Sequence[str] = ()) -> list[FaultCard]:
+    """Return the plugins of these distributions (all when empty) that could not be taken into use."""
+    from lambda_core.registry.manager import registry
+    from lambda_core.registry.survey import broken
+
+    return broken(registry(), names)
+
+
+def new_plugin(name: str, folder: str | Path = ".") -> list[Path]:
+    """Write the sources of a small plugin package into ``folder/name`` and return its files."""
+    from lambda_core.registry.scaffold import new_plugin as write
+
+    return write(name, Path(folder))

@@ -43,14 +43,13 @@ def list_plugins(
     as_json: JsonOption = False,
 ) -> None:
     """List everything installed, with its distribution; plugins that are not in use, and why."""
+    from lambda_core import api
     from lambda_core.errors import UsageError, unknown_name
-    from lambda_core.registry.manager import registry
     from lambda_core.registry.roles import ROLES
-    from lambda_core.registry.survey import inventory
 
     if role and role not in ROLES:
         raise UsageError(unknown_name("role", role, ROLES))
-    found = inventory(registry())
+    found = api.plugins()
     if role:
         found.items = [item for item in found.items if item.role == role]
     if as_json:
@@ -70,10 +69,9 @@ def show(
     as_json: JsonOption = False,
 ) -> None:
     """Show one model: parameters with units, limits, defaults and sources; validity and reference."""
-    from lambda_core.registry.manager import registry
-    from lambda_core.registry.survey import model_card
+    from lambda_core import api
 
-    card = model_card(registry(), model)
+    card = api.plugin_model(model)
     if as_json:
         typer.echo(card.model_dump_json(indent=2))
         return
@@ -121,9 +119,9 @@ def new(
     as_json: JsonOption = False,
 ) -> None:
     """Write a small plugin package to start from: law, method, view, rows, command, tests."""
-    from lambda_core.registry.scaffold import new_plugin
+    from lambda_core import api
 
-    files = new_plugin(name, folder)
+    files = api.new_plugin(name, folder)
     if as_json:
         typer.echo(json.dumps({"version": 1, "folder": str(folder / name), "files": [str(file) for file in files]}))
         return
@@ -141,21 +139,15 @@ def check(
     as_json: JsonOption = False,
 ) -> None:
     """Try models against the contract of their role; exit 3 when one does not keep it."""
-    from lambda_core.registry.manager import registry
-    from lambda_core.registry.survey import FaultCard, Verdict, check_installed
+    from lambda_core import api
+    from lambda_core.registry.survey import Verdict
 
-    installed = registry()
-    wanted = tuple(names or ())
-    cards: list[CheckCard] = []
-    for card in check_installed(installed, wanted):
+    cards = []
+    for card in api.check_plugins(names or ()):
         cards.append(card)
         if not as_json:
             _print(_verdict(card))
-    faults = [
-        FaultCard(**vars(fault))
-        for fault in installed.faults
-        if fault.is_broken and (not wanted or fault.distribution.split(" ")[0] in wanted)
-    ]
+    faults = api.plugin_faults(names or ())
     if as_json:
         typer.echo(Verdict(models=cards, faults=faults).model_dump_json(indent=2))
     else:

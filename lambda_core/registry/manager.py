@@ -129,6 +129,7 @@ def discover(sources: Sequence[Source], off: Iterable[str] = ()) -> Registry:
     manager = pluggy.PluginManager(hookspecs.PROJECT)
     manager.add_hookspecs(hookspecs)
     collection = Collection()
+    in_use: list[str] = []
     for source in sources:
         if source.project in off or source.name in off:
             faults.append(PluginFault(source.distribution, source.name, "is switched off", is_broken=False))
@@ -136,7 +137,9 @@ def discover(sources: Sequence[Source], off: Iterable[str] = ()) -> Registry:
         message = _add(manager, source, collection)
         if message:
             faults.append(PluginFault(source.distribution, source.name, message))
-    return Registry(collection, tuple(faults), manager)
+        else:
+            in_use.append(source.distribution)
+    return Registry(collection, tuple(dict.fromkeys(in_use)), tuple(faults), manager)
 
 
 def _did_you_mean(name: str, known: Iterable[str]) -> str:

@@ -27,6 +27,8 @@ class Registry:
 
     Attributes
     ----------
+    distributions : tuple of str
+        Name and version of the plugins in use.
     faults : tuple of PluginFault
         Installed plugins that are not in use, and why.
     methods : mapping of str to Method
@@ -37,11 +39,18 @@ class Registry:
         Distribution and folder of catalogue rows.
     """
 
-    def __init__(self, collection: Collection, faults: tuple[PluginFault, ...], hooks: pluggy.PluginManager) -> None:
+    def __init__(
+        self,
+        collection: Collection,
+        distributions: tuple[str, ...],
+        faults: tuple[PluginFault, ...],
+        hooks: pluggy.PluginManager,
+    ) -> None:
         self._models = dict(collection.models)
         self._origins = dict(collection.origins)
         self._loaded: dict[tuple[str, str], Model] = {}
         self._hooks = hooks
+        self.distributions = distributions
         self.faults = faults
         self.methods: Mapping[str, Method] = _of_kind(collection, "method")
         self.views = _of_kind(collection, "view")

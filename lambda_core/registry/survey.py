@@ -202,14 +202,23 @@ def check_installed(registry: Registry, wanted: Sequence[str] = ()) -> Iterator[
             yield _card(ModelReport(found), f"has no defaults for {', '.join(required)} and no lubricant brings them")
 
 
+def broken(registry: Registry, wanted: Sequence[str] = ()) -> list[FaultCard]:
+    """Return the plugins of the distributions `wanted` (all when empty) that could not be taken into use."""
+    return [
+        FaultCard(**vars(fault))
+        for fault in registry.faults
+        if fault.is_broken and (not wanted or fault.distribution.split(" ")[0] in wanted)
+    ]
+
+
 def _chosen(registry: Registry, wanted: Sequence[str]) -> Iterator[tuple[str, str]]:
     every = [(role, name) for role in ROLES for name in registry.names(role)]
     known: dict[str, list[tuple[str, str]]] = {}
     for role, name in every:
         for word in (role, f"{role}/{name}", registry.origin(role, name).split(" ")[0]):
             known.setdefault(word, []).append((role, name))
-    for fault in registry.faults:
-        known.setdefault(fault.distribution.split(" ")[0], [])
+    for distribution in (*registry.distributions, *(fault.distribution for fault in registry.faults)):
+        known.setdefault(distribution.split(" ")[0], [])
     for word in wanted:
         if word not in known:
             raise UsageError(unknown_name("distribution, role or ROLE/NAME", word, known))

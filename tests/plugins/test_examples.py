@@ -49,3 +49,21 @@ def test_a_law_of_an_afternoon_is_at_most_15_lines() -> None:
     source = (EXAMPLES / "limiting-shear" / "limiting_shear" / "__init__.py").read_text()
     law = source[source.index("def gecim_winer") : source.index("LAW = ")]
     assert len([line for line in law.splitlines() if line.strip()]) <= 15
+
+
+def test_bearing_oil_method_and_command_of_a_maker(site: Installation) -> None:
+    changes = ["bearing.designation=NW6208", "bearing.maker=Northwind", "lubricant.name=northwind-spindle"]
+    answer = site.program("check", "6208-axial-1300", *(word for change in changes for word in ("--set", change)))
+    assert answer.code == 0, answer.err
+    assert answer.out.startswith("NW6208 (Northwind)  9 x 11.906 mm")
+    assert "northwind-spindle at 40 degC" in answer.out
+    items = site.program("plugins", "list", "--json").data["items"]
+    assert {(i["kind"], i["name"]) for i in items if i["distribution"] == "northwind-bearings 0.2.0"} == {
+        ("method", "stribeck"),
+        ("data", "rows"),
+    }
+    bearings = site.program("northwind", "--bore", "40", "--json").data["bearings"]
+    assert bearings == [{"designation": "NW6208", "bore_mm": 40.0, "dynamic_rating_kN": 29.1}]
+    listed = site.program("--help", COLUMNS="200")
+    assert "northwind" in listed.out
+    assert "From northwind-bearings 0.2.0." in listed.out

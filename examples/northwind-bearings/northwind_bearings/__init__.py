@@ -1,0 +1,17 @@
+"""Bearings of an invented maker, with an oil, a comparison method, a view and a command."""
+
+from pathlib import Path
+
+from lambda_core.plugins import hookimpl
+
+
+@hookimpl
+def lambda_data(register):
+    register(Path(__file__).parent / "rows")
+
+
+@hookimpl
+def lambda_methods(register):
+    from northwind_bearings.method import STRIBECK
+
+    register(STRIBECK)
