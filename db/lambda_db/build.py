@@ -7,6 +7,7 @@ import os
 import sqlite3
 import tempfile
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 
 from sqlalchemy import Connection, Engine, delete, insert, select
@@ -20,6 +21,7 @@ from lambda_db.records import Row, describe, key_columns, parse_row, table_of
 from lambda_db.seeds import BUILT_IN, Record, fingerprint, read_path
 
 log = logging.getLogger("lambda_db")
+_KEPT = 8  # built databases in the cache
 
 
 def constraint_sentence(error: IntegrityError) -> str:
@@ -139,8 +141,17 @@ def build_file(target: Path, plugin_folders: list[Path]) -> None:
             fill(connection, plugin_folders)
         engine.dispose()
         os.replace(temporary, target)
+        _prune(target.parent)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def _prune(folder: Path) -> None:
+    """Keep the databases built last; other versions of the program build theirs again when they need it."""
+    built = sorted(folder.glob("catalogue-*.sqlite"), key=lambda path: path.stat().st_mtime, reverse=True)
+    for path in built[_KEPT:]:
+        with suppress(OSError):  # in use on a system that locks open files
+            path.unlink()
 
 
 def in_memory(plugin_folders: list[Path]) -> Engine:

@@ -55,8 +55,11 @@ def attach_user(connection: Connection, path: Path, schema_version: int) -> bool
             connection.exec_driver_sql("ATTACH DATABASE ? AS user", (file_uri(path, mode),))
             try:
                 found = connection.exec_driver_sql("PRAGMA user.user_version").scalar_one()
+                if found == 0:  # another process has just begun to create it
+                    detach_user(connection)
+                    return False
                 if found != schema_version:
-                    raise_version(path, found, schema_version)
+                    raise VersionMismatch(_other_version(found, schema_version))
                 for table in VIEWED:
                     connection.exec_driver_sql(f"SELECT count(*) FROM user.{table}")
                     connection.exec_driver_sql(view_statement(table))
@@ -85,7 +88,6 @@ class VersionMismatch(Exception):
     """The user's database has another schema version than this program."""
 
 
-def raise_version(path: Path, found: int, expected: int) -> None:
-    """Say which side is newer."""
+def _other_version(found: int, expected: int) -> str:
     newer = "a newer" if found > expected else "an older"
-    raise VersionMismatch(f"written by {newer} version of this program: schema {found}, expected {expected}")
+    return f"written by {newer} version of this program: schema {found}, expected {expected}"

@@ -1,0 +1,124 @@
+"""What is wrong or odd in the visible catalogue: open references, laws without data, ratings unlike the geometry."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from pydantic import ValidationError
+
+from lambda_core.errors import LambdaError
+from lambda_core.physics.ratings import dynamic_rating, static_rating
+from lambda_core.registry.registry import Registry
+from lambda_db.catalogue import SqlCatalogue
+from lambda_db.derive import FILLING_LIMIT, UPRATED, filling_angle
+from lambda_db.estimate import is_uprated
+from lambda_db.paths import user_database
+from lambda_db.records import Row
+from lambda_db.references import known_names, reference_problems
+from lambda_db.transfer import rows_of
+
+# A printed rating further than this from the one of the printed geometry is worth a look.
+RATING_TOLERANCE = 0.05
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One finding; an error makes a row unusable, a warning asks for a look."""
+
+    severity: Literal["error", "warning"]
+    where: str
+    message: str
+
+
+def check_catalogue(catalogue: SqlCatalogue, models: Registry) -> list[Finding]:
+    """Check every visible row beyond what the tables' constraints keep out."""
+    findings = list(_user_file(catalogue))
+    bearings = rows_of(catalogue, "bearing")
+    findings += [finding for row in bearings for finding in _bearing(row)]
+    findings += _references(catalogue)
+    findings += _clearances(rows_of(catalogue, "clearance"))
+    findings += _lubricants(catalogue, models)
+    return findings
+
+
+def _user_file(catalogue: SqlCatalogue) -> Iterator[Finding]:
+    path = user_database()
+    if path.exists() and not catalogue.has_user_rows:
+        yield Finding("error", str(path), "your own catalogue cannot be read and is left out")
+    elif catalogue.has_user_rows:
+        verdict = catalogue.connection.exec_driver_sql("PRAGMA user.quick_check(1)").scalar_one()
+        if verdict != "ok":
+            yield Finding("error", str(path), f"your own catalogue is damaged: {verdict}")
+
+
+def _bearing(row: Row) -> Iterator[Finding]:
+    if row["ball_count"] is None:
+        return
+    where = f"bearing {row['designation']} {row['maker']}"
+    count, ball, pitch = row["ball_count"], row["ball_diameter_mm"], row["pitch_diameter_mm"]
+    angle = float(filling_angle(count, ball, pitch))
+    if angle > FILLING_LIMIT:
+        message = f"{count} balls of {ball:g} mm span {angle:.0f} deg: more than a Conrad bearing can be filled with"
+        yield Finding("warning", where, message)
+    if row["geometry_grade"] not in ("A", "A-", "B"):
+        return
+    uprating = UPRATED if is_uprated(row["rating_type"]) else 1.0
+    computed = {
+        "dynamic_rating": dynamic_rating(count, ball * 1e-3, pitch * 1e-3) * uprating,
+        "static_rating": static_rating(count, ball * 1e-3, pitch * 1e-3, outer_conformity=0.52),
+    }
+    for name, expected in computed.items():
+        printed = row[f"{name}_kN"]
+        if printed is not None and abs(expected / (printed * 1e3) - 1.0) > RATING_TOLERANCE:
+            message = f"{name} {printed:g} kN is not the {expected * 1e-3:.4g} kN of the row's own geometry"
+            yield Finding("warning", where, message)
+
+
+def _references(catalogue: SqlCatalogue) -> Iterator[Finding]:
+    known = known_names(catalogue.connection)
+    for table in ("lubricant_property", "lubricant_parameter", "cage"):
+        for row in rows_of(catalogue, table):
+            for problem in reference_problems(table, row, known):
+                yield Finding("error", f"{table} {row['name']}", problem)
+    for row in rows_of(catalogue, "alias"):
+        if not known.has(row["kind"], row["name"]):
+            yield Finding(
+                "error", f"alias {row['alias']}", f'stands for the {row["kind"]} "{row["name"]}", which is not there'
+            )
+
+
+def _clearances(rows: list[Row]) -> Iterator[Finding]:
+    by_class: dict[str, list[Row]] = {}
+    for row in rows:
+        by_class.setdefault(row["clearance_class"], []).append(row)
+    for name, limits in by_class.items():
+        ordered = sorted(limits, key=lambda row: float(row["bore_over_mm"]))
+        for lower, upper in itertools.pairwise(ordered):
+            if lower["bore_to_mm"] > upper["bore_over_mm"]:
+                message = f"the ranges to {lower['bore_to_mm']:g} mm and from {upper['bore_over_mm']:g} mm overlap"
+                yield Finding("error", f"clearance {name}", message)
+
+
+def _lubricants(catalogue: SqlCatalogue, models: Registry) -> Iterator[Finding]:
+    for lubricant in catalogue.lubricants(limit=100_000):
+        where = f"lubricant {lubricant.name}"
+        if lubricant.rheology not in lubricant.parameters.get("rheology", {}):
+            yield Finding("error", where, f"its rheology is {lubricant.rheology}, but it has no parameters for it")
+        for role, laws in lubricant.parameters.items():
+            for name, parameters in laws.items():
+                yield from _law(where, role, name, parameters, models)
+
+
+def _law(where: str, role: str, name: str, parameters: dict[str, Any], models: Registry) -> Iterator[Finding]:
+    try:
+        law = models.model(role, name)
+        law.parameters.model_validate({key: parameter.text() for key, parameter in parameters.items()})
+    except ValidationError as error:
+        for problem in error.errors():
+            place = ".".join(map(str, problem["loc"]))
+            yield Finding("error", where, f"{role} {name}: {place}: {problem['msg']}")
+    except LambdaError as error:
+        yield Finding("warning", where, f"has parameters for {role} {name}: {error}")

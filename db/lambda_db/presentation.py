@@ -1,0 +1,206 @@
+"""Catalogue rows as people read them: engineers' units, one entry per value with source and grade."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from pydantic import BaseModel
+
+from lambda_core.errors import CatalogueError, Problem, UsageError, unknown_name
+from lambda_core.registry.catalogue import BearingRow, CageRow, LubricantRow, MaterialRow, Value
+from lambda_core.schema.units import from_si, parse
+from lambda_db.catalogue import SqlCatalogue
+from lambda_db.units import PROPERTIES
+
+_CLASSES = ("C2", "CN", "C3", "C4", "C5")
+
+# Field of a row -> (quantity, unit) in which it is shown; the rest are plain numbers.
+_SHOWN: dict[str, tuple[str, str]] = {
+    **dict.fromkeys(
+        (
+            "bore_diameter",
+            "outside_diameter",
+            "width",
+            "chamfer",
+            "ball_diameter",
+            "pitch_diameter",
+            "race_diameter_inner",
+            "race_diameter_outer",
+            "groove_radius_inner",
+            "groove_radius_outer",
+            "shoulder_diameter_inner",
+            "shoulder_diameter_outer",
+        ),
+        ("length", "mm"),
+    ),
+    **dict.fromkeys(("dynamic_rating", "static_rating", "fatigue_limit"), ("force", "kN")),
+    **dict.fromkeys(("reference_speed", "limiting_speed"), ("rotational_speed", "rpm")),
+    "mass": ("mass", "kg"),
+    "youngs_modulus": ("modulus", "GPa"),
+    "density": ("density", "kg/m3"),
+    "maximum_temperature": ("temperature", "degC"),
+}
+_UNIT_OF = {
+    "density": "kg/m3",
+    "thermal_expansion": "1e-6/K",
+    "kinematic_viscosity": "mm2/s",
+    "viscosity": "mPa s",
+    "thermal_conductivity": "W/(m K)",
+    "specific_heat": "J/(kg K)",
+    "pressure_viscosity": "1/GPa",
+}
+
+
+def _shown(name: str, value: float) -> tuple[float, str]:
+    quantity = PROPERTIES.get(name, "")
+    shown = _SHOWN.get(name) or ((quantity, _UNIT_OF[quantity]) if quantity else None)
+    if shown is None:
+        return value, ""
+    # 12 digits: what was printed comes back without the last bit of the conversion
+    return float(f"{from_si(value, *shown):.12g}"), shown[1]
+
+
+def _entry(name: str, value: Value) -> dict[str, Any]:
+    number, unit = _shown(name, value.value)
+    return {
+        "name": name,
+        "value": int(number) if name == "ball_count" else number,
+        "unit": unit,
+        "status": value.status,
+        "grade": value.grade,
+        "source": value.source,
+    }
+
+
+def values_of(row: BaseModel) -> list[dict[str, Any]]:
+    """Every value of a row with unit, status, grade and source."""
+    if isinstance(row, LubricantRow):
+        return [_entry(name, value) for name, value in row.properties.items()]
+    fields = ((name, getattr(row, name)) for name in type(row).model_fields)
+    return [_entry(name, value) for name, value in fields if isinstance(value, Value)]
+
+
+def texts_of(row: BaseModel) -> dict[str, str]:
+    """The texts of a row: name, guidance, note."""
+    return {name: getattr(row, name) for name in type(row).model_fields if isinstance(getattr(row, name), str)}
+
+
+def parameters_of(row: LubricantRow) -> list[dict[str, Any]]:
+    """Every parameter of every law, in the unit it was published in."""
+    return [
+        {"role": role, "model": model, "name": name, **parameter.model_dump()}
+        for role, models in row.parameters.items()
+        for model, parameters in models.items()
+        for name, parameter in parameters.items()
+    ]
+
+
+def candidate_lines(row: BearingRow) -> list[dict[str, Any]]:
+    """Candidate designs in mm and degrees."""
+    return [
+        {
+            "ball_count": design.ball_count,
+            "ball_diameter_mm": _shown("ball_diameter", design.ball_diameter)[0],
+            "pitch_diameter_mm": _shown("pitch_diameter", design.pitch_diameter)[0],
+            "score": design.score,
+            "weight": design.weight,
+            "filling_angle_deg": round(math.degrees(design.filling_angle), 2),
+        }
+        for design in row.candidates
+    ]
+
+
+def clearance_lines(catalogue: SqlCatalogue, row: BearingRow) -> list[dict[str, Any]]:
+    """Clearance classes that are tabulated for the bearing's bore, in um."""
+    lines = []
+    for name in _CLASSES:
+        try:
+            limits = catalogue.clearance(row.bore_diameter.value, name)
+        except CatalogueError:
+            continue  # not every class goes to every bore
+        low, high = (float(f"{1e6 * limit:.9g}") for limit in (limits.minimum, limits.maximum))
+        lines.append(
+            {"class": name, "minimum_um": low, "maximum_um": high, "grade": limits.grade, "source": limits.source}
+        )
+    return lines
+
+
+def bearing_summary(row: BearingRow) -> dict[str, Any]:
+    """One line of a list of bearings."""
+
+    def number(name: str) -> float | None:
+        value = getattr(row, name)
+        return None if value is None else _shown(name, value.value)[0]
+
+    balls = row.ball_count
+    return {
+        "designation": row.designation,
+        "maker": row.maker,
+        "series": row.series,
+        "bore_mm": number("bore_diameter"),
+        "outside_mm": number("outside_diameter"),
+        "width_mm": number("width"),
+        "C_kN": number("dynamic_rating"),
+        "C0_kN": number("static_rating"),
+        "ball_count": None if balls is None else int(balls.value),
+        "ball_diameter_mm": number("ball_diameter"),
+        "geometry_status": None if balls is None else balls.status,
+        "geometry_grade": None if balls is None else balls.grade,
+        "layer": row.layer,
+    }
+
+
+def lubricant_summary(row: LubricantRow) -> dict[str, Any]:
+    """One line of a list of lubricants."""
+
+    def number(name: str) -> float | None:
+        value = row.properties.get(name)
+        return None if value is None else _shown(name, value.value)[0]
+
+    return {
+        "name": row.name,
+        "base_type": row.base_type,
+        "rheology": row.rheology,
+        "nu40_mm2s": number("kinematic_viscosity_40"),
+        "nu100_mm2s": number("kinematic_viscosity_100"),
+        "alpha40_per_GPa": number("alpha_p_40"),
+        "layer": row.layer,
+        "note": row.note,
+    }
+
+
+def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> BearingRow | LubricantRow | MaterialRow | CageRow:
+    """Find what a name stands for: a bearing, else a lubricant, material or cage.
+
+    Raises
+    ------
+    CatalogueError
+        With the nearest names of all kinds, or with the makers to choose from.
+    """
+    bearings = catalogue.names("bearing")
+    if maker is not None or " ".join(name.split()).casefold() in {known.casefold() for known in bearings}:
+        return catalogue.bearing(name, maker)
+    others: tuple[Callable[[str], LubricantRow | MaterialRow | CageRow], ...]
+    others = (catalogue.lubricant, catalogue.material, catalogue.cage)
+    for look_up in others:
+        try:
+            return look_up(name)
+        except CatalogueError:
+            continue
+    known = [*bearings, *catalogue.names("lubricant"), *catalogue.names("material"), *catalogue.names("cage")]
+    raise CatalogueError(
+        "catalogue", [Problem("name", unknown_name("bearing, lubricant, material or cage", name, known))]
+    )
+
+
+def parsed(texts: Sequence[str], quantity: str, option: str) -> list[float]:
+    """Read unit strings of the command line as SI floats."""
+    values = []
+    for text in texts:
+        try:
+            values.append(parse(text, quantity))
+        except ValueError as error:
+            raise UsageError(f"{option}: {error}") from error
+    return values
