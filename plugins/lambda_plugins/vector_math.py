@@ -44,7 +44,8 @@ def log1p(d: float) -> float:
     tail = 1 / 11 + q * (1 / 13 + q * (1 / 15 + q * (1 / 17 + q / 19)))
     series = 2.0 * z * (1.0 + q * (1 / 3 + q * (1 / 5 + q * (1 / 7 + q * (1 / 9 + q * tail)))))
     exponent = np.int64(k + _TWO_52_BITS).view(np.float64) - _TWO_52
-    return float(series + exponent * _LN2)
+    # d - d is 0, or NaN where d is not finite: the bits alone would hide it
+    return float(series + exponent * _LN2 + (d - d))
 
 
 def asinh(y: float) -> float:

@@ -1,0 +1,91 @@
+"""Every built-in law keeps its role's contract: compiled equals plain, finite, in bounds, elementwise, named as agreed."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from lambda_core.registry.check import check_model
+from lambda_core.registry.manager import registry
+from lambda_core.registry.roles import DEFAULT_MODELS, ROLES
+from lambda_core.registry.survey import split_label
+from lambda_plugins import lambda_models
+
+from ..literature.oils import REQUIRED
+
+NAMES = {
+    "normal_contact": {"hamrock-brewe", "hertz-exact"},
+    "damping": {"cubic", "none"},
+    "rheology": {"vogel-dicke", "bode", "roelands", "barus-limited"},
+    "film_thickness": {"chittenden", "hamrock-dowson"},
+    "thermal_correction": {"murch-wilson", "zhu-cheng", "none"},
+    "contact_temperature": {"shear-heating", "isothermal"},
+    "traction": {"ree-eyring", "bair-winer", "newtonian"},
+    "rolling_resistance": {"biboulet-houpert", "goksem-hargreaves", "none"},
+    "elastic_hysteresis": {"loss-factor", "houpert", "scheuermann", "none"},
+    "asperity_load": {"zhou-hoeprich", "none"},
+    "boundary_friction": {"cubic", "coulomb-regularised"},
+    "cage_contact": {"spherical-pocket", "cylindrical-pocket", "land-guidance", "none"},
+    "fluid_drag": {"skf-catalogue", "schaeffler-catalogue", "sphere-drag", "none"},
+    "permittivity": {"bode", "constant"},
+    "capacitance": {"schneider", "constant-factor", "gap-integral"},
+}
+LABELS = [f"{role}/{name}" for role in ROLES for name in sorted(NAMES[role])]
+
+
+def test_every_role_has_the_agreed_models() -> None:
+    found: dict[str, set[str]] = {role: set() for role in ROLES}
+    lambda_models(lambda law: found[law.role].add(law.name))
+    assert found == NAMES
+    for role, name in DEFAULT_MODELS.items():
+        assert name == "auto" or name in NAMES[role]
+
+
+@pytest.mark.parametrize("label", LABELS)
+def test_contract(label: str) -> None:
+    law = registry().model(*split_label(label))
+    report = check_model(law, REQUIRED.get(label), samples=60)
+    assert report.faults == ()
+    assert (law.role, law.name) == split_label(label)
+
+
+@pytest.mark.parametrize("label", LABELS)
+def test_says_where_it_comes_from(label: str) -> None:
+    law = registry().model(*split_label(label))
+    assert law.summary.endswith(".")
+    assert law.name == "none" or law.reference
+    for name, field in law.parameters.model_fields.items():
+        assert field.description, f"{label} {name} has no description"
+        extra = field.json_schema_extra
+        assert isinstance(extra, dict)
+        assert extra["status"] in ("published", "unconfirmed", "assumed", "numerical", "lubricant")
+        if extra["status"] in ("published", "unconfirmed", "assumed"):
+            assert extra.get("source"), f"{label} {name} has no source"
+
+
+@pytest.mark.parametrize("label", LABELS)
+def test_published_ranges_are_valid_and_hold_the_default(label: str) -> None:
+    law = registry().model(*split_label(label))
+    required = REQUIRED.get(label, {})
+    default = law.parameters.model_validate(required)
+    for name, field in law.parameters.model_fields.items():
+        extra = field.json_schema_extra
+        ends = extra.get("published_range") if isinstance(extra, dict) else None
+        if not isinstance(ends, list):
+            continue
+        low, high = (getattr(law.parameters.model_validate({**required, name: end}), name) for end in ends)
+        value = getattr(default, name)
+        assert low < high
+        assert value is None or low <= value <= high, f"{label} {name}"
+
+
+def test_naming_the_laws_imports_none_of_them() -> None:
+    code = (
+        "import sys, lambda_plugins; lambda_plugins.lambda_models(lambda law: None);"
+        "heavy = [m for m in sys.modules if m.split('.')[0] in ('scipy', 'numba') or m == 'lambda_plugins.traction'];"
+        "sys.exit(str(heavy) if heavy else 0)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
