@@ -10,6 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from lambda_core.errors import unknown_name
 from lambda_core.physics.ratings import conformity_term
 
 # ISO 281:2007, table 3, radial contact ball bearings, single row: f_0 F_a/C_0r, e, Y; X = 0.56.
@@ -17,9 +18,6 @@ _RELATIVE_AXIAL = (0.172, 0.345, 0.689, 1.03, 1.38, 2.07, 3.45, 5.17, 6.89)
 _LIMIT = (0.19, 0.22, 0.26, 0.28, 0.30, 0.34, 0.38, 0.42, 0.44)
 _AXIAL_FACTOR = (2.30, 1.99, 1.71, 1.55, 1.45, 1.31, 1.15, 1.04, 1.00)
 _RADIAL_FACTOR = 0.56
-
-# ISO 281:2007, table 12: a_1 by reliability in percent.
-RELIABILITY_FACTORS = {90.0: 1.0, 95.0: 0.64, 96.0: 0.55, 97.0: 0.47, 98.0: 0.37, 99.0: 0.25, 99.5: 0.175, 99.9: 0.093}
 
 # ISO 281:2007, table 13: contamination level -> (low, high) of e_C for D_pw < 100 mm and for D_pw >= 100 mm.
 CONTAMINATION_LEVELS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
@@ -87,6 +85,21 @@ def life_hours(million_revolutions: float, speed: float) -> float:
     if speed == 0.0:
         return math.inf
     return million_revolutions * 1e6 * 2.0 * math.pi / abs(speed) / 3600.0
+
+
+def contamination_range(level: str, pitch_diameter: float) -> tuple[float, float]:
+    """Lowest and highest e_C of a contamination level (ISO 281:2007, table 13).
+
+    Raises
+    ------
+    ValueError
+        For a level that the table does not have, with the nearest names.
+    """
+    try:
+        small, large = CONTAMINATION_LEVELS[level]
+    except KeyError:
+        raise ValueError(unknown_name("contamination level", level, CONTAMINATION_LEVELS)) from None
+    return small if pitch_diameter < 0.1 else large
 
 
 def reference_viscosity(speed: float, pitch_diameter: float) -> float:

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from lambda_core.physics.life import (
     ball_capacities,
     basic_rating_life,
+    contamination_range,
     dynamic_equivalent_load,
     life_hours,
     life_modification_factor,
@@ -172,3 +173,12 @@ def test_no_load_lives_forever() -> None:
     assert math.isinf(result.life)
     assert math.isinf(basic_rating_life(1e4, 0.0))
     assert math.isinf(life_hours(100.0, 0.0))
+
+
+def test_contamination_levels() -> None:
+    # ISO 281:2007, table 13
+    assert contamination_range("normal cleanliness", 0.06) == (0.5, 0.6)
+    assert contamination_range("normal cleanliness", 0.1475) == (0.6, 0.8)
+    assert contamination_range("extreme cleanliness", 0.06) == (1.0, 1.0)
+    with pytest.raises(ValueError, match="nearest: typical contamination"):
+        contamination_range("typical contaminaton", 0.06)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from lambda_core.physics.life import (
     basic_rating_life,
+    contamination_range,
     dynamic_equivalent_load,
     life_hours,
     life_modification_factor,
@@ -65,7 +66,10 @@ def _modified_rows(
     ratio = inputs.kinematic_viscosity / reference_viscosity(inputs.relative_speed, inputs.pitch_diameter)
     rows = [] if prefix else [MethodRow("life", "viscosity ratio", ratio, "-", "kappa = nu/nu_1")]
     if inputs.contamination is None:
-        assumptions.append("no contamination factor e_C given: no modified life")
+        low, high = contamination_range("normal cleanliness", inputs.pitch_diameter)
+        note = f"no contamination factor e_C given: no modified life (normal cleanliness: e_C {low:g} to {high:g})"
+        if note not in assumptions:
+            assumptions.append(note)
         return rows
     if ratio < 0.1:
         assumptions.append(f"kappa = {ratio:.2g} is below 0.1: ISO 281 gives no modified life")
