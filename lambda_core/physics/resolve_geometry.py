@@ -50,6 +50,12 @@ class Picker:
             self.ledger.assume(f"{path} {text}: {found.source} (grade {found.grade})")
         return self.ledger.row(path, found, quantity)
 
+    def _designs(self) -> str:
+        """Name the likeliest designs of a row without inner geometry."""
+        designs = self.row.candidates[:3] if self.row else ()
+        shown = ", ".join(f"{d.ball_count} x {d.ball_diameter * 1e3:.6g} mm" for d in designs)
+        return f" (designs that fit its ratings: {shown})" if shown else ""
+
     def need(self, name: str) -> float:
         """Return one dimension, noting a problem (and NaN) when it is missing."""
         value = self.take(name)
@@ -57,7 +63,7 @@ class Picker:
             where = f"bearing.geometry.{name}"
             if self.row:
                 label = f"{self.row.designation} of {self.row.maker}"
-                self.ledger.problem(where, f"is required: the catalogue does not know it for {label}")
+                self.ledger.problem(where, f"is required: the catalogue does not know it for {label}{self._designs()}")
             else:
                 self.ledger.problem(where, "is required without a designation")
             return math.nan

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from decimal import Decimal
 from typing import Annotated, Any
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -18,7 +19,7 @@ from pydantic_core import CoreSchema, core_schema
 from lambda_core.errors import nearest
 
 _RPM = math.pi / 30.0
-_ZERO_CELSIUS = 273.15
+_ZERO_CELSIUS = Decimal("273.15")
 
 # quantity -> {unit: factor to SI}; the first unit is the one engineers read, used for output.
 UNITS: dict[str, dict[str, float]] = {
@@ -97,16 +98,19 @@ def parse(text: object, quantity: str) -> float:
     match = _VALUE.match(text)
     if not match:
         raise ValueError(f'"{text}" is not a number with a unit, for example "1 {first}"')
-    number, unit = float(match[1]), _spelling(match[2])
+    unit = _spelling(match[2])
     if not unit:
         raise ValueError(f'"{text}" has no unit: write "{match[1]} {first}" (allowed: {", ".join(units)})')
     if unit not in units:
         close = nearest(unit, units)
         hint = f"; did you mean {close[0]}?" if close else ""
         raise ValueError(f'"{text}": {unit} is not a unit of {quantity}; allowed: {", ".join(units)}{hint}')
-    value = number * units[unit]
-    if quantity == "temperature" and unit == "degC":
-        value = number + _ZERO_CELSIUS
+    # Decimal arithmetic rounds once: "0.1 um" is 1e-07, not 9.999999999999999e-08.
+    try:
+        exact = Decimal(match[1]) * Decimal(repr(units[unit]))
+        value = float(exact + _ZERO_CELSIUS if quantity == "temperature" and unit == "degC" else exact)
+    except ArithmeticError:
+        value = math.inf
     if not math.isfinite(value):
         raise ValueError(f'"{text}" is not a finite number')
     if quantity == "temperature" and value <= 0.0:
@@ -118,9 +122,10 @@ def from_si(value: float, quantity: str, unit: str | None = None) -> float:
     """Convert an SI float to `unit` (default: the first of the quantity)."""
     units = UNITS[quantity]
     unit = unit or next(iter(units))
+    exact = Decimal(repr(float(value)))
     if quantity == "temperature" and unit == "degC":
-        return value - _ZERO_CELSIUS
-    return value / units[unit]
+        return float(exact - _ZERO_CELSIUS)
+    return float(exact / Decimal(repr(units[unit])))
 
 
 def show(value: float, quantity: str, digits: int | None = None) -> str:

@@ -15,6 +15,8 @@ from lambda_core.schema.units import UNITS, parse, show
     ("text", "quantity", "expected"),
     [
         ("16 kN", "force", 16e3),
+        ("0.1 um", "small_length", 1e-7),
+        ("100 nm", "small_length", 1e-7),
         ("3000 rpm", "rotational_speed", 3000.0 * math.pi / 30.0),
         ("3000 1/min", "rotational_speed", 3000.0 * math.pi / 30.0),
         ("3000 min^-1", "rotational_speed", 3000.0 * math.pi / 30.0),
@@ -41,6 +43,7 @@ def test_reads_si(text: str, quantity: str, expected: float) -> None:
         ("16 KN", "force", "did you mean kN?"),
         ("-300 degC", "temperature", "absolute zero"),
         ("1e999 N", "force", "not a finite number"),
+        ("1e9999999999999999999 N", "force", "not a finite number"),
         ("much", "force", "is not a number with a unit"),
         (True, "force", "expected a force with its unit"),
         (None, "force", "expected a force with its unit"),
