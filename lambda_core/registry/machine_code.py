@@ -11,6 +11,7 @@ import hashlib
 import importlib.metadata
 import platform
 import tempfile
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from types import FunctionType
@@ -19,6 +20,7 @@ from weakref import WeakSet
 
 from numba import config, njit, types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
+from numba.core.errors import NumbaExperimentalFeatureWarning
 from numba.core.registry import cpu_target
 from numba.core.types.function_type import WrapperAddressProtocol
 from numba.extending import register_jitable
@@ -121,7 +123,10 @@ def compile_into(
     """
     dispatcher = njit(error_model="numpy", **options)(function)
     dispatcher._cache = _cache(function, folder, on_miss)
-    dispatcher.compile(signature)
+    with warnings.catch_warnings():
+        # Function types as arguments are marked experimental; the tests of this project watch over them.
+        warnings.simplefilter("ignore", NumbaExperimentalFeatureWarning)
+        dispatcher.compile(signature)
     dispatcher.disable_compile()
     return dispatcher
 
