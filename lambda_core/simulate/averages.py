@@ -13,6 +13,7 @@ from itertools import accumulate
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import stdtrit
 
 from lambda_core.physics.channels import DIMENSIONS, LOSSES, Channel
 
@@ -144,8 +145,6 @@ def estimate(values: FloatArray) -> Estimate:
     for a first-order autoregressive series (Law and Kelton, Simulation Modeling and
     Analysis, batch means). A negative r never narrows the interval. `values` has shape (n,).
     """
-    from scipy.special import stdtrit
-
     count = values.size
     mean = float(values.mean()) if count else math.nan
     if count < 2:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from lambda_core.simulate.status import Rows
 
-_HEADER = struct.Struct("<8sQQI")  # magic, sequence number, length of the body, CRC-32 of the body
+_HEADER = struct.Struct("<8sQI")  # magic, length of the body, CRC-32 of length and body
 _MAGIC = b"LBCHECK1"
 
 
@@ -46,15 +46,16 @@ class Checkpoint:
         buffer.write(json.dumps(asdict(self.position)).encode() + b"\n")
         np.savez(buffer, **self.state)  # type: ignore[arg-type]  # numpy types the keyword allow_pickle only
         body = buffer.getvalue()
-        return _HEADER.pack(_MAGIC, self.position.sequence, len(body), zlib.crc32(body)) + body
+        return _HEADER.pack(_MAGIC, len(body), _checksum(body)) + body
 
 
 def latest(slots: Iterable[bytes]) -> Checkpoint | None:
     """Return the newest whole checkpoint of `slots`, None when no slot holds one."""
-    bodies = [whole for whole in map(_body, slots) if whole is not None]
-    if not bodies:
-        return None
-    _, body = max(bodies, key=lambda item: item[0])
+    whole = [_read(body) for body in map(_body, slots) if body is not None]
+    return max(whole, key=lambda checkpoint: checkpoint.position.sequence, default=None)
+
+
+def _read(body: bytes) -> Checkpoint:
     stream = io.BytesIO(body)
     fields = json.loads(stream.readline())
     position = Position(**{**fields, "rows": Rows(**fields["rows"])})
@@ -62,12 +63,15 @@ def latest(slots: Iterable[bytes]) -> Checkpoint | None:
         return Checkpoint(position, {name: arrays[name] for name in arrays.files})
 
 
-def _body(slot: bytes) -> tuple[int, bytes] | None:
-    """Return sequence number and body of a slot, None when it is empty or torn."""
+def _body(slot: bytes) -> bytes | None:
+    """Return the body of a slot, None when it is empty or torn."""
     if len(slot) < _HEADER.size:
         return None
-    magic, sequence, length, checksum = _HEADER.unpack_from(slot)
+    magic, length, checksum = _HEADER.unpack_from(slot)
     body = slot[_HEADER.size : _HEADER.size + length]
-    if magic != _MAGIC or len(body) != length or zlib.crc32(body) != checksum:
-        return None
-    return sequence, body
+    whole = magic == _MAGIC and len(body) == length and _checksum(body) == checksum
+    return body if whole else None
+
+
+def _checksum(body: bytes) -> int:
+    return zlib.crc32(body, len(body) & 0xFFFFFFFF)

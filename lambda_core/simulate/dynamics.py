@@ -62,7 +62,7 @@ class BearingEngine:
         self._assembly = self._equilibrium.assembly
         self._balls = model.geometry.ball_count
         start = initial_state(self._equilibrium)
-        active = self._assembly.bundle.times.active
+        active = self._assembly.bundle.active
         self._factors = make_factors(self._balls, active.size)
         self._memory = bdf.make_memory(start, self._assembly.scale, model.solver.tolerance, _CAPACITY)
         orbit = max(abs(self._equilibrium.orbit), _SPIN_FOR_SAMPLES)
@@ -205,7 +205,7 @@ class BearingEngine:
         """Return cage angle (mean of the balls when there is no cage) and inner spin angle, to the outer ring [rad]."""
         bundle = self._assembly.bundle
         shared = np.zeros(3 * L.NS)
-        shared[bundle.times.active] = self._memory.y[L.NB * self._balls :]
+        shared[bundle.active] = self._memory.y[L.NB * self._balls :]
         outer = shared[L.NS + L.STHETA]
         if self.model.depth.cage:
             cage = shared[2 * L.NS + L.STHETA]
@@ -223,7 +223,7 @@ class BearingEngine:
             ok = self._core.evaluate(t, y, bundle, dydt, rates, 1)
         if ok != 1:
             raise SolverError(fault_sentence(self._assembly, t))
-        shared = bundle.work.shared.reshape(3, L.NS).copy()
+        shared = bundle.scratch[L.SHARED, : 3 * L.NS].reshape(3, L.NS).copy()
         balls = y[: L.NB * z].reshape(z, L.NB)
         row: dict[str, Any] = {
             "time": t,
@@ -253,7 +253,7 @@ class BearingEngine:
         """Return the torque about the inner ring's axis that balances its contacts [N m]."""
         ay, az = ring[L.SAY], ring[L.SAZ]
         axis = np.array([math.sqrt(1.0 - ay * ay - az * az), ay, az])
-        return float(-self._assembly.bundle.work.body_fm[L.INNER, 3:] @ axis)
+        return float(-self._assembly.bundle.scratch[L.BODY_FM + L.INNER, 3:6] @ axis)
 
 
 def initial_state(equilibrium: Equilibrium) -> FloatArray:
@@ -269,11 +269,11 @@ def initial_state(equilibrium: Equilibrium) -> FloatArray:
     balls[:, L.BVT] = equilibrium.orbit * balls[:, L.BR]
     if model.depth.cage:
         shared = np.zeros(3 * L.NS)
-        shared[assembly.bundle.times.active] = y[L.NB * z :]
+        shared[assembly.bundle.active] = y[L.NB * z :]
         cage = shared[2 * L.NS :]
         cage[:] = 0.0
         cage[L.SX] = float(np.mean(balls[:, L.BX]))
         cage[L.STHETA] = float(balls[0, L.BPSI])
         cage[L.SSIGMA] = equilibrium.orbit
-        y[L.NB * z :] = shared[assembly.bundle.times.active]
+        y[L.NB * z :] = shared[assembly.bundle.active]
     return y

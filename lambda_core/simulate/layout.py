@@ -8,6 +8,7 @@ and labels.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ import h5py
 import numpy as np
 
 from lambda_core.physics.channels import DIMENSIONS, Channel
+from lambda_core.physics.model import BearingModel
 from lambda_core.simulate.averages import INTEGRALS
 from lambda_core.simulate.provenance import Provenance
 from lambda_core.simulate.status import Rows
@@ -44,7 +46,7 @@ def create(file: h5py.File, provenance: Provenance, channels: Sequence[Channel])
     file.attrs["case"] = model.name
     file.attrs["created"] = provenance.created()
     file.attrs["frames"] = "x shaft axis, y horizontal, z up; azimuth from +y towards +z; SI units"
-    _dimensions(file, model.geometry.ball_count)
+    _dimensions(file, model, channels)
     _series(file, channels, "time")
     _series(file.create_group(INTEGRALS_GROUP), INTEGRALS, "time")
     revolutions = file.create_group(REVOLUTIONS_GROUP)
@@ -58,12 +60,14 @@ def create(file: h5py.File, provenance: Provenance, channels: Sequence[Channel])
     status.attrs["long_name"] = "state of the run, rows that are complete, statistics, wall time; JSON"
 
 
-def _dimensions(file: h5py.File, ball_count: int) -> None:
-    ball = file.create_dataset("ball", data=np.arange(1, ball_count + 1))
+def _dimensions(file: h5py.File, model: BearingModel, channels: Sequence[Channel]) -> None:
+    """Create the labels of every dimension that a channel has."""
+    ball = file.create_dataset("ball", data=np.arange(1, model.geometry.ball_count + 1))
     ball.attrs["long_name"] = "number of the ball"
     ball.make_scale("ball")
-    for name, labels in DIMENSIONS.items():
-        file.create_dataset(name, data=np.array(labels, dtype=object), dtype=_TEXT).make_scale(name)
+    known = {**DIMENSIONS, "marker": tuple(model.markers)}
+    for name in dict.fromkeys(dim for channel in (*channels, *INTEGRALS) for dim in channel.dims if dim != "ball"):
+        file.create_dataset(name, data=np.array(known[name], dtype=object), dtype=_TEXT).make_scale(name)
 
 
 def _series(group: h5py.Group, channels: Sequence[Channel], along: str) -> None:
@@ -120,6 +124,27 @@ def _rows_of(name: str, rows: Rows) -> int:
     return by_group.get(name.split("/")[0], rows.samples)
 
 
+def grows(item: object) -> bool:
+    """Tell whether an object of a file is a dataset that a run appends to."""
+    return isinstance(item, h5py.Dataset) and bool(item.maxshape) and item.maxshape[0] is None
+
+
+def size(source: h5py.File, rows: Rows) -> int:
+    """Return an upper bound of the bytes that a copy with the first `rows` rows takes, metadata aside."""
+    total = 0
+
+    def visit(name: str, item: object) -> None:
+        nonlocal total
+        if grows(item):
+            assert isinstance(item, h5py.Dataset)
+            total += -(-_rows_of(name, rows) // item.chunks[0]) * math.prod(item.chunks) * item.dtype.itemsize
+        elif isinstance(item, h5py.Dataset):
+            total += 2 * item.nbytes + 4096
+
+    source.visititems(visit)
+    return total + total // 100
+
+
 def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool) -> None:
     """Copy a result with the first `rows` rows of its growing datasets.
 
@@ -157,8 +182,7 @@ def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool) -> No
 
 
 def _copy_dataset(name: str, item: h5py.Dataset, target: h5py.File, rows: Rows, compress: bool) -> None:
-    grows = item.maxshape and item.maxshape[0] is None
-    if not grows:
+    if not grows(item):
         options = {"maxshape": item.maxshape, "chunks": item.chunks} if item.chunks else {}
         data = target.create_dataset(name, data=item[()], dtype=item.dtype, **options)
     else:

@@ -13,13 +13,13 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from lambda_core.errors import UsageError, unknown_name
-from lambda_core.physics.channels import DIMENSIONS, Channel
+from lambda_core.errors import LambdaError, UsageError, unknown_name
+from lambda_core.physics.channels import Channel
 from lambda_core.physics.model import ResolvedValue
 from lambda_core.simulate import checkpoint, layout
 from lambda_core.simulate.averages import INTEGRALS, FloatArray
+from lambda_core.simulate.files import open_for_reading, reason
 from lambda_core.simulate.status import Status
-from lambda_core.simulate.writer import open_for_reading, reason
 
 if TYPE_CHECKING:
     from lambda_core.simulate.summary import Summary
@@ -62,7 +62,8 @@ class Result:
             self.case = str(file.attrs["case"])
             self.created = str(file.attrs["created"])
             self._channels = {channel.name: channel for channel in _channels(file)}
-            self._ball_count = int(file["ball"].size)
+            dims = dict.fromkeys(dim for channel in self._channels.values() for dim in channel.dims)
+            self._labels = {dim: _labels(file[dim]) for dim in dims}
         self.status()
 
     # -- what the run wrote --
@@ -99,7 +100,9 @@ class Result:
 
     def labels(self, dim: str) -> tuple[int, ...] | tuple[str, ...]:
         """Return the labels along one dimension; balls count from 1."""
-        return tuple(range(1, self._ball_count + 1)) if dim == "ball" else DIMENSIONS[dim]
+        if dim not in self._labels:
+            raise UsageError(f"{self.path}: {unknown_name('dimension', dim, self._labels)}")
+        return self._labels[dim]
 
     def status(self) -> Status:
         """Return what the run has reached."""
@@ -193,8 +196,7 @@ class Result:
                 )
                 for channel in self.channels
             }
-        used = dict.fromkeys(dim for channel in self.channels for dim in channel.dims)
-        coords = {"time": data.pop("time"), **{dim: list(self.labels(dim)) for dim in used}}
+        coords = {"time": data.pop("time"), **{dim: list(labels) for dim, labels in self._labels.items()}}
         return xarray.Dataset(data, coords, {"title": self.title, "case": self.case, "created": self.created})
 
     def to_pandas(self, *names: str) -> Any:
@@ -256,16 +258,24 @@ class Result:
                 )
             try:
                 yield file
-            except (OSError, RuntimeError, KeyError, ValueError) as error:
+            except LambdaError:
+                raise
+            except Exception as error:  # a garbled file misleads h5py into errors of every kind
                 raise ResultError(f"{self.path} is damaged: {reason(error)}") from None
 
 
 def _channels(file: h5py.File) -> Iterator[Channel]:
     """Yield the channels of a file: everything in its root that grows."""
     for name, item in file.items():
-        if isinstance(item, h5py.Dataset) and item.maxshape and item.maxshape[0] is None:
+        if layout.grows(item):
             dims = tuple(Path(dim[0].name).name for dim in item.dims if len(dim))
             yield Channel(name, tuple(d for d in dims if d != "time"), item.attrs["units"], item.attrs["long_name"])
+
+
+def _labels(data: h5py.Dataset) -> tuple[int, ...] | tuple[str, ...]:
+    if h5py.check_string_dtype(data.dtype):
+        return tuple(data.asstr()[()])
+    return tuple(int(number) for number in data[()])
 
 
 def _table(group: h5py.Group, rows: int) -> FloatArray:

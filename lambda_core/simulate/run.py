@@ -62,9 +62,12 @@ def run(
     PartialResultError
         When the disk takes no more; the file keeps what there is.
     """
+    writer = ResultWriter.create(path, provenance, engine.channels, Status(process=this_process()), force=force)
+    return _begin(engine, provenance, writer, report)
+
+
+def _begin(engine: Engine, provenance: Provenance, writer: ResultWriter, report: Report | None) -> Result:
     start = row(engine.time, engine.integrals())
-    status = Status(process=this_process())
-    writer = ResultWriter.create(path, provenance, engine.channels, status, force=force)
     writer.add(engine.samples(), start, [start])
     return _Session(engine, provenance.model, writer, [start], start, Position(0, Rows(), 0.0), report).drive()
 
@@ -78,15 +81,19 @@ def resume(engine: Engine, provenance: Provenance, path: Path, *, report: Report
     Raises
     ------
     ResultError
-        When the run is still going on, has nothing left to do, or holds no checkpoint.
+        When the run is still going on.
+    UsageError
+        When it has nothing left to do.
     """
     result = Result(path)
     status = result.status()
     if status.alive():
         raise ResultError(f"{path} is still being written by process {status.process['pid']}")
     checkpoint = result.checkpoint()
-    if checkpoint is None:
-        raise ResultError(f"{path} holds no checkpoint: run the case again")
+    if checkpoint is None:  # killed before the first one: the beginning is as good
+        return _begin(
+            engine, provenance, ResultWriter.continued(path, engine.channels, Status(process=this_process())), report
+        )
     position = checkpoint.position
     engine.restore(checkpoint.state)
     start = result.integrals()[position.rows.records - 1]

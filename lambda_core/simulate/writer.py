@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import errno
+import math
 import os
-import re
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,7 +16,7 @@ from numpy.typing import NDArray
 
 from lambda_core.errors import PartialResultError, UsageError
 from lambda_core.physics.channels import Channel
-from lambda_core.simulate import layout
+from lambda_core.simulate import files, layout
 from lambda_core.simulate.averages import INTEGRALS, FloatArray, spans
 from lambda_core.simulate.checkpoint import Checkpoint
 from lambda_core.simulate.provenance import Provenance
@@ -28,7 +27,6 @@ class DiskError(PartialResultError):
     """A result file cannot be written any further."""
 
     def __init__(self, path: Path, why: str) -> None:
-        self.why = why
         super().__init__(
             f"cannot write {path}: {why}; what was written before is kept. "
             f"Make room, then continue with: lambda-bearing resume {path}"
@@ -46,6 +44,7 @@ class ResultWriter:
         self.path = path
         self._file = file
         self._channels = tuple(channels)
+        self._status = status
         self._written = status.rows
         self._samples: list[Mapping[str, NDArray[np.float64]]] = []
         self._records: list[FloatArray] = []
@@ -65,14 +64,17 @@ class ResultWriter:
         UsageError
             When the file exists and `force` is not set, or cannot be written.
         """
-        file = _open_new(path, force)
+        made = files.beside(path)
         try:
-            layout.create(file, provenance, channels)
-            return cls(file, path, channels, status)
-        except (OSError, RuntimeError, DiskError) as error:
-            _detach(file)
-            path.unlink(missing_ok=True)
-            raise UsageError(f"cannot write {path}: {reason(error)}") from None
+            with h5py.File(made, "w", libver="latest") as file:
+                files.reserve(file, 0)
+                layout.create(file, provenance, channels)
+                file[layout.STATUS][()] = status.to_bytes(layout.STATUS_BYTES)
+            _publish(made, path, force)
+            return cls(h5py.File(path, "r+", libver="latest"), path, channels, status)
+        except (OSError, RuntimeError) as error:
+            made.unlink(missing_ok=True)
+            raise UsageError(f"cannot write {path}: {files.reason(error)}") from None
 
     @classmethod
     def continued(cls, path: Path, channels: Sequence[Channel], status: Status) -> ResultWriter:
@@ -80,7 +82,7 @@ class ResultWriter:
 
         The file is copied first: one whose writer was killed can be read, not written.
         """
-        rewrite(path, status.rows, compress=False)
+        files.rewrite(path, status.rows, compress=False)
         return cls(h5py.File(path, "r+", libver="latest"), path, channels, status)
 
     def add(
@@ -108,6 +110,7 @@ class ResultWriter:
         DiskError
             When the disk takes no more; what was there before stays readable.
         """
+        self._reserve(self._growth())
         with self._guard():
             self._append_samples()
             self._append_records()
@@ -117,6 +120,7 @@ class ResultWriter:
     def save(self, checkpoint: Checkpoint) -> None:
         """Put a checkpoint on disk, over the older of the two; flush the rows it counts before."""
         data = np.frombuffer(checkpoint.to_bytes(), dtype=np.uint8)
+        self._reserve(4 * data.size)
         with self._guard():
             slots = self._file[layout.SLOTS]
             if slots.shape[1] < data.size:
@@ -127,13 +131,15 @@ class ResultWriter:
     def close(self, *, compress: bool) -> None:
         """Close the file; `compress` it where the disk has room for that."""
         with self._guard():
+            size = self._file.id.get_filesize()
             self._file.close()
         if not self.path.exists():
             raise DiskError(self.path, "it was deleted or renamed during the run")
         if compress:
             try:
-                rewrite(self.path, self._written, compress=True)
+                files.rewrite(self.path, self._written, compress=True)
             except UsageError:
+                files.trim(self.path, size)
                 # No room for a second copy or no right to make one: the result is complete as it is.
                 return
 
@@ -167,62 +173,41 @@ class ResultWriter:
 
     def _put_status(self, status: Status) -> None:
         with self._guard():
-            counted = replace(status, rows=self._written)
-            self._file[layout.STATUS][()] = counted.to_bytes(layout.STATUS_BYTES)
+            self._status = replace(status, rows=self._written)
+            self._file[layout.STATUS][()] = self._status.to_bytes(layout.STATUS_BYTES)
             self._file.flush()
+
+    def _growth(self) -> int:
+        """Return the bytes of the chunks that the waiting rows will open."""
+        waiting = {
+            "": (self._written.samples, self.pending()),
+            layout.INTEGRALS_GROUP: (self._written.records, len(self._records)),
+            layout.REVOLUTIONS_GROUP: (self._written.revolutions, len(self._revolutions)),
+        }
+        total = 0
+        for group, (start, count) in waiting.items():
+            for item in self._file[f"/{group}"].values():
+                if layout.grows(item):
+                    opened = -(-(start + count) // item.chunks[0]) - -(-start // item.chunks[0])
+                    total += opened * math.prod(item.chunks) * item.dtype.itemsize
+        return total
+
+    def _reserve(self, growth: int) -> None:
+        """Make sure of room; without it close the result as it is, in order and readable."""
+        try:
+            files.reserve(self._file, growth)
+        except OSError as error:
+            full = DiskError(self.path, files.reason(error))
+            self._put_status(replace(self._status, state="stopped", message=str(full)))
+            self.close(compress=False)
+            raise full from None
 
     @contextmanager
     def _guard(self) -> Iterator[None]:
         try:
             yield
         except (OSError, RuntimeError) as error:
-            _detach(self._file)
-            raise DiskError(self.path, reason(error)) from None
-
-
-def rewrite(path: Path, rows: Rows, *, compress: bool) -> None:
-    """Replace a result by a copy with the first `rows` rows, in one step.
-
-    Raises
-    ------
-    UsageError
-        When the copy cannot be written; the original is untouched.
-    """
-    beside = path.with_name(f".{path.name}.{os.getpid()}")
-    target: h5py.File | None = None
-    try:
-        with open_for_reading(path) as source:
-            # SWMR needs the newest file format; for keeping, the oldest one is read by most programs.
-            target = h5py.File(beside, "w", libver="earliest" if compress else "latest")
-            layout.copy(source, target, rows, compress)
-            target.close()
-        os.replace(beside, path)
-    except (OSError, RuntimeError) as error:
-        if target is not None:
-            _detach(target)
-        beside.unlink(missing_ok=True)
-        raise UsageError(f"cannot write beside {path}: {reason(error)}") from None
-
-
-def open_for_reading(path: Path) -> h5py.File:
-    """Open a result that is finished, being written, or left behind by a killed process."""
-    try:
-        return h5py.File(path, "r")
-    except OSError:
-        return h5py.File(path, "r", swmr=True)
-
-
-def reason(error: Exception) -> str:
-    """Return the system's words for what went wrong ("No space left on device")."""
-    if isinstance(error, DiskError):
-        return error.why
-    code = error.errno if isinstance(error, OSError) else None
-    found = re.search(r"errno = (\d+)", str(error))
-    if found:
-        code = int(found[1])
-    if code:
-        return os.strerror(code)
-    return str(error).splitlines()[0] if str(error) else type(error).__name__
+            raise DiskError(self.path, files.reason(error)) from None
 
 
 def _append(data: Any, start: int, values: NDArray[np.float64]) -> None:
@@ -230,29 +215,14 @@ def _append(data: Any, start: int, values: NDArray[np.float64]) -> None:
     data[start:] = values.reshape(len(values), *data.shape[1:])
 
 
-def _open_new(path: Path, force: bool) -> h5py.File:
+def _publish(made: Path, path: Path, force: bool) -> None:
+    """Give a complete file its name; a link refuses a taken one in the same step."""
     try:
-        return h5py.File(path, "w" if force else "x", libver="latest")
+        if force:
+            os.replace(made, path)
+        else:
+            os.link(made, path)
+            made.unlink()
     except FileExistsError:
+        made.unlink()
         raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force") from None
-    except OSError as error:
-        if error.errno == errno.EEXIST:
-            raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force") from None
-        raise UsageError(f"cannot write {path}: {reason(error)}") from None
-
-
-def _detach(file: h5py.File) -> None:
-    """Close a file whose disk refuses writing, leaving on disk what is there.
-
-    HDF5 writes again when it closes, fails again, and then crashes the process. Its
-    descriptor is pointed to the null device first, where those last writes vanish.
-    """
-    if not file.id.valid:
-        return
-    null = os.open(os.devnull, os.O_RDWR)
-    try:
-        os.dup2(null, file.id.get_vfd_handle())
-    finally:
-        os.close(null)
-    with suppress(OSError, RuntimeError):
-        file.close()
