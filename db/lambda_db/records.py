@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from sqlalchemy import Column, Float, Integer, Table
+from sqlalchemy import Column, ColumnElement, Float, Integer, Table, Text
 
 from lambda_core.errors import nearest
 from lambda_core.schema.units import UNITS, from_si, parse
@@ -31,6 +31,14 @@ def columns_of(name: str) -> list[str]:
 def key_columns(name: str) -> list[str]:
     """Return the columns of the natural key."""
     return [column.name for column in table_of(name).primary_key.columns]
+
+
+def same_key(name: str, row: Mapping[str, Any]) -> list[ColumnElement[bool]]:
+    """Return the conditions that find the row with the same key; texts ignore case."""
+    key = table_of(name).primary_key.columns
+    return [
+        (column.collate("NOCASE") if isinstance(column.type, Text) else column) == row[column.name] for column in key
+    ]
 
 
 def describe(name: str, row: Mapping[str, Any]) -> str:
@@ -59,10 +67,13 @@ def _number(column: Column[Any], cell: object) -> float:
 
 
 def _cell(column: Column[Any], cell: object) -> Any:
-    if cell is None or cell == "":
-        if not column.nullable and column.server_default is None:
+    if cell is None or str(cell).strip() == "":
+        if column.nullable:
+            return None
+        default = getattr(column.server_default, "arg", None)
+        if default is None:
             raise ValueError("a value is required")
-        return None if column.nullable else ""
+        return str(default)
     if isinstance(column.type, Integer):
         value = _number(column, cell)
         if value != int(value):

@@ -41,12 +41,14 @@ def read_csv(path: Path, table: str | None = None) -> Iterator[Record]:
     try:
         with path.open(newline="", encoding="utf-8-sig") as stream:
             reader = csv.DictReader(stream)
+            header = list(reader.fieldnames or ())
+            if not header or len(set(header)) < len(header):
+                reason = "names a column twice" if header else "is missing: the first line names the columns"
+                raise CatalogueError(str(path), [Problem("header", reason)])
             for cells in reader:
                 place = f"line {reader.line_num}"
                 if None in cells or None in cells.values():
-                    raise CatalogueError(
-                        str(path), [Problem(place, f"needs {len(reader.fieldnames or ())} cells like the header")]
-                    )
+                    raise CatalogueError(str(path), [Problem(place, f"needs {len(header)} cells like the header")])
                 yield path, place, table, cells
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise CatalogueError(str(path), [Problem("", f"cannot be read as CSV: {error}")]) from error

@@ -17,7 +17,7 @@ from lambda_db.catalogue import SqlCatalogue
 from lambda_db.estimate import candidate_rows, completed
 from lambda_db.models import CHILDREN, SEED_TABLES, Base
 from lambda_db.paths import user_database
-from lambda_db.records import Row, columns_of, describe, key_columns, parse_row, table_of
+from lambda_db.records import Row, columns_of, describe, parse_row, same_key, table_of
 from lambda_db.references import Known, known_names, reference_problems
 from lambda_db.seeds import Record, read_path
 from lambda_db.user import open_user_database, unwritable
@@ -109,7 +109,7 @@ def _put(connection: Connection, table: str, row: Row, report: ImportReport, rep
     target = table_of(table)
     if "layer" in target.c:
         row = row | {"layer": "user"}
-    same = [target.c[column].collate("NOCASE") == row[column] for column in key_columns(table)]
+    same = same_key(table, row)
     exists = connection.execute(select(target).where(*same)).first() is not None
     if exists and not replace:
         return "you have a row with this key already; --replace puts the new one in its place"
@@ -135,8 +135,7 @@ def _put_geometry(connection: Connection, row: Row) -> str | None:
     connection.execute(delete(candidate).where(*(candidate.c[c].collate("NOCASE") == row[p] for p, c in link.items())))
     whole = completed(row)
     if whole is not row:
-        same = [bearing.c[column].collate("NOCASE") == row[column] for column in key_columns("bearing")]
-        connection.execute(delete(bearing).where(*same))
+        connection.execute(delete(bearing).where(*same_key("bearing", row)))
         reason = insert_row(connection, "bearing", whole)
         if reason is not None:
             return f"its estimated inner geometry is impossible: {reason}"

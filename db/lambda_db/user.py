@@ -40,8 +40,8 @@ def open_user_database(path: Path) -> Engine:
 def unwritable(path: Path, error: DatabaseError) -> CatalogueError:
     """Say why the user's database takes no rows."""
     reason = str(error.orig)
-    if "readonly" in reason:
-        reason = "the file is read-only; make it writable or set LAMBDA_BEARING_DATA to another folder"
+    if "readonly" in reason or "unable to open" in reason:
+        reason = "the file or its folder is read-only; make it writable or set LAMBDA_BEARING_DATA to another folder"
     elif "malformed" in reason or "not a database" in reason:
         reason = f"the file is damaged ({reason}); move it away and import your rows again"
     return CatalogueError(str(path), [Problem("", f"cannot be written: {reason}")])

@@ -1,0 +1,221 @@
+"""The user's own rows: in front of the built-in ones, safe with several writers, harmless when damaged."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sqlite3
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+from lambda_db import user
+from lambda_db.catalogue import SqlCatalogue, open_catalogue
+from lambda_db.paths import user_database
+from lambda_db.transfer import add_row
+
+from lambda_core.errors import CatalogueError
+
+ROW: dict[str, object] = {
+    "designation": "6208",
+    "maker": "NSK",
+    "bore_diameter": "40 mm",
+    "outside_diameter": "80 mm",
+    "width": "18 mm",
+    "source": "my own drawing",
+    "grade": "B",
+}
+NAME = "6208'); DROP TABLE bearing; --"
+
+
+def test_a_user_row_stands_in_front(catalogue: SqlCatalogue) -> None:
+    add_row(catalogue, "bearing", ROW | {"mass": "0.4 kg"})
+    mine = catalogue.bearing("6208", "NSK")
+    assert mine.layer == "user"
+    assert mine.mass is not None
+    assert mine.mass.value == 0.4
+    assert mine.dynamic_rating is None, "nothing of the row behind it shines through"
+    assert mine.candidates == ()
+    assert [row.maker for row in catalogue.bearings("6208", 10)] == ["NSK", "SKF", "Syla2026"]
+    assert catalogue.bearing("6208", "SKF").layer == "core"
+
+
+def test_another_case_of_the_key_is_the_same_key(catalogue: SqlCatalogue) -> None:
+    add_row(catalogue, "bearing", ROW | {"maker": "nsk"})
+    assert catalogue.bearing("6208", "NSK").layer == "user"
+    with pytest.raises(CatalogueError, match="you have a row with this key already; --replace"):
+        add_row(catalogue, "bearing", ROW)
+    assert add_row(catalogue, "bearing", ROW, replace=True).replaced == {"bearing": 1}
+
+
+def test_missing_inner_geometry_is_estimated(catalogue: SqlCatalogue) -> None:
+    rated = {"dynamic_rating": "29.1 kN", "static_rating": "17.9 kN", "rating_type": "ISO 281"}
+    add_row(catalogue, "bearing", ROW | rated | {"maker": "FAG"})
+    row = catalogue.bearing("6208", "FAG")
+    assert row.ball_count is not None
+    assert row.ball_diameter is not None
+    assert (row.ball_count.value, row.ball_count.status) == (9, "derived")
+    assert row.ball_diameter.value == pytest.approx(11.906e-3, rel=1e-12)
+    assert row.groove_radius_inner is not None
+    assert row.groove_radius_inner.status == "assumed"
+    assert len(row.candidates) == 5
+
+
+def test_parameters_of_a_third_law_join_a_built_in_oil(catalogue: SqlCatalogue) -> None:
+    cells = {"lubricant": "FVA3", "role": "traction", "model": "my-law", "name": "k", "value": 3.5, "unit": ""}
+    add_row(catalogue, "lubricant_parameter", cells | {"source": "own test", "grade": "B"})
+    oil = catalogue.lubricant("FVA3")
+    assert oil.parameters["traction"]["my-law"]["k"].value == 3.5
+    assert "tau_eyring" in oil.parameters["traction"]["ree-eyring"]
+
+
+def test_an_own_set_of_parameters_replaces_the_whole_set(catalogue: SqlCatalogue) -> None:
+    cells = {"lubricant": "FVA3", "role": "traction", "model": "ree-eyring", "name": "tau_eyring"}
+    add_row(catalogue, "lubricant_parameter", cells | {"value": 8, "unit": "MPa", "source": "own test", "grade": "B"})
+    own = catalogue.lubricant("FVA3").parameters["traction"]["ree-eyring"]
+    assert {name: p.value for name, p in own.items()} == {"tau_eyring": 8.0}
+
+
+def test_sql_in_a_name_stays_a_name(catalogue: SqlCatalogue) -> None:
+    add_row(catalogue, "bearing", ROW | {"designation": NAME, "maker": 'a"b;--'})
+    assert catalogue.bearing(NAME).maker == 'a"b;--'
+    assert [row.designation for row in catalogue.bearings(NAME.split()[0], 5)] == [NAME]
+    assert len(catalogue.bearings("6208", 50)) == 4
+    assert catalogue.bearings("%", 50) == []  # a wildcard of LIKE is a letter here
+
+
+WRITER = """
+import sys
+from lambda_db.catalogue import open_catalogue
+from lambda_db.transfer import add_row
+catalogue = open_catalogue()
+for i in range(25):
+    add_row(catalogue, "bearing", {"designation": f"P{sys.argv[1]}-{i}", "maker": "test", "bore_diameter": "40 mm",
+            "outside_diameter": "80 mm", "width": "18 mm", "source": "test", "grade": "B"})
+"""
+
+
+def test_four_processes_adding_rows_lose_none(user_folder: Path, tmp_path: Path) -> None:
+    """Started together on an empty folder: the core database is built and the user's created in the same moment."""
+    environment = os.environ | {"LAMBDA_BEARING_CACHE": str(tmp_path / "cache")}
+    command = [sys.executable, "-c", WRITER]
+    running = [
+        subprocess.Popen([*command, str(n)], env=environment, stderr=subprocess.PIPE, text=True) for n in range(4)
+    ]
+    outcomes = [(process.communicate()[1], process.returncode) for process in running]
+    assert outcomes == [("", 0)] * 4
+    catalogue = open_catalogue()
+    assert len(catalogue.bearings("maker=test", 1000)) == 100
+    catalogue.close()
+
+
+def test_a_reader_sees_rows_written_meanwhile(catalogue: SqlCatalogue) -> None:
+    add_row(catalogue, "bearing", ROW)
+    other = open_catalogue()
+    add_row(other, "bearing", ROW | {"designation": "X2"})
+    other.close()
+    assert catalogue.bearing("X2").layer == "user"
+
+
+@pytest.mark.parametrize("content", [b"this is no database", b"SQLite format 3\x00" + bytes(range(256)) * 40])
+def test_a_damaged_file_leaves_the_core_working(
+    user_folder: Path, content: bytes, caplog: pytest.LogCaptureFixture
+) -> None:
+    user_folder.mkdir()
+    user_database().write_bytes(content)
+    catalogue = open_catalogue()
+    assert catalogue.bearing("6208", "SKF").layer == "core"
+    assert "cannot be read" in caplog.text
+    assert "only the built-in catalogue is used" in caplog.text
+    with pytest.raises(CatalogueError, match=r"(?s)catalogue.sqlite.*the file is damaged .*move it away"):
+        add_row(catalogue, "bearing", ROW)
+    catalogue.close()
+
+
+def test_a_file_cut_short_leaves_the_core_working(catalogue: SqlCatalogue, caplog: pytest.LogCaptureFixture) -> None:
+    for i in range(40):
+        add_row(catalogue, "bearing", ROW | {"designation": f"N{i}"})
+    path = user_database()
+    copy = path.with_name("copy.sqlite")
+    with sqlite3.connect(path) as whole, sqlite3.connect(copy) as target:
+        whole.backup(target)
+    catalogue.close()
+    content = copy.read_bytes()
+    shutil.rmtree(path.parent)
+    path.parent.mkdir()
+    path.write_bytes(content[: len(content) // 2])
+    again = open_catalogue()
+    assert again.bearing("6208", "SKF").layer == "core"
+    assert "cannot be read" in caplog.text
+    again.close()
+
+
+def test_a_newer_schema_is_left_alone(catalogue: SqlCatalogue, caplog: pytest.LogCaptureFixture) -> None:
+    add_row(catalogue, "bearing", ROW)
+    catalogue.close()
+    with sqlite3.connect(user_database()) as connection:
+        connection.execute("PRAGMA user_version = 99")
+    again = open_catalogue()
+    assert again.bearing("6208", "NSK").layer == "core"
+    assert "written by a newer version of this program" in caplog.text
+    with pytest.raises(CatalogueError, match="newer version"):
+        add_row(again, "bearing", ROW | {"designation": "X9"})
+    again.close()
+
+
+def test_an_older_schema_is_migrated(catalogue: SqlCatalogue, monkeypatch: pytest.MonkeyPatch) -> None:
+    add_row(catalogue, "bearing", ROW)
+    catalogue.close()
+    steps: list[int] = []
+
+    def step(connection: object) -> None:
+        steps.append(1)
+
+    monkeypatch.setattr(user, "SCHEMA_VERSION", 2)
+    monkeypatch.setitem(user.MIGRATIONS, 1, step)
+    again = open_catalogue()
+    assert steps == [1]
+    assert again.bearing("6208", "NSK").layer == "user"
+    with sqlite3.connect(user_database()) as connection:
+        assert connection.execute("PRAGMA user_version").fetchone() == (2,)
+    again.close()
+
+
+@pytest.fixture
+def unprivileged_folder(monkeypatch: pytest.MonkeyPatch) -> object:
+    """A folder in which file modes count although the tests may run as root."""
+    folder = Path(tempfile.mkdtemp(dir="/tmp"))
+    folder.chmod(0o755)
+    monkeypatch.setenv("LAMBDA_BEARING_DATA", str(folder / "data"))
+    (folder / "data").mkdir()
+    if os.geteuid() == 0:
+        os.chown(folder / "data", 65534, 65534)
+    yield folder
+    shutil.rmtree(folder)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs file modes")
+def test_a_read_only_file_gives_a_clear_message(unprivileged_folder: Path) -> None:
+    catalogue = open_catalogue()
+    add_row(catalogue, "bearing", ROW)  # also loads everything that is imported late
+    catalogue.close()
+    data = unprivileged_folder / "data"
+    for path in (*data.iterdir(), data):
+        path.chmod(0o555 if path.is_dir() else 0o444)
+    privileged = os.geteuid() == 0
+    reader = open_catalogue()
+    if privileged:
+        os.seteuid(65534)
+    try:
+        reader.refresh()
+        assert reader.bearing("6208", "NSK").layer == "user", "reading goes on"
+        with pytest.raises(CatalogueError, match="read-only; make it writable or set LAMBDA_BEARING_DATA"):
+            add_row(reader, "bearing", ROW | {"designation": "X2"})
+        assert reader.bearing("6208", "SKF").layer == "core"
+    finally:
+        if privileged:
+            os.seteuid(0)
+        reader.close()
+        data.chmod(0o755)
