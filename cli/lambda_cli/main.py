@@ -18,6 +18,7 @@ from lambda_cli.commands import Entry, entries
 from lambda_core.errors import LambdaError
 
 PROGRAM = "lambda-bearing"
+INTERRUPTED = 130
 DEBUG_VARIABLE = "LAMBDA_BEARING_DEBUG"
 
 
@@ -89,13 +90,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     try:
         outcome = application(args=arguments, prog_name=PROGRAM, standalone_mode=False)
+        if outcome == INTERRUPTED:  # what typer makes of Ctrl+C
+            _say("interrupted")
         return outcome if isinstance(outcome, int) else 0
     except LambdaError as error:
         _say(str(error))
         return error.exit_code
     except (KeyboardInterrupt, typer.Abort):
         _say("interrupted")
-        return 130
+        return INTERRUPTED
     except BrokenPipeError:
         # The reader (a pager, head) has gone: nothing more to say, not even at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

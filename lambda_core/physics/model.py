@@ -73,7 +73,8 @@ class DofState:
     """How one degree of freedom of a body moves."""
 
     mode: Literal["free", "locked", "prescribed"]
-    # prescribed: position [m] or angle [rad] over time; for spin: angular speed [rad/s] over time
+    # prescribed: position [m] or angle [rad] over time; for spin: angular speed [rad/s] over time. A free spin:
+    # its value at t = 0 is the initial speed
     motion: TimeFunction = ZERO
     stiffness: float = 0.0  # elastic support to ground, [N/m] or [N m/rad]
     damping: float = 0.0  # [N s/m] or [N m s/rad]

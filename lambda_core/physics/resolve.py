@@ -31,7 +31,7 @@ from lambda_core.physics.resolve_geometry import bearing_row, check_clearance, r
 from lambda_core.physics.resolve_laws import LawResolver, ModelSource
 from lambda_core.physics.resolve_materials import resolve_lubricant, resolve_material
 from lambda_core.physics.time_functions import highest_frequency, peak, time_function
-from lambda_core.registry.catalogue import BearingRow, Catalogue
+from lambda_core.registry.catalogue import BearingRow, CageRow, Catalogue
 from lambda_core.registry.model import Material, Model
 from lambda_core.registry.reach import reach
 from lambda_core.schema.case import Case
@@ -78,6 +78,7 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingM
     if bare is None or cage_row is None or oil is None:
         ledger.check(case.name)
         raise AssertionError("a part is missing and no problem says why")
+    _check_temperature(case, cage_row, ledger)
     geometry, bought = bare
     mounted = clearance_in_operation(case, geometry, bought, parts["inner"].solid, parts["balls"].solid, ledger)
     geometry = with_clearance(geometry, mounted)
@@ -126,6 +127,14 @@ def _title(case: Case, row: BearingRow | None) -> str:
         return f"{case.bearing.designation or case.name} (geometry of the case)"
     edited = ", geometry edited" if case.bearing.geometry else ""
     return f"{row.designation} ({row.maker}{edited})"
+
+
+def _check_temperature(case: Case, cage: CageRow, ledger: Ledger) -> None:
+    """Say when the oil is hotter than the cage is made for."""
+    limit, oil = cage.maximum_temperature, case.lubricant.temperature
+    if case.depth.cage and limit is not None and oil > limit.value:
+        hot, rated = show(oil, "temperature", 4), show(limit.value, "temperature", 4)
+        ledger.assume(f"the oil at {hot} is hotter than the cage type {cage.name} is made for ({rated})")
 
 
 def _inertias(

@@ -101,7 +101,21 @@ def resolve_cage(
     inertia = hollow_cylinder(mass, 0.5 * (pitch - thickness), 0.5 * (pitch + thickness), width)
     if guidance not in ("ball", "inner ring", "outer ring"):
         ledger.problem("bodies.cage.type", f'"{row.name}" has the unknown guidance "{guidance}"')
+    _check_cage(geometry, pocket, land, ledger)
     return Cage(row.name, pocket, land, width, thickness, guidance), inertia  # type: ignore[arg-type]
+
+
+def _check_cage(geometry: Geometry, pocket: float, land: float, ledger: Ledger) -> None:
+    """Refuse pockets without bars between them; say when a guiding land cannot act."""
+    chord = geometry.pitch_diameter * math.sin(math.pi / geometry.ball_count)
+    if geometry.ball_diameter + pocket >= chord:
+        gap = show(chord - geometry.ball_diameter, "small_length", 4)
+        ledger.problem("bodies.cage.pocket_clearance", f"leaves no bars between the pockets: balls are {gap} apart")
+    if land > pocket:
+        ledger.assume(
+            f"the cage's land clearance {show(land, 'small_length', 4)} is above its pocket clearance "
+            f"{show(pocket, 'small_length', 4)}: the pockets guide it, not the land"
+        )
 
 
 def resolve_inertia(name: str, spec: InnerRing | OuterRing | CageBody, estimate: Inertia, ledger: Ledger) -> Inertia:

@@ -86,6 +86,12 @@ class LawResolver:
         case_texts = self._case_texts(element, role, chosen)
         texts: dict[str, Any] = {key: row.text() for key, row in rows.items()}
         texts.update({key: text for key, (text, _) in case_texts.items()})
+        foreign = [key for key in texts if key not in chosen.parameters.model_fields]
+        for key in foreign:
+            # A plugin's parameters may be declared to ignore what they do not know; a typing slip is no less one.
+            self._foreign_parameter(key, role, chosen, case_texts)
+        if foreign:
+            return None
         try:
             parameters = chosen.parameters.model_validate(texts)
         except ValidationError as error:
@@ -158,16 +164,21 @@ class LawResolver:
         texts: Mapping[str, Any],
         case_texts: Mapping[str, tuple[Any, str]],
     ) -> None:
-        known = ", ".join(chosen.parameters.model_fields) or "none"
         for problem in problems(error, chosen.parameters, dict(texts)):
             key = problem.where.split(".")[0]
             where = case_texts[key][1] if key in case_texts else f"parameters.{role}.{problem.where}".rstrip(".")
             message = f"{role} {chosen.name}: {problem.message}"
-            if key not in chosen.parameters.model_fields and key:
-                message = f"is not a parameter of {role} {chosen.name}; it has: {known}"
-            elif key not in texts and self.lubricant is not None:
+            if key not in texts and self.lubricant is not None:
                 message = f"{role} {chosen.name} needs it, and the lubricant {self.lubricant.name} has no data for it"
             self.ledger.problem(where, message)
+
+    def _foreign_parameter(self, key: str, role: str, chosen: Model, case_texts: Mapping[str, tuple[Any, str]]) -> None:
+        known = ", ".join(chosen.parameters.model_fields) or "none"
+        if key in case_texts:
+            where, whose = case_texts[key][1], ""
+        else:
+            where, whose = "lubricant.name", f'data of {self.lubricant.name if self.lubricant else ""}: "{key}" '
+        self.ledger.problem(where, f"{whose}is not a parameter of {role} {chosen.name}; it has: {known}")
 
     def _check_unused(self) -> None:
         """Note general parameters that no chosen model of the role knows."""

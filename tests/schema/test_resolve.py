@@ -13,19 +13,24 @@ from typing import Any
 
 import numpy as np
 import pytest
+from pydantic import BaseModel
 
 from lambda_core import api
 from lambda_core.errors import CaseError
 from lambda_core.physics import fits
-from lambda_core.physics.model import BearingModel, Law, TimeFunction
-from lambda_core.physics.resolve import case_hash
+from lambda_core.physics.model import BODIES, ELEMENTS, BearingModel, Law, TimeFunction
+from lambda_core.physics.resolve import case_hash, resolve
 from lambda_core.physics.resolve_bodies import groove_volume, hollow_cylinder, ring_inertia
 from lambda_core.physics.time_functions import added, highest_frequency, initial, peak, scaled, time_function
 from lambda_core.physics.tolerances import Limits
 from lambda_core.registry.catalogue import Catalogue
 from lambda_core.registry.manager import registry
+from lambda_core.registry.model import Model
+from lambda_core.registry.roles import ROLES
 from lambda_core.schema.case import Case
 from lambda_core.schema.case_io import builtin_cases, parse_case
+from lambda_core.schema.modelling import Forces, Models
+from lambda_core.schema.motion import Bodies
 
 
 @pytest.fixture(scope="module")
@@ -179,6 +184,21 @@ def test_ring_guided_cage_gets_a_land_contact_on_its_ring_only() -> None:
     assert model.cage.land_clearance == pytest.approx(0.0275 * 0.03)
     turned = model_of("6319-cp10-1500", bodies={"cage": {"guidance": "inner ring", "land_clearance": "0.5 mm"}})
     assert turned.laws["cage_inner"]["cage_contact"].model.name == "land-guidance"
+
+
+def test_cage_that_cannot_be_or_cannot_act() -> None:
+    with pytest.raises(CaseError, match="leaves no bars between the pockets: balls are"):
+        model_of("6319-cp10-1500", bodies={"cage": {"pocket_clearance": "25 mm"}})
+    loose = model_of("6319-cp10-1500", bodies={"cage": {"type": "brass-outer-ring"}})
+    assert "land clearance 825 um is above its pocket clearance 600 um" in " ".join(loose.assumptions)
+    hot = model_of("6319-cp10-1500", bodies={"cage": {"type": "pa66"}}, lubricant={"temperature": "130 degC"})
+    assert "hotter than the cage type pa66 is made for (120 degC)" in " ".join(hot.assumptions)
+
+
+def test_sections_name_every_role_and_element() -> None:
+    assert list(Models.model_fields) == list(ROLES)
+    assert list(Forces.model_fields) == list(ELEMENTS)
+    assert list(Bodies.model_fields) == list(BODIES)
 
 
 def test_without_a_cage_its_contacts_are_none() -> None:
@@ -442,3 +462,49 @@ def test_report_is_json_and_complete() -> None:
     assert report.headline[0].startswith("6319 (Syla2026)  9 x 30.000 mm  pitch 147.5 mm  clearance 24 um")
     assert report.headline[1] == "radial 16 kN   inner ring 1500 rpm   strips 1x31   cage on"
     assert isinstance(api.case("6319-cp10-1500"), Case)
+
+
+class TestForeignModels:
+    """A plugin's model is resolved like a built-in one, and its loose declarations let no slip through."""
+
+    class Registry:
+        """The real models, and one of a plugin in place of every asperity load."""
+
+        def names(self, role: str) -> tuple[str, ...]:
+            return (*registry().names(role), *(("loose",) if role == "asperity_load" else ()))
+
+        def model(self, role: str, name: str) -> Model:
+            if name != "loose":
+                return registry().model(role, name)
+            known = registry().model(role, "none")
+            return replace(known, name="loose", parameters=Loose, distribution="third-party 0.1")
+
+    def resolved(self, rows: Catalogue, **parameters: Any) -> BearingModel:
+        case = api.case("6319-cp10-1500").with_(
+            models={"asperity_load": "loose"}, parameters={"asperity_load": parameters}
+        )
+        return resolve(case, self.Registry(), rows)
+
+    def test_named_with_its_distribution(self, rows: Catalogue) -> None:
+        model = self.resolved(rows, share=0.5)
+        law = model.laws["ball_inner"]["asperity_load"]
+        assert (law.parameters.share, law.origins["share"]) == (0.5, "case")  # type: ignore[attr-defined]
+        assert "third-party 0.1" in model.plugins
+        assert origin(model, "forces.ball_inner.models.asperity_load")[2] == "third-party 0.1"
+
+    def test_default_without_a_status_is_an_assumption(self, rows: Catalogue) -> None:
+        assert "asperity_load loose: share 0.25 (defaults of the model)" in self.resolved(rows).assumptions
+
+    def test_unknown_parameter_is_refused_although_the_plugin_ignores_it(self, rows: Catalogue) -> None:
+        with pytest.raises(CaseError, match=r'parameters\.asperity_load\.shaer +"shaer" is not a known parameter'):
+            self.resolved(rows, shaer=0.5)
+        own = {"ball_inner": {"parameters": {"asperity_load": {"shaer": 1}}}}
+        case = api.case("6319-cp10-1500").with_(models={"asperity_load": "loose"}, forces=own)
+        with pytest.raises(CaseError, match=r"is not a parameter of asperity_load loose; it has: share"):
+            resolve(case, self.Registry(), rows)
+
+
+class Loose(BaseModel):
+    """Parameters as a stranger may declare them."""
+
+    share: float = 0.25

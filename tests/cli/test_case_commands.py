@@ -1,0 +1,211 @@
+"""The program's door: help at once, exit codes, messages instead of tracebacks; init, check and schema."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from lambda_cli import commands, main
+
+from lambda_core.errors import PartialResultError, SolverError
+from lambda_core.schema.case_io import builtin_cases, load_case
+
+HEAVY = ("numba", "h5py", "sqlalchemy", "matplotlib", "scipy", "textual", "xarray")
+Call = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def call(capsys: pytest.CaptureFixture[str]) -> Call:
+    """Run the program in this process; return exit code, stdout, stderr."""
+
+    def run(*arguments: str) -> tuple[int, str, str]:
+        code = main.main(list(arguments))
+        out, err = capsys.readouterr()
+        return code, out, err
+
+    return run
+
+
+def test_help_is_fast_and_light() -> None:
+    code = "import sys; from lambda_cli.main import main; main(['--help'])\n"
+    code += f"print([m for m in {HEAVY} if m in sys.modules])"
+    times = []
+    for _ in range(3):
+        start = time.perf_counter()
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+        times.append(time.perf_counter() - start)
+        assert done.stdout.splitlines()[-1] == "[]"
+    assert min(times) < 0.5
+    for name in commands.entries():
+        assert name in done.stdout
+
+
+def test_check_needs_no_compiler_and_no_result_library() -> None:
+    code = "import sys; from lambda_cli.main import main; main(['check', '6208-axial-700'])\n"
+    code += "print([m for m in ('numba', 'h5py', 'matplotlib', 'textual') if m in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_every_listed_command_loads_and_has_help(call: Call) -> None:
+    for name in commands.entries():
+        code, out, _ = call(name, "--help")
+        assert code == 0, name
+        assert "Usage" in out
+
+
+def test_version(call: Call) -> None:
+    code, out, _ = call("--version")
+    assert (code, out.split()[0]) == (0, "lambda-bearing")
+
+
+def test_check_says_what_a_case_is(call: Call) -> None:
+    code, out, err = call("check", "6319-cp10-1500")
+    assert (code, err) == (0, "")
+    assert out.startswith("6319 (Syla2026)  9 x 30.000 mm  pitch 147.5 mm  clearance 24 um (middle of CN, assumed)")
+    assert "radial 16 kN   inner ring 1500 rpm   strips 1x31   cage on" in out
+    assert "clearance 24 um: middle of CN (12 to 36 um)" in out
+    assert "traction             ree-eyring" in out
+
+
+@pytest.mark.parametrize("name", sorted(builtin_cases()))
+def test_check_accepts_every_builtin_case_and_prints_json(call: Call, name: str) -> None:
+    code, out, err = call("check", name, "--json")
+    report = json.loads(out)
+    assert (code, err) == (0, "")
+    assert (report["valid"], report["version"], report["name"]) == (True, 1, name)
+    assert report["assumptions"]
+
+
+def test_check_lists_all_mistakes_and_exits_3(call: Call, tmp_path: Path) -> None:
+    path = tmp_path / "my.toml"
+    text = '[bearing]\ndesignation = "6391"\n[loads]\nradial = "16,5 kN"\n[models]\ntraction = "ree-eyrng"\n'
+    path.write_text(
+        'name = "my"\n' + text + '[lubricant]\nname = "FVA3"\ntemperature = "60 degC"\n[operation]\nspeed = "9 rpm"\n'
+    )
+    code, out, err = call("check", str(path))
+    assert (code, out) == (3, "")
+    lines = err.splitlines()
+    assert lines[0] == "my.toml: 3 errors"
+    assert lines[1] == '  loads.radial           "16,5 kN": write a decimal point: "16.5 kN"'
+    assert lines[2].startswith('  bearing.designation    "6391" is not a known bearing; nearest:')
+    assert lines[3].startswith(
+        '  models.traction        "ree-eyrng" is not a traction model; nearest: ree-eyring; available:'
+    )
+    code, out, _ = call("check", str(path), "--json")
+    assert code == 3
+    found = json.loads(out)
+    assert found["valid"] is False
+    assert [e["where"] for e in found["errors"]] == ["loads.radial", "bearing.designation", "models.traction"]
+
+
+def test_set_changes_the_case(call: Call) -> None:
+    code, out, _ = call("check", "6319-cp10-1500", "--set", "loads.radial=20 kN", "--set", "depth.cage=false")
+    assert code == 0
+    assert "radial 20 kN   inner ring 1500 rpm   strips 1x31   cage off" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        ((), 2, ""),
+        (("chek",), 2, "No such command 'chek'. Did you mean 'check'"),
+        (("check",), 2, "Missing argument"),
+        (("check", "6319-cp10-150"), 2, "nearest built-in cases: 6319-cp10-1500"),
+        (("check", "6319-cp10-1500", "--set", "loads.radial"), 2, "write path=value"),
+        (("check", "6319-cp10-1500", "--st", "a=b"), 2, "No such option"),
+        (("check", "6319-cp10-1500", "--set", "loads.radial=20"), 3, 'write "20 N"'),
+        (("check", "6319-cp10-1500", "--set", "loads.raidal=20 N"), 3, "nearest: radial"),
+        (("--no-plugin", "nothing", "check", "6319-cp10-1500"), 2, "nothing"),
+        (("init", "a b"), 3, "letters, digits"),
+        (("init", "x", "--from", "nowhere"), 2, "neither a file nor a built-in case"),
+    ],
+)
+def test_mistakes_on_the_command_line(
+    call: Call, arguments: tuple[str, ...], code: int, said: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    found, out, err = call(*arguments)
+    assert found == code
+    assert said in err
+    assert "Traceback" not in out + err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_init_writes_a_commented_case_that_checks(call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    code, out, err = call("init", "drive-end", "--from", "6208-axial-1300")
+    assert (code, out) == (0, "")
+    assert "lambda-bearing check drive-end.toml" in err
+    text = (tmp_path / "drive-end.toml").read_text()
+    assert text.count("#") >= 5
+    assert load_case(tmp_path / "drive-end.toml").name == "drive-end"
+    assert call("check", "drive-end.toml")[0] == 0
+    code, _, err = call("init", "drive-end")
+    assert (code, "exists" in err) == (2, True)
+    assert call("init", "drive-end", "--force")[0] == 0
+    assert call("init", "other", "--out", "sub/x.toml")[0] == 2
+
+
+def test_schema_describes_case_files(call: Call, tmp_path: Path) -> None:
+    code, out, _ = call("schema")
+    schema = json.loads(out)
+    assert code == 0
+    assert schema["properties"].keys() >= {"bearing", "loads", "operation", "bodies", "models", "solver"}
+    assert not schema["additionalProperties"]
+    target = tmp_path / "case.schema.json"
+    assert call("schema", "--out", str(target))[:2] == (0, "")
+    assert json.loads(target.read_text()) == schema
+    assert call("schema", "--out", str(tmp_path / "no" / "x.json"))[0] == 2
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "said"),
+    [
+        (SolverError("the step went to zero"), 4, "the step went to zero"),
+        (PartialResultError("stopped early"), 5, "stopped early"),
+        (KeyboardInterrupt(), 130, "interrupted"),
+        (ZeroDivisionError("one by\nzero"), 1, "lambda-bearing has a bug: ZeroDivisionError: one by zero"),
+    ],
+)
+def test_one_error_handler(
+    call: Call, monkeypatch: pytest.MonkeyPatch, error: BaseException, code: int, said: str
+) -> None:
+    def fail(*_: Any, **__: Any) -> None:
+        raise error
+
+    monkeypatch.setattr("lambda_core.api.check", fail)
+    found, out, err = call("check", "6319-cp10-1500")
+    assert (found, out) == (code, "")
+    assert said in err
+    assert "Traceback" not in err
+
+
+def test_a_bug_shows_its_place_on_request(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: Any, **__: Any) -> None:
+        raise ZeroDivisionError("oops")
+
+    monkeypatch.setattr("lambda_core.api.check", fail)
+    monkeypatch.setenv("LAMBDA_BEARING_DEBUG", "1")
+    code, _, err = call("check", "6319-cp10-1500")
+    assert code == 1
+    assert "Traceback" in err
+
+
+def test_a_closed_pipe_is_no_error() -> None:
+    command = f"{sys.executable} -m lambda_cli check 6319-cp10-1500 | head -1; echo ${{PIPESTATUS[0]}}"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "0"
+    assert done.stderr == ""
+
+
+def test_a_missing_module_is_not_listed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(commands.COMMANDS, "ghost", ("lambda_cli.ghost:ghost", "Not there."))
+    assert "ghost" not in commands.entries()
+    assert {"init", "check", "schema"} <= set(commands.entries())
