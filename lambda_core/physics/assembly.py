@@ -14,10 +14,13 @@ from scipy.interpolate import CubicSpline
 
 from lambda_core.errors import SolverError
 from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.compiled.entry import core
 from lambda_core.physics.compiled.jacobian import make_blocks
 from lambda_core.physics.model import DOFS, BearingModel, Law, TimeFunction
+from lambda_core.registry.check import check_choice
 from lambda_core.registry.kernels import compile_kernel
-from lambda_core.registry.model import Context, Material, Oil, default_par
+from lambda_core.registry.model import Context, Material, Oil
+from lambda_core.registry.par import make_par
 
 FloatArray = NDArray[np.float64]
 Announce = Callable[[str], None] | None
@@ -62,13 +65,13 @@ def ball_mass(model: BearingModel) -> float:
     return model.ball_material.density * math.pi * model.geometry.ball_diameter**3 / 6.0
 
 
-def unit_grid(strips: int, rows: int) -> L.Grid:
+def unit_grid(strips: int, rows: int) -> FloatArray:
     """Divide the unit ellipse into strips and rows; weights carry area and load exactly.
 
     Returns
     -------
-    Grid
-        Each array has shape (strips * rows,). sum(area) = pi and sum(area * pressure) = 2 pi/3, the Hertzian load over
+    float64[:, :], shape (6, strips * rows)
+        Rows layout.GRID_S ... GRID_DT. sum(area) = pi and sum(area * pressure) = 2 pi/3, the Hertzian load over
         a b p_max.
     """
     edges = np.linspace(-1.0, 1.0, strips + 1)
@@ -82,13 +85,15 @@ def unit_grid(strips: int, rows: int) -> L.Grid:
     row_load = np.diff(area_of(row_edges)) / np.pi
     shape = (strips, rows)
     per_area = np.repeat(area[:, None] / rows, rows, 1)
-    return L.Grid(
-        np.repeat(mid[:, None], rows, 1).ravel(),
-        (half[:, None] * row_mid[None, :]).ravel(),
-        (load[:, None] * row_load[None, :] / per_area).ravel(),
-        per_area.ravel(),
-        np.full(shape, 2.0 / strips).ravel(),
-        np.repeat(half[:, None] * 2.0 / rows, rows, 1).ravel(),
+    return np.array(
+        [
+            np.repeat(mid[:, None], rows, 1).ravel(),
+            (half[:, None] * row_mid[None, :]).ravel(),
+            (load[:, None] * row_load[None, :] / per_area).ravel(),
+            per_area.ravel(),
+            np.full(shape, 2.0 / strips).ravel(),
+            np.repeat(half[:, None] * 2.0 / rows, rows, 1).ravel(),
+        ]
     )
 
 
@@ -108,8 +113,8 @@ def _terms(channel: int, function: TimeFunction, rows: list[list[float]], table:
         rows.append(row)
 
 
-def build_times(model: BearingModel) -> L.Times:
-    """Flatten loads and motions, and list the free entries of the shared state."""
+def build_times(model: BearingModel) -> tuple[FloatArray, FloatArray, NDArray[np.int64]]:
+    """Return flattened loads and motions (terms, table) and the indices of the free shared states."""
     rows: list[list[float]] = []
     table: list[float] = []
     active: list[int] = []
@@ -130,7 +135,7 @@ def build_times(model: BearingModel) -> L.Times:
             _terms(L.CH_FORCE + 3 * b + axis, body.force[axis], rows, table)
             _terms(L.CH_MOMENT + 3 * b + axis, body.moment[axis], rows, table)
     terms = np.array(rows, dtype=np.float64).reshape(-1, 8)
-    return L.Times(terms, np.array(table or [0.0]), np.array(sorted(active), dtype=np.int64))
+    return terms, np.array(table or [0.0]), np.array(sorted(active), dtype=np.int64)
 
 
 def build_system(model: BearingModel, frame: ContactFrame, oil: Oil) -> Any:
@@ -277,37 +282,40 @@ class Kernels:
 
 
 def prepare(law: Law, context: Context) -> FloatArray:
-    """Run a law's set-up and check what it returns."""
-    model = law.model
-    try:
-        par = model.prepare(law.parameters, context) if model.prepare else default_par(law.parameters)
-    except Exception as error:
-        raise SolverError(f"{model.label}: its set-up failed for {context.element}: {error}") from error
-    par = np.ascontiguousarray(par, dtype=np.float64)
-    if par.ndim != 1 or not np.all(np.isfinite(par)):
-        raise SolverError(f"{model.label}: its set-up for {context.element} returned {par!r}, not finite numbers")
-    # Compiled code takes par[0] even of laws without parameters.
+    """Run a law's set-up; compiled code takes par[0] even of laws without parameters."""
+    par = make_par(law.model, law.parameters, context)
     return par if par.size else np.zeros(1)
 
 
-def prepare_all(model: BearingModel, frame: ContactFrame, oil: Oil) -> L.Pars:
-    """Return the parameters of every kernel."""
+def check_laws(model: BearingModel, kernels: Kernels, frame: ContactFrame, oil: Oil) -> None:
+    """Try every law out with the parameters of this run before any compiled code calls it.
 
-    def raceway(element: str) -> L.RacewayPars:
+    Raises
+    ------
+    PluginError
+        With the first law that does not keep the contract of its role.
+    """
+    tried: set[tuple[str, str, bytes]] = set()
+    for element, roles in model.laws.items():
         context = build_context(model, element, frame, oil)
-        return L.RacewayPars(*(prepare(model.laws[element][role], context) for role in L.RacewayPars._fields))
+        for role, law in roles.items():
+            par = prepare(law, context)
+            key = (role, law.model.name, par.tobytes())
+            if key not in tried:
+                tried.add(key)
+                check_choice(law.model, par, kernels.compiled[element, role])
 
-    def single(element: str, role: str = "cage_contact") -> FloatArray:
-        return prepare(model.laws[element][role], build_context(model, element, frame, oil))
 
-    return L.Pars(
-        raceway("ball_inner"),
-        raceway("ball_outer"),
-        single("ball_cage"),
-        single("cage_inner"),
-        single("cage_outer"),
-        single("fluid_drag", "fluid_drag"),
-    )
+def prepare_all(model: BearingModel, frame: ContactFrame, oil: Oil) -> list[FloatArray]:
+    """Return the parameters of every kernel, in the order of layout.par_of."""
+    pars: list[FloatArray] = []
+    for element in ("ball_inner", "ball_outer"):
+        context = build_context(model, element, frame, oil)
+        pars += [prepare(model.laws[element][role], context) for role in L.RacewayLaws._fields]
+    for element in ("ball_cage", "cage_inner", "cage_outer"):
+        pars.append(prepare(model.laws[element]["cage_contact"], build_context(model, element, frame, oil)))
+    pars.append(prepare(model.laws["fluid_drag"]["fluid_drag"], build_context(model, "fluid_drag", frame, oil)))
+    return pars
 
 
 def derive_oil(model: BearingModel, kernels: Kernels, frame: ContactFrame) -> Oil:
@@ -317,6 +325,7 @@ def derive_oil(model: BearingModel, kernels: Kernels, frame: ContactFrame) -> Oi
     """
     law = model.laws["ball_inner"]["rheology"]
     par = prepare(law, build_context(model, "ball_inner", frame, model.oil))
+    check_choice(law.model, par, kernels.compiled["ball_inner", "rheology"])
     t, dp, dt = model.oil.temperature, 1e6, 0.5
     p = np.array([0.0, dp, 2.0 * dp, 0.0, 0.0])
     temperatures = np.array([t, t, t, t - dt, t + dt])
@@ -329,15 +338,6 @@ def derive_oil(model: BearingModel, kernels: Kernels, frame: ContactFrame) -> Oi
     return dataclasses.replace(
         model.oil, viscosity=math.exp(ln_eta[0]), density=float(rho[0]), alpha_p=float(alpha), beta=float(beta)
     )
-
-
-def make_work(balls: int, cells: int) -> L.Work:
-    """Allocate the workspaces."""
-    z = np.zeros
-    return L.Work(
-        z(36), z((L.NCH, 3)), z(L.NKIN), z(L.NKIN), z(L.NW), z(L.NW), z(L.NC), z(L.NC), z(8),
-        z((12, cells)), z((12, cells)), z(24), z(9), z((balls, 6)), z((3, 6)), z(6), z(L.NS), z(16),
-    )  # fmt: skip
 
 
 def state_scales(model: BearingModel, active: NDArray[np.int64]) -> FloatArray:
@@ -374,15 +374,27 @@ class Assembly:
 
 def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oil: Oil) -> Assembly:
     """Build the bundle for given frozen contact angles and mean loads."""
-    times = build_times(model)
+    terms, table, active = build_times(model)
     grid = unit_grid(model.depth.strips, model.depth.rows)
+    balls = model.geometry.ball_count
+    pars = prepare_all(model, frame, oil)
+    system = build_system(model, frame, oil)
+    system[0]["par_start"][: L.N_PAR + 1] = np.cumsum([0, *(par.size for par in pars)])
+    compiled = core()
     bundle = L.Bundle(
-        build_system(model, frame, oil),
+        system,
         kernels.pointers(),
-        prepare_all(model, frame, oil),
+        compiled.wrench_pointer,
+        compiled.tangent_pointer,
+        np.concatenate(pars),
         grid,
-        times,
-        make_work(model.geometry.ball_count, grid.xi.size),
+        terms,
+        table,
+        active,
+        np.zeros((L.NCH, 3)),
+        np.zeros((2, 12, grid.shape[1])),
+        np.zeros((L.N_SCRATCH, 64)),
+        np.zeros((balls, 6)),
     )
-    blocks = make_blocks(model.geometry.ball_count, times.active)
-    return Assembly(model, kernels, oil, frame, bundle, blocks, state_scales(model, times.active))
+    blocks = make_blocks(balls, active)
+    return Assembly(model, kernels, oil, frame, bundle, blocks, state_scales(model, active))

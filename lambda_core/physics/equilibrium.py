@@ -17,6 +17,7 @@ from lambda_core.errors import SolverError
 from lambda_core.physics import assembly as A
 from lambda_core.physics.compiled import layout as L
 from lambda_core.physics.compiled.arrow import make_factors
+from lambda_core.physics.compiled.entry import Core, core
 from lambda_core.physics.model import DOFS, BearingModel, TimeFunction
 
 FloatArray = A.FloatArray
@@ -57,7 +58,7 @@ class Equilibrium:
     @property
     def relative_speed(self) -> float:
         """|Omega_i - Omega_o| [rad/s]."""
-        shared = self.assembly.bundle.work.shared
+        shared = self.assembly.bundle.scratch[L.SHARED]
         return abs(float(shared[L.SSIGMA] - shared[L.NS + L.SSIGMA]))
 
 
@@ -82,12 +83,11 @@ def solve(model: BearingModel, kernels: A.Kernels | None = None, announce: A.Ann
     SolverError
         When there is none, with what was tried.
     """
-    from lambda_core.physics.compiled.entry import core
-
     kernels = kernels or A.Kernels(model, announce)
     compiled = core(announce)
     frame = _first_frame(model)
     oil = A.derive_oil(model, kernels, frame)
+    A.check_laws(model, kernels, frame, oil)
     state: FloatArray | None = None
     for _ in range(_FRAME_ITERATIONS):
         assembly = A.assemble(model, kernels, frame, oil)
@@ -106,7 +106,7 @@ def solve(model: BearingModel, kernels: A.Kernels | None = None, announce: A.Ann
     _roll(assembly, state)
     report = _settle(compiled, assembly, state, friction=True)
     contacts, losses = _contacts(compiled, assembly, state)
-    shared = assembly.bundle.work.shared
+    shared = assembly.bundle.scratch[L.SHARED]
     displacement = (shared[L.SX], shared[L.SY], shared[L.SZ], -shared[L.SAZ], shared[L.SAY])
     x, y, z, tilt_y, tilt_z = (float(v) for v in displacement)
     return Equilibrium(assembly, state, contacts, losses, (x, y, z, tilt_y, tilt_z), float(report[3]), int(report[0]))
@@ -163,7 +163,7 @@ def first_state(assembly: A.Assembly) -> FloatArray:
         y[L.NB * j + L.BX] = axial
         y[L.NB * j + L.BR] = 0.5 * g.pitch_diameter
         y[L.NB * j + L.BPSI] = -0.5 * math.pi + 2.0 * math.pi * j / z
-    y[L.NB * z :] = shared[assembly.bundle.times.active]
+    y[L.NB * z :] = shared[assembly.bundle.active]
     _roll(assembly, y)
     return y
 
@@ -183,15 +183,15 @@ def _roll(assembly: A.Assembly, y: FloatArray) -> None:
         y[o + L.BWX : o + 9] = spin * math.cos(angle), -spin * math.sin(angle), 0.0
 
 
-def _settle(compiled: object, assembly: A.Assembly, state: FloatArray, *, friction: bool) -> FloatArray:
+def _settle(compiled: Core, assembly: A.Assembly, state: FloatArray, *, friction: bool) -> FloatArray:
     """Run the continuation from `state`, in place; returns its report."""
     system = assembly.bundle.system[0]
     system["friction_on"], system["guides_on"] = int(friction), 0
     report = np.zeros(4)
-    factors = make_factors(assembly.model.geometry.ball_count, assembly.bundle.times.active.size)
-    status = compiled.settle(  # type: ignore[attr-defined]
-        compiled.evaluate_pointer,  # type: ignore[attr-defined]
-        compiled.jacobian_pointer,  # type: ignore[attr-defined]
+    factors = make_factors(assembly.model.geometry.ball_count, assembly.bundle.active.size)
+    status = compiled.settle(
+        compiled.evaluate_pointer,
+        compiled.jacobian_pointer,
         assembly.bundle,
         assembly.blocks,
         factors,
@@ -206,28 +206,26 @@ def _settle(compiled: object, assembly: A.Assembly, state: FloatArray, *, fricti
     if status != 1:
         kind = "with" if friction else "without"
         raise SolverError(
-            f"no quasi-static equilibrium {kind} friction after {report[0]:.0f} iterations (last step {report[1]:.2e} of "
-            "the states' scales): is every free degree of freedom of the ring held by a load or a support?"
+            f"no quasi-static equilibrium {kind} friction after {report[0]:.0f} iterations (last step {report[1]:.2e} "
+            "of the states' scales): is every free degree of freedom of the ring held by a load or a support?"
         )
     return report
 
 
-def _contacts(compiled: object, assembly: A.Assembly, state: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _contacts(compiled: Core, assembly: A.Assembly, state: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return contact channels (Z, 2, 16) and losses (16,) [W] at a state."""
-    z = assembly.model.geometry.ball_count
-    bundle = assembly.bundle
-    contacts = np.zeros((z, 2, 16))
-    extra = np.zeros(L.NI + 2)
-    rates, dydt = np.zeros(L.NI), np.zeros(state.size)
+    z, bundle = assembly.model.geometry.ball_count, assembly.bundle
+    contacts, rates = np.zeros((1, z, 2, 16)), np.zeros((1, L.NI))
     system = bundle.system[0]
     system["guides_on"] = 0
-    ok = compiled.observe(0.0, state, bundle, 1.0, contacts, np.zeros((z, 3)), np.zeros((2, 3)), extra)  # type: ignore[attr-defined]
-    if ok == 1:
-        ok = compiled.evaluate(0.0, state, bundle, dydt, rates, 1)  # type: ignore[attr-defined]
+    ok = compiled.observe(
+        np.zeros(1), state.reshape(1, -1), bundle, compiled.evaluate_pointer, 1.0, contacts, np.zeros((1, z, 3)),
+        np.zeros((1, 2, 3)), np.zeros((1, L.NI + 2)), np.zeros((1, 3 * L.NS)), rates,
+    )  # fmt: skip
     system["guides_on"] = 1
     if ok != 1:
         raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(assembly)}")
-    return contacts, rates[: L.NL].copy()
+    return contacts[0], rates[0, : L.NL].copy()
 
 
 def _frame_of(contacts: FloatArray, before: A.ContactFrame) -> A.ContactFrame:
@@ -242,7 +240,7 @@ def _frame_of(contacts: FloatArray, before: A.ContactFrame) -> A.ContactFrame:
 
 def fault_sentence(assembly: A.Assembly, time: float | None = None) -> str:
     """Say which kernel refused, where, and with what inputs."""
-    fault = assembly.bundle.work.fault
+    fault = assembly.bundle.scratch[L.FAULT]
     if fault[0] < 0.0:
         return "the time step became too small"
     role = L.RACEWAY_ROLES[int(fault[0])]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +14,7 @@ from lambda_core.physics.channels import CHANNELS, LOSSES
 from lambda_core.physics.compiled import bdf
 from lambda_core.physics.compiled import layout as L
 from lambda_core.physics.compiled.arrow import make_factors
-from lambda_core.physics.compiled.entry import core
+from lambda_core.physics.compiled.entry import Core, core
 from lambda_core.physics.compiled.observe import CONTACT_CHANNELS
 from lambda_core.physics.equilibrium import Equilibrium, fault_sentence, solve
 from lambda_core.physics.model import BearingModel
@@ -73,7 +72,8 @@ class BearingEngine:
         control[bdf.SAMPLE_STEP] = self.sample_interval
         count[bdf.STALE] = 1
         self._start_angles = self._angles()
-        self._start_energy = self._observe(0.0, start)["stored_energy"]
+        self._start_energy = self._stored(0.0, start)
+        self._drained: list[dict[str, FloatArray]] = []
 
     @property
     def time(self) -> float:
@@ -112,26 +112,27 @@ class BearingEngine:
     def samples(self) -> dict[str, FloatArray]:
         """Return and clear the buffered samples: channel -> array, first axis is time."""
         self._drain()
-        rows, self._rows = self._rows, []
-        return {c.name: np.array([row[c.name] for row in rows], dtype=np.float64) for c in CHANNELS}
-
-    _rows: list[dict[str, Any]]
+        blocks, self._drained = self._drained, []
+        if not blocks:
+            blocks = [self._observe(np.zeros(0), self._memory.sample_y)]
+        return {c.name: np.concatenate([block[c.name] for block in blocks]) for c in CHANNELS}
 
     def _drain(self) -> None:
-        """Turn buffered states into rows of channels."""
-        if not hasattr(self, "_rows"):
-            self._rows = []
-        count = self._memory.count
-        for i in range(int(count[bdf.SAMPLES])):
-            self._rows.append(self._observe(float(self._memory.sample_t[i]), self._memory.sample_y[i]))
-        count[bdf.SAMPLES] = 0
+        """Turn buffered states into channels."""
+        n = int(self._memory.count[bdf.SAMPLES])
+        if n:
+            self._drained.append(self._observe(self._memory.sample_t[:n].copy(), self._memory.sample_y))
+            self._memory.count[bdf.SAMPLES] = 0
+
+    def _stored(self, t: float, y: FloatArray) -> float:
+        return float(self._observe(np.array([t]), y.reshape(1, -1))["stored_energy"][0])
 
     def integrals(self) -> dict[str, float]:
         """Return running time integrals from t = 0 (see the Engine protocol)."""
         values = self._memory.integrals
         now = self._angles()
         result = {f"loss.{name}": float(values[i]) for i, name in enumerate(LOSSES)}
-        stored = self._observe(self.time, self._memory.y)["stored_energy"] - self._start_energy
+        stored = self._stored(self.time, self._memory.y) - self._start_energy
         result.update(
             input=float(values[L.I_INPUT]),
             input_abs=float(values[L.I_INPUT_ABS]),
@@ -213,47 +214,57 @@ class BearingEngine:
             cage = float(np.mean(self._memory.y[L.BPSI : L.NB * self._balls : L.NB]))
         return float(cage - outer), float(shared[L.STHETA] - outer)
 
-    def _observe(self, t: float, y: FloatArray) -> dict[str, Any]:
-        """Return every channel at (t, y)."""
-        z, bundle = self._balls, self._assembly.bundle
-        contacts, pockets, lands = np.zeros((z, 2, 16)), np.zeros((z, 3)), np.zeros((2, 3))
-        extra, rates, dydt = np.zeros(L.NI + 2), np.zeros(L.NI), np.zeros(y.size)
-        ok = self._core.observe(t, y, bundle, SHORTED, contacts, pockets, lands, extra)
-        if ok == 1:
-            ok = self._core.evaluate(t, y, bundle, dydt, rates, 1)
-        if ok != 1:
-            raise SolverError(fault_sentence(self._assembly, t))
-        shared = bundle.scratch[L.SHARED, : 3 * L.NS].reshape(3, L.NS).copy()
-        balls = y[: L.NB * z].reshape(z, L.NB)
-        row: dict[str, Any] = {
-            "time": t,
-            "body_position": shared[:, L.SX : L.SX + 3],
-            "body_velocity": shared[:, L.SVX : L.SVX + 3],
-            "body_tilt": np.stack([-shared[:, L.SAZ], shared[:, L.SAY]], axis=1),
-            "body_spin_angle": shared[:, L.STHETA],
-            "body_spin": shared[:, L.SSIGMA],
-            "ball_axial": balls[:, L.BX].copy(),
-            "ball_radius": balls[:, L.BR].copy(),
-            "ball_azimuth": balls[:, L.BPSI].copy(),
-            "ball_velocity": balls[:, L.BVX : L.BVX + 3].copy(),
-            "ball_spin": balls[:, L.BWX : L.BWX + 3].copy(),
-            "pocket_force": pockets,
-            "land_force": lands,
-            "bearing_capacitance": float(extra[1]),
-            "input_torque": self._drive_torque(shared[L.INNER]),
-            "loss": rates[: L.NL],
-            "input_power": float(rates[L.I_INPUT]),
-            "stored_energy": float(extra[0]),
-        }
-        for i, name in enumerate(CONTACT_CHANNELS):
-            row[name] = contacts[:, :, i]
-        return row
+    def _observe(self, times: FloatArray, states: FloatArray) -> dict[str, FloatArray]:
+        """Return every channel at n points: channel -> array, first axis is time."""
+        return observe(self._core, self._assembly, times, states)
 
-    def _drive_torque(self, ring: FloatArray) -> float:
-        """Return the torque about the inner ring's axis that balances its contacts [N m]."""
-        ay, az = ring[L.SAY], ring[L.SAZ]
-        axis = np.array([math.sqrt(1.0 - ay * ay - az * az), ay, az])
-        return float(-self._assembly.bundle.scratch[L.BODY_FM + L.INNER, 3:6] @ axis)
+
+def observe(core_: Core, assembly: A.Assembly, times: FloatArray, states: FloatArray) -> dict[str, FloatArray]:
+    """Return every channel at given states.
+
+    Parameters
+    ----------
+    times : float64[:], shape (n,)
+    states : float64[:, :], shape (at least n, 9 Z + n_active)
+
+    Raises
+    ------
+    SolverError
+        When a kernel refuses, with its name.
+    """
+    n, z = times.size, assembly.model.geometry.ball_count
+    contacts, pockets, lands = np.zeros((n, z, 2, 16)), np.zeros((n, z, 3)), np.zeros((n, 2, 3))
+    extra, flat, rates = np.zeros((n, L.NI + 2)), np.zeros((n, 3 * L.NS)), np.zeros((n, L.NI))
+    ok = core_.observe(
+        times, states, assembly.bundle, core_.evaluate_pointer, SHORTED, contacts, pockets, lands, extra, flat, rates
+    )
+    if ok != 1:
+        raise SolverError(fault_sentence(assembly))
+    shared = flat.reshape(n, 3, L.NS)
+    balls = states[:n, : L.NB * z].reshape(n, z, L.NB)
+    channels: dict[str, FloatArray] = {
+        "time": times.copy(),
+        "body_position": shared[:, :, L.SX : L.SX + 3],
+        "body_velocity": shared[:, :, L.SVX : L.SVX + 3],
+        "body_tilt": np.stack([-shared[:, :, L.SAZ], shared[:, :, L.SAY]], axis=2),
+        "body_spin_angle": shared[:, :, L.STHETA],
+        "body_spin": shared[:, :, L.SSIGMA],
+        "ball_axial": balls[:, :, L.BX].copy(),
+        "ball_radius": balls[:, :, L.BR].copy(),
+        "ball_azimuth": balls[:, :, L.BPSI].copy(),
+        "ball_velocity": balls[:, :, L.BVX : L.BVX + 3].copy(),
+        "ball_spin": balls[:, :, L.BWX : L.BWX + 3].copy(),
+        "pocket_force": pockets,
+        "land_force": lands,
+        "bearing_capacitance": extra[:, 1].copy(),
+        "input_torque": extra[:, 2].copy(),
+        "loss": rates[:, : L.NL].copy(),
+        "input_power": rates[:, L.I_INPUT].copy(),
+        "stored_energy": extra[:, 0].copy(),
+    }
+    for i, name in enumerate(CONTACT_CHANNELS):
+        channels[name] = contacts[:, :, :, i].copy()
+    return channels
 
 
 def initial_state(equilibrium: Equilibrium) -> FloatArray:

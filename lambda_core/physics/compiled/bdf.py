@@ -223,7 +223,6 @@ def _accept(mem, h):
     count[AGE] += 1
 
 
-@helper
 def advance(evaluate, jacobian, until, max_steps, bundle, bl, fa, mem):
     """Take steps until control[T] >= until, the sample buffer is full, or `max_steps` were taken.
 

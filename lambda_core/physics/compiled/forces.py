@@ -19,6 +19,7 @@ from lambda_core.physics.compiled.cage import (
 )
 from lambda_core.physics.compiled.kinematics import apply_wrench, axis_x, contact_kinematics
 from lambda_core.physics.compiled.layout import (
+    BODY_FM,
     BPSI,
     BR,
     BVR,
@@ -31,32 +32,46 @@ from lambda_core.physics.compiled.layout import (
     CH_FORCE,
     CH_MOMENT,
     CH_MOTION,
+    FAULT,
     FREE,
+    GUIDE,
     I_ANGLE,
     I_DRIVE,
     I_INPUT,
     I_INPUT_ABS,
     I_X,
     INNER,
+    KIN,
     L_DRAG,
     L_LAND,
     L_POCKET,
     L_SUPPORT,
     NB,
     NS,
+    OUT,
     OUTER,
+    P_DRAG,
+    P_LAND,
+    P_POCKET,
     PRESCRIBED,
     R_DRAG,
+    RATE,
+    RING_FM,
     SAY,
     SAZ,
+    SCALARS,
+    SHARED,
     SSIGMA,
     STHETA,
+    STILL,
     SVX,
     SWY,
     SWZ,
+    WRENCH,
     helper,
+    par_of,
 )
-from lambda_core.physics.compiled.raceway import raceway_losses, raceway_wrench, report
+from lambda_core.physics.compiled.raceway import raceway_losses, report
 from lambda_core.physics.compiled.timefunctions import fill_shared
 
 _SPIN_FLOOR = 1e-3  # [rad/s] below which a ball's churning moment fades out
@@ -65,46 +80,46 @@ _SPIN_FLOOR = 1e-3  # [rad/s] below which a ball's churning moment fades out
 @helper
 def raceway_forces(y, j, bundle, rates, want):
     """Add both raceway contacts of ball j; with `want`, add their losses to rates."""
-    work, system = bundle.work, bundle.system[0]
+    scratch = bundle.scratch
+    system = bundle.system[0]
     ball = y[NB * j : NB * j + NB]
-    ball_fm = work.ball_fm[j]
+    ball_fm = bundle.ball_fm[j]
     for which in range(2):
-        ring = work.shared[NS * which : NS * which + NS]
-        delta = contact_kinematics(ball, ring, which, system, work.kin)
+        ring = scratch[SHARED][NS * which : NS * which + NS]
+        kin = scratch[KIN]
+        delta = contact_kinematics(ball, ring, which, system, kin)
         if delta <= 0.0:
             continue
-        if which == INNER:
-            ok = raceway_wrench(
-                which, work.kin, bundle.laws.inner, bundle.pars.inner, system, bundle.grid, work.scalars,
-                work.cells, work.out, work.fault, work.wrench,
-            )  # fmt: skip
-        else:
-            ok = raceway_wrench(
-                which, work.kin, bundle.laws.outer, bundle.pars.outer, system, bundle.grid, work.scalars,
-                work.cells, work.out, work.fault, work.wrench,
-            )  # fmt: skip
+        laws = bundle.laws.inner if which == INNER else bundle.laws.outer
+        ok = bundle.wrench(
+            which, kin, laws, bundle.par, bundle.system, bundle.grid, bundle.cells[0], scratch,
+            scratch[SCALARS], scratch[WRENCH],
+        )  # fmt: skip
         if ok != 1:
-            work.fault[2] = j
+            scratch[FAULT][2] = j
             return 0
-        apply_wrench(ball, work.kin, work.wrench, ball_fm, work.ring_fm)
+        apply_wrench(ball, kin, scratch[WRENCH], ball_fm, scratch[RING_FM])
         for k in range(6):
-            work.body_fm[which, k] += work.ring_fm[k]
+            scratch[BODY_FM + which, k] += scratch[RING_FM][k]
         if want == 1 and system.friction_on == 1:
-            raceway_losses(which, work.kin, system, bundle.grid, work.scalars, work.cells, rates)
+            raceway_losses(which, kin, system, bundle.grid, scratch[SCALARS], bundle.cells[0], rates)
     return 1
 
 
 @helper
 def drag_force(ball, bundle, ball_fm):
     """Add fluid drag and churning of one ball; returns the power lost [W], or -1 on a fault."""
-    work, system = bundle.work, bundle.system[0]
+    scratch = bundle.scratch
+    system = bundle.system[0]
     w = math.sqrt(ball[BWX] ** 2 + ball[BWR] ** 2 + ball[BWT] ** 2)
     nu = system.eta0 / system.rho0
-    work.out[:2] = np.nan
-    status = bundle.laws.drag(ball[BVT], w, ball[BPSI], nu, system.rho0, bundle.pars.drag, work.out)
-    force, moment = work.out[0], work.out[1]
+    scratch[OUT][:2] = np.nan
+    status = bundle.laws.drag(
+        ball[BVT], w, ball[BPSI], nu, system.rho0, par_of(bundle.par, system, P_DRAG), scratch[OUT]
+    )
+    force, moment = scratch[OUT][0], scratch[OUT][1]
     if status != 1 or not abs(force) + abs(moment) < np.inf:
-        report(work.fault, R_DRAG, status, -1.0, ball[BVT], w, ball[BPSI], nu)
+        report(scratch[FAULT], R_DRAG, status, -1.0, ball[BVT], w, ball[BPSI], nu)
         return -1.0
     moment /= math.sqrt(w * w + _SPIN_FLOOR * _SPIN_FLOOR)
     ball_fm[2] -= force
@@ -117,49 +132,52 @@ def drag_force(ball, bundle, ball_fm):
 @helper
 def cage_forces(y, bundle, rates, want):
     """Add pockets and lands, or ball-ball contacts when there is no cage."""
-    work, system = bundle.work, bundle.system[0]
-    g, out, fault, eta0 = work.guide, work.out, work.fault, system.eta0
-    cage = work.shared[NS * CAGE : NS * CAGE + NS]
+    scratch = bundle.scratch
+    system = bundle.system[0]
+    g, out, fault, eta0 = scratch[GUIDE], scratch[OUT], scratch[FAULT], system.eta0
+    cage = scratch[SHARED][NS * CAGE : NS * CAGE + NS]
     z = system.balls
     if system.cage_on == 0:
         for j in range(z):
             k = (j + 1) % z
             ball, other = y[NB * j : NB * j + NB], y[NB * k : NB * k + NB]
             neighbour_state(ball, other, g)
-            if guide_force(bundle.laws.pocket, bundle.pars.pocket, g, eta0, out, fault, -1.0) != 1:
+            if guide_force(bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), g, eta0, out, fault, -1.0) != 1:
                 fault[2] = j
                 return 0
             if want == 1:
                 rates[L_LAND] += guide_loss(
-                    bundle.laws.pocket, bundle.pars.pocket, g, eta0, out, work.still, fault, -1.0
+                    bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), g, eta0, out, scratch[STILL], fault, -1.0
                 )
-                guide_force(bundle.laws.pocket, bundle.pars.pocket, g, eta0, out, fault, -1.0)
+                guide_force(bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), g, eta0, out, fault, -1.0)
             a0, a1, a2 = out[3] - g[G_R], out[4] - g[G_R + 1], out[5] - g[G_R + 2]
-            neighbour_apply(ball[BPSI], a0, a1, a2, out, 1.0, work.ball_fm[j])
-            neighbour_apply(other[BPSI], out[3], out[4], out[5], out, -1.0, work.ball_fm[k])
+            neighbour_apply(ball[BPSI], a0, a1, a2, out, 1.0, bundle.ball_fm[j])
+            neighbour_apply(other[BPSI], out[3], out[4], out[5], out, -1.0, bundle.ball_fm[k])
         return 1
     for j in range(z):
         ball = y[NB * j : NB * j + NB]
         pocket_state(ball, cage, j, system, g)
         if want == 1:
-            rates[L_POCKET] += guide_loss(bundle.laws.pocket, bundle.pars.pocket, g, eta0, out, work.still, fault, -1.0)
-        if guide_force(bundle.laws.pocket, bundle.pars.pocket, g, eta0, out, fault, -1.0) != 1:
+            rates[L_POCKET] += guide_loss(
+                bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), g, eta0, out, scratch[STILL], fault, -1.0
+            )
+        if guide_force(bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), g, eta0, out, fault, -1.0) != 1:
             fault[2] = j
             return 0
-        pocket_apply(ball, cage, g, out, work.ball_fm[j], work.body_fm[CAGE])
+        pocket_apply(ball, cage, g, out, bundle.ball_fm[j], scratch[BODY_FM + CAGE])
     for which in range(2):
         if system.land_on[which] == 0:
             continue
-        ring = work.shared[NS * which : NS * which + NS]
+        ring = scratch[SHARED][NS * which : NS * which + NS]
         law = bundle.laws.land_inner if which == INNER else bundle.laws.land_outer
-        par = bundle.pars.land_inner if which == INNER else bundle.pars.land_outer
+        par = par_of(bundle.par, system, P_LAND + which)
         for side in range(2):
             land_state(cage, ring, (2 * side - 1) * system.land_offset, g)
             if want == 1:
-                rates[L_LAND] += guide_loss(law, par, g, eta0, out, work.still, fault, which)
+                rates[L_LAND] += guide_loss(law, par, g, eta0, out, scratch[STILL], fault, which)
             if guide_force(law, par, g, eta0, out, fault, which) != 1:
                 return 0
-            land_apply(cage, ring, g, out, work.body_fm[CAGE], work.body_fm[which])
+            land_apply(cage, ring, g, out, scratch[BODY_FM + CAGE], scratch[BODY_FM + which])
     return 1
 
 
@@ -249,7 +267,6 @@ def body_rates(body, b, fm, channels, system, rate, rates, want):
         rates[L_SUPPORT] += support
 
 
-@helper
 def evaluate(t, y, bundle, dydt, rates, want):
     """Write dy/dt; with `want` = 1 also the powers and rates of the running integrals.
 
@@ -265,13 +282,14 @@ def evaluate(t, y, bundle, dydt, rates, want):
     Returns
     -------
     int
-        1 when every kernel was well; otherwise 0 and work.fault says which was not.
+        1 when every kernel was well; otherwise 0 and scratch[FAULT] says which was not.
     """
-    work, system = bundle.work, bundle.system[0]
-    work.fault[0] = -1.0
+    scratch = bundle.scratch
+    system = bundle.system[0]
+    scratch[FAULT][0] = -1.0
     fill_shared(t, y, bundle)
-    work.ball_fm[:, :] = 0.0
-    work.body_fm[:, :] = 0.0
+    bundle.ball_fm[:, :] = 0.0
+    scratch[BODY_FM : BODY_FM + 3, :6] = 0.0
     rates[:] = 0.0
     z = system.balls
     for j in range(z):
@@ -282,11 +300,11 @@ def evaluate(t, y, bundle, dydt, rates, want):
     gx, gy, gz = system.gravity[0], system.gravity[1], system.gravity[2]
     for j in range(z):
         ball = y[NB * j : NB * j + NB]
-        fm = work.ball_fm[j]
+        fm = bundle.ball_fm[j]
         if system.drag_on == 1 and system.friction_on == 1:
             lost = drag_force(ball, bundle, fm)
             if lost < -0.5:
-                work.fault[2] = j
+                scratch[FAULT][2] = j
                 return 0
             rates[L_DRAG] += lost
         c, s = math.cos(ball[BPSI]), math.sin(ball[BPSI])
@@ -298,19 +316,19 @@ def evaluate(t, y, bundle, dydt, rates, want):
         if want == 1:
             rates[I_INPUT] += wx * ball[BVX] + wr * ball[BVR] + wt * ball[BVT]
         ball_rates(ball, fm, system, dydt[NB * j : NB * j + NB])
-    active = bundle.times.active
+    active = bundle.active
     k = 0
     for b in range(3):
         if b == CAGE and system.cage_on == 0:
             continue
-        body = work.shared[NS * b : NS * b + NS]
-        body_rates(body, b, work.body_fm[b], work.channels, system, work.rate, rates, want)
+        body = scratch[SHARED][NS * b : NS * b + NS]
+        body_rates(body, b, scratch[BODY_FM + b], bundle.channels, system, scratch[RATE], rates, want)
         while k < active.size and active[k] < NS * (b + 1):
-            dydt[NB * z + k] = work.rate[active[k] - NS * b]
+            dydt[NB * z + k] = scratch[RATE][active[k] - NS * b]
             k += 1
     if want == 1:
         rates[I_INPUT_ABS] = abs(rates[I_INPUT])
-        rates[I_ANGLE] = abs(work.shared[SSIGMA] - work.shared[NS * OUTER + SSIGMA])
+        rates[I_ANGLE] = abs(scratch[SHARED][SSIGMA] - scratch[SHARED][NS * OUTER + SSIGMA])
         for i in range(3):
-            rates[I_X + i] = work.shared[i]
+            rates[I_X + i] = scratch[SHARED][i]
     return 1

@@ -31,6 +31,7 @@ from lambda_core.physics.compiled.cage import (
 from lambda_core.physics.compiled.forces import body_rates, drag_force
 from lambda_core.physics.compiled.kinematics import apply_wrench, axis_x, contact_kinematics
 from lambda_core.physics.compiled.layout import (
+    BODY_FM,
     BPSI,
     BR,
     BVR,
@@ -39,24 +40,35 @@ from lambda_core.physics.compiled.layout import (
     BWR,
     BWT,
     CAGE,
+    FAULT,
+    GUIDE,
     INNER,
+    KIN,
+    KIN2,
     NB,
     NI,
     NS,
+    OUT,
+    P_LAND,
+    P_POCKET,
+    RATE,
     SAY,
     SAZ,
+    SHARED,
     SSIGMA,
     SVX,
     SWY,
     SWZ,
+    WRENCH,
+    WRENCH2,
     array1,
     array2,
     array3,
     helper,
     iarray1,
+    par_of,
 )
-from lambda_core.physics.compiled.raceway import raceway_wrench
-from lambda_core.physics.compiled.tangent import contact_tangent, wrench_at
+from lambda_core.physics.compiled.tangent import wrench_at
 from lambda_core.physics.compiled.timefunctions import fill_shared
 
 _POSITION = 1e-8  # [m]
@@ -144,21 +156,22 @@ def _body_step(c, direct):
 
 @helper
 def _contact_columns(ball, ring, which, bundle, bl):
-    """Add one raceway contact to the force slopes; work holds its kinematics and wrench."""
-    work, system = bundle.work, bundle.system[0]
+    """Add one raceway contact to the force slopes; scratch holds its kinematics and wrench."""
+    scratch = bundle.scratch
+    system = bundle.system[0]
     fm = bl.fm
     fm[:, :] = 0.0
-    apply_wrench(ball, work.kin, work.wrench, fm[0], fm[1])
+    apply_wrench(ball, scratch[KIN], scratch[WRENCH], fm[0], fm[1])
     for c in range(NB):
         step = _ball_step(c, False)
         for i in range(NB):
             bl.ball[i] = ball[i]
         bl.ball[c] += step
-        if contact_kinematics(bl.ball, ring, which, system, work.kin2) <= 0.0:
+        if contact_kinematics(bl.ball, ring, which, system, scratch[KIN2]) <= 0.0:
             continue
-        wrench_at(work.kin2, work.kin, work.wrench, bl.slope, work.wrench2)
+        wrench_at(scratch[KIN2], scratch[KIN], scratch[WRENCH], bl.slope, scratch[WRENCH2])
         fm[2, :] = 0.0
-        apply_wrench(bl.ball, work.kin2, work.wrench2, fm[2], fm[3])
+        apply_wrench(bl.ball, scratch[KIN2], scratch[WRENCH2], fm[2], fm[3])
         for i in range(6):
             bl.own[i, c] += (fm[2, i] - fm[0, i]) / step
             bl.from_ball[which, i, c] += (fm[3, i] - fm[1, i]) / step
@@ -170,11 +183,11 @@ def _contact_columns(ball, ring, which, bundle, bl):
         for i in range(NS):
             bl.body[i] = ring[i]
         bl.body[c] += step
-        if contact_kinematics(ball, bl.body, which, system, work.kin2) <= 0.0:
+        if contact_kinematics(ball, bl.body, which, system, scratch[KIN2]) <= 0.0:
             continue
-        wrench_at(work.kin2, work.kin, work.wrench, bl.slope, work.wrench2)
+        wrench_at(scratch[KIN2], scratch[KIN], scratch[WRENCH], bl.slope, scratch[WRENCH2])
         fm[2, :] = 0.0
-        apply_wrench(ball, work.kin2, work.wrench2, fm[2], fm[3])
+        apply_wrench(ball, scratch[KIN2], scratch[WRENCH2], fm[2], fm[3])
         for i in range(6):
             bl.to_shared[i, column] += (fm[2, i] - fm[0, i]) / step
             bl.shared[which, i, column] += (fm[3, i] - fm[1, i]) / step
@@ -182,22 +195,20 @@ def _contact_columns(ball, ring, which, bundle, bl):
 
 @helper
 def _raceway_columns(y, j, bundle, bl):
-    work, system = bundle.work, bundle.system[0]
+    scratch = bundle.scratch
+    system = bundle.system[0]
     ball = y[NB * j : NB * j + NB]
     for which in range(2):
-        ring = work.shared[NS * which : NS * which + NS]
-        if contact_kinematics(ball, ring, which, system, work.kin) <= 0.0:
+        ring = scratch[SHARED][NS * which : NS * which + NS]
+        if contact_kinematics(ball, ring, which, system, scratch[KIN]) <= 0.0:
             continue
         laws = bundle.laws.inner if which == INNER else bundle.laws.outer
-        pars = bundle.pars.inner if which == INNER else bundle.pars.outer
-        ok = raceway_wrench(
-            which, work.kin, laws, pars, system, bundle.grid, work.scalars,
-            work.cells, work.out, work.fault, work.wrench,
+        ok = bundle.tangent(
+            which, scratch[KIN], laws, bundle.par, bundle.system, bundle.grid, bundle.cells,
+            scratch, bl.slope,
         )  # fmt: skip
-        if ok == 1:
-            ok = contact_tangent(which, work.kin, laws, pars, system, bundle.grid, work, bl.slope)
         if ok != 1:
-            work.fault[2] = j
+            scratch[FAULT][2] = j
             return 0
         _contact_columns(ball, ring, which, bundle, bl)
     return 1
@@ -206,12 +217,13 @@ def _raceway_columns(y, j, bundle, bl):
 @helper
 def _pocket_columns(y, j, bundle, bl):
     """Add the pocket of ball j; a pocket without force is skipped."""
-    work, system = bundle.work, bundle.system[0]
+    scratch = bundle.scratch
+    system = bundle.system[0]
     ball = y[NB * j : NB * j + NB]
-    cage = work.shared[NS * CAGE : NS * CAGE + NS]
-    law, par, g, out, fm = bundle.laws.pocket, bundle.pars.pocket, work.guide, work.out, bl.fm
+    cage = scratch[SHARED][NS * CAGE : NS * CAGE + NS]
+    law, par, g, out, fm = bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), scratch[GUIDE], scratch[OUT], bl.fm
     pocket_state(ball, cage, j, system, g)
-    if guide_force(law, par, g, system.eta0, out, work.fault, -1.0) != 1:
+    if guide_force(law, par, g, system.eta0, out, scratch[FAULT], -1.0) != 1:
         return 0
     if out[0] == 0.0 and out[1] == 0.0 and out[2] == 0.0:
         return 1
@@ -226,7 +238,7 @@ def _pocket_columns(y, j, bundle, bl):
                 bl.ball[i] = ball[i]
             bl.ball[k] += step
             pocket_state(bl.ball, cage, j, system, g)
-            if guide_force(law, par, g, system.eta0, out, work.fault, -1.0) != 1:
+            if guide_force(law, par, g, system.eta0, out, scratch[FAULT], -1.0) != 1:
                 return 0
             pocket_apply(bl.ball, cage, g, out, fm[2], fm[3])
             for i in range(6):
@@ -240,7 +252,7 @@ def _pocket_columns(y, j, bundle, bl):
                 bl.body[i] = cage[i]
             bl.body[c] += step
             pocket_state(ball, bl.body, j, system, g)
-            if guide_force(law, par, g, system.eta0, out, work.fault, -1.0) != 1:
+            if guide_force(law, par, g, system.eta0, out, scratch[FAULT], -1.0) != 1:
                 return 0
             pocket_apply(ball, bl.body, g, out, fm[2], fm[3])
             for i in range(6):
@@ -252,12 +264,13 @@ def _pocket_columns(y, j, bundle, bl):
 @helper
 def _neighbour_columns(y, j, other_index, bundle, bl):
     """Add the ball-ball contact to ball j's own block; the pair's coupling is left to the iteration."""
-    work, system = bundle.work, bundle.system[0]
+    scratch = bundle.scratch
+    system = bundle.system[0]
     ball = y[NB * j : NB * j + NB]
     other = y[NB * other_index : NB * other_index + NB]
-    law, par, g, out, fm = bundle.laws.pocket, bundle.pars.pocket, work.guide, work.out, bl.fm
+    law, par, g, out, fm = bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), scratch[GUIDE], scratch[OUT], bl.fm
     neighbour_state(ball, other, g)
-    if guide_force(law, par, g, system.eta0, out, work.fault, -1.0) != 1:
+    if guide_force(law, par, g, system.eta0, out, scratch[FAULT], -1.0) != 1:
         return 0
     if out[0] == 0.0 and out[1] == 0.0 and out[2] == 0.0:
         return 1
@@ -269,7 +282,7 @@ def _neighbour_columns(y, j, other_index, bundle, bl):
             bl.ball[i] = ball[i]
         bl.ball[k] += step
         neighbour_state(bl.ball, other, g)
-        if guide_force(law, par, g, system.eta0, out, work.fault, -1.0) != 1:
+        if guide_force(law, par, g, system.eta0, out, scratch[FAULT], -1.0) != 1:
             return 0
         fm[2, :] = 0.0
         a0, a1, a2 = out[3] - g[G_R], out[4] - g[G_R + 1], out[5] - g[G_R + 2]
@@ -302,19 +315,20 @@ def _drag_columns(ball, bundle, bl):
 
 @helper
 def _land_columns(bundle, bl):
-    work, system = bundle.work, bundle.system[0]
-    cage = work.shared[NS * CAGE : NS * CAGE + NS]
-    g, out, fm = work.guide, work.out, bl.fm
+    scratch = bundle.scratch
+    system = bundle.system[0]
+    cage = scratch[SHARED][NS * CAGE : NS * CAGE + NS]
+    g, out, fm = scratch[GUIDE], scratch[OUT], bl.fm
     for which in range(2):
         if system.land_on[which] == 0:
             continue
-        ring = work.shared[NS * which : NS * which + NS]
+        ring = scratch[SHARED][NS * which : NS * which + NS]
         law = bundle.laws.land_inner if which == INNER else bundle.laws.land_outer
-        par = bundle.pars.land_inner if which == INNER else bundle.pars.land_outer
+        par = par_of(bundle.par, system, P_LAND + which)
         for side in range(2):
             offset = (2 * side - 1) * system.land_offset
             land_state(cage, ring, offset, g)
-            if guide_force(law, par, g, system.eta0, out, work.fault, which) != 1:
+            if guide_force(law, par, g, system.eta0, out, scratch[FAULT], which) != 1:
                 return 0
             if out[0] == 0.0 and out[1] == 0.0 and out[2] == 0.0:
                 continue
@@ -334,7 +348,7 @@ def _land_columns(bundle, bl):
                 else:
                     bl.body2[c] += step
                 land_state(bl.body, bl.body2, offset, g)
-                if guide_force(law, par, g, system.eta0, out, work.fault, which) != 1:
+                if guide_force(law, par, g, system.eta0, out, scratch[FAULT], which) != 1:
                     return 0
                 fm[2, :] = 0.0
                 fm[3, :] = 0.0
@@ -412,9 +426,10 @@ def _body_rows(b, j, bundle, bl, c_block):
 @helper
 def _shared_rows(b, bundle, bl):
     """Write the rows of body b in D: its own equations of motion and all forces on it."""
-    work, system = bundle.work, bundle.system[0]
-    body = work.shared[NS * b : NS * b + NS]
-    fm = work.body_fm[b]
+    scratch = bundle.scratch
+    system = bundle.system[0]
+    body = scratch[SHARED][NS * b : NS * b + NS]
+    fm = scratch[BODY_FM + b]
     d = bl.d
     for row in range(NS):
         k = bl.index[NS * b + row]
@@ -427,7 +442,7 @@ def _shared_rows(b, bundle, bl):
                 for i in range(6):
                     total += bl.map[row, i] * bl.shared[b, i, column]
                 d[k, kc] = total
-    body_rates(body, b, fm, work.channels, system, bl.body2, bl.rates, 0)
+    body_rates(body, b, fm, bundle.channels, system, bl.body2, bl.rates, 0)
     for c in range(NS):
         kc = bl.index[NS * b + c]
         if kc < 0:
@@ -436,20 +451,20 @@ def _shared_rows(b, bundle, bl):
         for i in range(NS):
             bl.body[i] = body[i]
         bl.body[c] += step
-        body_rates(bl.body, b, fm, work.channels, system, work.rate, bl.rates, 0)
+        body_rates(bl.body, b, fm, bundle.channels, system, scratch[RATE], bl.rates, 0)
         for row in range(NS):
             k = bl.index[NS * b + row]
             if k >= 0:
-                d[k, kc] += (work.rate[row] - bl.body2[row]) / step
+                d[k, kc] += (scratch[RATE][row] - bl.body2[row]) / step
 
 
-@helper
 def jacobian(t, y, bundle, bl):
     """Write the blocks at (t, y); call right after `evaluate` at the same point.
 
-    Uses work.body_fm of that evaluation for the bodies' own equations. Returns 1 when well.
+    Uses scratch[BODY_FM] of that evaluation for the bodies' own equations. Returns 1 when well.
     """
-    work, system = bundle.work, bundle.system[0]
+    scratch = bundle.scratch
+    system = bundle.system[0]
     z = system.balls
     fill_shared(t, y, bundle)
     bl.shared[:, :, :] = 0.0
@@ -477,7 +492,7 @@ def jacobian(t, y, bundle, bl):
         bl.own[2, BPSI] += -gy * c - gz * s
         _ball_block(ball, system, bl, bl.a[j], bl.b[j])
         for b in range(3):
-            body = work.shared[NS * b : NS * b + NS]
+            body = scratch[SHARED][NS * b : NS * b + NS]
             _force_map(body, b, system, bl.map)
             _body_rows(b, j, bundle, bl, bl.c[j])
     if system.guides_on == 1 and system.cage_on == 1 and _land_columns(bundle, bl) != 1:
@@ -486,7 +501,7 @@ def jacobian(t, y, bundle, bl):
     for b in range(3):
         if b == CAGE and system.cage_on == 0:
             continue
-        body = work.shared[NS * b : NS * b + NS]
+        body = scratch[SHARED][NS * b : NS * b + NS]
         _force_map(body, b, system, bl.map)
         _shared_rows(b, bundle, bl)
     return 1

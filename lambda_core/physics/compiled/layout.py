@@ -146,6 +146,7 @@ SYSTEM = np.dtype(
         ("drag_on", np.int64),
         ("roll_floor", np.float64),  # width of the change of sign of rolling losses [m/s]
         ("slip_floor", np.float64),  # smallest slip that directions are computed with [m/s]
+        ("par_start", np.int64, (32,)),  # where each kernel's parameters begin in Bundle.par
         ("friction_on", np.int64),  # 0: normal forces only (static equilibrium)
         ("guides_on", np.int64),  # 0: no cage forces (quasi-static equilibrium)
     ],
@@ -157,6 +158,7 @@ i8 = types.int64
 array1 = types.float64[::1]
 array2 = types.float64[:, ::1]
 array3 = types.float64[:, :, ::1]
+array4 = types.float64[:, :, :, ::1]
 iarray1 = types.int64[::1]
 system_t = types.Array(numba.from_dtype(SYSTEM), 1, "C")
 
@@ -185,24 +187,6 @@ class RacewayLaws(NamedTuple):
     capacitance: object
 
 
-class RacewayPars(NamedTuple):
-    """Parameters of those kernels, each float64[:]."""
-
-    normal_contact: object
-    damping: object
-    rheology: object
-    film_thickness: object
-    thermal_correction: object
-    contact_temperature: object
-    traction: object
-    rolling_resistance: object
-    elastic_hysteresis: object
-    asperity_load: object
-    boundary_friction: object
-    permittivity: object
-    capacitance: object
-
-
 class Laws(NamedTuple):
     """All kernels of the model."""
 
@@ -214,58 +198,33 @@ class Laws(NamedTuple):
     drag: object
 
 
-class Pars(NamedTuple):
-    """All parameters of the model."""
+# Index of a kernel's parameters: 13 per raceway (order of RACEWAY_ROLES), then these.
+RACEWAY_KERNELS = 13
+P_POCKET, P_LAND, P_DRAG = 26, 27, 29
+N_PAR = 30
 
-    inner: object
-    outer: object
-    pocket: object
-    land_inner: object
-    land_outer: object
-    drag: object
+# Rows of Bundle.grid, cells on the unit ellipse: position across rolling over a, along rolling over b, mean
+# pressure over p_max, area over a b, width across over a, width along over b.
+GRID_S, GRID_T, GRID_P, GRID_AREA, GRID_DS, GRID_DT = range(6)
 
-
-class Grid(NamedTuple):
-    """Cells on the unit ellipse, each float64, shape (cells,)."""
-
-    xi: object  # position across rolling over a
-    zeta: object  # position along rolling over b
-    pressure: object  # mean pressure over p_max
-    area: object  # over a b
-    width_s: object  # cell width across rolling over a
-    width_t: object  # cell width along rolling over b
-
-
-class Times(NamedTuple):
-    """Time functions of loads and motions."""
-
-    terms: object  # float64 (n, 8): channel, kind, 4 values, offset and length in `table`
-    table: object  # float64: knots and spline coefficients
-    active: object  # int64 (n_active,): free entries of the shared state
-
-
-class Work(NamedTuple):
-    """Workspaces; contents do not survive a call, but for `fault`."""
-
-    shared: object  # (36,) shared state
-    channels: object  # (36, 3) value and two derivatives of every time function
-    kin: object  # (NKIN,)
-    kin2: object
-    wrench: object  # (NW,)
-    wrench2: object
-    scalars: object  # (NC,)
-    scalars2: object
-    out: object  # (8,) results of scalar kernels
-    cells: object  # (12, cells)
-    cells2: object
-    guide: object  # (24,) state of one cage contact
-    still: object  # (9,) the same at rest
-    ball_fm: object  # (Z, 6) force and moment on each ball, axes x, r, t
-    body_fm: object  # (3, 6) force and moment on each shared body by contacts, inertial
-    ring_fm: object  # (6,) of one contact
-    rate: object  # (12,) time derivative of one shared body
-    fault: object  # (8,) role, status, ball, ring, inputs
-
+# Rows of Bundle.scratch, each of 64 numbers. Contents do not survive a call, but for FAULT.
+(
+    SHARED,  # 36: the whole shared state
+    KIN,  # NKIN
+    KIN2,
+    WRENCH,  # NW
+    WRENCH2,
+    SCALARS,  # NC
+    SCALARS2,
+    OUT,  # results of scalar kernels
+    GUIDE,  # 24: state of one cage contact
+    STILL,  # 9: the same at rest
+    RING_FM,  # 6: force and moment of one contact on its ring, inertial
+    RATE,  # 12: time derivative of one shared body
+    FAULT,  # 8: role, status, ball, ring, inputs
+    BODY_FM,  # 3 rows of 6: force and moment of all contacts on each shared body, inertial
+) = range(14)
+N_SCRATCH = 16
 
 # Kinematics of one contact beyond q: frame and arms (components x, r, t).
 K_T, K_S, K_N, K_D, K_ARM, K_ALPHA, K_L = NQ, NQ + 3, NQ + 6, NQ + 9, NQ + 10, NQ + 13, NQ + 14
@@ -297,32 +256,60 @@ DRAG_SIG = _sig("fffffaa")
 RACEWAY_SIGS = dict(zip(RacewayLaws._fields, _raceway_sigs, strict=True))
 
 raceway_laws_t = types.NamedTuple([types.FunctionType(s) for s in _raceway_sigs], RacewayLaws)
-raceway_pars_t = types.NamedUniTuple(array1, len(RacewayPars._fields), RacewayPars)
 _cage_t = types.FunctionType(CAGE_SIG)
 laws_t = types.NamedTuple(
     [raceway_laws_t, raceway_laws_t, _cage_t, _cage_t, _cage_t, types.FunctionType(DRAG_SIG)], Laws
 )
-pars_t = types.NamedTuple([raceway_pars_t, raceway_pars_t, array1, array1, array1, array1], Pars)
-grid_t = types.NamedUniTuple(array1, 6, Grid)
-times_t = types.NamedTuple([array2, array1, iarray1], Times)
-_WORK_2D = ("channels", "cells", "cells2", "ball_fm", "body_fm")
-work_t = types.NamedTuple([array2 if name in _WORK_2D else array1 for name in Work._fields], Work)
+# One contact: (ring, q, laws, par, system, grid, cells, scratch, scalars, wrench) -> status
+wrench_sig = i8(i8, array1, raceway_laws_t, array1, system_t, array2, array2, array2, array1, array1)
+# Its tangent: (ring, q, laws, par, system, grid, cells, scratch, slope, wrench pointer) -> status
+tangent_sig = i8(i8, array1, raceway_laws_t, array1, system_t, array2, array3, array2, array2)
 
 
 class Bundle(NamedTuple):
-    """Everything constant that the compiled code needs, in one argument."""
+    """Everything that the compiled code works on, in one argument."""
 
-    system: object
-    laws: object
-    pars: object
-    grid: object
-    times: object
-    work: object
+    system: object  # SYSTEM record, shape (1,)
+    laws: object  # Laws
+    wrench: object  # pointer: wrench of one raceway contact
+    tangent: object  # pointer: its derivative
+    par: object  # float64: parameters of all kernels, one after another (system.par_start)
+    grid: object  # (6, cells)
+    terms: object  # (n, 8) time functions: channel, kind, 4 values, offset and length in `table`
+    table: object  # knots and spline coefficients
+    active: object  # int64 (n_active,): free entries of the shared state
+    channels: object  # (36, 3) value and two derivatives of every time function
+    cells: object  # (2, 12, cells)
+    scratch: object  # (16, 64)
+    ball_fm: object  # (Z, 6) force and moment on each ball, axes x, r, t
 
 
-bundle_t = types.NamedTuple([system_t, laws_t, pars_t, grid_t, times_t, work_t], Bundle)
+bundle_t = types.NamedTuple(
+    [
+        system_t,
+        laws_t,
+        types.FunctionType(wrench_sig),
+        types.FunctionType(tangent_sig),
+        array1,
+        array2,
+        array2,
+        array1,
+        iarray1,
+        array2,
+        array3,
+        array2,
+        array2,
+    ],
+    Bundle,
+)
 
 
 def helper(function):  # type: ignore[no-untyped-def]
     """Compile a helper of the core; never cached by itself, its callers are."""
     return numba.njit(error_model="numpy")(function)
+
+
+@helper
+def par_of(par, system, k):
+    """Return the parameters of kernel k, a view."""
+    return par[system.par_start[k] : system.par_start[k + 1]]

@@ -27,12 +27,21 @@ from lambda_core.physics.compiled.layout import (
     C_TMEAN,
     C_UMEAN,
     C_WET,
+    FAULT,
+    GRID_AREA,
+    GRID_DS,
+    GRID_DT,
+    GRID_P,
+    GRID_S,
+    GRID_T,
     L_BOUNDARY,
     L_DAMP,
     L_HYST,
     L_ROLL,
     L_SLIDE,
     L_SPIN,
+    NW,
+    OUT,
     Q_DELTA,
     Q_UT,
     Q_VN,
@@ -52,6 +61,7 @@ from lambda_core.physics.compiled.layout import (
     R_TEMPERATURE,
     R_THERMAL,
     R_TRACTION,
+    RACEWAY_KERNELS,
     X_LN,
     X_MU,
     X_P,
@@ -65,6 +75,7 @@ from lambda_core.physics.compiled.layout import (
     X_VS,
     X_VT,
     helper,
+    par_of,
 )
 
 # Variance of a uniform distribution over a cell of unit width: the slip's own spread in a cell.
@@ -91,12 +102,12 @@ def _finite(values):
 
 
 @helper
-def normal_stage(which, q, laws, pars, system, scalars, out, fault):
+def normal_stage(which, q, laws, par, system, scalars, out, fault):
     """Elastic load, contact ellipse and damping force."""
     delta = q[Q_DELTA]
     rx, ry, e = system.radius_x[which], system.radius_y[which], system.e_eff[which]
-    out[:] = np.nan
-    status = laws.normal_contact(delta, rx, ry, e, pars.normal_contact, out)
+    out[:4] = np.nan
+    status = laws.normal_contact(delta, rx, ry, e, par_of(par, system, RACEWAY_KERNELS * which + R_NORMAL), out)
     if status != 1 or not _finite(out[:4]):
         return report(fault, R_NORMAL, status, which, delta, rx, ry, e)
     load, a, b, pmax = out[0], out[1], out[2], out[3]
@@ -105,7 +116,7 @@ def normal_stage(which, q, laws, pars, system, scalars, out, fault):
         scalars[C_DAMP] = 0.0
         return 1
     out[0] = np.nan
-    status = laws.damping(delta, q[Q_VN], load, pars.damping, out)
+    status = laws.damping(delta, q[Q_VN], load, par_of(par, system, RACEWAY_KERNELS * which + R_DAMPING), out)
     if status != 1 or not abs(out[0]) < np.inf:
         return report(fault, R_DAMPING, status, which, delta, q[Q_VN], load, 0.0)
     # A contact never pulls: the damping force cannot exceed the elastic one.
@@ -114,7 +125,7 @@ def normal_stage(which, q, laws, pars, system, scalars, out, fault):
 
 
 @helper
-def film_stage(which, q, laws, pars, system, scalars, out, fault):
+def film_stage(which, q, laws, par, system, scalars, out, fault):
     """Film thickness, asperity share, rolling resistance and hysteresis (scalar laws)."""
     load, a, b, pmax = scalars[C_LOAD], scalars[C_A], scalars[C_B], scalars[C_PMAX]
     rx, ry, e = system.radius_x[which], system.radius_y[which], system.e_eff[which]
@@ -123,14 +134,18 @@ def film_stage(which, q, laws, pars, system, scalars, out, fault):
     u = math.sqrt(ut * ut + us * us)
     theta = math.atan2(abs(us), abs(ut)) if u > 0.0 else 0.0
     scalars[C_UMEAN] = u
-    out[:] = np.nan
-    status = laws.film_thickness(u, theta, load, rx, ry, e, eta0, alpha, pars.film_thickness, out)
+    out[:2] = np.nan
+    status = laws.film_thickness(
+        u, theta, load, rx, ry, e, eta0, alpha, par_of(par, system, RACEWAY_KERNELS * which + R_FILM), out
+    )
     if status != 1 or not _finite(out[:2]):
         return report(fault, R_FILM, status, which, u, theta, load, eta0)
     h_cen, h_min = out[0], out[1]
     slide = math.sqrt(q[Q_VT] ** 2 + q[Q_VS] ** 2)
     out[0] = np.nan
-    status = laws.thermal_correction(u, slide, pmax, e, eta0, beta, k_oil, pars.thermal_correction, out)
+    status = laws.thermal_correction(
+        u, slide, pmax, e, eta0, beta, k_oil, par_of(par, system, RACEWAY_KERNELS * which + R_THERMAL), out
+    )
     if status != 1 or not abs(out[0]) < np.inf:
         return report(fault, R_THERMAL, status, which, u, slide, pmax, eta0)
     factor = out[0] * system.starvation
@@ -139,17 +154,33 @@ def film_stage(which, q, laws, pars, system, scalars, out, fault):
     scalars[C_HMIN] = h_min * factor
     scalars[C_LAMBDA] = scalars[C_HCEN] / system.roughness
     out[0] = np.nan
-    status = laws.asperity_load(scalars[C_LAMBDA], pars.asperity_load, out)
+    status = laws.asperity_load(scalars[C_LAMBDA], par_of(par, system, RACEWAY_KERNELS * which + R_ASPERITY), out)
     if status != 1 or not abs(out[0]) < np.inf:
         return report(fault, R_ASPERITY, status, which, scalars[C_LAMBDA], load, 0.0, 0.0)
     scalars[C_PSI] = out[0]
     out[0] = np.nan
-    status = laws.rolling_resistance(u, load, a, b, rx, ry, e, eta0, alpha, beta, k_oil, pars.rolling_resistance, out)
+    status = laws.rolling_resistance(
+        u,
+        load,
+        a,
+        b,
+        rx,
+        ry,
+        e,
+        eta0,
+        alpha,
+        beta,
+        k_oil,
+        par_of(par, system, RACEWAY_KERNELS * which + R_ROLLING),
+        out,
+    )
     if status != 1 or not abs(out[0]) < np.inf:
         return report(fault, R_ROLLING, status, which, u, load, a, b)
     scalars[C_ROLL] = out[0]
     out[0] = np.nan
-    status = laws.elastic_hysteresis(load, a, b, rx, ry, system.ball_radius, pars.elastic_hysteresis, out)
+    status = laws.elastic_hysteresis(
+        load, a, b, rx, ry, system.ball_radius, par_of(par, system, RACEWAY_KERNELS * which + R_HYSTERESIS), out
+    )
     if status != 1 or not abs(out[0]) < np.inf:
         return report(fault, R_HYSTERESIS, status, which, load, a, b, rx)
     scalars[C_HYST] = out[0]
@@ -165,24 +196,24 @@ def slip_field(which, q, system, grid, scalars, cells):
     wt, ws, wn = q[Q_WT], q[Q_WS], q[Q_WN]
     curvature = 1.0 / system.radius_deformed[which]
     floor = system.slip_floor * system.slip_floor
-    n = grid.xi.size
+    n = grid.shape[1]
     slip, p, vt, vs, spin2 = cells[X_SLIP], cells[X_P], cells[X_VT], cells[X_VS], cells[X_SPIN2]
     for i in range(n):
-        s = a * grid.xi[i]
-        tau = b * grid.zeta[i]
+        s = a * grid[GRID_S, i]
+        tau = b * grid[GRID_T, i]
         z = 0.5 * s * s * curvature
         vt[i] = vt0 - wn * s - ws * z
         vs[i] = vs0 + wn * tau + wt * z
         slope = s * curvature
-        ds, dt = a * grid.width_s[i], b * grid.width_t[i]
+        ds, dt = a * grid[GRID_DS, i], b * grid[GRID_DT, i]
         spread = ds * ds * ((wn + ws * slope) ** 2 + (wt * slope) ** 2) + dt * dt * wn * wn
         slip[i] = math.sqrt(vt[i] * vt[i] + vs[i] * vs[i] + _CELL_VARIANCE * spread + floor)
         spin2[i] = wn * wn * (s * s + tau * tau + _CELL_VARIANCE * (ds * ds + dt * dt))
-        p[i] = pmax * grid.pressure[i]
+        p[i] = pmax * grid[GRID_P, i]
 
 
 @helper
-def shear_stage(which, laws, pars, system, scalars, cells, fault):
+def shear_stage(which, laws, par, system, scalars, cells, fault):
     """Shear stress of film and asperities in every cell.
 
     Temperature and traction form a loop (T -> eta -> tau -> T). Two sweeps: at the inlet temperature,
@@ -196,22 +227,24 @@ def shear_stage(which, laws, pars, system, scalars, cells, fault):
     temp[:] = system.oil_temperature
     ln_eta[:] = np.nan
     tau0[:] = np.nan
-    status = laws.rheology(p, temp, pars.rheology, ln_eta, rho)
+    status = laws.rheology(p, temp, par_of(par, system, RACEWAY_KERNELS * which + R_RHEOLOGY), ln_eta, rho)
     if status != 1 or not _finite(ln_eta):
         return report(fault, R_RHEOLOGY, status, which, scalars[C_PMAX], system.oil_temperature, 0.0, 0.0)
-    status = laws.traction(slip, p, temp, ln_eta, h, pars.traction, tau0)
+    status = laws.traction(slip, p, temp, ln_eta, h, par_of(par, system, RACEWAY_KERNELS * which + R_TRACTION), tau0)
     if status != 1 or not _finite(tau0):
         return report(fault, R_TRACTION, status, which, scalars[C_PMAX], h, slip[0], ln_eta[0])
     hot[:] = np.nan
-    status = laws.contact_temperature(system.oil_temperature, u, h, b, tau0, slip, pars.contact_temperature, hot)
+    status = laws.contact_temperature(
+        system.oil_temperature, u, h, b, tau0, slip, par_of(par, system, RACEWAY_KERNELS * which + R_TEMPERATURE), hot
+    )
     if status != 1 or not _finite(hot):
         return report(fault, R_TEMPERATURE, status, which, u, h, b, tau0[0])
     ln_eta[:] = np.nan
     tau[:] = np.nan
-    status = laws.rheology(p, hot, pars.rheology, ln_eta, rho)
+    status = laws.rheology(p, hot, par_of(par, system, RACEWAY_KERNELS * which + R_RHEOLOGY), ln_eta, rho)
     if status != 1 or not _finite(ln_eta):
         return report(fault, R_RHEOLOGY, status, which, scalars[C_PMAX], hot[0], 0.0, 0.0)
-    status = laws.traction(slip, p, hot, ln_eta, h, pars.traction, tau)
+    status = laws.traction(slip, p, hot, ln_eta, h, par_of(par, system, RACEWAY_KERNELS * which + R_TRACTION), tau)
     if status != 1 or not _finite(tau):
         return report(fault, R_TRACTION, status, which, scalars[C_PMAX], h, slip[0], ln_eta[0])
     first, second, heat = 0.0, 0.0, 0.0
@@ -226,7 +259,7 @@ def shear_stage(which, laws, pars, system, scalars, cells, fault):
     scalars[C_CHANGE] = abs(first - second) / (first + 1e-30)
     scalars[C_TMEAN] = heat / tau.size
     mu[:] = np.nan
-    status = laws.boundary_friction(slip, p, pars.boundary_friction, mu)
+    status = laws.boundary_friction(slip, p, par_of(par, system, RACEWAY_KERNELS * which + R_BOUNDARY), mu)
     if status != 1 or not _finite(mu):
         return report(fault, R_BOUNDARY, status, which, slip[0], p[0], 0.0, 0.0)
     for i in range(tau.size):
@@ -243,10 +276,10 @@ def sum_wrench(which, q, system, grid, scalars, cells, wrench):
     tau, slip, vt, vs = cells[X_TAU], cells[X_SLIP], cells[X_VT], cells[X_VS]
     half_curvature = 0.5 / system.radius_deformed[which]
     ft, fs, mt, ms, mn = 0.0, 0.0, 0.0, 0.0, 0.0
-    for i in range(grid.xi.size):
-        g = tau[i] * grid.area[i] / slip[i]
+    for i in range(grid.shape[1]):
+        g = tau[i] * grid[GRID_AREA, i] / slip[i]
         dt, ds = -g * vt[i], -g * vs[i]
-        s, t = a * grid.xi[i], b * grid.zeta[i]
+        s, t = a * grid[GRID_S, i], b * grid[GRID_T, i]
         z = half_curvature * s * s
         ft += dt
         fs += ds
@@ -289,22 +322,44 @@ def add_rolling(which, q, system, scalars, wrench):
     wrench[4] -= scalars[C_HYST] * bend / math.sqrt(bend * bend + floor * floor)
 
 
-@helper
-def raceway_wrench(which, q, laws, pars, system, grid, scalars, cells, out, fault, wrench):
-    """Run the whole pipeline of one contact; 1 when every kernel was well."""
-    if normal_stage(which, q, laws, pars, system, scalars, out, fault) != 1:
+def raceway_wrench(which, q, laws, par, systems, grid, cells, scratch, scalars, wrench):
+    """Run the whole pipeline of one contact; an entry point of its own, called by pointer.
+
+    Parameters
+    ----------
+    which : int
+        INNER or OUTER.
+    q : float64[:], at least (9,)
+        Kinematics of the contact.
+    laws, par, systems, grid, cells, scratch
+        See layout.Bundle; `cells` is one of its two blocks.
+    scalars : float64[:]
+        Result: scalars of the contact (layout.C_LOAD ...).
+    wrench : float64[:]
+        Result: force and couple on the ball at the contact's centre, axes t, s, n.
+
+    Returns
+    -------
+    int
+        1 when every kernel was well; otherwise 0 and scratch[FAULT] says which was not.
+    """
+    system, out, fault = systems[0], scratch[OUT], scratch[FAULT]
+    if normal_stage(which, q, laws, par, system, scalars, out, fault) != 1:
         return 0
     if system.friction_on == 0:
-        wrench[:] = 0.0
+        wrench[:NW] = 0.0
         wrench[2] = -(scalars[C_LOAD] + scalars[C_DAMP])
         return 1
-    if film_stage(which, q, laws, pars, system, scalars, out, fault) != 1:
+    if film_stage(which, q, laws, par, system, scalars, out, fault) != 1:
         return 0
     slip_field(which, q, system, grid, scalars, cells)
-    if shear_stage(which, laws, pars, system, scalars, cells, fault) != 1:
+    if shear_stage(which, laws, par, system, scalars, cells, fault) != 1:
         return 0
     sum_wrench(which, q, system, grid, scalars, cells, wrench)
     return 1
+
+
+pipeline = helper(raceway_wrench)
 
 
 @helper
@@ -321,11 +376,11 @@ def raceway_losses(which, q, system, grid, scalars, cells, losses):
     fluid, solid, spin2 = cells[X_TAU0], cells[X_MU], cells[X_SPIN2]
     wn = q[Q_WN]
     slide, spin, boundary = 0.0, 0.0, 0.0
-    for i in range(grid.xi.size):
-        v2 = (vt[i] * vt[i] + vs[i] * vs[i]) * grid.area[i] / slip[i]
+    for i in range(grid.shape[1]):
+        v2 = (vt[i] * vt[i] + vs[i] * vs[i]) * grid[GRID_AREA, i] / slip[i]
         power = fluid[i] * v2
-        rest_t = vt[i] + wn * a * grid.xi[i]
-        rest_s = vs[i] - wn * b * grid.zeta[i]
+        rest_t = vt[i] + wn * a * grid[GRID_S, i]
+        rest_s = vs[i] - wn * b * grid[GRID_T, i]
         rest2 = rest_t * rest_t + rest_s * rest_s
         share = spin2[i] / (spin2[i] + rest2 + 1e-30)
         spin += power * share

@@ -23,11 +23,13 @@ from lambda_core.physics.compiled.layout import (
     BX,
     CAGE,
     INNER,
+    KIN,
     NB,
     NI,
     NS,
     SAY,
     SAZ,
+    SHARED,
     array1,
     bundle_t,
     helper,
@@ -85,7 +87,7 @@ def _residual(bundle, index, y, dydt, held, orbit, f):
                 f[NB * j + i] = scale * dydt[NB * j + rows[i]]
         if held[j] and system.friction_on == 1:
             f[NB * j + BVT] = _HOLD * (orbit * y[NB * j + BR] - y[NB * j + BVT])
-    active = bundle.times.active
+    active = bundle.active
     for k in range(active.size):
         row, sign = _shared_row(active[k])
         if row >= 0 and index[row] >= 0:
@@ -97,7 +99,7 @@ def _mask(bundle, bl, held):
     """Turn the blocks of dy/dt into those of the pseudo-transient system, in place."""
     system = bundle.system[0]
     z, n = system.balls, bl.d.shape[0]
-    active = bundle.times.active
+    active = bundle.active
     column_on = np.zeros(n, dtype=np.int64)
     for k in range(n):
         row, sign = _shared_row(active[k])
@@ -144,12 +146,13 @@ def _mask(bundle, bl, held):
 @helper
 def _held_balls(y, bundle, held):
     """Mark the balls that the inner ring does not touch; returns the mean orbital speed of the rest."""
-    system, work = bundle.system[0], bundle.work
+    scratch = bundle.scratch
+    system = bundle.system[0]
     total, count = 0.0, 0
-    ring = work.shared[NS * INNER : NS * INNER + NS]
+    ring = scratch[SHARED][NS * INNER : NS * INNER + NS]
     for j in range(system.balls):
         ball = y[NB * j : NB * j + NB]
-        held[j] = contact_kinematics(ball, ring, INNER, system, work.kin) <= 0.0
+        held[j] = contact_kinematics(ball, ring, INNER, system, scratch[KIN]) <= 0.0
         if not held[j]:
             total += ball[BVT] / ball[BR]
             count += 1
@@ -158,7 +161,6 @@ def _held_balls(y, bundle, held):
     return total / count
 
 
-@helper
 def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations):
     """Find the equilibrium from the state y, in place.
 
@@ -174,7 +176,7 @@ def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations
     Returns
     -------
     int
-        1 converged, 0 not, -1 a kernel refused (work.fault).
+        1 converged, 0 not, -1 a kernel refused (scratch[FAULT]).
     """
     system = bundle.system[0]
     n = y.size

@@ -14,9 +14,16 @@ from lambda_core.physics.compiled.layout import (
     C_HYST,
     C_LOAD,
     C_ROLL,
+    FAULT,
+    GRID_AREA,
+    GRID_DS,
+    GRID_DT,
+    GRID_S,
+    GRID_T,
     NC,
     NQ,
     NW,
+    OUT,
     Q_DELTA,
     Q_UT,
     Q_VN,
@@ -24,23 +31,30 @@ from lambda_core.physics.compiled.layout import (
     Q_WN,
     Q_WS,
     Q_WT,
+    R_DAMPING,
+    RACEWAY_KERNELS,
+    SCALARS,
+    SCALARS2,
     W_FN,
     W_FS,
     W_FT,
     W_MN,
     W_MS,
     W_MT,
+    WRENCH,
+    WRENCH2,
     X_P,
     X_SLIP,
     X_TAU,
     X_VS,
     X_VT,
     helper,
+    par_of,
 )
 from lambda_core.physics.compiled.raceway import (
     _CELL_VARIANCE,
     film_stage,
-    raceway_wrench,
+    pipeline,
     rolling_speeds,
     shear_stage,
     slip_field,
@@ -58,16 +72,16 @@ def slip_columns(which, q, system, grid, scalars, cells, tau2, step, slope):
     tau, slip, vt, vs = cells[X_TAU], cells[X_SLIP], cells[X_VT], cells[X_VS]
     wt, ws, wn = q[Q_WT], q[Q_WS], q[Q_WN]
     ab = a * b
-    for i in range(grid.xi.size):
+    for i in range(grid.shape[1]):
         v = slip[i]
-        area = ab * grid.area[i]
+        area = ab * grid[GRID_AREA, i]
         modulus = (tau2[i] - tau[i]) / (step * v)
         g = tau[i] / v
-        s, t = a * grid.xi[i], b * grid.zeta[i]
+        s, t = a * grid[GRID_S, i], b * grid[GRID_T, i]
         z = 0.5 * s * s * curvature
         kink = s * curvature
-        ds2 = _CELL_VARIANCE * (a * grid.width_s[i]) ** 2
-        dt2 = _CELL_VARIANCE * (b * grid.width_t[i]) ** 2
+        ds2 = _CELL_VARIANCE * (a * grid[GRID_DS, i]) ** 2
+        dt2 = _CELL_VARIANCE * (b * grid[GRID_DT, i]) ** 2
         for k in range(5):
             # Change of slip vector and of the in-cell spread by this kinematic input.
             dvt, dvs, spread = 0.0, 0.0, 0.0
@@ -112,26 +126,32 @@ def rolling_columns(which, q, system, scalars, slope):
     slope[W_MS, Q_WS] -= 2.0 * rx * droll * rx + dbend * rx
 
 
-@helper
-def contact_tangent(which, q, laws, pars, system, grid, work, slope):
-    """Write d(wrench)/dq, shape (6, 9), at the q that work.scalars, cells and wrench belong to.
+def contact_tangent(which, q, laws, par, systems, grid, blocks, scratch, slope):
+    """Write d(wrench)/dq, shape (6, 9), and the wrench itself; an entry point of its own, called by pointer.
+
+    Runs the pipeline at q into scratch[SCALARS], scratch[WRENCH] and blocks[0], then at neighbours of q.
 
     Left out: the effect of slip on the thermal film factor and of cross entrainment, both
     small; the integrator's Newton iteration only needs the slope, not its last digit.
     """
-    scalars, cells, wrench, out, fault = work.scalars, work.cells, work.wrench, work.out, work.fault
-    scalars2, cells2, wrench2 = work.scalars2, work.cells2, work.wrench2
+    system, out, fault = systems[0], scratch[OUT], scratch[FAULT]
+    scalars, cells, wrench = scratch[SCALARS], blocks[0], scratch[WRENCH]
+    scalars2, cells2, wrench2 = scratch[SCALARS2], blocks[1], scratch[WRENCH2]
+    if pipeline(which, q, laws, par, systems, grid, cells, scratch, scalars, wrench) != 1:
+        return 0
     slope[:, :] = 0.0
     if system.guides_on == 1:
         step = 1e-4 * abs(q[Q_VN]) + 1e-6
         out[0] = 0.0
-        laws.damping(q[Q_DELTA], q[Q_VN] + step, scalars[C_LOAD], pars.damping, out)
+        laws.damping(
+            q[Q_DELTA], q[Q_VN] + step, scalars[C_LOAD], par_of(par, system, RACEWAY_KERNELS * which + R_DAMPING), out
+        )
         slope[W_FN, Q_VN] = -(max(out[0], -scalars[C_LOAD]) - scalars[C_DAMP]) / step
     # Penetration.
     delta = q[Q_DELTA]
     step = _RELATIVE * delta + 1e-13
     q[Q_DELTA] = delta + step
-    ok = raceway_wrench(which, q, laws, pars, system, grid, scalars2, cells2, out, fault, wrench2)
+    ok = pipeline(which, q, laws, par, systems, grid, cells2, scratch, scalars2, wrench2)
     q[Q_DELTA] = delta
     if ok != 1:
         return 0
@@ -145,10 +165,10 @@ def contact_tangent(which, q, laws, pars, system, grid, work, slope):
     q[Q_UT] = ut + step
     for i in range(NC):
         scalars2[i] = scalars[i]
-    ok = film_stage(which, q, laws, pars, system, scalars2, out, fault)
+    ok = film_stage(which, q, laws, par, system, scalars2, out, fault)
     if ok == 1:
         slip_field(which, q, system, grid, scalars2, cells2)
-        ok = shear_stage(which, laws, pars, system, scalars2, cells2, fault)
+        ok = shear_stage(which, laws, par, system, scalars2, cells2, fault)
     if ok == 1:
         sum_wrench(which, q, system, grid, scalars2, cells2, wrench2)
     q[Q_UT] = ut
@@ -157,12 +177,12 @@ def contact_tangent(which, q, laws, pars, system, grid, work, slope):
     for i in range(NW):
         slope[i, Q_UT] = (wrench2[i] - wrench[i]) / step
     # Slip: the same cells at slightly larger slip.
-    for i in range(grid.xi.size):
+    for i in range(grid.shape[1]):
         cells2[X_SLIP, i] = cells[X_SLIP, i] * (1.0 + _RELATIVE)
         cells2[X_P, i] = cells[X_P, i]
     for i in range(NC):
         scalars2[i] = scalars[i]
-    if shear_stage(which, laws, pars, system, scalars2, cells2, fault) != 1:
+    if shear_stage(which, laws, par, system, scalars2, cells2, fault) != 1:
         return 0
     slip_columns(which, q, system, grid, scalars, cells, cells2[X_TAU], _RELATIVE, slope)
     rolling_columns(which, q, system, scalars, slope)

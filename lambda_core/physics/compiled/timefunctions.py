@@ -12,6 +12,7 @@ from lambda_core.physics.compiled.layout import (
     PRESCRIBED,
     SAY,
     SAZ,
+    SHARED,
     SSIGMA,
     SVX,
     SWY,
@@ -24,10 +25,9 @@ from lambda_core.physics.compiled.layout import (
 
 
 @helper
-def evaluate_channels(t, times, channels):
+def evaluate_channels(t, terms, table, channels):
     """Write value, first and second derivative of every channel at time t [s]: (36, 3)."""
     channels[:, :] = 0.0
-    terms = times.terms
     for i in range(terms.shape[0]):
         channel = int(terms[i, 0])
         kind = int(terms[i, 1])
@@ -51,7 +51,7 @@ def evaluate_channels(t, times, channels):
             channels[channel, 1] += w * c
             channels[channel, 2] -= w * w * s
         else:
-            _spline(t, times.table, int(terms[i, 6]), int(terms[i, 7]), channels, channel)
+            _spline(t, table, int(terms[i, 6]), int(terms[i, 7]), channels, channel)
 
 
 @helper
@@ -85,9 +85,10 @@ def _spline(t, table, start, count, channels, channel):
 @helper
 def fill_shared(t, y, bundle):
     """Write the whole shared state (36,) at time t: free entries from y, the others prescribed."""
-    work, system = bundle.work, bundle.system[0]
-    shared, channels = work.shared, work.channels
-    evaluate_channels(t, bundle.times, channels)
+    scratch = bundle.scratch
+    system = bundle.system[0]
+    shared, channels = scratch[SHARED], bundle.channels
+    evaluate_channels(t, bundle.terms, bundle.table, channels)
     for body in range(3):
         o = NS * body
         for i in range(NS):
@@ -105,7 +106,7 @@ def fill_shared(t, y, bundle):
             shared[o + SWZ] = channels[CH_MOTION + 6 * body + 4, 1]
         if system.mode[6 * body + 5] == PRESCRIBED:
             shared[o + SSIGMA] = channels[CH_MOTION + 6 * body + 5, 0]
-    active = bundle.times.active
+    active = bundle.active
     base = NB * system.balls
     for i in range(active.size):
         shared[active[i]] = y[base + i]
