@@ -95,24 +95,24 @@ def prepare_gap_integral(parameters: GapIntegral, context: Context) -> FloatArra
     return np.array([0.5 * parameters.extent * context.ball_diameter])
 
 
-def gap_scale(semi_a: float, semi_b: float, R_x: float, R_y: float) -> float:
-    """Return P = 1/(2 sqrt(R_x R_y I_B I_A)) with the integrals taken to infinity.
+def gap_scale(major: float, minor: float, R_x: float, R_y: float) -> float:
+    """Return P = 1/(2 sqrt(R_x R_y I_A I_B)) with the integrals of :func:`gap_integral` taken to infinity.
 
-    Hertz demands P I_B = 1/(2 R_x) and P I_A = 1/(2 R_y); with a fitted ellipse both hold only in the geometric mean.
-    The integrands are even and analytic in w, so the trapezoidal rule converges exponentially (error below 1e-9).
+    Hertz demands 2 P I_A and 2 P I_B to be the curvatures along both axes; with a fitted ellipse both hold only in the
+    geometric mean. The integrands are even and analytic in w, so the trapezoidal rule converges exponentially (1e-9).
     """
-    i_b = 0.5 / (semi_b * semi_b * semi_a)
-    i_a = 0.5 / (semi_a * semi_a * semi_a)
+    i_a = 0.5 / (major * major * major)
+    i_b = 0.5 / (minor * minor * major)
     growth = math.exp(0.25)
     grown = 1.0
     for _ in range(60):
         grown *= growth
-        t = 0.5 * semi_b * (grown - 1.0 / grown)
-        A2 = semi_a * semi_a + t * t
+        t = 0.5 * minor * (grown - 1.0 / grown)
+        A2 = major * major + t * t
         A = math.sqrt(A2)
-        i_b += 1.0 / ((semi_b * semi_b + t * t) * A)
         i_a += 1.0 / (A2 * A)
-    return 2.0 / math.sqrt(R_x * R_y * i_b * i_a)
+        i_b += 1.0 / ((minor * minor + t * t) * A)
+    return 2.0 / math.sqrt(R_x * R_y * i_a * i_b)
 
 
 def gap_integral(
@@ -131,44 +131,45 @@ def gap_integral(
 ) -> int:
     """Hertzian area plus the integral of eps_0 eps_r dA/gap around it, at ambient permittivity.
 
-    Confocal ellipses with semi-axes A^2 = a^2 + t^2, B^2 = b^2 + t^2, t = b sinh w, x = B sin phi, y = A cos phi.
-    Outside the contact Hertz's surfaces stand apart by g = h + P (x^2 I_B + y^2 I_A - I_1), where I_B, I_A, I_1 are
-    the integrals of 1/(B^2 A), 1/A^3 and 1/A over w from the edge (Johnson, Contact Mechanics (1985), section 3.5) and
-    P gives the curvatures their geometric mean. Around one ellipse the integral over phi is closed,
+    Confocal ellipses with semi-axes A^2 = a^2 + t^2, B^2 = b^2 + t^2, t = b sinh w, x = A cos phi, y = B sin phi, a the
+    major one. Outside the contact Hertz's surfaces stand apart by g = h + P (x^2 I_A + y^2 I_B - I_1), where I_A, I_B,
+    I_1 are the integrals of 1/A^3, 1/(B^2 A) and 1/A over w from the edge (Johnson, Contact Mechanics (1985), section
+    3.5) and P gives the curvatures their geometric mean. Around one ellipse the integral over phi is closed,
     int (alpha + beta cos 2 phi)/(gamma + kappa cos 2 phi) = 2 pi [alpha/s - beta kappa/(s (s + gamma))],
     s^2 = gamma^2 - kappa^2; the trapezoidal rule takes the one over w, out to a major semi-axis of `extent` ball radii.
     Parallel plates in each element, no fringes, oil everywhere, the film's constriction at the outlet left out.
     """
     outer = par[0]
     major = semi_a if semi_a > semi_b else semi_b
-    if C_hertz <= 0.0 or semi_b <= 0.0 or semi_a <= 0.0 or major >= outer:
+    minor = semi_b if semi_a > semi_b else semi_a
+    if C_hertz <= 0.0 or minor <= 0.0 or major >= outer:
         out[0] = C_hertz
         return 1
     film = h if h > 1e-10 else 1e-10
-    P = gap_scale(semi_a, semi_b, R_x, R_y)
-    step = math.asinh(math.sqrt(outer * outer - major * major) / semi_b) / _STEPS
-    i_b = 0.0
+    P = gap_scale(major, minor, R_x, R_y)
+    step = math.asinh(math.sqrt(outer * outer - major * major) / minor) / _STEPS
     i_a = 0.0
+    i_b = 0.0
     i_1 = 0.0
-    last_b = 1.0 / (semi_b * semi_b * semi_a)
-    last_a = 1.0 / (semi_a * semi_a * semi_a)
-    last_1 = 1.0 / semi_a
+    last_a = 1.0 / (major * major * major)
+    last_b = 1.0 / (minor * minor * major)
+    last_1 = 1.0 / major
     total = 0.0  # the integrand vanishes at the edge
     growth = math.exp(step)
     grown = 1.0
     for i in range(1, _STEPS + 1):
         grown *= growth
-        t = 0.5 * semi_b * (grown - 1.0 / grown)  # b sinh(i step)
-        A2 = semi_a * semi_a + t * t
-        B2 = semi_b * semi_b + t * t
+        t = 0.5 * minor * (grown - 1.0 / grown)  # b sinh(i step)
+        A2 = major * major + t * t
+        B2 = minor * minor + t * t
         A = math.sqrt(A2)
-        f_b = 1.0 / (B2 * A)
         f_a = 1.0 / (A2 * A)
+        f_b = 1.0 / (B2 * A)
         f_1 = 1.0 / A
-        i_b += 0.5 * step * (last_b + f_b)
         i_a += 0.5 * step * (last_a + f_a)
+        i_b += 0.5 * step * (last_b + f_b)
         i_1 += 0.5 * step * (last_1 + f_1)
-        last_b, last_a, last_1 = f_b, f_a, f_1
+        last_a, last_b, last_1 = f_a, f_b, f_1
         gamma = film + P * (0.5 * (B2 * i_b + A2 * i_a) - i_1)
         kappa = 0.5 * P * (A2 * i_a - B2 * i_b)
         root = math.sqrt(gamma * gamma - kappa * kappa)

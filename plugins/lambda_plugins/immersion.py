@@ -32,8 +32,17 @@ def immersion(azimuth: float, level: float, pitch_radius: float, ball_radius: fl
 
 def mean_immersion(oil: FloatArray) -> float:
     """Return the mean of :func:`immersion` over the azimuth; `oil` as from :func:`oil_geometry`."""
-    azimuths = np.linspace(0.0, 2.0 * math.pi, 7200, endpoint=False)
-    return float(np.mean([immersion(azimuth, *oil) for azimuth in azimuths]))
+    level, pitch_radius, ball_radius = (float(value) for value in oil)
+
+    def angle(height: float) -> float:
+        """Angle from the lowest point at which a ball's centre stands `height` above it."""
+        return math.acos(min(max(1.0 - height / pitch_radius, -1.0), 1.0))
+
+    whole, none = angle(level - ball_radius), angle(level + ball_radius)
+    nodes, weights = np.polynomial.legendre.leggauss(24)
+    partly = whole + 0.5 * (none - whole) * (nodes + 1.0)
+    shares = [immersion(each - 0.5 * math.pi, level, pitch_radius, ball_radius) for each in partly]
+    return (whole + 0.5 * (none - whole) * float(weights @ shares)) / math.pi
 
 
 def kinematic_speeds(context: Context, speed: float) -> tuple[float, float]:

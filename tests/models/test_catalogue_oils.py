@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from lambda_db.catalogue import SqlCatalogue
 
 from lambda_core.registry.manager import registry
 from lambda_core.registry.par import make_par
 from lambda_core.registry.probe import trial_context
 from lambda_core.testing import evaluate
-from lambda_db.catalogue import SqlCatalogue
 
 
 def test_every_oil_feeds_its_laws(catalogue: SqlCatalogue) -> None:
@@ -24,7 +24,7 @@ def test_every_oil_feeds_its_laws(catalogue: SqlCatalogue) -> None:
 
 
 def test_rheology_laws_of_one_oil_agree_at_ambient_pressure(catalogue: SqlCatalogue) -> None:
-    """Within 5 %: the laws share two viscosities. FVA3A within 12 %: its Vogel constants and its nu100 have two sources."""
+    """Within 5 %: the laws share two viscosities. FVA3A within 12 %: its Vogel constants and nu100 have two sources."""
     for row in catalogue.lubricants(limit=1000):
         found = []
         for name, values in row.parameters["rheology"].items():

@@ -1,4 +1,4 @@
-"""Every built-in law keeps its role's contract: compiled equals plain, finite, in bounds, elementwise, named as agreed."""
+"""Every built-in law keeps its role's contract: compiled equals plain, finite, in bounds, elementwise, well named."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import subprocess
 import sys
 
 import pytest
+from lambda_plugins import lambda_models
 
 from lambda_core.registry.check import check_model
 from lambda_core.registry.manager import registry
 from lambda_core.registry.roles import DEFAULT_MODELS, ROLES
 from lambda_core.registry.survey import split_label
-from lambda_plugins import lambda_models
 
-from ..literature.oils import REQUIRED
+from ..literature.oils import REQUIRED  # noqa: TID252
 
 NAMES = {
     "normal_contact": {"hamrock-brewe", "hertz-exact"},

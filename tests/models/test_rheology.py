@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from lambda_plugins.generic_oils import TwoPointOil, kinematic_viscosity
 from pydantic import ValidationError
 
 from lambda_core.registry.faults import PluginError
@@ -16,9 +17,8 @@ from lambda_core.registry.manager import registry
 from lambda_core.registry.par import make_par
 from lambda_core.registry.probe import trial_context
 from lambda_core.testing import evaluate
-from lambda_plugins.generic_oils import TwoPointOil, kinematic_viscosity
 
-from ..literature.oils import BODE_PERMITTIVITY, REQUIRED, VG100
+from ..literature.oils import BODE_PERMITTIVITY, REQUIRED, VG100  # noqa: TID252
 
 LAWS = ["rheology/vogel-dicke", "rheology/bode", "rheology/roelands", "rheology/barus-limited"]
 CAP = math.log(1e12)

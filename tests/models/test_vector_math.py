@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numba import float64, njit
-
 from lambda_plugins import vector_math
+from numba import float64, njit
 
 EPS = np.finfo(float).eps
 
