@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from functools import cache
 from typing import Any, Literal, cast
 
 from lambda_core.registry.catalogue import (
@@ -50,26 +51,33 @@ BEARING_GROUPS: dict[str, tuple[str, ...]] = {
 }
 
 
-def _value(row: Any, column: str, group: str, sources: Sources) -> Value | None:
-    number = getattr(row, column)
+@cache
+def _fields() -> tuple[tuple[str, str, tuple[str, str, str]], ...]:
+    """(column, field, its source, grade and status) of every value of a bearing: a search converts thousands."""
+    return tuple(
+        (column, bare_name(column), (f"{group}_source", f"{group}_grade", f"{group}_status"))
+        for group, columns in BEARING_GROUPS.items()
+        for column in columns
+    )
+
+
+def _value(cells: Mapping[str, Any], column: str, group: tuple[str, str, str], sources: Sources) -> Value | None:
+    number = cells[column]
     if number is None:
         return None
-    source = getattr(row, f"{group}_source")
+    source, grade, status = group
     return Value(
         value=column_si(column, number),
-        source=sources.get(source, source),
-        grade=getattr(row, f"{group}_grade"),
-        status=getattr(row, f"{group}_status", None) or "published",
+        source=sources.get(cells[source], cells[source]),
+        grade=cells[grade],
+        status=cells.get(status) or "published",
     )
 
 
 def bearing_row(row: Bearing, candidates: Iterable[Candidate], sources: Sources) -> BearingRow:
     """Convert one bearing with its ranked candidate designs."""
-    values = {
-        bare_name(column): _value(row, column, group, sources)
-        for group, columns in BEARING_GROUPS.items()
-        for column in columns
-    }
+    cells = vars(row)
+    values = {field: _value(cells, column, group, sources) for column, field, group in _fields()}
     designs = tuple(
         Design(
             ball_count=c.ball_count,
@@ -146,7 +154,12 @@ def cage_row(row: Cage, sources: Sources) -> CageRow:
         radial_ratio=value(row.radial_ratio),
         axial_ratio=value(row.axial_ratio),
         friction=None if row.friction is None else value(row.friction),
-        maximum_temperature=_value(row, "maximum_temperature_degC", "temperature", sources),
+        maximum_temperature=_value(
+            vars(row),
+            "maximum_temperature_degC",
+            ("temperature_source", "temperature_grade", "temperature_status"),
+            sources,
+        ),
         note=row.note,
     )
 

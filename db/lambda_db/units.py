@@ -61,10 +61,20 @@ def bare_name(column: str) -> str:
     return column
 
 
+@cache
+def _scale(column: str) -> tuple[float, float]:
+    """Factor and offset from a column's printed number to SI."""
+    unit = column_unit(column)
+    if unit is None:
+        return 1.0, 0.0
+    quantity, name = unit
+    return UNITS[quantity][name], (parse("0 degC", "temperature") if name == "degC" else 0.0)
+
+
 def column_si(column: str, value: float) -> float:
     """Convert a column's printed number to SI, exactly as a case file's unit string would be."""
-    unit = column_unit(column)
-    return float(value) if unit is None else parse(f"{value!r} {unit[1]}", unit[0])
+    factor, offset = _scale(column)
+    return value * factor + offset
 
 
 @cache
