@@ -14,6 +14,7 @@ from lambda_core.physics.hertz import ball_raceway_radii, reduced_modulus, stiff
 from lambda_core.physics.life import reference_rating_life
 
 from .paper_6208 import axial_6208
+from .peers import MASTA
 from .published import Published
 from .reference import (
     axial_equilibrium,
@@ -90,23 +91,11 @@ def test_axial_angle_follows_harris_equation() -> None:
 
 # --- a commercial program's numbers for a small bearing --------------------------------------------------------------
 
-# Frozen from the test scripts of the public repository minzhun/ISO16281, which compares itself there with MASTA:
-# Z, D_w, D_pw [mm], clearance [um], F_r, F_a [N], M [N m] -> radial, axial [um], tilt [mrad], L_10r [1e6 revolutions].
-# C = 23.4 kN, grooves 0.52 and 0.53 D_w, E = 210 GPa.
-PEER = {
-    "7 balls, radial": ((7, 11.5, 43.5), 0.0, (1000.0, 0.0, 0.0), (15.1101, None, None), 13163.019),
-    "7 balls, axial": ((7, 11.5, 43.5), 0.0, (0.0, 1000.0, 0.0), (None, 133.5381, None), 2222.7318),
-    "7 balls, radial, clearance": ((7, 11.5, 43.5), 10.0, (1000.0, 0.0, 0.0), (21.223, None, None), 10795.7948),
-    "7 balls, axial, clearance": ((7, 11.5, 43.5), 10.0, (0.0, 1000.0, 0.0), (None, 149.1717, None), 3115.8781),
-    "7 balls, combined": ((7, 11.5, 43.5), 10.0, (1000.0, 1000.0, 0.0), (19.5923, 146.4603, 2.6872), 1630.5367),
-    "7 balls, moment": ((7, 11.5, 43.5), 0.0, (0.0, 0.0, 1.0), (None, None, 3.6957), None),
-}
 
-
-@pytest.mark.parametrize("name", PEER)
+@pytest.mark.parametrize("name", MASTA)
 def test_commercial_program(name: str) -> None:
-    (count, ball, pitch), clearance, loads, displacement, life = PEER[name]
-    ball, pitch = ball * 1e-3, pitch * 1e-3
+    peer = MASTA[name]
+    count, ball, pitch = peer.geometry[0], peer.geometry[1] * 1e-3, peer.geometry[2] * 1e-3
     inner, outer = 0.52 * ball, 0.53 * ball
     constants = [
         stiffness_constant(*ball_raceway_radii(ball, pitch, groove, 0.0, inner=side), STEEL)
@@ -116,19 +105,19 @@ def test_commercial_program(name: str) -> None:
         ball_count=count,
         groove_centre_distance=inner + outer - ball,
         lever=0.5 * pitch,
-        first_ball=0.0 if loads[0] else -0.5 * math.pi,
-        clearance=clearance * 1e-6,
+        first_ball=0.0 if peer.loads[0] else -0.5 * math.pi,
+        clearance=peer.clearance * 1e-6,
         spring_constant=sum(k ** (-2.0 / 3.0) for k in constants) ** -1.5,
-        radial_load=loads[0],
-        axial_load=loads[1],
-        moment=loads[2],
+        radial_load=peer.loads[0],
+        axial_load=peer.loads[1],
+        moment=peer.loads[2],
     )
-    source, reason = f"MASTA, after minzhun/ISO16281, {name}", "four digits; both solve the same equations iteratively"
+    reason = "four digits; both solve the same equations iteratively"
     computed = (result.radial * 1e6, result.axial * 1e6, abs(result.tilt) * 1e3)
-    for value, number in zip(displacement, computed, strict=True):
+    for value, number in zip(peer.displacement, computed, strict=True):
         if value is not None:
-            Published(value, source, reason, rel=2e-4).check(number)
-    if life is not None:
+            Published(value, peer.source, reason, rel=2e-4).check(number)
+    if peer.life is not None:
         reference = reference_rating_life(
             list(result.loads),
             list(result.loads),
@@ -137,7 +126,7 @@ def test_commercial_program(name: str) -> None:
             inner_conformity=0.52,
             outer_conformity=0.53,
         )
-        Published(life, source, reason, rel=2e-4).check(reference.life)
+        Published(peer.life, peer.source, reason, rel=2e-4).check(reference.life)
 
 
 def test_specification_reduces_to_many_balls() -> None:

@@ -28,6 +28,9 @@ STEEL = Material("steel", 210e9, 0.3, 7850.0, 46.0, 460.0)
 OIL = Oil("FVA3", "mineral", 335.65, 0.134, 2000.0, 0.0315, 859.1, 18e-9, 0.04)
 
 
+PARTS = (("sliding inner", 0.2), ("spin inner", 0.1), ("rolling outer", 0.4), ("hysteresis outer", 0.2), ("drag", 0.1))
+
+
 def contacts(count: int = 9, load: float = 4000.0, angle: float = 0.0) -> tuple[ContactLoad, ...]:
     azimuths = [2.0 * math.pi * i / count for i in range(count)]
     loads = [load * max(-math.sin(psi), 0.0) ** 1.5 for psi in azimuths]  # load zone at the bottom
@@ -217,13 +220,17 @@ def test_direction_of_rotation_does_not_matter(methods: dict[str, Method]) -> No
 
 def test_quasi_static_stiffness_units(methods: dict[str, Method]) -> None:
     matrix = tuple(tuple(float(10 * i + j) * 1e6 for j in range(5)) for i in range(5))
-    state = EquilibriumState(contacts(), (1e-6, 0.0, 0.0, 0.0, 0.0), matrix, (("sliding", 0.3), ("rolling", 0.2)))
+    state = EquilibriumState(contacts(), (1e-6, 0.0, 0.0, 0.0, 0.0), matrix, PARTS)
     table = methods["quasi-static"].evaluate(inputs(state=state))
     assert table.value("stiffness", "x y") == pytest.approx(1.0)  # 1e6 N/m = 1 N/um
     assert table.value("stiffness", "x tilt_y") == pytest.approx(3000.0)  # 3e6 N/rad = 3000 N/mrad
     assert table.value("stiffness", "tilt_z tilt_z") == pytest.approx(44000.0)
     assert sum(row.group == "stiffness" for row in table.rows) == 15
-    assert table.value("friction", "total") == pytest.approx(500.0)
+    assert table.value("friction", "total") == pytest.approx(1000.0)
+    assert table.value("friction", "sliding") == pytest.approx(300.0)
+    assert table.value("friction", "rolling") == pytest.approx(600.0)
+    assert table.value("friction", "drag") == pytest.approx(100.0)
+    assert table.value("friction", "spin inner") == pytest.approx(100.0)
     assert table.value("load", "displacement x") == pytest.approx(1.0)
 
 

@@ -14,6 +14,12 @@ from lambda_core.registry.method import (
 )
 
 _AXES = ("x", "y", "z", "tilt_y", "tilt_z")
+# sums that stand beside M_rr, M_sl and M_drag of the catalogue
+_SUMS = {
+    "rolling": ("rolling", "hysteresis"),
+    "sliding": ("sliding", "spin", "boundary"),
+    "drag": ("drag",),
+}
 
 
 def _stiffness_rows(stiffness: tuple[tuple[float, ...], ...]) -> list[MethodRow]:
@@ -42,16 +48,27 @@ def _load_rows(state: EquilibriumState) -> list[MethodRow]:
     ]
 
 
+def _friction_rows(state: EquilibriumState) -> list[MethodRow]:
+    """Total, the three sums that catalogues print, then every part."""
+    if not state.friction:
+        return []
+    total = sum(value for _, value in state.friction)
+    rows = [MethodRow("friction", "total", total * 1e3, "N mm", "quasi-static, cage left out")]
+    for name, mechanisms in _SUMS.items():
+        part = sum(value for part, value in state.friction if part.split(" ")[0] in mechanisms)
+        rows.append(MethodRow("friction", name, part * 1e3, "N mm", " + ".join(mechanisms)))
+    named = {row.name for row in rows}
+    rows += [MethodRow("friction", part, value * 1e3, "N mm") for part, value in state.friction if part not in named]
+    return rows
+
+
 def evaluate(inputs: MethodInputs) -> MethodTable:
     """Loads, displacement, stiffness and friction of the quasi-static equilibrium."""
     state = inputs.state
     if state is None or not state.contacts:
         raise NotApplicable("no quasi-static equilibrium was found")
     rows = _load_rows(state)
-    if state.friction:
-        total = sum(value for _, value in state.friction)
-        rows.append(MethodRow("friction", "total", total * 1e3, "N mm", "quasi-static"))
-        rows += [MethodRow("friction", name, value * 1e3, "N mm") for name, value in state.friction]
+    rows += _friction_rows(state)
     if state.stiffness is not None:
         rows += _stiffness_rows(state.stiffness)
     return MethodTable(tuple(rows))
