@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from lambda_plugins.methods.schaeffler import idle_torque, load_torque
-from lambda_plugins.methods.skf import SERIES, drag_torque, drag_torque_2008, load_variables, skf_friction
+from lambda_plugins.methods.skf import SERIES, load_variables, skf_friction
+from lambda_plugins.methods.skf_drag import drag_torque, drag_torque_2008
 
 from .published import Published
 

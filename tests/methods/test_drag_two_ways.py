@@ -7,7 +7,7 @@ import math
 import pytest
 from lambda_plugins.fluid_drag import Schaeffler, Skf, prepare_schaeffler, skf_torque
 from lambda_plugins.methods.schaeffler import SERIES, idle_torque
-from lambda_plugins.methods.skf import drag_torque, drag_torque_2008
+from lambda_plugins.methods.skf_drag import drag_torque, drag_torque_2008
 
 from lambda_core.registry.model import Context, Material, Oil
 
