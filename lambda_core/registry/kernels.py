@@ -203,6 +203,17 @@ def sources_key(folder: Path) -> str:
     return digest.hexdigest()
 
 
+def host_key(function: Callable[..., Any], sources: Path, **options: Any) -> str:
+    """Return the hash of all that :func:`compile_host` would compile for this entry point."""
+    words = (sources_key(sources), reach(function, lenient=True).key, repr(sorted(options.items())))
+    return hashlib.sha256("\n".join(words).encode()).hexdigest()
+
+
+def host_folder(key: str) -> Path:
+    """Return where the code of an entry point with this key is kept; exists once it was compiled."""
+    return cache_folder() / f"host-{key[:24]}-{_environment()}"
+
+
 def compile_host(
     function: Callable[..., Any],
     signature: Any,
@@ -242,9 +253,7 @@ def compile_host(
     >>> host = compile_host(step, signature, Path(__file__).parent, announce=print)  # doctest: +SKIP
     >>> host.dispatcher(state, rates)  # doctest: +SKIP
     """
-    reached = reach(function, lenient=True)
-    words = (sources_key(sources), reached.key, repr(sorted(options.items())))
-    key = hashlib.sha256("\n".join(words).encode()).hexdigest()
+    key = host_key(function, sources, **options)
     missed: list[str] = []
 
     def on_miss() -> None:
@@ -255,8 +264,7 @@ def compile_host(
     from lambda_core.registry import machine_code
 
     start = time.perf_counter()
-    folder = cache_folder() / f"host-{key[:24]}-{_environment()}"
-    dispatcher = machine_code.compile_into(function, signature, folder, on_miss, **options)
+    dispatcher = machine_code.compile_into(function, signature, host_folder(key), on_miss, **options)
     return CompiledHost(dispatcher, key, not missed, time.perf_counter() - start)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
@@ -9,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from lambda_core.physics.compiled import bdf, forces, jacobian, layout, observe, raceway, statics, tangent
-from lambda_core.registry.kernels import compile_host
+from lambda_core.registry.kernels import compile_host, host_folder, host_key
 from lambda_core.registry.machine_code import Pointer
 
 _FOLDER = Path(__file__).parent
@@ -42,8 +44,44 @@ UNITS: dict[str, tuple[Any, Any]] = {
 }
 
 
+def missing() -> list[str]:
+    """Return the units that are not on disk yet."""
+    folders = {name: host_folder(host_key(function, _FOLDER)) for name, (function, _) in UNITS.items()}
+    return [name for name, folder in folders.items() if not any(folder.rglob("*.nbc"))]
+
+
+def build(name: str) -> None:
+    """Compile one unit into the cache."""
+    function, signature = UNITS[name]
+    compile_host(function, signature, _FOLDER)
+
+
+def _build_side_by_side(names: list[str], announce: Callable[[str], None] | None) -> None:
+    """Compile units in processes of their own: machine code of one does not wait for another's.
+
+    A unit whose process fails is compiled here afterwards, where its error is seen.
+    """
+    if announce is not None:
+        announce(f"compiling {len(names)} parts of the solver (once, about half a minute)")
+    code = "import sys; from lambda_core.physics.compiled.entry import build; build(sys.argv[1])"
+    workers = [
+        subprocess.Popen(
+            [sys.executable, "-W", "ignore", "-c", code, name],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        for name in names
+    ]
+    for worker in workers:
+        worker.wait()
+
+
 @cache
 def _core(announce: Callable[[str], None] | None) -> Core:
+    absent = missing()
+    if len(absent) > 1:
+        _build_side_by_side(absent, announce)
     built = {
         name: compile_host(function, signature, _FOLDER, announce).dispatcher
         for name, (function, signature) in UNITS.items()
