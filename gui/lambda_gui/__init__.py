@@ -1,0 +1,1 @@
+"""The model builder: a terminal interface from designation to result."""
