@@ -7,10 +7,14 @@ Import it inside functions: Numba takes more than a second to load.
 # mypy: disable-error-code="no-untyped-call,attr-defined,assignment"
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import importlib.metadata
+import os
 import platform
+import shutil
 import tempfile
+import time
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -25,8 +29,10 @@ from numba.core.registry import cpu_target
 from numba.core.types.function_type import WrapperAddressProtocol
 from numba.extending import register_jitable
 
+from lambda_core.errors import UsageError
 from lambda_core.registry.roles import Role
 
+_KEEP = 90.0 * 86400.0  # compiled code that was not used for this long is dropped [s]
 _known_helpers: WeakSet[FunctionType] = WeakSet()
 
 
@@ -121,6 +127,9 @@ def compile_into(
     `signature` may be a tuple of argument types: the return type is then inferred.
     Returns the Numba dispatcher, closed for other signatures.
     """
+    if config.DISABLE_JIT:
+        raise UsageError("NUMBA_DISABLE_JIT is set: the solver calls compiled code only; unset it")
+    _touch(folder)
     dispatcher = njit(error_model="numpy", **options)(function)
     dispatcher._cache = _cache(function, folder, on_miss)
     with warnings.catch_warnings():
@@ -129,6 +138,19 @@ def compile_into(
         dispatcher.compile(signature)
     dispatcher.disable_compile()
     return dispatcher
+
+
+def _touch(folder: Path) -> None:
+    """Date a folder as used now; where there is a new one, drop those that nobody has used for long."""
+    if folder.exists():
+        with contextlib.suppress(OSError):
+            os.utime(folder)
+        return
+    oldest = time.time() - _KEEP
+    with contextlib.suppress(OSError):
+        for other in folder.parent.iterdir():
+            if other.stat().st_mtime < oldest:
+                shutil.rmtree(other, ignore_errors=True)
 
 
 class Pointer(WrapperAddressProtocol):

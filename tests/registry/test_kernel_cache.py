@@ -133,6 +133,24 @@ def test_damaged_files_are_compiled_anew(package: Package) -> None:
     assert (again["value"], again["cached"]) == (6.0, False)
 
 
+def test_code_that_nobody_used_for_months_is_dropped(package: Package) -> None:
+    package.ask()
+    (old,) = (package.root / "cache" / "kernels").iterdir()
+    os.utime(old, (1, 1))
+    package.ask()
+    assert old.exists()  # used again: dated anew
+    os.utime(old, (1, 1))
+    package.write("law", LAW.format(factor="2.0"))
+    package.ask()
+    (new,) = (package.root / "cache" / "kernels").iterdir()
+    assert new != old
+
+
+def test_a_read_only_cache_does_not_stop_anything(package: Package) -> None:
+    (package.root / "cache").write_text("a file where a folder should be")
+    assert package.ask()["value"] == 6.0
+
+
 def test_a_cached_helper_is_refused_by_name(package: Package) -> None:
     package.write("deep", "from numba import njit\n\n@njit(cache=True)\ndef scale(x):\n    return 3.0 * x\n")
     code = f"""
