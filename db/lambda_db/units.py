@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 
 from lambda_core.schema.units import UNITS, parse
 
@@ -61,20 +61,11 @@ def bare_name(column: str) -> str:
     return column
 
 
-@cache
-def _scale(column: str) -> tuple[float, float]:
-    """Factor and offset from a column's printed number to SI."""
-    unit = column_unit(column)
-    if unit is None:
-        return 1.0, 0.0
-    quantity, name = unit
-    return UNITS[quantity][name], (parse("0 degC", "temperature") if name == "degC" else 0.0)
-
-
+@lru_cache(maxsize=65536)  # the same few thousand numbers are shown again with every search
 def column_si(column: str, value: float) -> float:
     """Convert a column's printed number to SI, exactly as a case file's unit string would be."""
-    factor, offset = _scale(column)
-    return value * factor + offset
+    unit = column_unit(column)
+    return float(value) if unit is None else parse(f"{value!r} {unit[1]}", unit[0])
 
 
 @cache
