@@ -1,0 +1,60 @@
+"""Every role filled by a third party at once: the dynamics return a torque that is known in closed form."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import pytest
+
+from lambda_core.registry.roles import CAGE, ROLES
+
+from .conftest import Installation
+
+PACKAGE = Path(__file__).parent / "packages" / "all-roles"
+CHOICE = [f"models.{role}=own" for role in ROLES if role != "cage_contact"]
+CHOICE += [f"forces.{element}.models.cage_contact=own" for element in CAGE]
+RUN = """
+import json, sys
+from lambda_core import api
+from lambda_core.simulate.dynamics import BearingEngine
+
+model = api.check("6208-axial-1300", sys.argv[1:])
+engine = BearingEngine(model)
+engine.advance(0.02)
+start = engine.integrals()
+outcome = engine.advance(0.1)
+end = engine.integrals()
+spent = {name: end[name] - start[name] for name in end}
+geometry = model.geometry
+print(json.dumps({
+    "ok": outcome.ok,
+    "loss": sum(value for name, value in spent.items() if name.startswith("loss.")),
+    "hysteresis": spent["loss.hysteresis_inner"] + spent["loss.hysteresis_outer"],
+    "angle": spent["relative_angle"],
+    "ball_count": geometry.ball_count, "pitch": geometry.pitch_diameter, "ball": geometry.ball_diameter,
+    "imported": sorted(name for name in sys.modules if name.startswith("lambda_plugins.")),
+}))
+"""
+
+
+@pytest.fixture(scope="module")
+def site(install: Callable[[Sequence[Path]], Installation]) -> Installation:
+    return install([PACKAGE])
+
+
+@pytest.mark.timeout(900)  # the first test of a session that needs the solver compiles it
+def test_the_torque_is_the_closed_form_and_no_built_in_law_was_imported(site: Installation) -> None:
+    answer = site.python(RUN, *CHOICE, "gravity.z=0 m/s2")
+    assert answer.code == 0, answer.err
+    found = answer.data
+    assert found["ok"]
+    # Z M d_m/D_w with M = 2e-4 N m (the package says why). Balls run at a contact angle and on a circle that differs
+    # from the pitch circle by clearance and deflection: 5e-4 of the torque.
+    expected = found["ball_count"] * 2e-4 * found["pitch"] / found["ball"]
+    assert found["loss"] / found["angle"] == pytest.approx(expected, rel=1e-3)
+    assert found["hysteresis"] == pytest.approx(found["loss"], rel=1e-3)
+    assert found["angle"] == pytest.approx(2750.0 * math.pi / 30.0 * 0.08, rel=1e-2)
+    laws = [name for name in found["imported"] if not name.startswith("lambda_plugins.methods")]
+    assert laws == []
