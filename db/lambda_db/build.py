@@ -18,7 +18,7 @@ from lambda_db.engine import file_uri, sqlite_engine
 from lambda_db.models import CHILDREN, SEED_TABLES, Base
 from lambda_db.paths import cache_folder
 from lambda_db.records import Row, describe, key_columns, parse_row, table_of
-from lambda_db.seeds import BUILT_IN, Record, fingerprint, read_path
+from lambda_db.seed_files import BUILT_IN, Record, fingerprint, read_path
 
 log = logging.getLogger("lambda_db")
 _KEPT = 8  # built databases in the cache

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-_FOLDER = Path(__file__).parent / "standards"
+_FOLDER = Path(__file__).parent / "tables"
 
 
 def _rows(name: str) -> list[dict[str, str]]:

@@ -19,7 +19,7 @@ from lambda_db.models import CHILDREN, SEED_TABLES, Base
 from lambda_db.paths import user_database
 from lambda_db.records import Row, columns_of, describe, parse_row, same_key, table_of
 from lambda_db.references import Known, known_names, reference_problems
-from lambda_db.seeds import Record, read_path
+from lambda_db.seed_files import Record, read_path
 from lambda_db.user import open_user_database, unwritable
 
 
@@ -51,7 +51,7 @@ def import_rows(
     catalogue : SqlCatalogue
         Whose built-in rows the new ones may refer to; it shows the new rows afterwards.
     records : iterable
-        From :func:`lambda_db.seeds.read_path`.
+        From :func:`lambda_db.seed_files.read_path`.
     keep_good : bool
         Keep the good rows although others are refused; otherwise one bad row rolls everything back.
     replace : bool

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from lambda_db.catalogue import open_catalogue
 from lambda_db.paths import cache_folder
-from lambda_db.seeds import BUILT_IN, fingerprint
+from lambda_db.seed_files import BUILT_IN, fingerprint
 
 from lambda_core.errors import CatalogueError
 

@@ -10,7 +10,7 @@ from lambda_db.derive import candidates, grade_of
 from lambda_db.estimate import printed_of
 from lambda_db.models import GRADES
 from lambda_db.records import parse_row
-from lambda_db.seeds import BUILT_IN
+from lambda_db.seed_files import BUILT_IN
 from lambda_db.transfer import rows_of
 
 from lambda_core.registry.catalogue import BearingRow, Value
