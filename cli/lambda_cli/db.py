@@ -178,9 +178,8 @@ def _show_bearing(catalogue: SqlCatalogue, row: BearingRow, json: bool) -> None:
             clearances=clearances,
         )
         return
-    _print(
-        f"{row.designation}  {row.maker}   series {row.series or '-'}   ratings {row.rating_type or '-'}   ({row.layer})"
-    )
+    whose = "" if row.layer == "core" else f"   ({row.layer} row)"
+    _print(f"{row.designation}  {row.maker}   series {row.series or '-'}   ratings {row.rating_type or '-'}{whose}")
     _print("")
     _print_values(values)
     if candidates:

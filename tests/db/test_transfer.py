@@ -37,8 +37,8 @@ def test_everything_makes_the_round_trip(catalogue: SqlCatalogue, tmp_path: Path
 
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
-    name=st.text(st.characters(blacklist_categories=("Cs", "Cc")), min_size=1, max_size=20).filter(str.strip),
-    note=st.text(st.characters(blacklist_categories=("Cs",), blacklist_characters="\x00\r"), max_size=40),
+    name=st.text(st.characters(exclude_categories=["Cs", "Cc"]), min_size=1, max_size=20).filter(str.strip),
+    note=st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\x00\r"), max_size=40),
     value=st.floats(1e-300, 1e300),
     suffix=st.sampled_from([".csv", ".toml"]),
 )
