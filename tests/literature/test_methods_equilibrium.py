@@ -147,6 +147,7 @@ def _peer_case(peer: Peer) -> dict[str, Any]:
         "lubricant": {"name": "bode-mineral", "temperature": "40 degC"},
         "loads": {"radial": f"{radial:g} N", "axial": f"{axial:g} N"},
         "operation": {"speed": "1000 rpm"},
+        "gravity": {"x": "0 m/s2", "y": "0 m/s2", "z": "0 m/s2"},
     }
 
 
