@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
+import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -49,6 +50,16 @@ def standalone_toml(case: Case) -> str:
     return case_toml(Case.model_validate(_inlined(case, case.written()), context={"folder": case.folder}))
 
 
+def tables_toml(tables: Mapping[str, Any], original: str = "") -> str:
+    """Write plain tables, right or wrong, as TOML; what they have in common with `original` keeps its text."""
+    document = tomlkit.parse(original)
+    if original.strip():
+        _update(document, tomllib.loads(original), tables)
+    else:
+        _fill(document, tables)
+    return tomlkit.dumps(document)
+
+
 def save_case(case: Case, path: str | Path, original: str | None = None) -> None:
     """Write a case to `path` in one step (a crash leaves the old file whole).
 
@@ -60,16 +71,32 @@ def save_case(case: Case, path: str | Path, original: str | None = None) -> None
         When the file cannot be written.
     """
     target = Path(path)
-    try:
-        if original is None and target.is_file():
+    if original is None and target.is_file():
+        try:
             original = target.read_text(encoding="utf-8-sig")
-        text = case_toml(case, original)
+        except OSError as error:
+            raise UsageError(f'cannot read "{target}": {error.strerror}') from None
+    save_text(case_toml(case, original), target)
+
+
+def save_text(text: str, target: Path) -> None:
+    """Write a file in one step: it holds the old text or the new one, never a part.
+
+    Raises
+    ------
+    UsageError
+        When the file cannot be written; nothing is left behind.
+    """
+    temporary = ""
+    try:
         handle, temporary = tempfile.mkstemp(dir=target.resolve().parent, prefix=f".{target.name}.")
         with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
             stream.write(text)
         os.chmod(temporary, target.stat().st_mode & 0o777 if target.exists() else 0o644)
         os.replace(temporary, target)
     except OSError as error:
+        if temporary:
+            Path(temporary).unlink(missing_ok=True)
         raise UsageError(f'cannot write "{target}": {error.strerror}') from None
 
 
