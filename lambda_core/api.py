@@ -11,13 +11,17 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.errors import CaseError, LambdaError, Problem, UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from lambda_core.physics.describe import CaseReport
     from lambda_core.physics.model import BearingModel
     from lambda_core.registry.catalogue import Catalogue
     from lambda_core.registry.survey import CheckCard, FaultCard, Inventory, ModelCard
     from lambda_core.schema.case import Case
+    from lambda_core.simulate.progress import Progress
+    from lambda_core.simulate.quasistatic import QuasiStatic
+    from lambda_core.simulate.results import Result
+    from lambda_core.simulate.summary import Summary
 
 __all__ = [
     "CaseError",
@@ -35,9 +39,14 @@ __all__ = [
     "plugin_model",
     "plugins",
     "problems",
+    "quasistatic",
     "resolve",
+    "result",
+    "resume",
+    "run",
     "save",
     "schema",
+    "summary",
 ]
 
 
@@ -236,3 +245,123 @@ def new_plugin(name: str, folder: str | Path = ".") -> list[Path]:
     from lambda_core.registry.scaffold import new_plugin as write
 
     return write(name, Path(folder))
+
+
+def quasistatic(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    announce: Callable[[str], None] | None = None,
+) -> QuasiStatic:
+    """Solve the quasi-static equilibrium of a case at t = 0: loads, angles, films, friction; no time, no cage.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Raises
+    ------
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.physics.equilibrium import solve
+    from lambda_core.simulate.quasistatic import quasistatic_of
+
+    return quasistatic_of(solve(_model(source, overrides), announce=announce))
+
+
+def run(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    out: str | Path | None = None,
+    force: bool = False,
+    progress: Callable[[Progress], None] | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Result:
+    """Simulate a case into a result file.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    out : path-like, optional
+        The result file; by default the case's name with ``.h5``, numbered where that is taken.
+    force : bool
+        Overwrite `out`.
+    progress : callable, optional
+        Called some ten times a second.
+    announce : callable, optional
+        Called with a sentence before something is compiled, and with the equilibrium found.
+
+    Returns
+    -------
+    Result
+        Also of a run that ended early or is not converged: its summary says so and why.
+
+    Raises
+    ------
+    CaseError, SolverError, PartialResultError
+        With a sentence about the case, the solver (the file keeps what there is) or the disk.
+    """
+    from lambda_core.simulate.launch import launch
+
+    path = None if out is None else Path(out)
+    return launch(_model(source, overrides), path, force=force, report=progress, announce=announce)
+
+
+def resume(
+    path: str | Path,
+    overrides: Iterable[str] = (),
+    *,
+    progress: Callable[[Progress], None] | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Result:
+    """Go on with an interrupted run, bit for bit as if it had not been.
+
+    Parameters
+    ----------
+    path : path-like
+        Result file of a run that was interrupted, killed, or is to be longer.
+    overrides : iterable of str
+        ``solver.duration=...``, ``solver.max_duration=...`` or ``solver.max_wall=...``; anything else
+        would be another run.
+    progress, announce
+        As for :func:`run`.
+
+    Raises
+    ------
+    UsageError
+        When the file is no result, nothing is left to do, or the case or the code has changed.
+    """
+    from lambda_core.schema.case_io import apply_overrides, parse_case
+    from lambda_core.simulate.launch import relaunch
+
+    text = result(path).case_toml
+    model = resolve(apply_overrides(parse_case(text, str(path)), overrides))
+    return relaunch(Path(path), model, report=progress, announce=announce)
+
+
+def result(path: str | Path) -> Result:
+    """Open a result file: finished, still growing, or left behind by a killed process."""
+    from lambda_core.simulate.results import Result
+
+    return Result(path)
+
+
+def summary(path: str | Path) -> Summary:
+    """Return the averages and the end state of a result (the machine interface)."""
+    return result(path).summary()
+
+
+def _model(source: str | Path | Mapping[str, Any] | Case | BearingModel, overrides: Iterable[str] = ()) -> BearingModel:
+    from lambda_core.physics.model import BearingModel
+
+    if not isinstance(source, BearingModel):
+        return check(source, overrides)
+    if list(overrides):
+        raise UsageError("a resolved model takes no overrides: change the case and resolve it")
+    return source

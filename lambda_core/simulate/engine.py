@@ -27,9 +27,17 @@ class Engine(Protocol):
     run continued from `state` is the run that was never interrupted, bit for bit.
     """
 
-    channels: tuple[Channel, ...]
-    time: float  # start of the next step [s]
-    sample_interval: float  # [s]
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """Return what every sample carries."""
+
+    @property
+    def time(self) -> float:
+        """Return the start of the next step [s]."""
+
+    @property
+    def sample_interval(self) -> float:
+        """Return the time between samples [s]; by default 1/200 of a nominal cage revolution."""
 
     def advance(self, until: float) -> Advance:
         """Integrate until `time` >= `until` [s]; samples gather in the buffer meanwhile."""

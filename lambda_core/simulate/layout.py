@@ -17,6 +17,7 @@ import h5py
 import numpy as np
 
 from lambda_core.physics.channels import DIMENSIONS, Channel
+from lambda_core.physics.describe import headline
 from lambda_core.physics.model import BearingModel
 from lambda_core.simulate.averages import INTEGRALS
 from lambda_core.simulate.provenance import Provenance
@@ -44,6 +45,7 @@ def create(file: h5py.File, provenance: Provenance, channels: Sequence[Channel])
     file.attrs[LAYOUT_ATTRIBUTE] = LAYOUT
     file.attrs["title"] = model.title
     file.attrs["case"] = model.name
+    file.attrs["headline"] = "\n".join(headline(model))
     file.attrs["created"] = provenance.created()
     file.attrs["frames"] = "x shaft axis, y horizontal, z up; azimuth from +y towards +z; SI units"
     _dimensions(file, model, channels)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import platform
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
@@ -27,7 +27,7 @@ class Provenance:
     """The fixed part of a result file."""
 
     model: BearingModel
-    kernel_keys: Mapping[str, str]  # "element/role" (or a part of the core) -> hash of the code
+    kernel_keys: Mapping[str, str]  # "element/role/model", or a part of the core -> hash of the code
 
     def versions(self) -> dict[str, str]:
         """Return versions of the program, Python, the libraries, and the platform."""
@@ -50,7 +50,7 @@ class Provenance:
                 "reference": law.model.reference,
                 "parameters": json.dumps(plain(law.parameters)),
                 "origins": json.dumps(dict(law.origins)),
-                "kernel_key": self.kernel_keys.get(f"{element}/{role}", ""),
+                "kernel_key": self.kernel_keys.get(f"{element}/{role}/{law.model.name}", ""),
             }
             for element, roles in self.model.laws.items()
             for role, law in roles.items()
@@ -76,6 +76,29 @@ class Provenance:
 def model_data(model: BearingModel) -> dict[str, Any]:
     """Return the resolved model as plain data, SI; infinite and undefined numbers as text."""
     return {field.name: plain(getattr(model, field.name)) for field in fields(model) if field.name not in _APART}
+
+
+# What may change when a run goes on: when it ends, and how it is written.
+_FREE = ("solver.duration", "solver.max_duration", "solver.max_wall", "output.checkpoint_interval")
+
+
+def differences(before: Mapping[str, Any], after: Mapping[str, Any]) -> list[str]:
+    """Return the paths at which two resolved models would not run the same, sorted."""
+    old, new = dict(_leaves("", before)), dict(_leaves("", after))
+    paths = {path for path in old.keys() | new.keys() if old.get(path) != new.get(path)}
+    silent = ("name", "title", *_FREE)
+    return sorted(path for path in paths if path not in silent and ".origins" not in path)
+
+
+def _leaves(path: str, value: Any) -> Iterator[tuple[str, Any]]:
+    if isinstance(value, Mapping):
+        for key, item in value.items():
+            yield from _leaves(f"{path}.{key}" if path else key, item)
+    elif isinstance(value, list):
+        for index, item in enumerate(value):
+            yield from _leaves(f"{path}[{index}]", item)
+    else:
+        yield path, value
 
 
 def plain(value: Any) -> Any:

@@ -59,6 +59,7 @@ class Result:
         self.path = Path(path)
         with self._open() as file:
             self.title = str(file.attrs["title"])
+            self.headline = str(file.attrs["headline"])
             self.case = str(file.attrs["case"])
             self.created = str(file.attrs["created"])
             self._channels = {channel.name: channel for channel in _channels(file)}

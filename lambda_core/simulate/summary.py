@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, get_args
 
@@ -14,7 +15,7 @@ from lambda_core.errors import UsageError
 from lambda_core.physics.channels import RINGS
 from lambda_core.physics.model import Solver
 from lambda_core.simulate.averages import Interval, finite
-from lambda_core.simulate.convergence import Window, shortfalls, window
+from lambda_core.simulate.convergence import shortfalls, window
 
 if TYPE_CHECKING:
     from lambda_core.simulate.results import Result
@@ -23,14 +24,16 @@ INTERFACE = 1
 Ring = Literal["inner", "outer"]  # in the order of channels.RINGS
 _MECHANISMS_OF_CAGE = ("pocket", "land")
 # A contact below this share of the largest load does not count as carrying it.
-_CARRYING = 0.01
+CARRYING = 0.01
 
 
-class _Record(BaseModel):
+class Record(BaseModel):
+    """Base of what the machine interface is made of."""
+
     model_config = ConfigDict(frozen=True, extra="forbid")
 
 
-class Contact(_Record):
+class Contact(Record):
     """One ball - raceway contact at the end of the run."""
 
     ball: int = Field(description="number of the ball, from 1")
@@ -42,7 +45,7 @@ class Contact(_Record):
     capacitance_pF: float | None = Field(description="null where asperities short the contact")
 
 
-class Equilibrium(_Record):
+class Equilibrium(Record):
     """The quasi-static state that the run started from."""
 
     loaded_balls: int
@@ -50,7 +53,7 @@ class Equilibrium(_Record):
     max_pressure_GPa: float
 
 
-class Summary(_Record):
+class Summary(Record):
     """Averages over whole cage revolutions, and the end state.
 
     The names are stable under one number of `interface`. A number that does not exist
@@ -60,6 +63,7 @@ class Summary(_Record):
     interface: int = INTERFACE
     case: str
     title: str
+    headline: str = Field(description="two lines: bearing and oil; loads, speed and depth")
     file: str
     state: Literal["running", "finished", "stopped", "interrupted", "failed"]
     converged: bool
@@ -92,6 +96,12 @@ class Summary(_Record):
     equilibrium: Equilibrium
     assumptions: list[str]
 
+    def text(self) -> str:
+        """Return the lines for people."""
+        from lambda_core.simulate.text import summary_text
+
+        return summary_text(self)
+
 
 def summarise(result: Result) -> Summary:
     """Compute the summary of a result from its file."""
@@ -105,15 +115,17 @@ def summarise(result: Result) -> Summary:
     chosen = window(settings, result.revolutions(), last)
     residual = whole.energy_residual()
     reasons = _reasons(status.state, status.message, shortfalls(settings, chosen, residual))
-    span = _Span.of(result, float(chosen.interval.first[0]))
-    epicyclic = _epicyclic(result, span.cos_angle)
+    extremes = _Span.of(result, float(chosen.interval.first[0]))
+    epicyclic = _epicyclic(result, extremes.cos_angle)
     ratio = chosen.interval.ratio("cage_angle", "inner_angle")
-    end = _End(_sample(result, -1))
+    end = _sample(result, -1)
+    carrying = end["load"] > CARRYING * end["load"].max()
     time = whole.change("time")
     revolutions = whole.change("relative_angle") / (2.0 * math.pi)
     return Summary(
         case=result.case,
         title=result.title,
+        headline=result.headline,
         file=str(result.path),
         state=status.state,
         converged=not reasons,
@@ -121,18 +133,18 @@ def summarise(result: Result) -> Summary:
         friction_torque_Nmm=finite(1e3 * chosen.interval.torque()),
         friction_torque_ci_Nmm=finite(1e3 * chosen.torque.half_width),
         input_torque_Nmm=finite(1e3 * chosen.interval.ratio("drive", "relative_angle")),
-        friction_breakdown_Nmm=_breakdown(chosen),
+        friction_breakdown_Nmm=merged_cage(chosen.interval.breakdown()),
         cage_speed_ratio=finite(ratio),
         cage_speed_over_epicyclic=finite(ratio / epicyclic),
         epicyclic_ratio=finite(epicyclic),
-        contacts=end.contacts,
+        contacts=contact_list(end),
         inner_ring_displacement_um=[finite(1e6 * value) for value in chosen.interval.position()],
-        max_pressure_GPa=finite(1e-9 * span.pressure),
-        min_film_um=finite(1e6 * span.film),
-        film_um=end.film_um,
-        film_parameter=end.film_parameter,
-        contact_capacitance_pF=end.capacitance_pF,
-        bearing_capacitance_nF=end.bearing_capacitance_nF,
+        max_pressure_GPa=finite(1e-9 * extremes.pressure),
+        min_film_um=finite(1e6 * extremes.film),
+        film_um=span(1e6 * end["film_central"][carrying]),
+        film_parameter=span(end["film_parameter"][carrying]),
+        contact_capacitance_pF=span(1e12 * end["capacitance"][carrying]),
+        bearing_capacitance_nF=finite(1e9 * float(end["bearing_capacitance"])),
         energy_residual=finite(residual),
         revolutions_discarded=chosen.discarded,
         revolutions_averaged=chosen.revolutions,
@@ -154,11 +166,11 @@ def _reasons(state: str, message: str, found: list[str]) -> list[str]:
     return [message or ends.get(state, "the run was stopped before its end"), *found]
 
 
-def _breakdown(chosen: Window) -> dict[str, float | None]:
-    """Return the mechanisms with the cage's two contacts as one [N mm]."""
-    parts = chosen.interval.breakdown()
-    parts["cage"] = sum(parts.pop(name) for name in _MECHANISMS_OF_CAGE)
-    return {name: finite(1e3 * value) for name, value in parts.items()}
+def merged_cage(parts: Mapping[str, float]) -> dict[str, float | None]:
+    """Return torques [N m] by mechanism in N mm, with the cage's contacts as one."""
+    merged = {name: value for name, value in parts.items() if name not in _MECHANISMS_OF_CAGE}
+    merged["cage"] = sum(parts[name] for name in _MECHANISMS_OF_CAGE)
+    return {name: finite(1e3 * value) for name, value in merged.items()}
 
 
 @dataclass(frozen=True)
@@ -195,29 +207,22 @@ def _epicyclic(result: Result, cos_angle: float) -> float:
     return 0.5 * (1.0 - ratio * cos_angle)
 
 
-class _End:
-    """The last sample, in the units of the interface."""
-
-    def __init__(self, last: dict[str, NDArray[np.float64]]) -> None:
-        load = last["load"]
-        self.contacts = [
-            Contact(
-                ball=ball + 1,
-                ring=name,
-                azimuth_deg=math.degrees(float(last["ball_azimuth"][ball])) % 360.0,
-                load_N=float(load[ball, ring]),
-                contact_angle_deg=math.degrees(float(last["contact_angle"][ball, ring])),
-                film_um=finite(1e6 * float(last["film_central"][ball, ring])) if load[ball, ring] > 0.0 else None,
-                capacitance_pF=finite(1e12 * float(last["capacitance"][ball, ring])),
-            )
-            for ball in range(load.shape[0])
-            for ring, name in enumerate(get_args(Ring))
-        ]
-        carrying = load > _CARRYING * load.max()
-        self.film_um = _range(1e6 * last["film_central"][carrying])
-        self.film_parameter = _range(last["film_parameter"][carrying])
-        self.capacitance_pF = _range(1e12 * last["capacitance"][carrying])
-        self.bearing_capacitance_nF = finite(1e9 * float(last["bearing_capacitance"]))
+def contact_list(state: Mapping[str, NDArray[np.float64]]) -> list[Contact]:
+    """Return every contact at one instant; the channels have shapes (ball,) and (ball, ring), SI."""
+    load = state["load"]
+    return [
+        Contact(
+            ball=ball + 1,
+            ring=name,
+            azimuth_deg=math.degrees(float(state["ball_azimuth"][ball])) % 360.0,
+            load_N=float(load[ball, ring]),
+            contact_angle_deg=math.degrees(float(state["contact_angle"][ball, ring])),
+            film_um=finite(1e6 * float(state["film_central"][ball, ring])) if load[ball, ring] > 0.0 else None,
+            capacitance_pF=finite(1e12 * float(state["capacitance"][ball, ring])),
+        )
+        for ball in range(load.shape[0])
+        for ring, name in enumerate(get_args(Ring))
+    ]
 
 
 def _sample(result: Result, row: int) -> dict[str, NDArray[np.float64]]:
@@ -229,13 +234,14 @@ def _equilibrium(result: Result) -> Equilibrium:
     first = _sample(result, 0)
     load = first["load"][:, RINGS.index("inner")]
     return Equilibrium(
-        loaded_balls=int((load > _CARRYING * load.max()).sum()),
+        loaded_balls=int((load > CARRYING * load.max()).sum()),
         max_load_N=float(load.max()),
         max_pressure_GPa=1e-9 * float(first["max_pressure"].max()),
     )
 
 
-def _range(values: NDArray[np.float64]) -> list[float]:
+def span(values: NDArray[np.float64]) -> list[float]:
+    """Return the smallest and the largest finite number, nothing when there is none."""
     finite = values[np.isfinite(values)]
     return [float(finite.min()), float(finite.max())] if finite.size else []
 

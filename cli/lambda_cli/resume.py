@@ -1,0 +1,34 @@
+"""The command resume: go on with a run that was interrupted or is to be longer."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lambda_cli.options import JsonOption
+from lambda_cli.run import DurationOption, WallOption, finish, limits
+from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+
+
+def resume(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Result file of the run.")],
+    duration: DurationOption = None,
+    max_wall: WallOption = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Go on with a run from its last checkpoint, bit for bit as if it had not been interrupted.
+
+    Works after Ctrl+C, a kill, a full disk or the limit of wall time. --duration makes a
+    finished run longer. Exit codes as for run.
+    """
+    from lambda_core import api
+
+    with talk(progress, quiet) as speaker:
+        for line in api.result(file).headline.splitlines():
+            speaker.say(line)
+        result = api.resume(file, limits(duration, max_wall), progress=speaker.update, announce=speaker.say)
+    finish(result, as_json)

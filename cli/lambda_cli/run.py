@@ -1,0 +1,72 @@
+"""The command run: simulate a case and write its result."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from lambda_cli.options import CaseArgument, JsonOption, SetOption
+from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+
+if TYPE_CHECKING:
+    from lambda_core.simulate.results import Result
+
+OutOption = Annotated[
+    Path | None, typer.Option("--out", metavar="FILE", help="Result file; default: name of the case, numbered.")
+]
+DurationOption = Annotated[
+    str | None,
+    typer.Option("--duration", metavar="TIME", help='Simulated time, for example "0.5 s"; default: until converged.'),
+]
+WallOption = Annotated[
+    str | None, typer.Option("--max-wall", metavar="TIME", help='Stop after this wall time, for example "10 min".')
+]
+
+
+def run(
+    case: CaseArgument,
+    changes: SetOption = None,
+    out: OutOption = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite an existing result file.")] = False,
+    duration: DurationOption = None,
+    max_wall: WallOption = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Simulate a case from its quasi-static equilibrium and write its result.
+
+    Without --duration it goes on until the friction torque is known to 1 % (95 % confidence),
+    after one discarded and at least four averaged cage revolutions. Ctrl+C keeps what there
+    is; lambda-bearing resume FILE goes on. Exit codes: 0 converged, 3 invalid case, 4 the
+    solver failed, 5 not converged or stopped early (the reason is printed), 130 interrupted.
+    """
+    from lambda_core import api
+
+    model = api.check(case, [*(changes or ()), *limits(duration, max_wall)])
+    with talk(progress, quiet) as speaker:
+        for line in api.describe(model).headline:
+            speaker.say(line)
+        result = api.run(model, out=out, force=force, progress=speaker.update, announce=speaker.say)
+    finish(result, as_json)
+
+
+def limits(duration: str | None, max_wall: str | None) -> list[str]:
+    """Return the overrides that the options stand for."""
+    found = {"solver.duration": duration, "solver.max_wall": max_wall}
+    return [f"{path}={value}" for path, value in found.items() if value is not None]
+
+
+def finish(result: Result, as_json: bool) -> None:
+    """Print the summary and end with the exit code that its state calls for."""
+    from lambda_core.errors import PartialResultError
+
+    summary = result.summary()
+    typer.echo(summary.model_dump_json(indent=2) if as_json else summary.text())
+    if summary.state == "interrupted":
+        typer.echo(f"interrupted; go on with: lambda-bearing resume {result.path}", err=True)
+        raise typer.Exit(130)
+    if not summary.converged:
+        raise PartialResultError(f"not converged: {'; '.join(summary.reasons)}")

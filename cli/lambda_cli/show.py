@@ -1,0 +1,31 @@
+"""The command show: what a result file says."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lambda_cli.options import JsonOption
+
+
+def show(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Result file, also of a run that is still going on.")],
+    as_json: JsonOption = False,
+    assumptions: Annotated[bool, typer.Option("--assumptions", help="List what was assumed.")] = False,
+) -> None:
+    """Show the summary of a result: finished, still growing, or left behind by a killed run."""
+    from lambda_core import api
+
+    result = api.result(file)
+    if assumptions:
+        lines = list(result.assumptions)
+        typer.echo(json.dumps({"interface": 1, "assumptions": lines}, indent=2) if as_json else "\n".join(lines))
+        return
+    summary = result.summary()
+    if as_json:
+        typer.echo(summary.model_dump_json(indent=2))
+        return
+    typer.echo(f"{summary.headline}\n{summary.text()}")

@@ -1,0 +1,167 @@
+"""What a long command says on stderr while it works: a bar, lines, JSON for programs, or nothing."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from enum import StrEnum
+from types import TracebackType
+from typing import TYPE_CHECKING, Annotated, Any, Protocol
+
+import typer
+
+if TYPE_CHECKING:
+    from lambda_core.simulate.progress import Progress
+
+_LINE_AFTER = 5.0  # wall time between plain lines [s]
+
+
+class Style(StrEnum):
+    """How progress is shown."""
+
+    AUTO = "auto"
+    BAR = "bar"
+    PLAIN = "plain"
+    JSON = "json"
+    NONE = "none"
+
+
+ProgressOption = Annotated[
+    Style,
+    typer.Option("--progress", help="On stderr: a bar on a terminal, plain lines, one JSON object per line, or none."),
+]
+QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing on stderr but errors.")]
+
+
+class Talk(Protocol):
+    """One way to say what goes on."""
+
+    def say(self, text: str) -> None:
+        """Say a sentence."""
+
+    def update(self, progress: Progress) -> None:
+        """Take where the run stands."""
+
+    def __enter__(self) -> Talk: ...
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None: ...
+
+
+def talk(style: Style, quiet: bool) -> Talk:
+    """Return the way to talk that was asked for; `auto` is a bar on a terminal and lines elsewhere."""
+    if style is Style.AUTO:
+        style = Style.BAR if sys.stderr.isatty() else Style.PLAIN
+    if quiet and style is not Style.JSON:
+        style = Style.NONE
+    return {Style.BAR: Bar, Style.PLAIN: Lines, Style.JSON: JsonLines, Style.NONE: Silence}[style]()
+
+
+class Silence:
+    """Says nothing."""
+
+    def say(self, text: str) -> None:
+        """Say a sentence."""
+
+    def update(self, progress: Progress) -> None:
+        """Take where the run stands."""
+
+    def __enter__(self) -> Talk:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Nothing to close."""
+
+
+class JsonLines(Silence):
+    """One JSON object per line, for programs that started this one."""
+
+    def say(self, text: str) -> None:
+        """Write a message."""
+        self._write({"event": "message", "text": text})
+
+    def update(self, progress: Progress) -> None:
+        """Write where the run stands."""
+        self._write({"event": "progress", **progress.model_dump(mode="json")})
+
+    def _write(self, data: dict[str, Any]) -> None:
+        print(json.dumps(data, allow_nan=False), file=sys.stderr, flush=True)
+
+
+class Lines(Silence):
+    """A line now and then, for logs."""
+
+    def __init__(self) -> None:
+        self._last = time.monotonic()
+
+    def say(self, text: str) -> None:
+        """Write a line."""
+        print(text, file=sys.stderr, flush=True)
+
+    def update(self, progress: Progress) -> None:
+        """Write a line every few seconds."""
+        now = time.monotonic()
+        if now - self._last >= _LINE_AFTER:
+            self._last = now
+            self.say(f"running  {progress.percent:5.1f} %  {_state(progress)}  {_clock(progress.left_s)} left")
+
+
+class Bar(Silence):
+    """A bar with the time left, on a terminal."""
+
+    def __init__(self) -> None:
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress, TextColumn
+
+        self._console = Console(stderr=True, highlight=False, markup=False, emoji=False)
+        self._bar = Progress(
+            TextColumn("{task.description}", markup=False),
+            BarColumn(bar_width=30),
+            TextColumn("{task.percentage:3.0f} %  {task.fields[state]}", markup=False),
+            console=self._console,
+            transient=True,
+        )
+        self._task = self._bar.add_task("starting", total=None, state="")
+
+    def say(self, text: str) -> None:
+        """Show what is compiled in the bar's place, print everything else above it."""
+        if text.startswith("compiling"):
+            self._bar.update(self._task, description=text, total=None)
+        else:
+            self._console.print(text)
+
+    def update(self, progress: Progress) -> None:
+        """Move the bar."""
+        state = f"{_state(progress)}  {_clock(progress.left_s)} left"
+        self._bar.update(self._task, description="running", total=100.0, completed=progress.percent, state=state)
+
+    def __enter__(self) -> Talk:
+        self._bar.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._bar.stop()
+
+
+def _state(progress: Progress) -> str:
+    """Write revolutions and torque in a few words."""
+    turns = f"cage rev {progress.cage_revolutions:.1f}/{progress.cage_revolutions_wanted:.3g}"
+    if progress.friction_torque_Nmm is None:
+        return turns
+    band = progress.friction_torque_ci_Nmm
+    more = f" ± {band:.1f}" if band is not None else ""
+    return f"{turns}  M {progress.friction_torque_Nmm:.1f}{more} N mm"
+
+
+def _clock(seconds: float | None) -> str:
+    if seconds is None:
+        return "?"
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02d}:{rest:02d}"
