@@ -14,6 +14,7 @@ from lambda_core.errors import unknown_name
 from lambda_core.registry.method import METHOD_API, Method
 from lambda_core.registry.model import LazyModel, Model
 from lambda_core.registry.roles import ROLE_API, ROLES
+from lambda_core.registry.view import view_fault
 
 OWN = "lambda-bearing"  # the distribution of the built-in plugins
 _NAME = re.compile(r"[a-z0-9]+(?:-[a-z0-9]+)*")
@@ -100,9 +101,7 @@ def _fault(entry: Entry) -> str:
         return model_fault(item) if isinstance(item, Model) else _lazy_fault(item)
     if entry.hook == "lambda_methods":
         return _method_fault(item)
-    if not isinstance(getattr(item, "name", None), str):
-        return f"{entry.hook} registers a {type(item).__name__} without a name"
-    return _name_fault(_KINDS[entry.hook], item.name)
+    return view_fault(item) or _name_fault("view", item.name)
 
 
 def _name_fault(kind: str, name: str) -> str:

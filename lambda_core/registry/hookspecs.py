@@ -12,6 +12,8 @@ from lambda_core.registry.model import LazyModel, Model
 
 if TYPE_CHECKING:
     from lambda_core.registry.catalogue import Catalogue
+    from lambda_core.registry.chart import ViewData
+    from lambda_core.registry.view import Figure, View
 
 PROJECT = "lambda_core"
 hookspec = pluggy.HookspecMarker(PROJECT)
@@ -33,8 +35,13 @@ def lambda_methods(register: Callable[[Method], None]) -> None:
 
 
 @hookspec
-def lambda_views(register: Callable[[Any], None]) -> None:
-    """Register views (result -> data, then figure)."""
+def lambda_views(register: Callable[[View], None]) -> None:
+    """Register views: ``register(View("my-view", "What it shows", "result", data))``."""
+
+
+@hookspec(firstresult=True)
+def lambda_figure(data: ViewData) -> Figure | None:
+    """Draw the data of a view that brings no drawing of its own."""
 
 
 @hookspec

@@ -17,9 +17,11 @@ from lambda_core.registry.faults import PluginError, PluginFault, describe
 from lambda_core.registry.method import Method
 from lambda_core.registry.model import LazyModel, Model
 from lambda_core.registry.roles import ROLES
+from lambda_core.registry.view import Figure, View
 
 if TYPE_CHECKING:
     from lambda_core.registry.catalogue import Catalogue
+    from lambda_core.registry.chart import ViewData
 
 
 class Registry:
@@ -33,7 +35,7 @@ class Registry:
         Installed plugins that are not in use, and why.
     methods : mapping of str to Method
         Comparison methods by name.
-    views : mapping of str to object
+    views : mapping of str to View
         Views by name.
     data_folders : tuple of (str, pathlib.Path)
         Distribution and folder of catalogue rows.
@@ -53,7 +55,7 @@ class Registry:
         self.distributions = distributions
         self.faults = faults
         self.methods: Mapping[str, Method] = _of_kind(collection, "method")
-        self.views = _of_kind(collection, "view")
+        self.views: Mapping[str, View] = _of_kind(collection, "view")
         self.data_folders: tuple[tuple[str, Path], ...] = tuple(collection.folders)
 
     def names(self, role: str) -> tuple[str, ...]:
@@ -92,9 +94,25 @@ class Registry:
         found: Method = self._named("method", name, self.methods)
         return found
 
-    def view(self, name: str) -> Any:
+    def view(self, name: str) -> View:
         """Return one view; PluginError with the nearest names when unknown."""
-        return self._named("view", name, self.views)
+        found: View = self._named("view", name, self.views)
+        return found
+
+    def figure(self, view: View, data: ViewData) -> Figure:
+        """Draw the data of a view: its own drawing, or that of the house.
+
+        Raises
+        ------
+        PluginError
+            When neither exists.
+        """
+        if view.figure is not None:
+            return view.figure(data)
+        found: Figure | None = self._hooks.hook.lambda_figure(data=data)
+        if found is None:
+            raise PluginError(f"no plugin draws figures{self._not_loaded()}")
+        return found
 
     def catalogue(self) -> Catalogue:
         """Open the catalogue over the built-in rows and the folders that plugins bring.

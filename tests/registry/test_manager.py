@@ -101,7 +101,7 @@ def test_models_know_their_distribution_and_keep_their_order() -> None:
         (plugin(method(method_api=7), hook="lambda_methods"), ["method trial is written for version 7"]),
         (plugin(method(reference=""), hook="lambda_methods"), ["method trial has no reference"]),
         (plugin(method(evaluate=3), hook="lambda_methods"), ["evaluates with a int, not a function"]),
-        (plugin(object(), hook="lambda_views"), ["lambda_views registers a object without a name"]),
+        (plugin(object(), hook="lambda_views"), ["lambda_views registers a object", "View(name, title"]),
     ],
 )
 def test_a_broken_plugin_is_named_and_the_rest_works(broken: Any, words: list[str]) -> None:
