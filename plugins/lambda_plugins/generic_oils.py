@@ -58,6 +58,19 @@ class TwoPointOil(Parameters):
         return self
 
 
+class RoelandsOil(TwoPointOil):
+    """Parameters of Roelands' law."""
+
+    alpha_span: Annotated[float, Quantity("pressure")] = parameter(
+        "200 MPa",
+        "pressure up to which alpha_p is the mean slope of ln(eta); 0 if it is the slope at ambient pressure",
+        source="Gold et al. 2001 give alpha_p as the secant from 0 to 200 MPa, and so do the generic oils",
+        published_range=("0 MPa", "200 MPa"),
+        ge=0.0,
+        le=1e9,
+    )
+
+
 class BarusOil(TwoPointOil):
     """Parameters of the limited Barus law."""
 
@@ -126,10 +139,20 @@ def oil_density(p: float, T: float, density_15: float, slope: float) -> float:
     return (density_15 + slope * (held - 288.15)) * dowson_higginson(p)
 
 
-def prepare_roelands(parameters: TwoPointOil, context: Context) -> FloatArray:
+def roelands_exponent(oil: RoelandsOil) -> float:
+    """Return Z such that ln(eta) rises by alpha_p times the span at 40 degC; from the slope at zero for no span."""
+    distance = math.log(oil.kinematic_viscosity_40 * float(_density(oil, np.array(_T_40)))) + _ROELANDS_LOG
+    if distance <= 0.0:
+        raise ValueError("the oil is thinner than 0.063 mPa s at 40 degC: Roelands' law does not hold")
+    if oil.alpha_span < 1e3:
+        return oil.alpha_p * _ROELANDS_P / distance
+    rise = oil.alpha_p * oil.alpha_span / distance
+    return math.log1p(rise) / math.log1p(oil.alpha_span / _ROELANDS_P)
+
+
+def prepare_roelands(parameters: RoelandsOil, context: Context) -> FloatArray:
     """Return [rho_15, slope, polynomial of ln eta_0 over 1/T, series of (1 + p/p_0)^Z - 1 over its square root]."""
-    eta_40 = parameters.kinematic_viscosity_40 * float(_density(parameters, np.array(_T_40)))
-    Z = parameters.alpha_p * _ROELANDS_P / (math.log(eta_40) + _ROELANDS_LOG)
+    Z = roelands_exponent(parameters)
     if not 0.0 < Z < 1.5:
         raise ValueError(
             f"alpha_p = {1e9 * parameters.alpha_p:.3g} 1/GPa gives Roelands' Z = {Z:.3g}; oils have 0.2..1.2"
@@ -142,10 +165,10 @@ def prepare_roelands(parameters: TwoPointOil, context: Context) -> FloatArray:
 def roelands(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArray, rho: FloatArray) -> int:
     """Viscosity after Roelands over pressure and Walther over temperature.
 
-    ln eta = ln eta_0 + (ln eta_0 + 9.67) [(1 + 5.1e-9 p)^Z - 1], Z = alpha_p/[5.1e-9 (ln eta_0 + 9.67)] at 40 degC and
-    constant: Roelands 1966 (thesis, Delft); Hamrock, Schmid and Jacobson 2004, Fundamentals of Fluid Film Lubrication,
-    section 4.6. alpha_p then falls with temperature like ln eta_0 + 9.67. eta_0 by ASTM D341. ln(eta) is capped at 1e12
-    Pa s; outside -40..300 degC and above 6 GPa the nearest bound holds.
+    ln eta = ln eta_0 + (ln eta_0 + 9.67) [(1 + 5.1e-9 p)^Z - 1], Z from alpha_p at 40 degC and constant: Roelands
+    1966 (thesis, Delft); Hamrock, Schmid and Jacobson 2004, Fundamentals of Fluid Film Lubrication, section 4.6.
+    alpha_p then falls with temperature like ln eta_0 + 9.67. eta_0 by ASTM D341. ln(eta) is capped at 1e12 Pa s;
+    outside -40..300 degC and above 6 GPa the nearest bound holds.
     """
     for i in range(ln_eta.size):
         pressure = p[i] if p[i] > 0.0 else 0.0
@@ -191,7 +214,7 @@ ROELANDS = model(
     "rheology",
     "roelands",
     roelands,
-    TwoPointOil,
+    RoelandsOil,
     reference="Roelands 1966 (thesis, Delft); ASTM D341; density: Dowson and Higginson 1966",
     validity="-40..300 degC, to about 1 GPa; stiffer than measured oils above; ln(eta) capped at 1e12 Pa s",
     prepare=prepare_roelands,
