@@ -9,12 +9,11 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from sqlalchemy import CheckConstraint, Float, Integer, Text
+from sqlalchemy import Float, Integer, Text
 from sqlalchemy.dialects.sqlite import REAL
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
 
-GRADES = ("A", "A-", "B", "B-", "C", "D")
-STATUSES = ("published", "derived", "assumed")
+from lambda_db.constraints import GRADES, STATUSES, check, named, one_of, positive, positive_names, together
 
 Key = Annotated[str, mapped_column(Text(collation="NOCASE"), primary_key=True)]
 Rank = Annotated[int, mapped_column(Integer, primary_key=True)]
@@ -26,33 +25,6 @@ class Base(DeclarativeBase):
     type_annotation_map = {str: Text(), float: Float().with_variant(REAL(), "sqlite"), int: Integer()}  # noqa: RUF012
 
 
-def _check(name: str, condition: str, sentence: str) -> CheckConstraint:
-    return CheckConstraint(condition, name=name, info={"sentence": sentence})
-
-
-def _one_of(column: str, choices: tuple[str, ...]) -> CheckConstraint:
-    listed = ", ".join(f"'{choice}'" for choice in choices)
-    return _check(f"{column}_known", f"{column} IN ({listed})", f"{column} must be one of {', '.join(choices)}")
-
-
-def _named(*columns: str) -> list[CheckConstraint]:
-    return [_check(f"{c}_not_empty", f"length(trim({c})) > 0", f"{c} must not be empty") for c in columns]
-
-
-def _positive(*columns: str) -> list[CheckConstraint]:
-    return [_check(f"{c}_positive", f"{c} > 0", f"{c} must be positive") for c in columns]
-
-
-def _together(group: str, columns: tuple[str, ...]) -> CheckConstraint:
-    """Require that a group's values stand with source and grade, or that all are empty."""
-    some = " OR ".join(f"{c} IS NOT NULL" for c in columns)
-    return _check(
-        f"{group}_with_source",
-        f"NOT ({some}) OR ({group}_source IS NOT NULL AND {group}_grade IS NOT NULL)",
-        f"{', '.join(columns)}: a value needs {group}_source and {group}_grade",
-    )
-
-
 _STRICT = {"sqlite_strict": True}
 
 
@@ -60,7 +32,7 @@ class Source(Base):
     """A citation that rows name by its key."""
 
     __tablename__ = "source"
-    __table_args__ = (*_named("key", "title"), _STRICT)
+    __table_args__ = (*named("key", "title"), _STRICT)
 
     key: Mapped[Key]
     title: Mapped[str]
@@ -70,7 +42,7 @@ class Alias(Base):
     """Another spelling of a lubricant, material or cage."""
 
     __tablename__ = "alias"
-    __table_args__ = (_one_of("kind", ("lubricant", "material", "cage")), *_named("alias", "name"), _STRICT)
+    __table_args__ = (one_of("kind", ("lubricant", "material", "cage")), *named("alias", "name"), _STRICT)
 
     kind: Mapped[Key]
     alias: Mapped[Key]
@@ -90,65 +62,65 @@ class Bearing(Base):
 
     __tablename__ = "bearing"
     __table_args__ = (
-        *_named("designation", "maker"),
-        *_positive("bore_diameter_mm", "width_mm", "chamfer_mm", "dynamic_rating_kN", "static_rating_kN"),
-        *_positive("fatigue_limit_kN", *_CATALOGUE),
-        _check(
+        *named("designation", "maker"),
+        *positive("bore_diameter_mm", "width_mm", "chamfer_mm", "dynamic_rating_kN", "static_rating_kN"),
+        *positive("fatigue_limit_kN", *_CATALOGUE),
+        check(
             "outside_over_bore",
             "outside_diameter_mm > bore_diameter_mm",
             "outside_diameter_mm must be larger than bore_diameter_mm",
         ),
-        _check("chamfer_within_width", "2 * chamfer_mm < width_mm", "two chamfers must fit into width_mm"),
-        _together("dynamic_rating", ("dynamic_rating_kN",)),
-        _together("static_rating", ("static_rating_kN", "fatigue_limit_kN")),
-        _together("catalogue", _CATALOGUE),
-        _together("geometry", (*_GEOMETRY, *_RACES)),
-        _together("groove", _GROOVES),
-        _together("shoulder", _SHOULDERS),
-        _check(
+        check("chamfer_within_width", "2 * chamfer_mm < width_mm", "two chamfers must fit into width_mm"),
+        together("dynamic_rating", ("dynamic_rating_kN",)),
+        together("static_rating", ("static_rating_kN", "fatigue_limit_kN")),
+        together("catalogue", _CATALOGUE),
+        together("geometry", (*_GEOMETRY, *_RACES)),
+        together("groove", _GROOVES),
+        together("shoulder", _SHOULDERS),
+        check(
             "design_complete",
             "(ball_count IS NULL) = (ball_diameter_mm IS NULL) AND (ball_count IS NULL) = (pitch_diameter_mm IS NULL)",
             "ball_count, ball_diameter_mm and pitch_diameter_mm go together",
         ),
-        _check("enough_balls", "ball_count >= 3", "ball_count must be at least 3"),
-        *_positive("ball_diameter_mm"),
+        check("enough_balls", "ball_count >= 3", "ball_count must be at least 3"),
+        *positive("ball_diameter_mm"),
         # asin(x) > x + x^3/6: the balls side by side must not pass the full pitch circle (SQLite may lack asin)
-        _check(
+        check(
             "balls_fit_on_pitch_circle",
             f"ball_count * ({_RATIO} + {_RATIO} * {_RATIO} * {_RATIO} / 6.0) <= 3.141592653589793",
             "too many balls: side by side they are longer than the pitch circle",
         ),
-        _check(
+        check(
             "balls_between_bore_and_outside",
             "pitch_diameter_mm - ball_diameter_mm > bore_diameter_mm"
             " AND pitch_diameter_mm + ball_diameter_mm < outside_diameter_mm",
             "the balls on their pitch circle must lie between bore and outside diameter",
         ),
-        _check(
+        check(
             "races_between_bore_and_outside",
             "race_diameter_inner_mm > bore_diameter_mm AND race_diameter_outer_mm < outside_diameter_mm"
             " AND race_diameter_inner_mm < race_diameter_outer_mm",
             "raceway diameters must satisfy bore < inner race < outer race < outside diameter",
         ),
-        _check(
+        check(
             "races_match_balls",
             "abs(race_diameter_outer_mm - race_diameter_inner_mm - 2 * ball_diameter_mm) <= 0.05 * ball_diameter_mm",
             "the gap between the raceways must be two ball diameters within 5 %",
         ),
-        _check(
+        check(
             "grooves_wider_than_ball",
             "groove_radius_inner_mm > 0.5 * ball_diameter_mm AND groove_radius_outer_mm > 0.5 * ball_diameter_mm",
             "a groove radius must be larger than the ball's radius",
         ),
-        _check(
+        check(
             "shoulders_between_bore_and_outside",
             "shoulder_diameter_inner_mm > bore_diameter_mm AND shoulder_diameter_outer_mm < outside_diameter_mm"
             " AND shoulder_diameter_inner_mm < shoulder_diameter_outer_mm",
             "shoulder diameters must satisfy bore < inner shoulder < outer shoulder < outside diameter",
         ),
-        *(_one_of(f"{g}_grade", GRADES) for g in ("dimensions", "dynamic_rating", "static_rating", "catalogue")),
-        *(_one_of(f"{g}_grade", GRADES) for g in ("geometry", "groove", "shoulder")),
-        *(_one_of(f"{g}_status", STATUSES) for g in ("dynamic_rating", "static_rating", "geometry", "groove")),
+        *(one_of(f"{g}_grade", GRADES) for g in ("dimensions", "dynamic_rating", "static_rating", "catalogue")),
+        *(one_of(f"{g}_grade", GRADES) for g in ("geometry", "groove", "shoulder")),
+        *(one_of(f"{g}_status", STATUSES) for g in ("dynamic_rating", "static_rating", "geometry", "groove")),
         _STRICT,
     )
 
@@ -218,16 +190,14 @@ class Clearance(Base):
 
     __tablename__ = "clearance"
     __table_args__ = (
-        *_named("clearance_class", "source"),
-        _check(
-            "bore_range", "0 <= bore_over_mm AND bore_over_mm < bore_to_mm", "bore_over_mm must be below bore_to_mm"
-        ),
-        _check(
+        *named("clearance_class", "source"),
+        check("bore_range", "0 <= bore_over_mm AND bore_over_mm < bore_to_mm", "bore_over_mm must be below bore_to_mm"),
+        check(
             "clearance_range",
             "0 <= minimum_um AND minimum_um < maximum_um",
             "clearance limits must satisfy 0 <= minimum_um < maximum_um",
         ),
-        _one_of("grade", GRADES),
+        one_of("grade", GRADES),
         _STRICT,
     )
 
@@ -248,12 +218,10 @@ class Material(Base):
 
     __tablename__ = "material"
     __table_args__ = (
-        *_named("name", "source"),
-        *_positive(*_SOLID, "permittivity"),
-        _check(
-            "poisson_range", "poisson_ratio > 0 AND poisson_ratio < 0.5", "poisson_ratio must lie between 0 and 0.5"
-        ),
-        _one_of("grade", GRADES),
+        *named("name", "source"),
+        *positive(*_SOLID, "permittivity"),
+        check("poisson_range", "poisson_ratio > 0 AND poisson_ratio < 0.5", "poisson_ratio must lie between 0 and 0.5"),
+        one_of("grade", GRADES),
         _STRICT,
     )
 
@@ -275,18 +243,18 @@ class Cage(Base):
 
     __tablename__ = "cage"
     __table_args__ = (
-        *_named("name", "material", "source"),
-        _one_of("guidance", ("ball", "outer ring", "inner ring")),
-        *_positive("pocket_clearance_ratio", "land_clearance_ratio", "fill", "radial_ratio", "axial_ratio"),
-        _check("friction_range", "friction >= 0 AND friction < 1", "friction must lie between 0 and 1"),
-        _check(
+        *named("name", "material", "source"),
+        one_of("guidance", ("ball", "outer ring", "inner ring")),
+        *positive("pocket_clearance_ratio", "land_clearance_ratio", "fill", "radial_ratio", "axial_ratio"),
+        check("friction_range", "friction >= 0 AND friction < 1", "friction must lie between 0 and 1"),
+        check(
             "land_with_ring_guidance",
             "(guidance = 'ball') = (land_clearance_ratio IS NULL)",
             "land_clearance_ratio belongs to ring guidance, and ring guidance needs it",
         ),
-        _one_of("grade", GRADES),
-        _one_of("status", STATUSES),
-        _together("temperature", ("maximum_temperature_degC",)),
+        one_of("grade", GRADES),
+        one_of("status", STATUSES),
+        together("temperature", ("maximum_temperature_degC",)),
         _STRICT,
     )
 
@@ -313,7 +281,7 @@ class Lubricant(Base):
     """A lubricant; its numbers are rows of :class:`LubricantProperty` and :class:`LubricantParameter`."""
 
     __tablename__ = "lubricant"
-    __table_args__ = (*_named("name", "base_type", "rheology"), _STRICT)
+    __table_args__ = (*named("name", "base_type", "rheology"), _STRICT)
 
     name: Mapped[Key]
     base_type: Mapped[str]
@@ -322,36 +290,16 @@ class Lubricant(Base):
     layer: Mapped[str] = mapped_column(server_default="core")
 
 
-# Constraint's name -> pattern of the property or parameter names that it rules.
-_POSITIVE_NAMES = {
-    "viscosity": "%viscosity%",
-    "density": "density_1_",
-    "alpha_p": "alpha_p%",
-    "thermal_conductivity": "thermal_conductivity",
-    "specific_heat": "specific_heat",
-    "tau_eyring": "tau_eyring",
-    "limit_ratio": "limit_ratio",
-    "vogel_k": "vogel_k",
-}
-
-
-def _positive_names() -> list[CheckConstraint]:
-    return [
-        _check(f"{label}_positive", f"name NOT LIKE '{pattern}' OR value > 0", f"a {label} must be positive")
-        for label, pattern in _POSITIVE_NAMES.items()
-    ]
-
-
 class LubricantProperty(Base):
     """One general property of a lubricant, in the unit of its source."""
 
     __tablename__ = "lubricant_property"
     __table_args__ = (
-        *_named("lubricant", "name", "source"),
-        _one_of("grade", GRADES),
-        _one_of("status", STATUSES),
-        *_positive_names(),
-        _check("permittivity_range", "name <> 'permittivity' OR value >= 1", "permittivity must be at least 1"),
+        *named("lubricant", "name", "source"),
+        one_of("grade", GRADES),
+        one_of("status", STATUSES),
+        *positive_names(),
+        check("permittivity_range", "name <> 'permittivity' OR value >= 1", "permittivity must be at least 1"),
         _STRICT,
     )
 
@@ -369,10 +317,10 @@ class LubricantParameter(Base):
 
     __tablename__ = "lubricant_parameter"
     __table_args__ = (
-        *_named("lubricant", "role", "model", "name", "source"),
-        _one_of("grade", GRADES),
-        *_positive_names(),
-        _check("eps_r_range", "name <> 'eps_r' OR value >= 1", "eps_r must be at least 1"),
+        *named("lubricant", "role", "model", "name", "source"),
+        one_of("grade", GRADES),
+        *positive_names(),
+        check("eps_r_range", "name <> 'eps_r' OR value >= 1", "eps_r must be at least 1"),
         _STRICT,
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from lambda_db.catalogue import SqlCatalogue
-from lambda_db.models import GRADES
+from lambda_db.constraints import GRADES
 from lambda_db.transfer import rows_of
 from lambda_db.validation import table, trials
 

@@ -43,7 +43,7 @@ class Bode:
     def permittivity(self, p: float, t: float) -> float:
         k, ambient = self.k, self.density(0, t)
         base = k["k1"] * self.compressibility(t) ** -0.5 * ambient ** (1 / 6)
-        return base + k["k2"] * t + k["k3"] * (self.density(p, t) - ambient)
+        return float(base + k["k2"] * t + k["k3"] * (self.density(p, t) - ambient))
 
 
 @pytest.fixture
@@ -198,7 +198,7 @@ def test_alpha_definitions_agree_for_barus_and_differ_for_roelands() -> None:
 
     def roelands(p: float) -> float:
         z = alpha * 1.96e8 / (math.log(0.1) + 9.67)
-        return math.log(0.1) + (math.log(0.1) + 9.67) * ((1 + p / 1.96e8) ** z - 1)
+        return float(math.log(0.1) + (math.log(0.1) + 9.67) * ((1 + p / 1.96e8) ** z - 1))
 
     assert oil.alpha_tangent(roelands) == pytest.approx(alpha, rel=1e-5)
     assert oil.alpha_secant(roelands) < oil.alpha_tangent(roelands)

@@ -1,0 +1,199 @@
+"""How `lambda-bearing db` prints rows: tables for people, one JSON object for programs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from lambda_db.catalogue import SqlCatalogue
+    from rich.table import Table
+
+    from lambda_core.registry.catalogue import BearingRow, CageRow, LubricantRow, MaterialRow
+    from lambda_core.registry.registry import Registry
+
+
+def print_json(**data: object) -> None:
+    """Write one JSON object with the version of its form."""
+    import json
+
+    typer.echo(json.dumps({"version": 1, **data}, indent=2, ensure_ascii=False))
+
+
+def _table(*columns: str) -> Table:
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for column in columns:
+        name = column.removesuffix(">")
+        table.add_column(name, justify="right" if column.endswith(">") else "left", overflow="fold")
+    return table
+
+
+def _print(item: object) -> None:
+    """Write to stdout; a pipe gets whole lines, however long."""
+    import sys
+
+    from rich.console import Console
+
+    Console(width=None if sys.stdout.isatty() else 400, highlight=False, markup=False, emoji=False).print(item)
+
+
+def _number(value: float | None, digits: int = 6) -> str:
+    return "" if value is None else f"{value:.{digits}g}"
+
+
+def list_bearings(rows: list[BearingRow], json: bool) -> None:
+    """Print one line per bearing; estimates are marked."""
+    from lambda_db.presentation import bearing_summary
+
+    if json:
+        print_json(kind="bearings", rows=[bearing_summary(row) for row in rows])
+        return
+    table = _table("designation", "maker", "d>", "D>", "B>", "C kN>", "C0 kN>", "Z x Dw>", "grade")
+    for row in rows:
+        s = bearing_summary(row)
+        design, grade = "", "unknown"
+        if s["ball_count"] is not None:
+            mark = "≈ " if s["geometry_status"] != "published" else ""
+            design = f"{mark}{s['ball_count']} x {_number(s['ball_diameter_mm'])}"
+            grade = f"{s['geometry_grade']} {s['geometry_status']}"
+        numbers = (_number(s[name]) for name in ("bore_mm", "outside_mm", "width_mm", "C_kN", "C0_kN"))
+        table.add_row(row.designation, row.maker, *numbers, design, grade)
+    _print(table)
+
+
+def list_lubricants(rows: list[LubricantRow], json: bool) -> None:
+    """Print one line per oil."""
+    from lambda_db.presentation import lubricant_summary
+
+    if json:
+        print_json(kind="lubricants", rows=[lubricant_summary(row) for row in rows])
+        return
+    table = _table("name", "base", "nu40>", "nu100 mm2/s>", "alpha40 1/GPa>", "rheology", "note")
+    for row in rows:
+        s = lubricant_summary(row)
+        numbers = (_number(s[name], 4) for name in ("nu40_mm2s", "nu100_mm2s", "alpha40_per_GPa"))
+        table.add_row(row.name, row.base_type, *numbers, row.rheology, row.note)
+    _print(table)
+
+
+def show_bearing(catalogue: SqlCatalogue, row: BearingRow, json: bool) -> None:
+    """Print a bearing: values with sources, candidate designs, clearance classes and a section to scale."""
+    from lambda_db.drawing import cross_section
+    from lambda_db.presentation import candidate_lines, clearance_lines, values_of
+
+    values, candidates, clearances = values_of(row), candidate_lines(row), clearance_lines(catalogue, row)
+    if json:
+        print_json(
+            kind="bearing",
+            designation=row.designation,
+            maker=row.maker,
+            series=row.series,
+            layer=row.layer,
+            rating_type=row.rating_type,
+            values={value.pop("name"): value for value in values},
+            candidates=candidates,
+            clearances=clearances,
+        )
+        return
+    whose = "" if row.layer == "core" else f"   ({row.layer} row)"
+    _print(f"{row.designation}  {row.maker}   series {row.series or '-'}   ratings {row.rating_type or '-'}{whose}")
+    _print("")
+    _print_values(values)
+    if candidates:
+        _print("")
+        _print("inner geometry is estimated; candidates:")
+        table = _table("Z x Dw mm>", "pitch mm>", "score>", "weight>", "filling deg>")
+        for c in candidates:
+            design = f"{c['ball_count']} x {_number(c['ball_diameter_mm'])}"
+            rest = (_number(c[name], 4) for name in ("score", "weight", "filling_angle_deg"))
+            table.add_row(design, _number(c["pitch_diameter_mm"]), *rest)
+        _print(table)
+    _print("")
+    classes = "   ".join(f"{c['class']} {c['minimum_um']:g}-{c['maximum_um']:g}" for c in clearances)
+    _print(f"radial internal clearance, um   {classes or 'not tabulated for this bore'}")
+    _print("")
+    _print(cross_section(row))
+
+
+def _print_values(values: list[dict[str, Any]]) -> None:
+    table = _table("value", ">", "unit", "status", "grade", "source")
+    for value in values:
+        status = f"≈ {value['status']}" if value["status"] != "published" else value["status"]
+        table.add_row(
+            value["name"], _number(value["value"], 10), value["unit"], status, value["grade"], value["source"]
+        )
+    _print(table)
+
+
+def show_lubricant(
+    row: LubricantRow,
+    models: Registry,
+    temperatures: list[str] | None,
+    pressures: list[str] | None,
+    rheology: str | None,
+    json: bool,
+) -> None:
+    """Print an oil: values, constants of every law, and its behaviour over temperature and pressure."""
+    from lambda_db.presentation import parameters_of, parsed, values_of
+
+    from lambda_core.physics.oil_table import oil_table
+
+    kelvin = parsed(
+        temperatures or ["20 degC", "40 degC", "60 degC", "80 degC", "100 degC"], "temperature", "--temperature"
+    )
+    pascal = parsed(pressures or ["0 GPa", "0.5 GPa", "1 GPa"], "pressure", "--pressure")
+    table, values, parameters = oil_table(row, models, kelvin, pascal, rheology), values_of(row), parameters_of(row)
+    if json:
+        print_json(
+            kind="lubricant",
+            name=row.name,
+            base_type=row.base_type,
+            note=row.note,
+            layer=row.layer,
+            values={value.pop("name"): value for value in values},
+            parameters=parameters,
+            table=table.model_dump(mode="json"),
+        )
+        return
+    _print(f"{row.name}   {row.base_type}   {row.note}   ({row.layer})")
+    _print("")
+    _print_values(values)
+    _print("")
+    listed = _table("role", "model", "parameter", "value>", "unit", "grade", "source")
+    for p in parameters:
+        listed.add_row(p["role"], p["model"], p["name"], _number(p["value"], 10), p["unit"], p["grade"], p["source"])
+    _print(listed)
+    _print("")
+    _print(f"by {table.rheology}: {table.reference}")
+    _print(f"valid {table.validity}")
+    grid = _table("degC>", "GPa>", "eta mPa s>", "nu mm2/s>", "rho kg/m3>", "eps_r>")
+    for point in table.points:
+        numbers = (point.viscosity_mPas, point.kinematic_viscosity_mm2s, point.density_kgm3, point.permittivity)
+        grid.add_row(f"{point.temperature_degC:g}", f"{point.pressure_GPa:g}", *(_number(n, 4) for n in numbers))
+    _print(grid)
+    _print("")
+    coefficients = _table("degC>", "alpha at p=0>", "secant 0.2 GPa>", "reciprocal 1/GPa>", "beta 1/K>")
+    for c in table.coefficients:
+        alphas = (c.alpha_tangent_per_GPa, c.alpha_secant_per_GPa, c.alpha_reciprocal_per_GPa, c.beta_per_K)
+        coefficients.add_row(f"{c.temperature_degC:g}", *(_number(a, 4) for a in alphas))
+    _print(coefficients)
+
+
+def show_plain(row: MaterialRow | CageRow, json: bool) -> None:
+    """Print a material or a cage."""
+    from lambda_db.presentation import texts_of, values_of
+
+    texts, values = texts_of(row), values_of(row)
+    if json:
+        print_json(
+            kind="cage" if "guidance" in texts else "material",
+            **texts,
+            values={value.pop("name"): value for value in values},
+        )
+        return
+    _print("   ".join(text for text in texts.values() if text))
+    _print("")
+    _print_values(values)
