@@ -233,16 +233,20 @@ def body_rates(body, b, fm, channels, system, rate, rates, want):
         else:
             rate[SVX + i] = channels[CH_MOTION + dof, 2] if system.mode[dof] == PRESCRIBED else 0.0
             power += (mass * rate[SVX + i] - force) * v
-    # Moments: contacts, loads, supports against the tilt (phi_y, phi_z) = (-a_z, a_y).
+    # Moments: contacts, loads, and supports. Their springs have the potential (k_y a_z^2 + k_z a_y^2)/2 of the
+    # tilt (phi_y, phi_z) = (-a_z, a_y); their dampers act across the axis (c_y, c_z) and about it (c_s).
     lx, ly, lz = channels[CH_MOMENT + 3 * b, 0], channels[CH_MOMENT + 3 * b + 1, 0], channels[CH_MOMENT + 3 * b + 2, 0]
     d = 6 * b
-    cy, cz, cs = system.damping[d + 3], system.damping[d + 4], system.damping[d + 5]
-    mx = fm[3] + lx - cs * sigma
-    my = fm[4] + ly + system.stiffness[d + 3] * az - cy * wy
-    mz = fm[5] + lz - system.stiffness[d + 4] * ay - cz * wz
-    support += cy * wy * wy + cz * wz * wz + cs * sigma * sigma
+    ky, kz = system.stiffness[d + 3], system.stiffness[d + 4]
+    dy, dz = system.damping[d + 3] * wy, system.damping[d + 4] * wz
+    resist = system.damping[d + 5] * sigma
+    mx = fm[3] + lx + (kz - ky) * ay * az
+    my = fm[4] + ly + ky * az * ax
+    mz = fm[5] + lz - kz * ay * ax
+    support += dy * wy + dz * wz + resist * sigma
     power += lx * (wx + sigma * ax) + ly * (wy + sigma * ay) + lz * (wz + sigma * az)
-    along = mx * ax + my * ay + mz * az
+    about = mx * ax + my * ay + mz * az
+    along = about - resist
     if system.mode[d + 5] == FREE:
         rate[SSIGMA] = along / ip
     else:
@@ -251,7 +255,8 @@ def body_rates(body, b, fm, channels, system, rate, rates, want):
         power += drive
         if want == 1:
             rates[I_DRIVE] += drive
-    gy, gz = my - along * ay - ip * sigma * ty, mz - along * az - ip * sigma * tz
+    slant = about - dy * ay - dz * az
+    gy, gz = my - dy - slant * ay - ip * sigma * ty, mz - dz - slant * az - ip * sigma * tz
     if system.mode[d + 3] == FREE:
         rate[SWY] = gy / it
     else:
