@@ -14,6 +14,7 @@ from pydantic import Field
 from lambda_core.plugins import Context, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
 from lambda_plugins.rheology import capped
+from lambda_plugins.shapes import at_least, at_most
 from lambda_plugins.vector_math import exp, log1p
 
 _T_LOW = 223.15  # [K]
@@ -56,8 +57,7 @@ class BodePermittivity(BodeDensity):
 
 def within_range(temperature: float) -> float:
     """Return the temperature held within 223..573 K, where the polynomial N(T) is positive."""
-    held = temperature if temperature > _T_LOW else _T_LOW
-    return held if held < _T_HIGH else _T_HIGH
+    return at_most(at_least(temperature, _T_LOW), _T_HIGH)
 
 
 def pressure_scale(T: float, par: FloatArray) -> float:
@@ -68,9 +68,9 @@ def pressure_scale(T: float, par: FloatArray) -> float:
 
 def bode_density(p: float, T: float, par: FloatArray) -> float:
     """Return rho [kg/m3] = rho_s (1 - alpha_s T)/(1 - a1 ln(1 + p/N)), p in Pa, T in K within range."""
-    bar = 1e-5 * p if p > 0.0 else 0.0
+    bar = 1e-5 * at_least(p, 0.0)
     compression = 1.0 - par[2] * log1p(bar / pressure_scale(T, par))
-    density: float = par[0] * (1.0 - par[1] * T) / (compression if compression > 0.1 else 0.1)
+    density: float = par[0] * (1.0 - par[1] * T) / at_least(compression, 0.1)
     return density
 
 
@@ -108,7 +108,7 @@ def bode_rheology(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatAr
         distance = par[9] * (1.0 + par[10] * temperature) / density - 1.0
         # A2/60 keeps the exponent finite at and beyond the pole, far above the cap.
         nearest = par[8] / 60.0
-        ln_eta[i] = capped(par[7] + par[8] / (distance if distance > nearest else nearest))
+        ln_eta[i] = capped(par[7] + par[8] / at_least(distance, nearest))
         rho[i] = density
     return 1
 

@@ -14,7 +14,7 @@ from pydantic import model_validator
 
 from lambda_core.plugins import Context, NoParameters, Quantity, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
-from lambda_plugins.shapes import cubic_friction_slope
+from lambda_plugins.shapes import at_least, at_most, cubic_friction_slope
 
 _ASSUMED = "assumption; 5e6 N/m and the friction law as in the group's models"
 _LIMITS_AT = 1e-12  # [m] below this distance from the centre no direction of contact is defined
@@ -99,11 +99,9 @@ def push_back(
     """
     onset = par[3]
     spring = 0.5 * penetration * penetration / onset if penetration < onset else penetration - 0.5 * onset
-    s = penetration / par[2]
-    s = s if s < 1.0 else 1.0
+    s = at_most(penetration / par[2], 1.0)
     closing = v_rel[0] * n0 + v_rel[1] * n1 + v_rel[2] * n2
-    normal = par[0] * spring + par[1] * s * s * (3.0 - 2.0 * s) * closing
-    normal = normal if normal > 0.0 else 0.0
+    normal = at_least(par[0] * spring + par[1] * s * s * (3.0 - 2.0 * s) * closing, 0.0)
     x0 = par[9] * n0
     x1 = par[9] * n1
     x2 = par[9] * n2

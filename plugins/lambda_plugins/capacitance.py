@@ -8,6 +8,7 @@ import numpy as np
 
 from lambda_core.plugins import Context, NoParameters, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_plugins.shapes import at_least, at_most
 
 _EPSILON_0 = 8.8541878128e-12  # [F/m], CODATA 2018
 _STEPS = 160
@@ -37,7 +38,7 @@ def schneider(
         out[0] = C_hertz
         return 1
     factor = 9.5923 * U**0.3305 * G**0.3431 * W**-0.3342 * (semi_a / semi_b) ** 0.1391
-    out[0] = C_hertz * (factor if factor > 1.0 else 1.0)
+    out[0] = C_hertz * at_least(factor, 1.0)
     return 1
 
 
@@ -140,12 +141,12 @@ def gap_integral(
     Parallel plates in each element, no fringes, oil everywhere, the film's constriction at the outlet left out.
     """
     outer = par[0]
-    major = semi_a if semi_a > semi_b else semi_b
-    minor = semi_b if semi_a > semi_b else semi_a
+    major = at_least(semi_a, semi_b)
+    minor = at_most(semi_a, semi_b)
     if C_hertz <= 0.0 or minor <= 0.0 or major >= outer:
         out[0] = C_hertz
         return 1
-    film = h if h > 1e-10 else 1e-10
+    film = at_least(h, 1e-10)
     P = gap_scale(major, minor, R_x, R_y)
     step = math.asinh(math.sqrt(outer * outer - major * major) / minor) / _STEPS
     i_a = 0.0

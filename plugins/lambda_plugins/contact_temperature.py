@@ -8,6 +8,7 @@ import numpy as np
 
 from lambda_core.plugins import Context, Material, NoParameters, model
 from lambda_plugins.fields import FloatArray
+from lambda_plugins.shapes import at_least
 
 _BAND_MEAN = 4.0 / 3.0 / math.sqrt(math.pi)  # 0.752: two thirds of the largest value, at the trailing edge
 _PECLET_AT_REST = 0.02
@@ -55,7 +56,7 @@ def shear_heating(
     is one half for equal materials. Jaeger 1942; Archard 1959, Wear 2, 438. Mean over the length of the contact in
     every cell; side flow of heat and the rise in the bulk of the bodies are left out.
     """
-    film = h if h > 1e-10 else 1e-10
+    film = at_least(h, 1e-10)
     s_1 = band_rise(semi_b, u_mean, par[1], par[2])
     s_2 = band_rise(semi_b, u_mean, par[3], par[4])
     g = par[0] / film

@@ -10,6 +10,7 @@ import numpy as np
 from lambda_core.plugins import Context, NoParameters, Quantity, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
 from lambda_plugins.normal_contact import stiffness
+from lambda_plugins.shapes import at_least, at_most
 
 
 class CubicDamping(Parameters):
@@ -34,7 +35,7 @@ def prepare_cubic(parameters: CubicDamping, context: Context) -> FloatArray:
     """Return [d_max, delta_max]; d_max from the contact stiffness at the mean load unless given."""
     full = parameters.coefficient
     if full is None:
-        load = context.mean_load if context.mean_load > 1.0 else 1.0
+        load = max(context.mean_load, 1.0)
         full = parameters.time_constant * stiffness(load, context.radius_x, context.radius_y, context.e_eff)
     if not math.isfinite(full) or full < 0.0:
         raise ValueError(f"damping coefficient {full:g} N s/m is not a finite number >= 0")
@@ -47,10 +48,8 @@ def cubic(delta: float, delta_dot: float, load: float, par: FloatArray, out: Flo
     F_D = d(delta) delta_dot with d = d_max s^2 (3 - 2 s), s = delta/delta_max, d = 0 below s = 0 and d_max above
     s = 1: Syla et al. 2026, eq. 12-13. Continuous at first touch; a contact never pulls, F_N + F_D >= 0.
     """
-    s = delta / par[1]
-    s = 0.0 if s < 0.0 else (1.0 if s > 1.0 else s)
-    force = par[0] * s * s * (3.0 - 2.0 * s) * delta_dot
-    out[0] = force if force > -load else -load
+    s = at_most(at_least(delta / par[1], 0.0), 1.0)
+    out[0] = at_least(par[0] * s * s * (3.0 - 2.0 * s) * delta_dot, -load)
     return 1
 
 

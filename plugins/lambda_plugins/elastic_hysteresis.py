@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from lambda_core.plugins import NoParameters, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_plugins.shapes import at_least
 
 
 class LossFactor(Parameters):
@@ -55,10 +56,8 @@ def houpert(
     M = 7.4826e-7 R_ball^0.33 Q^1.33 [1 - 3.519e-3 (k - 1)^0.8063], k = R_y/R_x, SI: Houpert 2002, Tribol. Int. 35 (as
     commonly quoted; original not seen). A fit to steel; it may contain slip that the contacts already carry.
     """
-    k = R_y / R_x - 1.0
-    shape = 1.0 - 3.519e-3 * (k if k > 0.0 else 0.0) ** 0.8063
-    force = load if load > 0.0 else 0.0
-    out[0] = 7.4826e-7 * R_ball**0.33 * force**1.33 * (shape if shape > 0.0 else 0.0)
+    shape = 1.0 - 3.519e-3 * at_least(R_y / R_x - 1.0, 0.0) ** 0.8063
+    out[0] = 7.4826e-7 * R_ball**0.33 * at_least(load, 0.0) ** 1.33 * at_least(shape, 0.0)
     return 1
 
 
@@ -96,7 +95,7 @@ def scheuermann(
 
     Wingertszahn et al. 2023, Lubricants 11, 369, eq. 19; c_r and e_r must be given.
     """
-    out[0] = par[0] * (load if load > 0.0 else 0.0) ** par[1]
+    out[0] = par[0] * at_least(load, 0.0) ** par[1]
     return 1
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from lambda_core.plugins import Context, NoParameters, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
 from lambda_plugins.immersion import immersion, kinematic_speeds, mean_immersion, oil_geometry
+from lambda_plugins.shapes import at_least
 
 _RPM = math.pi / 30.0
 _SLOW = 1.0  # [1/min] below which a power law with an exponent under 1 becomes linear (numerical)
@@ -173,7 +174,7 @@ def prepare_schaeffler(parameters: Schaeffler, context: Context) -> FloatArray:
 def viscous_number(nu: float, n: float) -> float:
     """Return (nu n)^(2/3) held at 160 and above (the catalogue steps by 0.8 % there); nu in m2/s, n in 1/min."""
     power: float = (1e6 * nu * abs(n)) ** (2.0 / 3.0)
-    return power if power > 160.0 else 160.0
+    return at_least(power, 160.0)
 
 
 def schaeffler_catalogue(

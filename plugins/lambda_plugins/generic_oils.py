@@ -1,7 +1,7 @@
 """Oils known by two kinematic viscosities: Walther over temperature, Roelands or Barus over pressure.
 
 Per cell the laws need ln(eta_0) at the cell's temperature. Walther's double exponential is therefore fitted once, by a
-polynomial in 1/T (error below 1e-4 in ln eta), and so are the powers of pressure and viscosity that go with it.
+polynomial in 1/T (error below 1e-5 in ln eta), and so are the powers of pressure and viscosity that go with it.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from pydantic import model_validator
 from lambda_core.plugins import Context, Quantity, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
 from lambda_plugins.rheology import capped, dowson_higginson
-from lambda_plugins.shapes import POLYNOMIAL_TERMS, polynomial, smooth_min
+from lambda_plugins.shapes import POLYNOMIAL_TERMS, at_least, at_most, polynomial, smooth_min
 
 _T_LOW = 233.15  # [K]
 _T_HIGH = 573.15  # [K]
@@ -127,15 +127,13 @@ def _log_viscosity_series(oil: TwoPointOil) -> FloatArray:
 
 def scaled_inverse(T: float) -> float:
     """Return 1/T mapped to -1..1 between 300 and -40 degC, held there."""
-    held = T if T > _T_LOW else _T_LOW
-    held = held if held < _T_HIGH else _T_HIGH
+    held = at_most(at_least(T, _T_LOW), _T_HIGH)
     return (2.0 / held - 1.0 / _T_HIGH - 1.0 / _T_LOW) / (1.0 / _T_LOW - 1.0 / _T_HIGH)
 
 
 def oil_density(p: float, T: float, density_15: float, slope: float) -> float:
     """Return rho [kg/m3]: linear in temperature (held at -40..300 degC), Dowson and Higginson under pressure."""
-    held = T if T > _T_LOW else _T_LOW
-    held = held if held < _T_HIGH else _T_HIGH
+    held = at_most(at_least(T, _T_LOW), _T_HIGH)
     return (density_15 + slope * (held - 288.15)) * dowson_higginson(p)
 
 
@@ -171,13 +169,12 @@ def roelands(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArray, 
     outside -40..300 degC and above 6 GPa the nearest bound holds.
     """
     for i in range(ln_eta.size):
-        pressure = p[i] if p[i] > 0.0 else 0.0
-        root = math.sqrt(1.0 + pressure / _ROELANDS_P)
-        root = root if root < _ROOT_HIGH else _ROOT_HIGH
+        pressure = at_least(p[i], 0.0)
+        root = at_most(math.sqrt(1.0 + pressure / _ROELANDS_P), _ROOT_HIGH)
         ambient = polynomial(scaled_inverse(T[i]), par, 2)
         stiffening = polynomial(2.0 * (root - 1.0) / (_ROOT_HIGH - 1.0) - 1.0, par, 2 + POLYNOMIAL_TERMS)
         distance = ambient + _ROELANDS_LOG
-        ln_eta[i] = capped(ambient + (distance if distance > 0.0 else 0.0) * stiffening)
+        ln_eta[i] = capped(ambient + at_least(distance, 0.0) * stiffening)
         rho[i] = oil_density(pressure, T[i], par[0], par[1])
     return 1
 
@@ -202,7 +199,7 @@ def barus_limited(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatAr
     Pa s; outside -40..300 degC the nearest bound holds.
     """
     for i in range(ln_eta.size):
-        pressure = p[i] if p[i] > 0.0 else 0.0
+        pressure = at_least(p[i], 0.0)
         x = scaled_inverse(T[i])
         exponent = smooth_min(polynomial(x, par, 3 + POLYNOMIAL_TERMS) * pressure, par[2], 0.5)
         ln_eta[i] = capped(polynomial(x, par, 3) + exponent)

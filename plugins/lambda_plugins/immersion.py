@@ -8,6 +8,7 @@ import numpy as np
 
 from lambda_core.plugins import Context
 from lambda_plugins.fields import FloatArray
+from lambda_plugins.shapes import at_least, at_most
 
 _EVERYWHERE = 1e3  # [m] oil level of a bearing whose oil level is not known: every ball takes its even share
 
@@ -25,8 +26,7 @@ def immersion(azimuth: float, level: float, pitch_radius: float, ball_radius: fl
     to +z, gravity along -z). A spherical cap of depth 2 R x holds the share x^2 (3 - 2 x) of the sphere, a smooth law.
     """
     depth = level - pitch_radius * (1.0 + math.sin(azimuth))
-    x = 0.5 * (depth / ball_radius + 1.0)
-    x = 0.0 if x < 0.0 else (1.0 if x > 1.0 else x)
+    x = at_most(at_least(0.5 * (depth / ball_radius + 1.0), 0.0), 1.0)
     return x * x * (3.0 - 2.0 * x)
 
 

@@ -9,7 +9,7 @@ from pydantic import model_validator
 
 from lambda_core.plugins import NoParameters, Quantity, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
-from lambda_plugins.shapes import cubic_friction_slope
+from lambda_plugins.shapes import at_least, cubic_friction_slope
 
 _SISTER = "Wingertszahn et al. 2023, Lubricants 11, 369"
 
@@ -38,7 +38,7 @@ def zhou_hoeprich(Lambda: float, par: FloatArray, out: FloatArray) -> int:
 
     Zhou and Hoeprich 1991, J. Tribol. 113, 590; constants as in the tapered roller model of Wingertszahn et al. 2023.
     """
-    out[0] = math.exp(-par[0] * (Lambda if Lambda > 0.0 else 0.0) ** par[1])
+    out[0] = math.exp(-par[0] * at_least(Lambda, 0.0) ** par[1])
     return 1
 
 

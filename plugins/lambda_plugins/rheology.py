@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lambda_plugins.shapes import smooth_min
+from lambda_plugins.shapes import at_least, smooth_min
 
 # Glass transition by convention: 1e12 Pa s. No law of viscosity is meant for more, and ln(eta) stays bounded.
 LN_ETA_CAP = 27.631021115928547
@@ -12,8 +12,7 @@ LN_ETA_FLOOR = -18.0
 
 def capped(ln_eta: float) -> float:
     """Return ln(eta / Pa s) held below 1e12 Pa s (corner rounded over a factor e each way) and above 1.5e-8 Pa s."""
-    value = smooth_min(ln_eta, LN_ETA_CAP, _CAP_WIDTH)
-    return value if value > LN_ETA_FLOOR else LN_ETA_FLOOR
+    return at_least(smooth_min(ln_eta, LN_ETA_CAP, _CAP_WIDTH), LN_ETA_FLOOR)
 
 
 def dowson_higginson(p: float) -> float:

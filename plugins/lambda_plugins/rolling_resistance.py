@@ -15,6 +15,7 @@ import numpy as np
 
 from lambda_core.plugins import Context, NoParameters, Quantity, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_plugins.shapes import at_least
 
 _POINTS = 8
 
@@ -52,7 +53,7 @@ def regular_speed(u_mean: float, floor: float) -> float:
 def thermal_factor(coefficient: float, speed: float, eta0: float, beta: float, k_oil: float) -> float:
     """Return 1/(1 + c L^0.78), L = eta0 beta u^2/lambda: Goksem and Hargreaves 1978 (c = 0.29)."""
     L = eta0 * beta * speed * speed / k_oil
-    load_term: float = (L if L > 0.0 else 0.0) ** 0.78
+    load_term: float = at_least(L, 0.0) ** 0.78
     return 1.0 / (1.0 + coefficient * load_term)
 
 

@@ -5,14 +5,23 @@ from __future__ import annotations
 from lambda_plugins.fields import FloatArray
 
 
+def at_least(value: float, low: float) -> float:
+    """Return the larger of both; NaN stays NaN, so that a bad input is seen in the output."""
+    return low if value < low else value
+
+
+def at_most(value: float, high: float) -> float:
+    """Return the smaller of both; NaN stays NaN."""
+    return high if value > high else value
+
+
 def smooth_min(value: float, limit: float, width: float) -> float:
     """Return min(value, limit) with the corner rounded by a parabola within `limit` -+ `width`.
 
     Continuous with its first derivative; exact outside the rounded corner, low by `width`/4 at its middle.
     """
-    held = value if value < limit + width else limit + width
-    inside = held - (limit - width)
-    inside = inside if inside > 0.0 else 0.0
+    held = at_most(value, limit + width)
+    inside = at_least(held - (limit - width), 0.0)
     return held - inside * inside / (4.0 * width + 1e-300)
 
 
@@ -26,8 +35,7 @@ def cubic_friction_slope(speed: float, mu_s: float, mu_d: float, v_s: float, v_d
     if speed < v_s:
         x = speed / v_s
         return mu_s * (3.0 - x * x) / (2.0 * v_s)
-    d = (speed - v_s) / (v_d - v_s)
-    d = d if d < 1.0 else 1.0
+    d = at_most((speed - v_s) / (v_d - v_s), 1.0)
     return (mu_s + (mu_d - mu_s) * d * d * (3.0 - 2.0 * d)) / speed
 
 

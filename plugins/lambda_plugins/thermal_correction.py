@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from lambda_core.plugins import NoParameters, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_plugins.shapes import at_least, at_most
 
 
 def murch_wilson(
@@ -22,8 +23,7 @@ def murch_wilson(
     Phi_T = 3.94/(3.94 + L^0.62), L = eta0 beta u_m^2/lambda, u_m the mean velocity, beta = -(1/eta) d eta/dT.
     Murch and Wilson 1975, J. Lubr. Technol. 97, 212; Syla et al. 2026, eq. 23-24.
     """
-    L = eta0 * beta * u_mean * u_mean / k_oil
-    L = L if L > 0.0 else 0.0
+    L = at_least(eta0 * beta * u_mean * u_mean / k_oil, 0.0)
     out[0] = 3.94 / (3.94 + L**0.62)
     return 1
 
@@ -57,12 +57,10 @@ def zhu_cheng(
     mean velocity. Gupta, Cheng, Zhu, Forster and Schrand 1992, Tribol. Trans. 35, 149; Wingertszahn et al. 2023,
     Lubricants 11, 369, eq. 12. S is held at 2, pure sliding of one surface, beyond which there is no fit.
     """
-    L = eta0 * beta * u_mean * u_mean / k_oil
-    L = L if L > 0.0 else 0.0
-    S = abs(u_slide) / (u_mean + 1e-9)
-    S = S if S < 2.0 else 2.0
+    L = at_least(eta0 * beta * u_mean * u_mean / k_oil, 0.0)
+    S = at_most(abs(u_slide) / (u_mean + 1e-9), 2.0)
     factor = (1.0 - 13.2 * (p_max / E_eff) * L**0.42) / (1.0 + 0.213 * (1.0 + 2.23 * S**0.83) * L**0.64)
-    out[0] = factor if factor > par[0] else par[0]
+    out[0] = at_least(factor, par[0])
     return 1
 
 

@@ -6,10 +6,12 @@ from typing import Annotated
 
 from lambda_core.plugins import Quantity, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
-from lambda_plugins.shapes import smooth_min
+from lambda_plugins.shapes import at_least, at_most, smooth_min
 from lambda_plugins.vector_math import asinh, exp
 
-_LOG_ETA_MAX = 60.0  # exp() of it is finite with room to spare; far above any liquid
+# ln(eta) is held between them: far outside any liquid, with room to spare for exp()
+_LOG_ETA_MIN = -60.0
+_LOG_ETA_MAX = 60.0
 
 
 class LimitedShear(Parameters):
@@ -54,13 +56,12 @@ def ree_eyring(
     Syla et al. 2026, eq. 20-21), tau <= zeta p with the corner rounded over the last tenth. Viscous part only: no shear
     compliance of film or bodies.
     """
-    film = h if h > 1e-10 else 1e-10
+    film = at_least(h, 1e-10)
     per_stress = 1.0 / (film * par[1])
     for i in range(tau.size):
-        log_eta = ln_eta[i] if ln_eta[i] < _LOG_ETA_MAX else _LOG_ETA_MAX
+        log_eta = at_most(at_least(ln_eta[i], _LOG_ETA_MIN), _LOG_ETA_MAX)
         stress = par[1] * asinh(exp(log_eta) * slip[i] * per_stress)
-        limit = par[0] * p[i]
-        limit = limit if limit > 0.0 else 0.0
+        limit = at_least(par[0] * p[i], 0.0)
         tau[i] = smooth_min(stress, limit, 0.1 * limit)
     return 1
 
@@ -83,15 +84,12 @@ def bair_winer(
     gamma_dot = -(tau_L/eta) ln(1 - tau/tau_L), tau_L = zeta p: Bair and Winer 1979, J. Lubr. Technol. 101, 258;
     Wingertszahn et al. 2023, Lubricants 11, 369, eq. 6 with its sign corrected. Viscous part only.
     """
-    film = h if h > 1e-10 else 1e-10
+    film = at_least(h, 1e-10)
     for i in range(tau.size):
-        log_eta = ln_eta[i] if ln_eta[i] < _LOG_ETA_MAX else _LOG_ETA_MAX
-        limit = par[0] * p[i]
-        limit = limit if limit > 1e-3 else 1e-3
+        log_eta = at_most(at_least(ln_eta[i], _LOG_ETA_MIN), _LOG_ETA_MAX)
+        limit = at_least(par[0] * p[i], 1e-3)
         share = exp(log_eta) * slip[i] / (film * limit)
-        tau[i] = limit * (
-            share * (1.0 - 0.5 * share) if share < 1e-5 else 1.0 - exp(-(share if share < 700.0 else 700.0))
-        )
+        tau[i] = limit * (share * (1.0 - 0.5 * share) if share < 1e-5 else 1.0 - exp(-at_most(share, 700.0)))
     return 1
 
 
@@ -112,11 +110,10 @@ def newtonian(
 
     Without the limit the stress of a film at bearing pressures would exceed the strength of steel.
     """
-    film = h if h > 1e-10 else 1e-10
+    film = at_least(h, 1e-10)
     for i in range(tau.size):
-        log_eta = ln_eta[i] if ln_eta[i] < _LOG_ETA_MAX else _LOG_ETA_MAX
-        limit = par[0] * p[i]
-        limit = limit if limit > 0.0 else 0.0
+        log_eta = at_most(at_least(ln_eta[i], _LOG_ETA_MIN), _LOG_ETA_MAX)
+        limit = at_least(par[0] * p[i], 0.0)
         tau[i] = smooth_min(exp(log_eta) * slip[i] / film, limit, 0.1 * limit)
     return 1
 

@@ -10,6 +10,7 @@ import numpy as np
 from lambda_core.plugins import Context, Quantity, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
 from lambda_plugins.rheology import capped, dowson_higginson
+from lambda_plugins.shapes import at_least, at_most
 
 _T_LOW = 233.15  # [K]
 _T_HIGH = 573.15  # [K]
@@ -59,13 +60,11 @@ def vogel_dicke(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArra
     11, 369, Table A1. ln(eta) is capped at 1e12 Pa s; temperatures outside -40..300 degC act like the nearest bound.
     """
     for i in range(ln_eta.size):
-        temperature = T[i] if T[i] > _T_LOW else _T_LOW
-        temperature = temperature if temperature < _T_HIGH else _T_HIGH
-        pressure = p[i] if p[i] > 0.0 else 0.0
+        temperature = at_most(at_least(T[i], _T_LOW), _T_HIGH)
+        pressure = at_least(p[i], 0.0)
         t = temperature - 273.15
         bar = 1e-5 * pressure
-        stiffening = par[3] + par[4] * t + (par[5] + par[6] * t) * bar
-        stiffening = stiffening if stiffening > 1.0 else 1.0
+        stiffening = at_least(par[3] + par[4] * t + (par[5] + par[6] * t) * bar, 1.0)
         ln_eta[i] = capped(par[0] + par[1] / (temperature + par[2]) + bar / stiffening)
         rho[i] = (par[7] + par[8] * (t - 15.0)) * dowson_higginson(pressure)
     return 1

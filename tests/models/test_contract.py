@@ -5,11 +5,15 @@ from __future__ import annotations
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from lambda_plugins import lambda_models
 
-from lambda_core.registry.check import check_model
+from lambda_core.registry.check import check_model, parameters_of
+from lambda_core.registry.kernels import compile_kernel
 from lambda_core.registry.manager import registry
+from lambda_core.registry.par import make_par
+from lambda_core.registry.probe import draw, trial_context
 from lambda_core.registry.roles import DEFAULT_MODELS, ROLES
 from lambda_core.registry.survey import split_label
 
@@ -89,3 +93,40 @@ def test_naming_the_laws_imports_none_of_them() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+# What a bad trial state can make NaN, role by role: the host rejects the step by what it sees in the outputs.
+STATE = {
+    "normal_contact": ("delta",),
+    "damping": ("delta", "delta_dot"),
+    "rheology": ("p", "T"),
+    "film_thickness": ("u_mean", "load"),
+    "thermal_correction": ("u_mean",),
+    "contact_temperature": ("T_in",),
+    "traction": ("slip", "ln_eta", "p"),
+    "rolling_resistance": ("u_mean", "load"),
+    "elastic_hysteresis": ("load",),
+    "asperity_load": ("Lambda",),
+    "boundary_friction": ("slip",),
+    "cage_contact": (),
+    "fluid_drag": ("v_orbit", "omega_spin"),
+    "permittivity": (),
+    "capacitance": ("C_hertz",),
+}
+LAWS = [label for label in LABELS if not label.endswith("/none")]
+
+
+@pytest.mark.parametrize("label", LAWS)
+def test_nan_is_never_swallowed(label: str) -> None:
+    law = registry().model(*split_label(label))
+    role = ROLES[law.role]
+    par = make_par(law, parameters_of(law, REQUIRED.get(label)), trial_context(role.elements[0]))
+    dispatcher = compile_kernel(law).dispatcher
+    names = [argument.name for argument in role.arguments]
+    for name in STATE[law.role]:
+        arguments = draw(role, par, 4, np.random.default_rng(7))
+        place = names.index(name)
+        arguments[place] = arguments[place] * np.nan
+        dispatcher(*arguments)
+        outputs = [value for argument, value in zip(role.arguments, arguments, strict=True) if argument.output]
+        assert any(np.isnan(value).any() for value in outputs), name
