@@ -8,7 +8,8 @@ def test_contract():
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,12 +21,13 @@ from lambda_core.registry import check
 from lambda_core.registry.check import ModelReport
 from lambda_core.registry.kernels import compile_kernel
 from lambda_core.registry.manager import registry
-from lambda_core.registry.method import MethodInputs
+from lambda_core.registry.method import MethodInputs, NotApplicable
 from lambda_core.registry.model import Context, FloatArray, Model
 from lambda_core.registry.par import make_par
 from lambda_core.registry.probe import VECTORS, output_size, trial_context
 from lambda_core.registry.roles import ROLES
 from lambda_core.registry.survey import split_label
+from lambda_core.registry.view import RunData
 
 Parameters = BaseModel | Mapping[str, Any] | None
 
@@ -37,6 +39,7 @@ __all__ = [
     "check_model",
     "evaluate",
     "method_inputs",
+    "run_data",
 ]
 
 
@@ -175,6 +178,47 @@ def method_inputs(**changes: Any) -> MethodInputs:
         "outer_speed": 0.0,
     }
     return MethodInputs(**(given | changes))
+
+
+class TrialRun:
+    """A run made of given channels, for the tests of views (:class:`lambda_core.plugins.RunData`)."""
+
+    def __init__(self, channels: Mapping[str, ArrayLike], model: Mapping[str, Any] | None = None) -> None:
+        self._channels = {name: np.asarray(values, np.float64) for name, values in channels.items()}
+        self.path = Path("trial.h5")
+        self.title = self.headline = self.case = "trial"
+        self.case_toml = ""
+        self.model = dict(model or {})
+
+    def __getitem__(self, name: str) -> FloatArray:
+        """Return one channel, first axis time."""
+        return self._channels[name]
+
+    def blocks(self, names: Sequence[str], start: float = 0.0) -> Iterator[dict[str, FloatArray]]:
+        """Yield the channels from time `start` [s] on, in one block."""
+        keep = self._channels["time"] >= start
+        yield {name: self._channels[name][keep] for name in names}
+
+    def sample(self, row: int, names: Sequence[str]) -> dict[str, FloatArray]:
+        """Return the channels at one instant."""
+        return {name: self._channels[name][row] for name in names}
+
+    def integrals(self) -> FloatArray:
+        """Trial runs have none."""
+        raise NotApplicable("a trial run has no running integrals")
+
+    def revolutions(self) -> FloatArray:
+        """Trial runs have none."""
+        raise NotApplicable("a trial run has no whole cage revolutions")
+
+    def summary(self) -> Any:
+        """Trial runs have none."""
+        raise NotApplicable("a trial run has no summary")
+
+
+def run_data(**channels: ArrayLike) -> RunData:
+    """Return a run made of these channels, each with time as its first axis, SI."""
+    return TrialRun(channels)
 
 
 def assert_increasing(model: Model | str, argument: str, values: ArrayLike, *, output: int = 0, **given: Any) -> None:

@@ -60,6 +60,7 @@ def test_bearing_oil_method_and_command_of_a_maker(site: Installation) -> None:
     items = site.program("plugins", "list", "--json").data["items"]
     assert {(i["kind"], i["name"]) for i in items if i["distribution"] == "northwind-bearings 0.2.0"} == {
         ("method", "stribeck"),
+        ("view", "load-share"),
         ("data", "rows"),
     }
     bearings = site.program("northwind", "--bore", "40", "--json").data["bearings"]

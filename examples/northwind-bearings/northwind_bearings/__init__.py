@@ -15,3 +15,10 @@ def lambda_methods(register):
     from northwind_bearings.method import STRIBECK
 
     register(STRIBECK)
+
+
+@hookimpl
+def lambda_views(register):
+    from northwind_bearings.view import LOAD_SHARE
+
+    register(LOAD_SHARE)

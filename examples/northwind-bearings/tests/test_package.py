@@ -1,14 +1,16 @@
-"""Rows, method and command of the package."""
+"""Rows, method, view and command of the package."""
 
 from contextlib import closing
 
+import numpy as np
 import pytest
 from northwind_bearings.method import stribeck
+from northwind_bearings.view import ShareOptions, load_share
 from typer.testing import CliRunner
 
 from lambda_core import api
 from lambda_core.plugins import NotApplicable
-from lambda_core.testing import method_inputs
+from lambda_core.testing import method_inputs, run_data
 
 
 def test_bearings_and_oil_are_in_the_catalogue():
@@ -31,6 +33,31 @@ def test_method_says_where_it_does_not_apply():
         stribeck(method_inputs(radial_load=1000.0, axial_load=500.0))
     with pytest.raises(NotApplicable, match="is for a radial load"):
         stribeck(method_inputs(radial_load=0.0, axial_load=500.0))
+
+
+def ring_of_balls(loads):
+    """Return a run with two equal samples of balls evenly around the bearing, contact angle zero."""
+    count = len(loads)
+    azimuth = 2.0 * np.pi * np.arange(count) / count
+    pairs = np.stack([loads, loads], axis=1)
+    return run_data(
+        time=[0.0, 0.001], load=[pairs, pairs], contact_angle=np.zeros((2, count, 2)), ball_azimuth=[azimuth, azimuth]
+    )
+
+
+def test_view_against_the_cosine_distribution():
+    # Q = Q_max cos(psi) on half of many balls carries Q_max Z/4: the share is 4.
+    loads = np.maximum(np.cos(2.0 * np.pi * np.arange(360) / 360), 0.0)
+    (series,) = load_share(ring_of_balls(loads), ShareOptions()).panels[0].series
+    assert series.y == pytest.approx([4.0, 4.0])
+    assert len(load_share(ring_of_balls(loads), ShareOptions(after=0.0005)).panels[0].series[0].x) == 1
+
+
+def test_view_says_where_it_does_not_apply():
+    with pytest.raises(NotApplicable, match="no radial load"):
+        load_share(ring_of_balls(np.ones(9)), ShareOptions())
+    with pytest.raises(NotApplicable, match="ends before 1 s"):
+        load_share(ring_of_balls(np.ones(9)), ShareOptions(after=1.0))
 
 
 def test_command():
