@@ -8,10 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any, Literal
 
-from annotated_types import Ge, Gt, Le, Lt
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
-from pydantic_core import PydanticUndefined
 
 from lambda_core.errors import UsageError, unknown_name
 from lambda_core.registry.check import ModelReport, check_model
@@ -19,22 +17,14 @@ from lambda_core.registry.faults import PluginError
 from lambda_core.registry.model import Model
 from lambda_core.registry.registry import Registry
 from lambda_core.registry.roles import DEFAULT_MODELS, ROLES
-from lambda_core.schema.option import quantity_of
-from lambda_core.schema.units import UNITS, show
+from lambda_core.schema.cards import FieldCard, field_card
 
 Kind = Literal["model", "method", "view", "data"]
 
 
-class ParameterCard(BaseModel):
+class ParameterCard(FieldCard):
     """One parameter of a model, as people read it."""
 
-    name: str
-    description: str
-    default: str  # as it would stand in a case file; "" when required
-    required: bool
-    quantity: str  # "" for a plain number
-    units: list[str]
-    limits: list[str]  # "> 0 m", "<= 0.3"
     published_range: list[str]
     source: str
     status: str
@@ -264,35 +254,11 @@ def _card(report: ModelReport, not_tried: str = "") -> CheckCard:
 
 
 def _parameter(model: Model, name: str, info: FieldInfo) -> ParameterCard:
-    quantity = quantity_of(model.parameters, name)
     extra = info.json_schema_extra if isinstance(info.json_schema_extra, dict) else {}
     published = extra.get("published_range", [])
     return ParameterCard(
-        name=name,
-        description=info.description or "",
-        default=_written(info.get_default(call_default_factory=True, validated_data={}), quantity),
-        required=info.is_required(),
-        quantity=quantity,
-        units=list(UNITS[quantity]) if quantity else [],
-        limits=list(_limits(info, quantity)),
+        **field_card(model.parameters, name).model_dump(),
         published_range=[str(end) for end in published] if isinstance(published, list) else [],
         source=str(extra.get("source", "")),
         status=str(extra.get("status", "")),
     )
-
-
-def _limits(info: FieldInfo, quantity: str) -> Iterator[str]:
-    signs = {Gt: (">", "gt"), Ge: (">=", "ge"), Lt: ("<", "lt"), Le: ("<=", "le")}
-    for limit in info.metadata:
-        if type(limit) in signs:
-            sign, attribute = signs[type(limit)]
-            yield f"{sign} {_written(getattr(limit, attribute), quantity)}"
-
-
-def _written(value: Any, quantity: str) -> str:
-    """Write a default or a limit as a case file would."""
-    if value is PydanticUndefined or value is None:
-        return ""
-    if isinstance(value, float | int) and not isinstance(value, bool):
-        return show(float(value), quantity) if quantity else f"{value:g}"
-    return str(value)

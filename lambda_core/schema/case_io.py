@@ -76,7 +76,7 @@ def parse_case(text: str, source: str = "case", folder: Path | None = None) -> C
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise CaseError(source, [_syntax_problem(str(error), text)]) from None
+        raise CaseError(source, [syntax_problem(str(error), text)]) from None
     return validate_case(data, source, folder)
 
 
@@ -88,7 +88,7 @@ def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | 
         raise invalid_case(source, error, data, folder) from None
 
 
-def _syntax_problem(message: str, text: str) -> Problem:
+def syntax_problem(message: str, text: str) -> Problem:
     """Say what is wrong with the TOML itself, with its line and a fix for the usual slip."""
     location = _LOCATION.search(message)
     if location is None or location[1] is None:
