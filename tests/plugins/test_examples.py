@@ -45,6 +45,22 @@ def test_a_law_is_chosen_with_the_parameters_that_the_package_gives_to_an_oil(si
     assert "not in use: limiting-shear 0.1.0" in refused.err
 
 
+@pytest.mark.timeout(900)  # the first test of a session that needs the solver compiles it
+def test_a_law_of_a_stranger_runs_and_changes_the_torque(site: Installation, tmp_path: Path) -> None:
+    def torque(name: str) -> float:
+        out = tmp_path / f"{name}.h5"
+        answer = site.program(
+            "run", "6319-cp10-3000", "--duration", "4 ms", "--quiet", "--json", "--out", str(out),
+            "--set", f"models.traction={name}",
+        )  # fmt: skip
+        assert answer.code == 5, answer.err  # a few milliseconds cannot converge
+        return float(answer.data["friction_torque_Nmm"])
+
+    limited, default = torque("gecim-winer"), torque("ree-eyring")
+    # Without Eyring's shear thinning the film is stiffer: more sliding friction, but no more than the limit allows.
+    assert limited > 1.02 * default
+
+
 def test_a_law_of_an_afternoon_is_at_most_15_lines() -> None:
     source = (EXAMPLES / "limiting-shear" / "limiting_shear" / "__init__.py").read_text()
     law = source[source.index("def gecim_winer") : source.index("LAW = ")]

@@ -107,6 +107,17 @@ def test_a_model_that_breaks_the_convention_is_refused(site: Installation, name:
     assert REFUSALS[name] in card["faults"][0]
 
 
+@pytest.mark.timeout(900)  # the first test of a session that needs the solver compiles it
+@pytest.mark.parametrize("name", ["bad-return", "bad-number", "bad-index"])
+def test_a_run_with_such_a_model_is_refused_before_it_starts(site: Installation, tmp_path: Path, name: str) -> None:
+    out = tmp_path / "result.h5"
+    answer = site.program("run", "6319-cp10-1500", "--set", f"models.traction={name}", "--quiet", "--out", str(out))
+    assert (answer.code, answer.out) == (3, "")
+    assert f"traction/{name} ({name} 0.3)" in answer.err
+    assert REFUSALS[name] in answer.err
+    assert not out.exists()
+
+
 def test_a_slow_model_is_named(site: Installation) -> None:
     answer = site.program("plugins", "check", "bad-speed")
     assert answer.code == 0
