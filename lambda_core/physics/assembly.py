@@ -16,7 +16,9 @@ from lambda_core.errors import SolverError
 from lambda_core.physics.compiled import layout as L
 from lambda_core.physics.compiled.entry import core
 from lambda_core.physics.compiled.jacobian import make_blocks
+from lambda_core.physics.hertz import ball_raceway_radii, reduced_modulus
 from lambda_core.physics.model import DOFS, BearingModel, Law, TimeFunction
+from lambda_core.physics.time_functions import peak
 from lambda_core.registry.check import check_choice
 from lambda_core.registry.kernels import compile_kernel
 from lambda_core.registry.model import Context, Material, Oil
@@ -42,22 +44,9 @@ class ContactFrame:
     mean_loads: tuple[float, float]  # [N]
 
 
-def reduced_modulus(one: Material, other: Material) -> float:
-    """Return E' with 2/E' = sum (1 - nu^2)/E [Pa]."""
-    soft = sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus for m in (one, other))
-    return 2.0 / soft
-
-
-def contact_radii(ball_diameter: float, pitch: float, groove: float, angle: float, inner: bool) -> tuple[float, float]:
-    """Return reduced radii along and across rolling [m] of a ball in a groove.
-
-    1/R_x = 2/D_w +- 2 gamma/(D_w (1 -+ gamma)), gamma = D_w cos(alpha)/d_m, upper signs inner;
-    1/R_y = 2/D_w - 1/r_g (Harris and Kotzalas 2006, eq. 2.28-2.31).
-    """
-    gamma = ball_diameter * math.cos(angle) / pitch
-    sign = 1.0 if inner else -1.0
-    along = 2.0 / ball_diameter + sign * 2.0 * gamma / (ball_diameter * (1.0 - sign * gamma))
-    return 1.0 / along, 1.0 / (2.0 / ball_diameter - 1.0 / groove)
+def effective_modulus(one: Material, other: Material) -> float:
+    """Return E' of two bodies [Pa]."""
+    return reduced_modulus(one.youngs_modulus, one.poisson_ratio, other.youngs_modulus, other.poisson_ratio)
 
 
 def ball_mass(model: BearingModel) -> float:
@@ -76,13 +65,11 @@ def unit_grid(strips: int, rows: int) -> FloatArray:
     """
     edges = np.linspace(-1.0, 1.0, strips + 1)
     mid = 0.5 * (edges[1:] + edges[:-1])
-    area_of = lambda x: x * np.sqrt(np.maximum(1.0 - x * x, 0.0)) + np.arcsin(x)  # noqa: E731
-    load_of = lambda x: 0.5 * np.pi * (x - x**3 / 3.0)  # noqa: E731
-    area, load = np.diff(area_of(edges)), np.diff(load_of(edges))
+    area, load = np.diff(_disc_area(edges)), np.diff(0.5 * np.pi * (edges - edges**3 / 3.0))
     half = np.sqrt(1.0 - mid * mid)
     row_edges = np.linspace(-1.0, 1.0, rows + 1)
     row_mid = 0.5 * (row_edges[1:] + row_edges[:-1])
-    row_load = np.diff(area_of(row_edges)) / np.pi
+    row_load = np.diff(_disc_area(row_edges)) / np.pi
     shape = (strips, rows)
     per_area = np.repeat(area[:, None] / rows, rows, 1)
     return np.array(
@@ -95,6 +82,11 @@ def unit_grid(strips: int, rows: int) -> FloatArray:
             np.repeat(half[:, None] * 2.0 / rows, rows, 1).ravel(),
         ]
     )
+
+
+def _disc_area(x: FloatArray) -> FloatArray:
+    """Return the area of the unit disc to the left of x, up to a constant."""
+    return x * np.sqrt(np.maximum(1.0 - x * x, 0.0)) + np.arcsin(x)
 
 
 def _terms(channel: int, function: TimeFunction, rows: list[list[float]], table: list[float]) -> None:
@@ -154,9 +146,9 @@ def build_system(model: BearingModel, frame: ContactFrame, oil: Oil) -> Any:
     )
     s["groove_radius"] = grooves
     for i, ring in enumerate((model.inner_material, model.outer_material)):
-        rx, ry = contact_radii(g.ball_diameter, g.pitch_diameter, grooves[i], frame.angles[i], i == 0)
+        rx, ry = ball_raceway_radii(g.ball_diameter, g.pitch_diameter, grooves[i], frame.angles[i], inner=i == 0)
         s["radius_x"][i], s["radius_y"][i] = rx, ry
-        s["e_eff"][i] = reduced_modulus(model.ball_material, ring)
+        s["e_eff"][i] = effective_modulus(model.ball_material, ring)
         s["radius_deformed"][i] = 2.0 * grooves[i] * radius / (grooves[i] + radius)
     for b, body in enumerate((model.inner_ring, model.outer_ring, model.cage_body)):
         s["mass"][b] = body.mass
@@ -206,7 +198,7 @@ def build_context(model: BearingModel, element: str, frame: ContactFrame, oil: O
     if element in ("ball_inner", "ball_outer"):
         i = 0 if element == "ball_inner" else 1
         groove = (g.groove_radius_inner, g.groove_radius_outer)[i]
-        rx, ry = contact_radii(g.ball_diameter, g.pitch_diameter, groove, frame.angles[i], i == 0)
+        rx, ry = ball_raceway_radii(g.ball_diameter, g.pitch_diameter, groove, frame.angles[i], inner=i == 0)
         return dataclasses.replace(
             common,
             mean_load=frame.mean_loads[i],
@@ -215,7 +207,7 @@ def build_context(model: BearingModel, element: str, frame: ContactFrame, oil: O
             race_diameter=(g.race_diameter_inner, g.race_diameter_outer)[i],
             radius_x=rx,
             radius_y=ry,
-            e_eff=reduced_modulus(model.ball_material, partner),
+            e_eff=effective_modulus(model.ball_material, partner),
         )
     if element in ("cage_inner", "cage_outer"):
         land = g.shoulder_diameter_inner if element == "cage_inner" else g.shoulder_diameter_outer
@@ -225,22 +217,8 @@ def build_context(model: BearingModel, element: str, frame: ContactFrame, oil: O
 
 
 def max_speed(model: BearingModel) -> float:
-    """Return the largest planned |Omega_i - Omega_o| [rad/s]; 0 when both spins are free."""
-    speeds = []
-    for body in (model.inner_ring, model.outer_ring):
-        dof = body.dofs["spin"]
-        speeds.append(sum(max(abs(v) for v in _extremes(t)) for t in dof.motion.terms) if dof.motion.terms else 0.0)
-    return max(speeds)
-
-
-def _extremes(term: Any) -> tuple[float, ...]:
-    if term.kind == "ramp":
-        return tuple(term.values[:2])
-    if term.kind == "harmonic":
-        return (term.values[0],)
-    if term.kind == "table":
-        return tuple(term.values[1::2])
-    return tuple(term.values)
+    """Return the largest planned spin of either ring [rad/s]; 0 when both are free and start at rest."""
+    return max(peak(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
 
 
 class Kernels:

@@ -134,7 +134,7 @@ def _loads(body: Body) -> list[str]:
         found += [f"force {axis} {function_text(f, 'force')}" for axis, f in (("y", y), ("z", z)) if f.terms]
     if x.terms:
         found.append(f"axial {function_text(x, 'force')}")
-    names = ("moment y", "moment z", "torque")
+    names = ("torque", "moment y", "moment z")
     found += [f"{name} {function_text(m, 'moment')}" for name, m in zip(names, body.moment, strict=True) if m.terms]
     return found or ["no load"]
 

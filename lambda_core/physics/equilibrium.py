@@ -18,7 +18,8 @@ from lambda_core.physics import assembly as A
 from lambda_core.physics.compiled import layout as L
 from lambda_core.physics.compiled.arrow import make_factors
 from lambda_core.physics.compiled.entry import Core, core
-from lambda_core.physics.model import DOFS, BearingModel, TimeFunction
+from lambda_core.physics.model import DOFS, BearingModel
+from lambda_core.physics.time_functions import initial
 
 FloatArray = A.FloatArray
 
@@ -45,6 +46,8 @@ class Equilibrium:
         Mean orbital speed of the loaded balls [rad/s].
     iterations : int
         Of the pseudo-transient continuation with friction.
+    converged : bool
+        False where only the normal forces are in equilibrium and the balls roll kinematically.
     """
 
     assembly: A.Assembly
@@ -54,6 +57,7 @@ class Equilibrium:
     displacement: tuple[float, float, float, float, float]
     orbit: float
     iterations: int
+    converged: bool = True
 
     @property
     def relative_speed(self) -> float:
@@ -62,21 +66,16 @@ class Equilibrium:
         return abs(float(shared[L.SSIGMA] - shared[L.NS + L.SSIGMA]))
 
 
-def start_values(function: TimeFunction) -> float:
-    """Return the value of a time function at t = 0."""
-    total = 0.0
-    for term in function.terms:
-        if term.kind == "harmonic":
-            total += term.values[0] * math.sin(term.values[2])
-        elif term.kind == "table":
-            total += term.values[1]
-        else:
-            total += term.values[0]
-    return total
-
-
-def solve(model: BearingModel, kernels: A.Kernels | None = None, announce: A.Announce = None) -> Equilibrium:
+def solve(
+    model: BearingModel, kernels: A.Kernels | None = None, announce: A.Announce = None, *, strict: bool = True
+) -> Equilibrium:
     """Find the quasi-static equilibrium at t = 0.
+
+    Parameters
+    ----------
+    strict : bool
+        Whether the balls' friction must be in equilibrium too. The dynamics can start without it: a ball that the
+        inner ring barely touches has no steady motion of its own.
 
     Raises
     ------
@@ -104,17 +103,24 @@ def solve(model: BearingModel, kernels: A.Kernels | None = None, announce: A.Ann
     assert state is not None
     _settle(compiled, assembly, state, friction=False)
     _roll(assembly, state)
-    report = _settle(compiled, assembly, state, friction=True)
+    smooth, converged = state.copy(), True
+    try:
+        report = _settle(compiled, assembly, state, friction=True)
+    except SolverError:
+        if strict:
+            raise
+        state, converged, report = smooth, False, np.array([0.0, 0.0, 0.0, smooth[L.BVT] / smooth[L.BR]])
     contacts, losses = _contacts(compiled, assembly, state)
     shared = assembly.bundle.scratch[L.SHARED]
     displacement = (shared[L.SX], shared[L.SY], shared[L.SZ], -shared[L.SAZ], shared[L.SAY])
     x, y, z, tilt_y, tilt_z = (float(v) for v in displacement)
-    return Equilibrium(assembly, state, contacts, losses, (x, y, z, tilt_y, tilt_z), float(report[3]), int(report[0]))
+    orbit, iterations = float(report[3]), int(report[0])
+    return Equilibrium(assembly, state, contacts, losses, (x, y, z, tilt_y, tilt_z), orbit, iterations, converged)
 
 
 def _first_frame(model: BearingModel) -> A.ContactFrame:
     """Guess contact angle and load from the external loads at t = 0."""
-    force = [start_values(f) for f in model.inner_ring.force]
+    force = [initial(f) for f in model.inner_ring.force]
     force = [f + model.inner_ring.mass * a for f, a in zip(force, model.gravity, strict=True)]
     total = math.sqrt(sum(f * f for f in force))
     load = max(total * 3.0 / model.geometry.ball_count, 1.0)
@@ -137,7 +143,7 @@ def first_state(assembly: A.Assembly) -> FloatArray:
     model = assembly.model
     g = model.geometry
     z = g.ball_count
-    force = [start_values(f) for f in model.inner_ring.force]
+    force = [initial(f) for f in model.inner_ring.force]
     force = [f + model.inner_ring.mass * a for f, a in zip(force, model.gravity, strict=True)]
     total = math.sqrt(sum(f * f for f in force))
     move = [0.0, 0.0, 0.0]
@@ -154,7 +160,7 @@ def first_state(assembly: A.Assembly) -> FloatArray:
         for d, name in enumerate(DOFS[:3]):
             dof = body.dofs[name]
             if dof.mode == "prescribed":
-                shared[L.NS * b + d] = start_values(dof.motion)
+                shared[L.NS * b + d] = initial(dof.motion)
             elif b == L.INNER and dof.mode == "free":
                 shared[L.NS * b + d] = move[d]
     y = np.zeros(assembly.size)
@@ -172,7 +178,7 @@ def _roll(assembly: A.Assembly, y: FloatArray) -> None:
     """Set orbital speeds and spins to pure rolling at the frozen contact angle, in place."""
     model = assembly.model
     g = model.geometry
-    inner, outer = (start_values(b.dofs["spin"].motion) for b in (model.inner_ring, model.outer_ring))
+    inner, outer = (initial(b.dofs["spin"].motion) for b in (model.inner_ring, model.outer_ring))
     angle = float(np.mean(assembly.frame.angles))
     lever = 0.5 * g.ball_diameter * math.cos(angle)
     v_inner, v_outer = inner * (0.5 * g.pitch_diameter - lever), outer * (0.5 * g.pitch_diameter + lever)

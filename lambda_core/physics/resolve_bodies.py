@@ -171,20 +171,20 @@ def resolve_body(name: Literal["inner_ring", "outer_ring", "cage"], case: Case, 
 
 
 def body_loads(name: Literal["inner_ring", "outer_ring", "cage"], case: Case) -> tuple[Vector, Vector]:
-    """Return force (x, y, z) [N] and moment (about y, z and x) [N m] on one body, inertial frame."""
+    """Return force (x, y, z) [N] and moment (about x, y, z) [N m] on one body, inertial frame."""
     loads = case.loads
     own: BodyLoads = getattr(loads, name) or BodyLoads()
     force = [time_function(own.force_x), time_function(own.force_y), time_function(own.force_z)]
-    moment = [time_function(own.moment_y), time_function(own.moment_z), TimeFunction()]
+    moment = [TimeFunction(), time_function(own.moment_y), time_function(own.moment_z)]
     if name == "inner_ring":
         radial = time_function(loads.radial)
         along_y, along_z = _direction(loads.radial_direction)
         force[0] = added(force[0], time_function(loads.axial))
         force[1] = added(force[1], scaled(radial, along_y))
         force[2] = added(force[2], scaled(radial, along_z))
-        moment[0] = added(moment[0], time_function(loads.moment_y))
-        moment[1] = added(moment[1], time_function(loads.moment_z))
-        moment[2] = time_function(case.operation.torque)
+        moment[1] = added(moment[1], time_function(loads.moment_y))
+        moment[2] = added(moment[2], time_function(loads.moment_z))
+        moment[0] = time_function(case.operation.torque)
     return (force[0], force[1], force[2]), (moment[0], moment[1], moment[2])
 
 
@@ -227,7 +227,7 @@ def _check_locked_loads(case: Case, ledger: Ledger) -> None:
     dofs = ("x", "y", "z", "tilt_y", "tilt_z")
     for name in ("inner_ring", "outer_ring", "cage"):
         force, moment = body_loads(name, case)
-        for dof, load in zip(dofs, (*force, *moment[:2]), strict=True):
+        for dof, load in zip(dofs, (*force, *moment[1:]), strict=True):
             mode = getattr(getattr(case.bodies, name), dof).mode
             if load.terms and mode != "free":
                 ledger.problem(

@@ -18,6 +18,7 @@ from lambda_core.schema.case import Case
 from lambda_core.schema.problems import problems
 
 NONE = "none"
+BALL_BALL = "ball-ball"  # takes the place of the pockets when there is no cage
 # Element -> default model where the role's own default does not fit it.
 LANDS = {"cage_inner": "inner ring", "cage_outer": "outer ring"}
 
@@ -77,6 +78,9 @@ class LawResolver:
 
     def _law(self, element: str, role: str) -> Law | None:
         name, where = self._choice(element, role)
+        if name == BALL_BALL and self.case.depth.cage:
+            self.ledger.problem(where, f'"{name}" is the contact without a cage: it needs depth.cage = false')
+            return None
         try:
             chosen = self.registry.model(role, name)
         except LambdaError as error:
@@ -113,7 +117,7 @@ class LawResolver:
         general = getattr(self.case.models, role)
         where = f"forces.{element}.models.{role}" if own else f"models.{role}"
         if not self.case.depth.cage and element in CAGE:
-            return NONE, where
+            return (BALL_BALL if element == "ball_cage" else NONE), where
         if own is None and element in LANDS:
             # A general choice of the pocket's model says nothing about the lands.
             guided = self.guidance == LANDS[element]

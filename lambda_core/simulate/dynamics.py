@@ -57,7 +57,7 @@ class BearingEngine:
     ) -> None:
         self.model = model
         self._core = core(announce)
-        self._equilibrium = equilibrium or solve(model, announce=announce)
+        self._equilibrium = equilibrium or solve(model, announce=announce, strict=False)
         self._assembly = self._equilibrium.assembly
         self._balls = model.geometry.ball_count
         start = initial_state(self._equilibrium)
@@ -199,6 +199,7 @@ class BearingEngine:
             "losses": e.losses,
             "displacement": e.displacement,
             "orbit": e.orbit,
+            "converged": e.converged,
             "relative_speed": e.relative_speed,
         }
 

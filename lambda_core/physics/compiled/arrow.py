@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import types
@@ -13,13 +13,13 @@ from lambda_core.physics.compiled.layout import NB, array1, array2, array3, help
 class Factors(NamedTuple):
     """LU factors of the ball blocks and of the Schur complement."""
 
-    lu: object  # (Z, 9, 9)
-    pivots: object  # int64 (9 Z,)
-    x: object  # (Z, 9, n): A_j^-1 B_j
-    c: object  # (Z, n, 9): the scaled C_j
-    schur: object  # (n, n)
-    schur_pivots: object  # int64 (n,)
-    scratch: object  # (max(n, 9),)
+    lu: Any  # (Z, 9, 9)
+    pivots: Any  # int64 (9 Z,)
+    x: Any  # (Z, 9, n): A_j^-1 B_j
+    c: Any  # (Z, n, 9): the scaled C_j
+    schur: Any  # (n, n)
+    schur_pivots: Any  # int64 (n,)
+    scratch: Any  # (max(n, 9),)
 
 
 factors_t = types.NamedTuple([array3, iarray1, array3, array3, array2, iarray1, array1], Factors)

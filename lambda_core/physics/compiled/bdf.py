@@ -8,7 +8,7 @@ nothing but the state, so a continued run is the uninterrupted one, bit for bit.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import types
@@ -50,22 +50,22 @@ _MAX_AGE = 60  # steps after which the Jacobian is renewed in any case
 class Memory(NamedTuple):
     """Everything the integrator remembers; saved as it is for a continuation."""
 
-    y: object  # (n,) at control[T]
-    y1: object  # (n,) one step before
-    y2: object  # (n,) two steps before
-    weight: object  # (n,) 1 / (tolerance * scale)
-    integrals: object  # (NI,)
-    rates: object  # (NI,) at control[T]
-    control: object  # (N_CONTROL,)
-    count: object  # int64 (N_COUNT,)
-    predicted: object  # (n,)
-    base: object  # (n,)
-    new: object  # (n,)
-    slope: object  # (n,)
-    change: object  # (n,)
-    new_rates: object  # (NI,)
-    sample_y: object  # (capacity, n)
-    sample_t: object  # (capacity,)
+    y: Any  # (n,) at control[T]
+    y1: Any  # (n,) one step before
+    y2: Any  # (n,) two steps before
+    weight: Any  # (n,) 1 / (tolerance * scale)
+    integrals: Any  # (NI,)
+    rates: Any  # (NI,) at control[T]
+    control: Any  # (N_CONTROL,)
+    count: Any  # int64 (N_COUNT,)
+    predicted: Any  # (n,)
+    base: Any  # (n,)
+    new: Any  # (n,)
+    slope: Any  # (n,)
+    change: Any  # (n,)
+    new_rates: Any  # (NI,)
+    sample_y: Any  # (capacity, n)
+    sample_t: Any  # (capacity,)
 
 
 memory_t = types.NamedTuple(

@@ -38,6 +38,11 @@ from lambda_core.physics.compiled.raceway import report
 G_R, G_V, G_W, G_E1, G_E2, G_E3, G_O = 0, 3, 6, 9, 12, 15, 18
 NG = 24
 
+# Gauss-Legendre, 8 points on 0..1.
+GAUSS_NODES = np.polynomial.legendre.leggauss(8)[0] * 0.5 + 0.5
+GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(8)[1] * 0.5
+_PANELS = 8  # parts of the way of an elastic contact, which may have kinks
+
 
 @helper
 def _body_rates(body):
@@ -134,8 +139,7 @@ def guide_loss(law, par, g, eta0, out, still, fault, which):
     """
     if guide_force(law, par, g, eta0, out, fault, which) != 1:
         return 0.0
-    if out[0] == 0.0 and out[1] == 0.0 and out[2] == 0.0:
-        return 0.0
+    # A contact that leaves too fast to push back has no force, but loses its elastic energy all the same.
     f0, f1, f2 = out[0], out[1], out[2]
     q0, q1, q2 = out[3] - g[G_R], out[4] - g[G_R + 1], out[5] - g[G_R + 2]
     w0, w1, w2 = g[G_W], g[G_W + 1], g[G_W + 2]
@@ -151,17 +155,36 @@ def guide_loss(law, par, g, eta0, out, still, fault, which):
 
 
 @helper
-def guide_energy(law, par, g, eta0, out, still):
-    """Return the elastic energy of a cage contact [J]: work of the force at rest from the frame's origin."""
-    total = 0.0
-    n = 64
-    for i in range(n):
-        share = (i + 0.5) / n
-        still[:] = 0.0
-        for k in range(3):
-            still[k] = share * g[G_R + k]
-        law(still[0:3], still[3:6], still[6:9], eta0, par, out)
-        total -= (out[0] * g[G_R] + out[1] * g[G_R + 1] + out[2] * g[G_R + 2]) / n
+def _force_at_rest(law, par, g, share, eta0, out, still):
+    """Write the law's force at rest at `share` of the way to the record's place; returns its component along r."""
+    still[:] = 0.0
+    for k in range(3):
+        still[k] = share * g[G_R + k]
+    law(still[0:3], still[3:6], still[6:9], eta0, par, out)
+    return out[0] * g[G_R] + out[1] * g[G_R + 1] + out[2] * g[G_R + 2]
+
+
+@helper
+def guide_energy(law, par, g, eta0, out, still, start):
+    """Return the elastic energy of a cage contact [J]: work against the force at rest on the way to its place r.
+
+    The way begins at `start` r, where there is no force: 0 in a pocket, beyond first touch for two balls. First
+    touch is found by bisection, since the play is often a hundred times the penetration.
+    """
+    if _force_at_rest(law, par, g, 1.0, eta0, out, still) == 0.0:
+        return 0.0
+    free, pressed = start, 1.0
+    for _ in range(40):
+        middle = 0.5 * (free + pressed)
+        if _force_at_rest(law, par, g, middle, eta0, out, still) == 0.0:
+            free = middle
+        else:
+            pressed = middle
+    total, way = 0.0, (1.0 - free) / _PANELS
+    for panel in range(_PANELS):
+        for i in range(GAUSS_NODES.size):
+            share = free + (panel + GAUSS_NODES[i]) * way
+            total -= GAUSS_WEIGHTS[i] * way * _force_at_rest(law, par, g, share, eta0, out, still)
     return total
 
 

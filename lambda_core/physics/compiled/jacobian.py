@@ -13,7 +13,7 @@ costly and taken once (:mod:`.tangent`), dq/d(state) and the change of the frame
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import types
@@ -81,22 +81,22 @@ _TURN = 1e-3  # [rad/s] likewise
 class Blocks(NamedTuple):
     """Jacobian blocks and workspaces."""
 
-    a: object  # (Z, 9, 9)
-    b: object  # (Z, 9, n_active)
-    c: object  # (Z, n_active, 9)
-    d: object  # (n_active, n_active)
-    own: object  # (6, 9) d(ball force)/d(ball)
-    to_shared: object  # (6, 36) d(ball force)/d(shared)
-    from_ball: object  # (3, 6, 9) d(body force)/d(ball)
-    shared: object  # (3, 6, 36) d(body force)/d(shared), summed
-    slope: object  # (6, 9) d(wrench)/dq
-    ball: object  # (9,) perturbed
-    body: object  # (12,) perturbed
-    body2: object  # (12,) perturbed
-    fm: object  # (4, 6): base and perturbed force and moment of ball and body
-    map: object  # (12, 6) d(rate)/d(force, moment) of one body
-    rates: object  # (NI,) scratch
-    index: object  # int64 (36,): position among the free shared states, or -1
+    a: Any  # (Z, 9, 9)
+    b: Any  # (Z, 9, n_active)
+    c: Any  # (Z, n_active, 9)
+    d: Any  # (n_active, n_active)
+    own: Any  # (6, 9) d(ball force)/d(ball)
+    to_shared: Any  # (6, 36) d(ball force)/d(shared)
+    from_ball: Any  # (3, 6, 9) d(body force)/d(ball)
+    shared: Any  # (3, 6, 36) d(body force)/d(shared), summed
+    slope: Any  # (6, 9) d(wrench)/dq
+    ball: Any  # (9,) perturbed
+    body: Any  # (12,) perturbed
+    body2: Any  # (12,) perturbed
+    fm: Any  # (4, 6): base and perturbed force and moment of ball and body
+    map: Any  # (12, 6) d(rate)/d(force, moment) of one body
+    rates: Any  # (NI,) scratch
+    index: Any  # int64 (36,): position among the free shared states, or -1
 
 
 _BLOCK_TYPES = {"a": array3, "b": array3, "c": array3, "from_ball": array3, "shared": array3, "index": iarray1}

@@ -12,7 +12,7 @@ State vector y, float64, shape (9 Z + n_active,):
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
@@ -165,37 +165,37 @@ system_t = types.Array(numba.from_dtype(SYSTEM), 1, "C")
 _S = {"f": f8, "a": array1}
 
 
-def _sig(spec: str) -> object:
+def _sig(spec: str) -> Any:
     return i8(*(_S[c] for c in spec))
 
 
 class RacewayLaws(NamedTuple):
     """Pointers to the kernels of one ball-raceway force element."""
 
-    normal_contact: object
-    damping: object
-    rheology: object
-    film_thickness: object
-    thermal_correction: object
-    contact_temperature: object
-    traction: object
-    rolling_resistance: object
-    elastic_hysteresis: object
-    asperity_load: object
-    boundary_friction: object
-    permittivity: object
-    capacitance: object
+    normal_contact: Any
+    damping: Any
+    rheology: Any
+    film_thickness: Any
+    thermal_correction: Any
+    contact_temperature: Any
+    traction: Any
+    rolling_resistance: Any
+    elastic_hysteresis: Any
+    asperity_load: Any
+    boundary_friction: Any
+    permittivity: Any
+    capacitance: Any
 
 
 class Laws(NamedTuple):
     """All kernels of the model."""
 
-    inner: object
-    outer: object
-    pocket: object
-    land_inner: object
-    land_outer: object
-    drag: object
+    inner: Any
+    outer: Any
+    pocket: Any
+    land_inner: Any
+    land_outer: Any
+    drag: Any
 
 
 # Index of a kernel's parameters: 13 per raceway (order of RACEWAY_ROLES), then these.
@@ -269,19 +269,19 @@ tangent_sig = i8(i8, array1, raceway_laws_t, array1, system_t, array2, array3, a
 class Bundle(NamedTuple):
     """Everything that the compiled code works on, in one argument."""
 
-    system: object  # SYSTEM record, shape (1,)
-    laws: object  # Laws
-    wrench: object  # pointer: wrench of one raceway contact
-    tangent: object  # pointer: its derivative
-    par: object  # float64: parameters of all kernels, one after another (system.par_start)
-    grid: object  # (6, cells)
-    terms: object  # (n, 8) time functions: channel, kind, 4 values, offset and length in `table`
-    table: object  # knots and spline coefficients
-    active: object  # int64 (n_active,): free entries of the shared state
-    channels: object  # (36, 3) value and two derivatives of every time function
-    cells: object  # (2, 12, cells)
-    scratch: object  # (16, 64)
-    ball_fm: object  # (Z, 6) force and moment on each ball, axes x, r, t
+    system: Any  # SYSTEM record, shape (1,)
+    laws: Any  # Laws
+    wrench: Any  # pointer: wrench of one raceway contact
+    tangent: Any  # pointer: its derivative
+    par: Any  # float64: parameters of all kernels, one after another (system.par_start)
+    grid: Any  # (6, cells)
+    terms: Any  # (n, 8) time functions: channel, kind, 4 values, offset and length in `table`
+    table: Any  # knots and spline coefficients
+    active: Any  # int64 (n_active,): free entries of the shared state
+    channels: Any  # (36, 3) value and two derivatives of every time function
+    cells: Any  # (2, 12, cells)
+    scratch: Any  # (16, 64)
+    ball_fm: Any  # (Z, 6) force and moment on each ball, axes x, r, t
 
 
 bundle_t = types.NamedTuple(
@@ -304,7 +304,7 @@ bundle_t = types.NamedTuple(
 )
 
 
-def helper(function):  # type: ignore[no-untyped-def]
+def helper(function):
     """Compile a helper of the core; never cached by itself, its callers are."""
     return numba.njit(error_model="numpy")(function)
 

@@ -7,7 +7,16 @@ import math
 import numpy as np
 
 from lambda_core.physics.compiled.bdf import evaluate_t
-from lambda_core.physics.compiled.cage import guide_energy, guide_force, land_state, pocket_apply, pocket_state
+from lambda_core.physics.compiled.cage import (
+    GAUSS_NODES,
+    GAUSS_WEIGHTS,
+    guide_energy,
+    guide_force,
+    land_state,
+    neighbour_state,
+    pocket_apply,
+    pocket_state,
+)
 from lambda_core.physics.compiled.kinematics import axis_x, contact_kinematics
 from lambda_core.physics.compiled.layout import (
     BODY_FM,
@@ -99,11 +108,6 @@ CONTACT_CHANNELS = (
     "contact_loss",
 )
 observe_sig = i8(array1, array2, bundle_t, evaluate_t, f8, array4, array3, array3, array2, array2, array2)
-
-# Gauss-Legendre, 8 points on 0..1: exact for the elastic energy of a power law of exponent 3/2
-# after the substitution delta = delta_max u^2.
-_NODES = np.polynomial.legendre.leggauss(8)[0] * 0.5 + 0.5
-_WEIGHTS = np.polynomial.legendre.leggauss(8)[1] * 0.5
 
 
 @helper
@@ -210,19 +214,22 @@ def _raceway_channels(y, j, which, bundle, shorted, channels, losses):
 
 @helper
 def _contact_energy(which, delta, bundle):
-    """Return the elastic energy of a raceway contact at penetration delta [J]."""
+    """Return the elastic energy of a raceway contact at penetration delta [J].
+
+    With delta u^2 for the penetration, eight points are exact for a power law of exponent 3/2.
+    """
     scratch = bundle.scratch
     system = bundle.system[0]
     laws = bundle.laws.inner if which == INNER else bundle.laws.outer
     par = bundle.par
     total = 0.0
-    for i in range(_NODES.size):
-        u = _NODES[i]
+    for i in range(GAUSS_NODES.size):
+        u = GAUSS_NODES[i]
         laws.normal_contact(
             delta * u * u, system.radius_x[which], system.radius_y[which], system.e_eff[which],
             par_of(par, system, RACEWAY_KERNELS * which + R_NORMAL), scratch[OUT],
         )  # fmt: skip
-        total += _WEIGHTS[i] * scratch[OUT][0] * 2.0 * delta * u
+        total += GAUSS_WEIGHTS[i] * scratch[OUT][0] * 2.0 * delta * u
     return total
 
 
@@ -245,7 +252,7 @@ def _kinetic_body(body, b, system):
 def stored_energy(t, y, bundle):
     """Return kinetic plus elastic energy of all bodies, contacts and supports [J]."""
     scratch = bundle.scratch
-    system = bundle.system[0]
+    system, out = bundle.system[0], scratch[OUT]
     fill_shared(t, y, bundle)
     total = 0.0
     cage = scratch[SHARED][NS * CAGE : NS * CAGE + NS]
@@ -258,16 +265,17 @@ def stored_energy(t, y, bundle):
             ring = scratch[SHARED][NS * which : NS * which + NS]
             if contact_kinematics(ball, ring, which, system, scratch[KIN]) > 0.0:
                 total += _contact_energy(which, scratch[KIN][Q_DELTA], bundle)
-        if system.cage_on == 1 and system.guides_on == 1:
-            pocket_state(ball, cage, j, system, scratch[GUIDE])
-            total += guide_energy(
-                bundle.laws.pocket,
-                par_of(bundle.par, system, P_POCKET),
-                scratch[GUIDE],
-                system.eta0,
-                scratch[OUT],
-                scratch[STILL],
-            )
+        if system.guides_on == 1:
+            g, law, par = scratch[GUIDE], bundle.laws.pocket, par_of(bundle.par, system, P_POCKET)
+            start = 0.0
+            if system.cage_on == 1:
+                pocket_state(ball, cage, j, system, g)
+            else:
+                k = (j + 1) % system.balls
+                neighbour_state(ball, y[NB * k : NB * k + NB], g)
+                apart = math.sqrt(g[0] ** 2 + g[1] ** 2 + g[2] ** 2)
+                start = max(1.0, 2.0 * system.ball_radius / apart)
+            total += guide_energy(law, par, g, system.eta0, out, scratch[STILL], start)
     for b in range(3):
         if b != CAGE or system.cage_on == 1:
             total += _kinetic_body(scratch[SHARED][NS * b : NS * b + NS], b, system)
@@ -280,7 +288,7 @@ def stored_energy(t, y, bundle):
             ring = scratch[SHARED][NS * which : NS * which + NS]
             for side in range(2):
                 land_state(cage, ring, (2 * side - 1) * system.land_offset, scratch[GUIDE])
-                total += guide_energy(law, par, scratch[GUIDE], system.eta0, scratch[OUT], scratch[STILL])
+                total += guide_energy(law, par, scratch[GUIDE], system.eta0, out, scratch[STILL], 0.0)
     return total
 
 

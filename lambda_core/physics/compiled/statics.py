@@ -22,6 +22,7 @@ from lambda_core.physics.compiled.layout import (
     BVT,
     BX,
     CAGE,
+    FAULT,
     INNER,
     KIN,
     NB,
@@ -40,8 +41,11 @@ settle_sig = i8(evaluate_t, jacobian_t, bundle_t, blocks_t, factors_t, array1, a
 
 _MOBILITY = 1e-4  # [s2] turns an acceleration into the rate of a position
 _HOLD = 1e4  # [1/s] rate at which an unloaded ball takes the speed of the others
-_LARGEST_MOVE = 5e-6  # [m] per iteration, so that no iterate jumps through a contact
+_LARGEST_MOVE = 0.2  # of the states' scales (10 um) per iteration, so that no iterate jumps through a contact
 _FIRST_STEP, _LAST_STEP = 1e-6, 1e6  # [s] of pseudo-time
+_CONVERGED = 1e-7  # last Newton step over the states' scales
+_TOLERATED_RISE = 1.5
+_GRIP = 0.02  # share of the largest ball load below which the cage sets a ball's orbital speed
 
 
 @helper
@@ -145,20 +149,51 @@ def _mask(bundle, bl, held):
 
 @helper
 def _held_balls(y, bundle, held):
-    """Mark the balls that the inner ring does not touch; returns the mean orbital speed of the rest."""
+    """Mark the balls that the cage drives; returns the load-weighted mean orbital speed of the others.
+
+    A ball finds its own orbital speed where the inner ring grips it. One that carries little cannot hold
+    itself against gravity and drag, in a bearing the cage does that.
+    """
     scratch = bundle.scratch
     system = bundle.system[0]
-    total, count = 0.0, 0
     ring = scratch[SHARED][NS * INNER : NS * INNER + NS]
+    largest = 0.0
     for j in range(system.balls):
         ball = y[NB * j : NB * j + NB]
-        held[j] = contact_kinematics(ball, ring, INNER, system, scratch[KIN]) <= 0.0
+        largest = max(largest, contact_kinematics(ball, ring, INNER, system, scratch[KIN]))
+    total, weight = 0.0, 0.0
+    for j in range(system.balls):
+        ball = y[NB * j : NB * j + NB]
+        delta = contact_kinematics(ball, ring, INNER, system, scratch[KIN])
+        load = (max(delta, 0.0) / (largest + 1e-300)) ** 1.5
+        held[j] = load < _GRIP
         if not held[j]:
-            total += ball[BVT] / ball[BR]
-            count += 1
-    if count == 0:
+            total += load * ball[BVT] / ball[BR]
+            weight += load
+    if weight == 0.0:
         return y[BVT] / y[BR]
-    return total / count
+    return total / weight
+
+
+@helper
+def _merit(v, weight):
+    """Return the root mean square of v measured with the weights."""
+    total = 0.0
+    for i in range(v.size):
+        total += (v[i] * weight[i]) ** 2
+    return math.sqrt(total / v.size)
+
+
+@helper
+def _largest_move(step, weight, balls):
+    """Return the largest change of a position or tilt over its scale."""
+    largest = 0.0
+    for j in range(balls):
+        for i in range(2):
+            largest = max(largest, abs(step[NB * j + i]) * weight[NB * j + i])
+    for i in range(NB * balls, step.size):
+        largest = max(largest, abs(step[i]) * weight[i])
+    return largest
 
 
 def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations):
@@ -178,16 +213,17 @@ def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations
     int
         1 converged, 0 not, -1 a kernel refused (scratch[FAULT]).
     """
-    system = bundle.system[0]
+    system, scratch = bundle.system[0], bundle.scratch
     n = y.size
     dydt, f, step, trial, rates = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(NI)
     held = np.zeros(system.balls, dtype=np.bool_)
-    dt, before = _FIRST_STEP, 0.0
+    new, dt = np.zeros(n), _FIRST_STEP
     if evaluate(0.0, y, bundle, dydt, rates, 0) != 1:
         return -1
+    orbit = _held_balls(y, bundle, held)
+    _residual(bundle, bl.index, y, dydt, held, orbit, f)
+    merit = _merit(f, weight)
     for iteration in range(max_iterations):
-        orbit = _held_balls(y, bundle, held)
-        _residual(bundle, bl.index, y, dydt, held, orbit, f)
         if jacobian(0.0, y, bundle, bl) != 1:
             return -1
         _mask(bundle, bl, held)
@@ -197,30 +233,29 @@ def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations
                 step[i] = dt * f[i]
             if arrow_factor(bl, 1.0, dt, fa) == 1:
                 arrow_solve(fa, step)
-                largest, size = 0.0, 0.0
-                for j in range(system.balls):
-                    largest = max(largest, abs(step[NB * j + BX]), abs(step[NB * j + BR]))
-                for i in range(NB * system.balls, n):
-                    largest = max(largest, abs(step[i]))
-                shrink = min(1.0, _LARGEST_MOVE / (largest + 1e-300))
+                size = _merit(step, weight)
+                shrink = min(1.0, _LARGEST_MOVE / (_largest_move(step, weight, system.balls) + 1e-300))
                 for i in range(n):
-                    size += (step[i] * weight[i]) ** 2
                     trial[i] = y[i] + shrink * step[i]
-                size = math.sqrt(size / n)
                 if size < np.inf and evaluate(0.0, trial, bundle, dydt, rates, 0) == 1:
-                    break
-            dt *= 0.1
+                    orbit = _held_balls(trial, bundle, held)
+                    _residual(bundle, bl.index, trial, dydt, held, orbit, new)
+                    found = _merit(new, weight)
+                    # Overdamped motion may pass through states of larger residual, but not by much.
+                    if found < _TOLERATED_RISE * merit or dt <= _FIRST_STEP or size < _CONVERGED:
+                        break
+            dt *= 0.2
             tries += 1
-            if tries > 12:
-                return -1
+            if tries > 20:
+                return -1 if scratch[FAULT, 0] >= 0.0 else 0
+        gain = merit / (found + 1e-300)
+        merit = found
         for i in range(n):
             y[i] = trial[i]
+            f[i] = new[i]
         report[0], report[1], report[2], report[3] = iteration + 1.0, size, dt, orbit
-        if dt >= 1.0 and size < 1e-7 and shrink == 1.0:
+        if dt >= 1.0 and size < _CONVERGED and shrink == 1.0:
             return 1
-        if shrink < 1.0 or (before > 0.0 and size > 4.0 * before):
-            dt = max(_FIRST_STEP, 0.5 * dt) if shrink < 0.2 else dt
-        else:
-            dt = min(_LAST_STEP, 3.0 * dt)
-        before = size
+        if shrink == 1.0:
+            dt = min(_LAST_STEP, dt * max(0.5, min(5.0, 2.0 * gain)))
     return 0
