@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from lambda_core.registry.catalogue import Catalogue
     from lambda_core.registry.survey import CheckCard, FaultCard, Inventory, ModelCard
     from lambda_core.schema.case import Case
+    from lambda_core.schema.draft import Draft
+    from lambda_core.simulate.estimate import Estimate
     from lambda_core.simulate.progress import Progress
     from lambda_core.simulate.quasistatic import QuasiStatic
     from lambda_core.simulate.results import Result
@@ -33,6 +35,8 @@ __all__ = [
     "check",
     "check_plugins",
     "describe",
+    "draft",
+    "estimate",
     "init_case",
     "new_plugin",
     "plugin_faults",
@@ -129,7 +133,9 @@ def resolve(case: Case) -> BearingModel:
         return freeze(case, models, catalogue)
 
 
-def check(source: str | Path | Mapping[str, Any] | Case, overrides: Iterable[str] = ()) -> BearingModel:
+def check(
+    source: str | Path | Mapping[str, Any] | Case, overrides: Iterable[str] = (), *, folder: Path | None = None
+) -> BearingModel:
     """Read and resolve a case without running it.
 
     Parameters
@@ -138,6 +144,8 @@ def check(source: str | Path | Mapping[str, Any] | Case, overrides: Iterable[str
         File, built-in name, plain tables as they stand in a file, or a case.
     overrides : iterable of str
         Changes ``path=value``.
+    folder : pathlib.Path, optional
+        Where file names in plain tables are looked up; default: the working directory.
 
     Returns
     -------
@@ -159,7 +167,7 @@ def check(source: str | Path | Mapping[str, Any] | Case, overrides: Iterable[str
     changes = list(overrides)
     try:
         if isinstance(source, Mapping):
-            loaded = validate_case(source)
+            loaded = validate_case(source, str(source.get("name", "case")), folder)
         else:
             loaded = source if isinstance(source, Case) else case(source)
         return resolve(apply_overrides(loaded, changes) if changes else loaded)
@@ -180,6 +188,21 @@ def problems(source: Mapping[str, Any] | Case) -> tuple[Problem, ...]:
     except CaseError as error:
         return error.problems
     return ()
+
+
+def draft(source: str | Path | None = None) -> Draft:
+    """Open a case for editing: a file, a copy of a built-in case, or one that says nothing yet.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file or built-in case.
+    CaseError
+        When the file is not TOML; any other mistake may stand in a draft.
+    """
+    from lambda_core.schema.draft import new_draft, open_draft
+
+    return new_draft() if source is None else open_draft(source)
 
 
 def describe(model: BearingModel) -> CaseReport:
@@ -271,6 +294,22 @@ def quasistatic(
     from lambda_core.simulate.quasistatic import quasistatic_of
 
     return quasistatic_of(solve(_model(source, overrides), announce=announce))
+
+
+def estimate(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel, *, announce: Callable[[str], None] | None = None
+) -> Estimate:
+    """Say what can be said of a case before it is run: equilibrium, rating life, wall time.
+
+    Raises
+    ------
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.registry.manager import registry
+    from lambda_core.simulate.estimate import estimate as ask
+
+    return ask(_model(source), registry().methods, announce)
 
 
 def run(

@@ -1,0 +1,94 @@
+"""What can be said of a case before it is run: equilibrium, rating life, and about how long the run takes."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping
+
+from pydantic import Field
+
+from lambda_core.physics.comparison import comparison_inputs
+from lambda_core.physics.equilibrium import Equilibrium, solve
+from lambda_core.physics.model import BearingModel
+from lambda_core.physics.time_functions import initial
+from lambda_core.registry.method import Method, evaluate_methods
+from lambda_core.simulate.convergence import AVERAGED_AT_LEAST, DISCARDED_AT_LEAST
+from lambda_core.simulate.dynamics import BearingEngine
+from lambda_core.simulate.quasistatic import QuasiStatic, quasistatic_of
+from lambda_core.simulate.summary import Record
+
+# Share of a cage turn that is simulated to see how fast it goes; the first steps are no slower than later ones.
+_TRIAL = 0.05
+_LIFE_METHOD, _LIFE, _RATIO = "iso-281", "basic rating life, hours", "viscosity ratio"
+
+
+class Estimate(Record):
+    """Numbers beside a case that is being set up; null where there is none."""
+
+    equilibrium: QuasiStatic
+    rating_life_h: float | None = Field(description="basic rating life L_10h (ISO 281)")
+    viscosity_ratio: float | None = Field(description="kappa = nu/nu_1 (ISO 281)")
+    simulated_s: float | None = Field(description="shortest simulated time of the run")
+    run_s: float | None = Field(description="wall time of the run, from a trial of 1/20 cage turn on this machine")
+
+
+def estimate(
+    model: BearingModel, methods: Mapping[str, Method], announce: Callable[[str], None] | None = None
+) -> Estimate:
+    """Solve the equilibrium of a model and say what follows from it.
+
+    Parameters
+    ----------
+    methods : mapping
+        Installed comparison methods by name; the life comes from the one of ISO 281.
+
+    Raises
+    ------
+    SolverError
+        When there is no equilibrium.
+    """
+    found = solve(model, announce=announce)
+    life = _life(found, methods)
+    simulated = _simulated_time(model, found)
+    return Estimate(
+        equilibrium=quasistatic_of(found),
+        rating_life_h=life.get(_LIFE),
+        viscosity_ratio=life.get(_RATIO),
+        simulated_s=simulated,
+        run_s=None if simulated is None else _wall_time(model, found, simulated, announce),
+    )
+
+
+def _life(found: Equilibrium, methods: Mapping[str, Method]) -> dict[str, float]:
+    if _LIFE_METHOD not in methods:
+        return {}
+    (answer,) = evaluate_methods([methods[_LIFE_METHOD]], comparison_inputs(found))
+    return {row.name: row.value for row in answer.table.rows if math.isfinite(row.value)} if answer.table else {}
+
+
+def _cage_turn(model: BearingModel, found: Equilibrium) -> float:
+    """Return the duration of one cage turn against the outer ring [s]; inf at rest."""
+    speed = abs(found.orbit - initial(model.outer_ring.dofs["spin"].motion))
+    return 2.0 * math.pi / speed if speed > 0.0 else math.inf
+
+
+def _simulated_time(model: BearingModel, found: Equilibrium) -> float | None:
+    solver = model.solver
+    if solver.duration > 0.0:
+        return solver.duration
+    discard = max(DISCARDED_AT_LEAST, math.ceil(solver.discard_revolutions))
+    turns = discard + max(AVERAGED_AT_LEAST, math.ceil(solver.average_revolutions))
+    needed = min(turns * _cage_turn(model, found), solver.max_duration)
+    return needed if math.isfinite(needed) else None
+
+
+def _wall_time(
+    model: BearingModel, found: Equilibrium, simulated: float, announce: Callable[[str], None] | None
+) -> float | None:
+    """Return the wall time of a run from that of its first moments, None where these cannot be computed."""
+    engine = BearingEngine(model, announce, found)
+    begin = time.perf_counter()
+    advance = engine.advance(min(_TRIAL * _cage_turn(model, found), simulated))
+    spent = time.perf_counter() - begin
+    return spent * simulated / engine.time if advance.ok and engine.time > 0.0 else None
