@@ -61,6 +61,7 @@ _LAWS: dict[str, dict[str, str]] = {
         "spherical-pocket": "cage_contact:SPHERICAL_POCKET",
         "cylindrical-pocket": "cage_contact:CYLINDRICAL_POCKET",
         "land-guidance": "cage_contact:LAND_GUIDANCE",
+        "ball-ball": "cage_contact:BALL_BALL",
         "none": "cage_contact:NONE",
     },
     "fluid_drag": {

@@ -1,4 +1,4 @@
-"""Contacts of the cage: with the balls in its pockets, with the lands of the rings.
+"""Contacts of the cage: with the balls in its pockets, with the lands of the rings; of two balls without a cage.
 
 One penalty contact for all: a spring whose stiffness sets in over the first fraction of a micrometre, damping that
 grows from zero at first touch and never pulls, and cubic friction at the point of contact against the slip there.
@@ -78,6 +78,11 @@ def prepare_land(parameters: CageContact, context: Context) -> FloatArray:
         raise ValueError("the cage is not guided by a ring: it has no land clearance or land diameter")
     side = -1.0 if context.element == "cage_inner" else 1.0
     return _constants(parameters, context.land_clearance, 0.5 * side * context.land_diameter)
+
+
+def prepare_balls(parameters: CageContact, context: Context) -> FloatArray:
+    """Return the constants with the balls' diameter as distance of first touch, and their radius."""
+    return _constants(parameters, 2.0 * context.ball_diameter, 0.5 * context.ball_diameter)
 
 
 def push_back(
@@ -168,6 +173,23 @@ def land_guidance(
     return 1
 
 
+def ball_ball(
+    r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: FloatArray, out: FloatArray
+) -> int:
+    """Two neighbouring balls of a bearing without a cage: they touch when their centres are a diameter apart.
+
+    r is the position of one centre from the other's. Contact law and friction as in the pockets.
+    """
+    out[:] = 0.0
+    distance = math.sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2])
+    if distance < par[8] and distance > _LIMITS_AT:
+        n0 = -r[0] / distance
+        n1 = -r[1] / distance
+        n2 = -r[2] / distance
+        push_back(n0, n1, n2, par[8] - distance, r, v_rel, omega_rel, par, out)
+    return 1
+
+
 def none(r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: FloatArray, out: FloatArray) -> int:
     """No contact of the cage."""
     out[:] = 0.0
@@ -204,6 +226,16 @@ LAND_GUIDANCE = model(
     reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
     validity=_VALIDITY,
     prepare=prepare_land,
+)
+
+BALL_BALL = model(
+    "cage_contact",
+    "ball-ball",
+    ball_ball,
+    CageContact,
+    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
+    validity=_VALIDITY,
+    prepare=prepare_balls,
 )
 
 NONE = model("cage_contact", "none", none, NoParameters, reference="-")

@@ -149,3 +149,27 @@ def test_says_what_the_cage_lacks(name: str, missing: str, message: str) -> None
     context = dataclasses.replace(trial_context("cage_inner"), **{missing: math.nan})
     with pytest.raises(PluginError, match=message):
         make_par(law, law.parameters(), context)
+
+
+@pytest.mark.parametrize("apart", [1.2, 1.0])
+def test_balls_apart_do_not_feel_each_other(apart: float) -> None:
+    force, point = contact("ball-ball", np.array([0.0, apart * 2.0 * R_BALL, 0.0]), np.ones(3), np.ones(3))
+    assert np.all(force == 0.0)
+    assert np.all(point == 0.0)
+
+
+@settings(max_examples=40, deadline=None)
+@given(vectors, vectors, vectors, st.floats(1e-7, 1e-5))
+def test_two_balls_push_each_other_apart(direction: Any, v: Any, omega: Any, depth: float) -> None:
+    """Along the line of centres, at the point halfway; damping and friction never drive."""
+    if np.linalg.norm(direction) < 0.1:
+        return
+    n = direction / np.linalg.norm(direction)
+    r = (2.0 * R_BALL - depth) * n
+    spring = 0.5 * depth**2 / 0.5e-6 if depth < 0.5e-6 else depth - 0.25e-6
+    elastic, point = contact("ball-ball", r)
+    assert elastic == pytest.approx(5e6 * spring * n, rel=1e-6, abs=1e-9)
+    assert point == pytest.approx(0.5 * r, abs=0.6 * depth)
+    force, point = contact("ball-ball", r, v, 500.0 * omega)
+    assert force @ n >= 0.0
+    assert (force - elastic) @ (v + np.cross(500.0 * omega, point - r)) <= 1e-9

@@ -31,7 +31,7 @@ NAMES = {
     "elastic_hysteresis": {"loss-factor", "houpert", "scheuermann", "none"},
     "asperity_load": {"zhou-hoeprich", "none"},
     "boundary_friction": {"cubic", "coulomb-regularised"},
-    "cage_contact": {"spherical-pocket", "cylindrical-pocket", "land-guidance", "none"},
+    "cage_contact": {"spherical-pocket", "cylindrical-pocket", "land-guidance", "ball-ball", "none"},
     "fluid_drag": {"skf-catalogue", "schaeffler-catalogue", "sphere-drag", "none"},
     "permittivity": {"bode", "constant"},
     "capacitance": {"schneider", "constant-factor", "gap-integral"},

@@ -41,7 +41,7 @@ NG = 24
 # Gauss-Legendre, 8 points on 0..1.
 GAUSS_NODES = np.polynomial.legendre.leggauss(8)[0] * 0.5 + 0.5
 GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(8)[1] * 0.5
-_PANELS = 8  # parts of the way of an elastic contact, which may have kinks
+_PARTS = 10  # of the way of an elastic contact, each half as long as the next: laws bend near first touch
 
 
 @helper
@@ -180,11 +180,13 @@ def guide_energy(law, par, g, eta0, out, still, start):
             free = middle
         else:
             pressed = middle
-    total, way = 0.0, (1.0 - free) / _PANELS
-    for panel in range(_PANELS):
+    total, end = 0.0, 1.0
+    for part in range(_PARTS):
+        begin = 0.5 * (free + end) if part < _PARTS - 1 else free
         for i in range(GAUSS_NODES.size):
-            share = free + (panel + GAUSS_NODES[i]) * way
-            total -= GAUSS_WEIGHTS[i] * way * _force_at_rest(law, par, g, share, eta0, out, still)
+            share = begin + GAUSS_NODES[i] * (end - begin)
+            total -= GAUSS_WEIGHTS[i] * (end - begin) * _force_at_rest(law, par, g, share, eta0, out, still)
+        end = begin
     return total
 
 

@@ -1,0 +1,184 @@
+"""The one place where tests touch the layout of the compiled core: states, forces, powers, Jacobian."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core import api
+from lambda_core.physics import assembly as A
+from lambda_core.physics.channels import LOSSES
+from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.compiled.entry import core
+from lambda_core.physics.equilibrium import fault_sentence
+from lambda_core.physics.model import BearingModel
+from lambda_core.simulate.dynamics import observe
+
+FloatArray = NDArray[np.float64]
+CASE = "6319-cp10-1500"
+ALL_FREE = tuple(
+    f"bodies.outer_ring.{dof}=free" for dof in ("x", "y", "z", "tilt_y", "tilt_z", "spin")
+)  # both rings and the cage move in every direction
+NO_FIELD = ("gravity.z=0 m/s2", "models.fluid_drag=none")  # nothing but internal forces
+# Names of a shared body's states in the order of the layout.
+SHARED_STATES = ("x", "y", "z", "a_y", "a_z", "theta", "v_x", "v_y", "v_z", "w_y", "w_z", "sigma")
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """One evaluation of the right-hand side."""
+
+    dydt: FloatArray
+    losses: dict[str, float]  # by mechanism [W]
+    input_power: float  # [W]
+    drive_power: float  # [W]
+    ball_forces: FloatArray  # (Z, 6), axes x, r, t
+    body_forces: FloatArray  # (3, 6), inertial axes, moments about each body's centre
+
+
+@dataclass
+class State:
+    """A state vector with named parts; `vector` packs it."""
+
+    balls: FloatArray  # (Z, 9)
+    shared: FloatArray  # (3, 12); what is not free is ignored
+
+    def copy(self) -> State:
+        return State(self.balls.copy(), self.shared.copy())
+
+
+@dataclass
+class Machine:
+    """A model on the compiled core, evaluated at states of the test's choice."""
+
+    model: BearingModel
+    angle: float = 0.0  # contact angle at which the contacts' radii are frozen [rad]
+    assembly: A.Assembly = field(init=False)
+
+    def __post_init__(self) -> None:
+        kernels = A.Kernels(self.model)
+        frame = A.ContactFrame((self.angle, self.angle), (1000.0, 1000.0))
+        self.assembly = A.assemble(self.model, kernels, frame, A.derive_oil(self.model, kernels, frame))
+
+    @property
+    def count(self) -> int:
+        return self.model.geometry.ball_count
+
+    @property
+    def active(self) -> NDArray[np.int64]:
+        """Indices of the free shared states in the flat (3, 12) array."""
+        return np.asarray(self.assembly.bundle.active)
+
+    def constant(self, name: str) -> FloatArray:
+        """Return a constant of the system by its name in the layout."""
+        return np.array(self.assembly.bundle.system[0][name])
+
+    def vector(self, state: State) -> FloatArray:
+        return np.concatenate([state.balls.ravel(), state.shared.ravel()[self.active]])
+
+    def state(self, y: FloatArray) -> State:
+        shared = np.zeros(3 * L.NS)
+        shared[self.active] = y[L.NB * self.count :]
+        return State(y[: L.NB * self.count].reshape(-1, L.NB).copy(), shared.reshape(3, L.NS))
+
+    def at_rest(self, azimuth: float = 0.0) -> State:
+        """Return balls in the middle of the play, everything centred and at rest."""
+        z, g = self.count, self.model.geometry
+        balls, shared = np.zeros((z, L.NB)), np.zeros((3, L.NS))
+        balls[:, L.BR] = 0.5 * g.pitch_diameter
+        balls[:, L.BPSI] = azimuth + 2.0 * np.pi * np.arange(z) / z
+        shared[2, L.STHETA] = azimuth
+        return State(balls, shared)
+
+    def evaluate(self, y: FloatArray, t: float = 0.0, want: int = 1) -> Evaluation:
+        dydt, rates, bundle = np.full(y.size, np.nan), np.zeros(L.NI), self.assembly.bundle
+        ok = core().evaluate(t, y, bundle, dydt, rates, want)
+        assert ok == 1, fault_sentence(self.assembly)
+        losses = dict(zip(LOSSES, rates[: L.NL].tolist(), strict=True))
+        bodies = bundle.scratch[L.BODY_FM : L.BODY_FM + 3, :6].copy()
+        return Evaluation(dydt, losses, float(rates[L.I_INPUT]), float(rates[L.I_DRIVE]), bundle.ball_fm.copy(), bodies)
+
+    def observe(self, y: FloatArray, t: float = 0.0) -> dict[str, FloatArray]:
+        """Return every channel at one state, first axis dropped."""
+        channels = observe(core(), self.assembly, np.array([t]), y.reshape(1, -1))
+        return {name: values[0] for name, values in channels.items()}
+
+    def stored(self, y: FloatArray, t: float = 0.0) -> float:
+        """Return kinetic plus elastic energy [J]."""
+        return float(self.observe(y, t)["stored_energy"])
+
+    def jacobian(self, y: FloatArray, t: float = 0.0) -> FloatArray:
+        """Return the block-arrow Jacobian as a dense matrix."""
+        bundle, blocks, z = self.assembly.bundle, self.assembly.blocks, self.count
+        self.evaluate(y, t, want=0)
+        assert core().jacobian(t, y, bundle, blocks) == 1, fault_sentence(self.assembly)
+        dense = np.zeros((y.size, y.size))
+        for j in range(z):
+            own = slice(L.NB * j, L.NB * (j + 1))
+            dense[own, own] = blocks.a[j]
+            dense[own, L.NB * z :] = blocks.b[j]
+            dense[L.NB * z :, own] = blocks.c[j]
+        dense[L.NB * z :, L.NB * z :] = blocks.d
+        return dense
+
+    def shared_state(self, y: FloatArray, t: float) -> FloatArray:
+        """Return the whole shared state (3, 12), prescribed motions included."""
+        self.evaluate(y, t, want=0)
+        return self.assembly.bundle.scratch[L.SHARED, : 3 * L.NS].reshape(3, L.NS).copy()
+
+
+@cache
+def machine(*overrides: str, case: str = CASE, angle: float = 0.0) -> Machine:
+    """Return a built-in case with overrides on the compiled core."""
+    return Machine(api.check(case, overrides), angle)
+
+
+def inertial(psi: float, v: FloatArray) -> FloatArray:
+    """Turn components x, r, t at azimuth psi into x, y, z."""
+    c, s = np.cos(psi), np.sin(psi)
+    return np.array([v[0], c * v[1] - s * v[2], s * v[1] + c * v[2]])
+
+
+def ball_centre(ball: FloatArray) -> FloatArray:
+    return np.array([ball[L.BX], ball[L.BR] * np.cos(ball[L.BPSI]), ball[L.BR] * np.sin(ball[L.BPSI])])
+
+
+def axis_of(body: FloatArray) -> FloatArray:
+    """Return the unit axis of a shared body."""
+    ay, az = body[L.SAY], body[L.SAZ]
+    return np.array([np.sqrt(1.0 - ay * ay - az * az), ay, az])
+
+
+def angular_velocity(body: FloatArray) -> FloatArray:
+    """Return the whole angular velocity of a shared body, inertial."""
+    a = axis_of(body)
+    wy, wz = body[L.SWY], body[L.SWZ]
+    across = np.array([-(wy * a[1] + wz * a[2]) / a[0], wy, wz])
+    return np.array(across + body[L.SSIGMA] * a)
+
+
+def jostle(m: Machine, state: State, rng: np.random.Generator, shift: float = 1.0, motion: float = 1.0) -> State:
+    """Return a state with every ball and body displaced, tilted and moving at random.
+
+    At 1 displacements are some 20 um, tilts 0.3 mrad, velocities 0.3 m/s, spins 30 rad/s on top of the state.
+    """
+    new, z = state.copy(), m.count
+    ball_scale = np.repeat([shift, motion], [3, 6]) * [20e-6, 20e-6, 1e-3, 0.3, 0.1, 0.3, 30.0, 30.0, 30.0]
+    body_scale = np.repeat([shift, motion], [6, 6]) * [10e-6, 10e-6, 10e-6, 3e-4, 3e-4, 1e-3, 0.05, 0.05, 0.05, 1, 1, 3]
+    new.balls += rng.uniform(-1.0, 1.0, (z, L.NB)) * ball_scale
+    new.shared += rng.uniform(-1.0, 1.0, (3, L.NS)) * body_scale
+    return new
+
+
+def rolling(m: Machine, speed: float, azimuth: float = 0.0) -> State:
+    """Return `at_rest` with the inner ring at `speed` [rad/s] and everything rolling without slip."""
+    state, g = m.at_rest(azimuth), m.model.geometry
+    inner = speed * (0.5 * g.pitch_diameter - 0.5 * g.ball_diameter)
+    state.balls[:, L.BVT] = 0.5 * inner
+    state.balls[:, L.BWX] = -inner / g.ball_diameter
+    state.shared[0, L.SSIGMA] = speed
+    state.shared[2, L.SSIGMA] = inner / g.pitch_diameter
+    return state
