@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cache
 
@@ -123,6 +125,16 @@ class Machine:
             dense[L.NB * z :, own] = blocks.c[j]
         dense[L.NB * z :, L.NB * z :] = blocks.d
         return dense
+
+    @contextmanager
+    def frictionless(self) -> Iterator[None]:
+        """Leave only the normal forces of the raceways (of a model whose cage contacts are none)."""
+        system = self.assembly.bundle.system[0]
+        system["friction_on"] = 0
+        try:
+            yield
+        finally:
+            system["friction_on"] = 1
 
     def shared_state(self, y: FloatArray, t: float) -> FloatArray:
         """Return the whole shared state (3, 12), prescribed motions included."""
