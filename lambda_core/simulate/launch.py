@@ -6,8 +6,8 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
+from lambda_core import physics
 from lambda_core.errors import UsageError
-from lambda_core.physics import compiled
 from lambda_core.physics.equilibrium import solve
 from lambda_core.physics.model import BearingModel
 from lambda_core.registry.kernels import sources_key
@@ -94,7 +94,7 @@ def _engine(model: BearingModel, announce: Announce | None) -> tuple[BearingEngi
     if announce is not None:
         announce(_start_line(quasistatic_of(start)))
     engine = BearingEngine(model, announce, start)
-    core = sources_key(Path(compiled.__file__).parent)
+    core = sources_key(Path(physics.__file__).parent)
     return engine, Provenance(model, {**engine.kernel_keys, "core": core})
 
 

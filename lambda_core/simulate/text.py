@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 import textwrap
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -16,12 +15,15 @@ _PER_RING = ("sliding", "spin", "rolling", "hysteresis", "boundary", "damping")
 _REST = ("cage", "drag", "support")
 _NONE = "-"
 _WIDTH = 100
+_SHORT = 48  # characters
 
 
 def summary_text(summary: Summary) -> str:
     """Return what one run says, a line per subject."""
     verdict = "converged" if summary.converged else "NOT CONVERGED"
-    window = f"({summary.revolutions_averaged} cage revolutions)" if summary.revolutions_averaged else "(whole run)"
+    window = (
+        f"(95 %, {summary.revolutions_averaged} cage revolutions)" if summary.revolutions_averaged else "(whole run)"
+    )
     mean = plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm)
     lines = [
         line("friction torque", f"{mean} N mm", window, verdict),
@@ -98,11 +100,16 @@ def assumption_lines(assumptions: Sequence[str], file: str = "") -> list[str]:
     """Return what was assumed in a few words each, and where the reasons stand."""
     if not assumptions:
         return []
-    gist = [re.split(r": | \(", assumption)[0] for assumption in assumptions]
-    text = "; ".join(dict.fromkeys(gist))
+    text = "; ".join(dict.fromkeys(map(_gist, assumptions)))
     if file:
         text += f" (with reasons: lambda-bearing show {file} --assumptions)"
-    return [line("assumed" if i == 0 else "", part) for i, part in enumerate(textwrap.wrap(text, _WIDTH))]
+    return [line("assumed" if i == 0 else "", part) for i, part in enumerate(textwrap.wrap(text, _WIDTH, break_on_hyphens=False))]
+
+
+def _gist(assumption: str) -> str:
+    """Return an assumption without remarks in brackets and long reasons."""
+    head, colon, reason = assumption.split(" (")[0].partition(": ")
+    return f"{head}{colon}{reason}" if len(reason) <= _SHORT else head
 
 
 def number(value: float | None, digits: int = 1) -> str:

@@ -1,0 +1,46 @@
+"""Everything that must hold, in one command: ``python -m tests [arguments of pytest]``.
+
+Style, types, layers, then the tests on two processes. Each part runs whatever the others said.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+PYTHON = sys.executable
+
+
+def parts(arguments: list[str]) -> dict[str, list[str]]:
+    """Return the commands by name."""
+    layers = str(Path(PYTHON).parent / "lint-imports")
+    return {
+        "ruff": [PYTHON, "-m", "ruff", "check", "."],
+        "format": [PYTHON, "-m", "ruff", "format", "--check", "."],
+        "mypy": [PYTHON, "-m", "mypy"],
+        "layers": [layers],
+        # One file stays in one process: what a file prepares for its tests is prepared once.
+        "pytest": [PYTHON, "-m", "pytest", "-n", "2", "--dist", "loadfile", *arguments],
+    }
+
+
+def main() -> int:
+    """Run every part; the exit code is 0 only if all of them passed."""
+    failed = []
+    for name, command in parts(sys.argv[1:]).items():
+        print(f"== {name}: {' '.join(command[1:] if name != 'layers' else command)}", flush=True)
+        start = time.monotonic()
+        code = subprocess.run(command, cwd=ROOT, stdin=subprocess.DEVNULL, check=False).returncode
+        print(f"== {name}: {'ok' if code == 0 else f'FAILED ({code})'} in {time.monotonic() - start:.0f} s", flush=True)
+        if code != 0:
+            failed.append(name)
+    if failed:
+        print(f"failed: {', '.join(failed)}", file=sys.stderr)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,90 @@
+"""The README's commands are the commands of CI, and what it shows is what the program prints."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from lambda_cli.main import main
+
+from lambda_core.physics.channels import CHANNELS
+from lambda_core.simulate.averages import INTEGRALS
+from lambda_core.simulate.summary import Summary
+
+ROOT = Path(__file__).parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def blocks() -> list[str]:
+    """Return the code blocks of the README."""
+    return [block.strip() for block in re.findall(r"```\w*\n(.*?)```", README, re.DOTALL)]
+
+
+def test_the_first_command_sets_up_and_runs_a_6319_case() -> None:
+    first = blocks()[0]
+    assert first.startswith("python3 -m venv .venv && .venv/bin/pip install")
+    assert first.endswith(".venv/bin/lambda-bearing run 6319-cp10-1500")
+    assert "\n" not in first
+
+
+def test_ci_runs_the_second_command() -> None:
+    second = blocks()[2]
+    assert second.endswith(".venv/bin/python -m tests")
+    assert (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()[-1] == second
+
+
+def test_every_command_that_the_readme_names_exists() -> None:
+    from lambda_cli.commands import entries
+
+    named = set(re.findall(r"lambda-bearing (\w+)", README))
+    assert named
+    assert named <= set(entries())
+
+
+def test_linked_pages_exist() -> None:
+    for link in re.findall(r"\]\(((?!https?:)[^)]+)\)", README):
+        assert (ROOT / link).exists(), link
+
+
+def test_the_output_shown_is_what_a_run_prints(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Same lines; the torque within the two confidence bands (the cage is chaotic, machines differ)."""
+    shown = blocks()[1]
+    monkeypatch.chdir(tmp_path)
+    assert main(["run", "6319-cp10-1500"]) == 0
+    printed = capsys.readouterr()
+    heads = [line[:17].strip() for line in printed.out.splitlines()]
+    assert [head for head in heads if head and not head.startswith(("inner  ", "outer  "))] == [
+        line[:17].strip()
+        for line in shown.splitlines()
+        if line[:17].strip() in heads and line[:17].strip() and not line[:17].strip().startswith(("inner  ", "outer  "))
+    ]
+    (mean, band), (mean_now, band_now) = _torque(shown), _torque(printed.out)
+    assert abs(mean - mean_now) <= 1.5 * (band + band_now) + 0.002 * mean
+    assert printed.err.splitlines()[0] in shown
+
+
+def _torque(text: str) -> tuple[float, float]:
+    found = re.search(r"^friction torque  ([\d .]+) ± ([\d .]+) N mm", text, re.MULTILINE)
+    assert found is not None
+    return float(found[1].replace(" ", "")), float(found[2].replace(" ", ""))
+
+
+@pytest.mark.parametrize("channel", [*CHANNELS, *INTEGRALS], ids=lambda channel: channel.name)
+def test_the_results_page_describes_every_channel(channel: object) -> None:
+    from lambda_core.physics.channels import Channel
+
+    assert isinstance(channel, Channel)
+    page = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
+    dims = ", ".join(channel.dims) or "-"
+    assert f"| `{channel.name}` | {dims} | {channel.unit} | {channel.meaning} |" in page
+
+
+def test_the_results_page_describes_every_number_of_the_machine_interface() -> None:
+    page = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
+    plain = {"interface", "case", "title", "headline", "file", "state", "simulated_s", "wall_s", "equilibrium"}
+    plain |= {"solver_statistics", "revolutions_discarded", "revolutions_averaged"}
+    for name in set(Summary.model_fields) - plain:
+        assert f"`{name}`" in page, name
