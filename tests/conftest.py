@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,10 +15,13 @@ if TYPE_CHECKING:
 
 @pytest.fixture(scope="session", autouse=True)
 def own_folders(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """Point cache and user data at folders of this test session."""
+    """Point cache and user data at folders of this test session; parallel workers share compiled code."""
     root = tmp_path_factory.mktemp("lambda-bearing")
+    shared = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        shared = shared.parent
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("LAMBDA_BEARING_CACHE", str(root / "cache"))
+        patch.setenv("LAMBDA_BEARING_CACHE", str(shared / "lambda-bearing-cache"))
         patch.setenv("LAMBDA_BEARING_DATA", str(root / "data"))
         yield root
 

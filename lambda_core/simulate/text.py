@@ -103,7 +103,10 @@ def assumption_lines(assumptions: Sequence[str], file: str = "") -> list[str]:
     text = "; ".join(dict.fromkeys(map(_gist, assumptions)))
     if file:
         text += f" (with reasons: lambda-bearing show {file} --assumptions)"
-    return [line("assumed" if i == 0 else "", part) for i, part in enumerate(textwrap.wrap(text, _WIDTH, break_on_hyphens=False))]
+    return [
+        line("assumed" if i == 0 else "", part)
+        for i, part in enumerate(textwrap.wrap(text, _WIDTH, break_on_hyphens=False))
+    ]
 
 
 def _gist(assumption: str) -> str:
