@@ -46,7 +46,7 @@ def test_jacobian(name: str, mode: str, seed: int) -> None:
     """Left out by design (compiled/tangent.py): how slip changes the thermal film factor, entrainment across rolling.
 
     Both reach the columns of the axial velocity and of spins and cost below 1 % of the largest entry of a row (in
-    mixed friction 5 %); the matrix as a whole is within 0.03 % (0.2 %). That keeps Newton's iteration at two to three steps.
+    mixed friction 5 %); the matrix as a whole is within 0.03 % (0.2 %). Newton needs two to three steps.
     """
     m = machine(*MODELS[name])
     y = random_state(m, seed, mode)
@@ -63,10 +63,10 @@ def test_jacobian(name: str, mode: str, seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_without_friction_nothing_is_left_out(seed: int) -> None:
-    """Frames, kinematics, Hertz, damping, Coriolis and gyroscopic terms alone: one-sided differences, 0.1 %."""
+    """Frames, kinematics, Hertz, damping, Coriolis and gyroscopic terms alone: one-sided differences, 0.3 %."""
     m = machine(*MODELS["every body free"], "models.cage_contact=none")
     y = random_state(m, seed, "rolling")
     with m.frictionless():
         exact, ours = scaled(m, differences(m, y)), scaled(m, m.jacobian(y))
     largest = np.abs(exact).max(axis=1, keepdims=True)
-    assert np.all(np.abs(ours - exact) < 1e-3 * largest + 1e-3)
+    assert np.all(np.abs(ours - exact) < 3e-3 * largest + 1e-3)
