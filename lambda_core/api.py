@@ -19,11 +19,13 @@ if TYPE_CHECKING:
     from lambda_core.registry.survey import CheckCard, FaultCard, Inventory, ModelCard
     from lambda_core.schema.case import Case
     from lambda_core.schema.draft import Draft
+    from lambda_core.simulate.citation import Citation
     from lambda_core.simulate.estimate import Estimate
     from lambda_core.simulate.progress import Progress
     from lambda_core.simulate.quasistatic import QuasiStatic
     from lambda_core.simulate.results import Result
     from lambda_core.simulate.summary import Summary
+    from lambda_core.simulate.warmup import Warmup
 
 __all__ = [
     "CaseError",
@@ -34,6 +36,7 @@ __all__ = [
     "catalogue",
     "check",
     "check_plugins",
+    "cite",
     "describe",
     "draft",
     "estimate",
@@ -51,6 +54,7 @@ __all__ = [
     "save",
     "schema",
     "summary",
+    "warmup",
 ]
 
 
@@ -394,6 +398,48 @@ def result(path: str | Path) -> Result:
 def summary(path: str | Path) -> Summary:
     """Return the averages and the end state of a result (the machine interface)."""
     return result(path).summary()
+
+
+def cite(path: str | Path) -> Citation:
+    """Return the references of exactly the laws and data that a result used, and of the program.
+
+    Parameters
+    ----------
+    path : path-like
+        Result file.
+
+    Returns
+    -------
+    Citation
+        Read from the file: it does not need the plugins that were used.
+
+    Raises
+    ------
+    UsageError
+        When the file does not exist, is not a result, or is damaged.
+    """
+    from lambda_core.simulate.citation import citation
+
+    return citation(result(path))
+
+
+def warmup(*, announce: Callable[[str], None] | None = None) -> Warmup:
+    """Compile the solver and every installed law ahead of the first run.
+
+    Parameters
+    ----------
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Warmup
+        What was compiled now, what was there, and the laws that cannot be compiled.
+    """
+    from lambda_core.registry.manager import registry
+    from lambda_core.simulate.warmup import warmup as compile_all
+
+    return compile_all(registry(), announce)
 
 
 def _model(source: str | Path | Mapping[str, Any] | Case | BearingModel, overrides: Iterable[str] = ()) -> BearingModel:

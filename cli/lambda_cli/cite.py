@@ -1,0 +1,21 @@
+"""The command cite: what to cite beside a result."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lambda_cli.options import JsonOption
+
+
+def cite(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Result file.")],
+    as_json: JsonOption = False,
+) -> None:
+    """Print the references of exactly the laws and data that a result used, and of the program."""
+    from lambda_core import api
+
+    found = api.cite(file)
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
