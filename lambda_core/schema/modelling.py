@@ -64,7 +64,7 @@ class Solver(Section):
     max_duration: Time | None = option(None, "longest simulated time; absent: 30 turns of the cage", gt=0.0)
     discard_revolutions: float = option(1.0, "cage revolutions before averaging starts", ge=0.0)
     average_revolutions: float = option(4.0, "cage revolutions that are averaged at least", gt=0.0)
-    max_step: Time | None = option(None, "longest step; absent: 1/200 of a cage turn, 1/20 of an excitation", gt=0.0)
+    max_step: Time | None = option(None, "longest step; absent: 1/400 of a cage turn, 1/20 of an excitation", gt=0.0)
     max_wall: Time | None = option(None, "wall time after which a run stops with what it has; absent: none", gt=0.0)
 
 

@@ -351,7 +351,7 @@ def test_solver_defaults_follow_the_cage() -> None:
     solver = model_of("6319-cp10-3000").solver
     turn = 2.0 / (50.0 * (1.0 - 30.0 / 147.5))
     assert solver.max_duration == pytest.approx(30.0 * turn)
-    assert solver.max_step == pytest.approx(turn / 200.0)
+    assert solver.max_step == pytest.approx(turn / 400.0)
     assert solver.duration == 0.0
     fast = {"kind": "harmonic", "amplitude": "1 N", "frequency": "2 kHz"}
     assert model_of("6319-cp10-3000", loads={"axial": fast}).solver.max_step == pytest.approx(1.0 / 40000.0)

@@ -1,0 +1,89 @@
+"""The stiffness matrix against differences of re-solved equilibria, against Hertz, and as a method's rows."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from lambda_core import api
+from lambda_core.physics import assembly as A
+from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.compiled.entry import core
+from lambda_core.physics.equilibrium import Equilibrium, _settle, solve
+from lambda_core.physics.model import DofState, TimeFunction
+from lambda_core.physics.stiffness import stiffness_matrix
+
+FloatArray = NDArray[np.float64]
+NAMES = ("x", "y", "z", "tilt_y", "tilt_z")
+# Of the diagonal: the contacts stiffen over the steps, and the Jacobian takes differences over 10 nm.
+ATOL = 5e-4
+STEPS = (2e-8, 2e-8, 2e-8, 3e-7, 3e-7)  # [m, rad]: well inside the contacts' compression
+
+
+def load_at(found: Equilibrium, displacement: FloatArray) -> FloatArray:
+    """Return force and moment that hold the inner ring at `displacement`, balls re-solved without friction."""
+    model = found.assembly.model
+    dofs = dict(model.inner_ring.dofs)
+    for name, value in zip(NAMES, displacement, strict=True):
+        dofs[name] = DofState("prescribed", TimeFunction.constant(float(value)))
+    held = dataclasses.replace(model, inner_ring=dataclasses.replace(model.inner_ring, dofs=dofs))
+    assembly = A.assemble(held, found.assembly.kernels, found.assembly.frame, found.assembly.oil)
+    count = model.geometry.ball_count
+    state = np.zeros(assembly.size)
+    state[: L.NB * count] = found.state[: L.NB * count]
+    _settle(core(), assembly, state, friction=False)
+    bundle = assembly.bundle
+    bundle.system[0]["friction_on"], bundle.system[0]["guides_on"] = 0, 0
+    assert core().evaluate(0.0, state, bundle, np.zeros(state.size), np.zeros(L.NI), 1) == 1
+    felt: FloatArray = bundle.scratch[L.BODY_FM, [0, 1, 2, 4, 5]].copy()
+    return -felt
+
+
+def without_friction(found: Equilibrium) -> Equilibrium:
+    """Return the equilibrium of normal forces alone, where differences and matrix are of the same state."""
+    _settle(core(), found.assembly, found.state, friction=False)
+    shared = found.assembly.bundle.scratch[L.SHARED]
+    x, y, z, ay, az = (float(shared[i]) for i in (L.SX, L.SY, L.SZ, L.SAY, L.SAZ))
+    return dataclasses.replace(found, displacement=(x, y, z, -az, ay))
+
+
+@pytest.mark.parametrize(
+    ("case", "changes"),
+    [
+        ("6208-axial-1300", ()),
+        ("6319-cp10-1500", ("loads.axial=5 kN",)),
+        ("6319-cp10-1500", ("loads.axial=5 kN", "bodies.inner_ring.tilt_y=locked", "bodies.inner_ring.tilt_z=locked")),
+    ],
+)
+def test_matrix_is_the_difference_quotient_of_the_loads(case: str, changes: tuple[str, ...]) -> None:
+    found = without_friction(solve(api.check(case, changes)))
+    matrix = np.array(stiffness_matrix(found))
+    differences = np.zeros((5, 5))
+    for i, step in enumerate(STEPS):
+        move = np.zeros(5)
+        move[i] = step
+        at = np.array(found.displacement)
+        differences[:, i] = (load_at(found, at + move) - load_at(found, at - move)) / (2.0 * step)
+    scale = np.sqrt(np.outer(np.diag(matrix), np.diag(matrix)))
+    np.testing.assert_allclose(matrix / scale, differences / scale, atol=ATOL)
+    assert np.all(np.linalg.eigvalsh(matrix) > 0.0)
+
+
+def test_radial_stiffness_grows_like_hertz() -> None:
+    """Without clearance all displacements are proportional to F^(2/3), so stiffness to F^(1/3)."""
+    changes = ("bearing.clearance=0 um", "gravity.z=0 m/s2", "operation.speed=10 rpm")
+    light, heavy = (
+        stiffness_matrix(solve(api.check("6319-cp10-500", (*changes, f"loads.radial={load}")), strict=False))[2][2]
+        for load in ("10 kN", "20 kN")
+    )
+    # The contacts' radii follow the load a little (R_x is frozen at the mean angle, here 0): exact to 1e-3.
+    assert heavy / light == pytest.approx(2.0 ** (1.0 / 3.0), rel=2e-3)
+
+
+def test_locked_ring_has_the_stiffness_of_the_free_one() -> None:
+    free = stiffness_matrix(solve(api.check("6319-cp10-1500")))
+    locked = stiffness_matrix(solve(api.check("6319-cp10-1500", ("bodies.inner_ring.x=locked",))))
+    np.testing.assert_allclose(locked, free, rtol=1e-3, atol=1e3)
