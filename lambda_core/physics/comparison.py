@@ -54,8 +54,9 @@ def equilibrium_state(
 
 
 def comparison_inputs(equilibrium: Equilibrium, *, contamination: float | None = None) -> MethodInputs:
-    """Collect what methods may look at from a solved equilibrium: loads, oil, permittivity at the inner contact."""
+    """Collect what methods may look at from an equilibrium: loads, stiffness, oil, permittivity at the inner contact."""
     from lambda_core.physics.assembly import build_context, prepare
+    from lambda_core.physics.stiffness import stiffness_matrix
 
     assembly = equilibrium.assembly
     model, oil = assembly.model, assembly.oil
@@ -65,7 +66,7 @@ def comparison_inputs(equilibrium: Equilibrium, *, contamination: float | None =
     return method_inputs(
         model,
         oil,
-        state=equilibrium_state(equilibrium),
+        state=equilibrium_state(equilibrium, stiffness_matrix(equilibrium)),
         permittivity=permittivity_over_pressure(
             permittivity.model,
             prepare(permittivity, context),
