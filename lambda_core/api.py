@@ -8,24 +8,34 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.errors import CaseError, LambdaError, Problem, UsageError
+from lambda_core.errors import CaseError, LambdaError, Problem, UsageError, unknown_name
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+    from concurrent.futures import Executor
 
     from lambda_core.physics.describe import CaseReport
     from lambda_core.physics.model import BearingModel
     from lambda_core.registry.catalogue import Catalogue
+    from lambda_core.registry.chart import ViewData
     from lambda_core.registry.survey import CheckCard, FaultCard, Inventory, ModelCard
+    from lambda_core.registry.table import StudyTable
+    from lambda_core.registry.view import Subject
+    from lambda_core.report.gallery import ViewCard
     from lambda_core.schema.case import Case
     from lambda_core.schema.draft import Draft
     from lambda_core.simulate.citation import Citation
+    from lambda_core.simulate.comparison import Comparison
     from lambda_core.simulate.estimate import Estimate
     from lambda_core.simulate.progress import Progress
     from lambda_core.simulate.quasistatic import QuasiStatic
     from lambda_core.simulate.results import Result
     from lambda_core.simulate.summary import Summary
     from lambda_core.simulate.warmup import Warmup
+    from lambda_core.study.check import StudyEstimate
+    from lambda_core.study.definition import Study
+    from lambda_core.study.director import StudyProgress
+    from lambda_core.study.session import StudyStatus
 
 __all__ = [
     "CaseError",
@@ -37,8 +47,10 @@ __all__ = [
     "check",
     "check_plugins",
     "cite",
+    "compare",
     "describe",
     "draft",
+    "draw",
     "estimate",
     "init_case",
     "new_plugin",
@@ -53,7 +65,17 @@ __all__ = [
     "run",
     "save",
     "schema",
+    "study_check",
+    "study_resume",
+    "study_run",
+    "study_schema",
+    "study_status",
+    "study_table",
     "summary",
+    "view",
+    "view_all",
+    "view_stem",
+    "views",
     "warmup",
 ]
 
@@ -440,6 +462,227 @@ def warmup(*, announce: Callable[[str], None] | None = None) -> Warmup:
     from lambda_core.simulate.warmup import warmup as compile_all
 
     return compile_all(registry(), announce)
+
+
+def compare(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    methods: Sequence[str] = (),
+    result: str | Path | None = None,
+    contamination: float | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Comparison:
+    """Put every comparison method beside the others on one case, at its start.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    methods : sequence of str
+        Names of methods; every installed one when empty.
+    result : path-like, optional
+        Result file of the same case: its simulation becomes the first column.
+    contamination : float, optional
+        e_C of ISO 281, for modified lives.
+
+    Raises
+    ------
+    UsageError
+        For an unknown method, or a result of another case.
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.physics.comparison import compare as ask
+    from lambda_core.registry.manager import registry
+    from lambda_core.simulate.comparison import comparison_of
+    from lambda_core.simulate.results import Result
+
+    model, known = _model(source, overrides), registry().methods
+    unknown = next((name for name in methods if name not in known), None)
+    if unknown is not None:
+        raise UsageError(unknown_name("comparison method", unknown, known))
+    simulated = None if result is None else Result(result)
+    chosen = [known[name] for name in methods or known]
+    return comparison_of(model, ask(model, chosen, contamination=contamination, announce=announce), simulated)
+
+
+def views(subject: Subject | None = None) -> list[ViewCard]:
+    """Return every installed view with its options, or those of one kind of subject.
+
+    Parameters
+    ----------
+    subject : str, optional
+        ``result``, ``results`` (two or more) or ``study``.
+    """
+    from lambda_core.registry.manager import registry
+    from lambda_core.report.gallery import cards
+
+    return cards(registry(), subject)
+
+
+def view(source: str | Path | Sequence[str | Path], name: str, options: Mapping[str, Any] | None = None) -> ViewData:
+    """Return what one view shows, as data with units.
+
+    Parameters
+    ----------
+    source : path-like or sequence of them
+        A result file, the folder of a study, or several result files.
+    name : str
+        View (:func:`views`).
+    options : mapping, optional
+        Options of the view by name.
+
+    Raises
+    ------
+    UsageError
+        For a file, view or option that does not exist.
+    NotApplicable
+        When there is nothing to show; the sentence says why.
+    """
+    from lambda_core.registry.manager import registry
+    from lambda_core.report.gallery import data_of, view_of
+
+    subject, kind = _subject(source)
+    return data_of(view_of(registry(), name, kind), subject, options or {})
+
+
+def view_all(source: str | Path | Sequence[str | Path]) -> Iterator[tuple[str, ViewData | LambdaError]]:
+    """Yield every view of a source by name: its data, or the reason why it shows nothing."""
+    from lambda_core.registry.manager import registry
+    from lambda_core.report.gallery import every
+
+    subject, kind = _subject(source)
+    for found, data in every(registry(), subject, kind):
+        yield found.name, data
+
+
+def draw(data: ViewData, folder: str | Path, stem: str, formats: Sequence[str] = ("svg", "png")) -> list[Path]:
+    """Draw a view into files ``stem-view.format`` of a folder; returns their paths."""
+    from lambda_core.registry.manager import registry
+    from lambda_core.report.gallery import write
+
+    return write(registry(), data, Path(folder), stem, formats)
+
+
+def view_stem(source: Sequence[str | Path]) -> str:
+    """Return the beginning of file names for pictures of these results."""
+    from lambda_core.report.gallery import stem_of
+
+    return stem_of([Path(path) for path in source])
+
+
+def study_check(
+    source: str | Path | Mapping[str, Any] | Study,
+    *,
+    workers: int | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> StudyEstimate:
+    """Check a study file without running it: its points, and about what they cost.
+
+    Raises
+    ------
+    CaseError
+        With everything that is wrong: unknown paths, empty ranges, contradicting units, unknown responses.
+    UsageError
+        When it has too many points; with what they would cost.
+    """
+    from lambda_core.study.session import prepare
+
+    return prepare(source, workers, announce).estimate
+
+
+def study_run(
+    source: str | Path | Mapping[str, Any] | Study,
+    folder: str | Path | None = None,
+    *,
+    executor: str | Executor = "processes",
+    workers: int | None = None,
+    progress: Callable[[StudyProgress], None] | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> StudyStatus:
+    """Run a study into a new folder.
+
+    Parameters
+    ----------
+    source : path-like, mapping or Study
+        Study file, the same as plain tables, or as an object.
+    folder : path-like, optional
+        Default: the study's name in the working directory.
+    executor : str or concurrent.futures.Executor
+        ``processes``, ``dask`` (a cluster on this machine), a dask scheduler's address or file, or an executor.
+    workers : int, optional
+        Default: the processors that this process may use.
+    progress, announce : callable, optional
+        Called with where the study stands; with a sentence before something is compiled and with the estimate.
+
+    Raises
+    ------
+    CaseError, UsageError
+        As :func:`study_check`, or when the folder holds a study already.
+    """
+    from lambda_core.study.session import prepare, start
+
+    ready = prepare(source, workers, announce)
+    if announce is not None:
+        announce(ready.estimate.text())
+    path = None if folder is None else Path(folder)
+    return start(ready, path, where=executor, workers=workers, report=progress)
+
+
+def study_resume(
+    folder: str | Path,
+    *,
+    executor: str | Executor = "processes",
+    workers: int | None = None,
+    retry: bool = False,
+    progress: Callable[[StudyProgress], None] | None = None,
+) -> StudyStatus:
+    """Go on with an interrupted study; with `retry` failed points are done again.
+
+    Raises
+    ------
+    UsageError
+        When the folder holds no study, another process works on it, or catalogue, laws or program have changed.
+    """
+    from lambda_core.study.session import resume
+
+    return resume(Path(folder), where=executor, workers=workers, retry=retry, report=progress)
+
+
+def study_status(folder: str | Path) -> StudyStatus:
+    """Return where a study stands, also while it is being worked on."""
+    from lambda_core.study.session import status
+
+    return status(Path(folder))
+
+
+def study_table(folder: str | Path) -> StudyTable:
+    """Return the table of a study as far as it is known."""
+    from lambda_core.study.session import table
+
+    return table(Path(folder))
+
+
+def study_schema() -> dict[str, Any]:
+    """Return the JSON schema of a study file."""
+    from lambda_core.study.definition import study_json_schema
+
+    return study_json_schema()
+
+
+def _subject(source: str | Path | Sequence[str | Path]) -> tuple[Any, Subject]:
+    """Return what a view looks at, and what kind of thing it is."""
+    from lambda_core.study.session import is_study, table
+
+    if not isinstance(source, str | Path):
+        if len(source) != 1:
+            return [result(path) for path in source], "results"
+        source = source[0]
+    path = Path(source)
+    if is_study(path):
+        return table(path), "study"
+    return result(path), "result"
 
 
 def _model(source: str | Path | Mapping[str, Any] | Case | BearingModel, overrides: Iterable[str] = ()) -> BearingModel:

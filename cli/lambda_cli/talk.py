@@ -13,6 +13,7 @@ import typer
 
 if TYPE_CHECKING:
     from lambda_core.simulate.progress import Progress
+    from lambda_core.study.director import StudyProgress
 
 _LINE_AFTER = 5.0  # wall time between plain lines [s]
 
@@ -40,7 +41,7 @@ class Talk(Protocol):
     def say(self, text: str) -> None:
         """Say a sentence."""
 
-    def update(self, progress: Progress) -> None:
+    def update(self, progress: Progress | StudyProgress) -> None:
         """Take where the run stands."""
 
     def __enter__(self) -> Talk: ...
@@ -65,7 +66,7 @@ class Silence:
     def say(self, text: str) -> None:
         """Say a sentence."""
 
-    def update(self, progress: Progress) -> None:
+    def update(self, progress: Progress | StudyProgress) -> None:
         """Take where the run stands."""
 
     def __enter__(self) -> Talk:
@@ -84,7 +85,7 @@ class JsonLines(Silence):
         """Write a message."""
         self._write({"event": "message", "text": text})
 
-    def update(self, progress: Progress) -> None:
+    def update(self, progress: Progress | StudyProgress) -> None:
         """Write where the run stands."""
         self._write({"event": "progress", **progress.model_dump(mode="json")})
 
@@ -102,7 +103,7 @@ class Lines(Silence):
         """Write a line."""
         print(text, file=sys.stderr, flush=True)
 
-    def update(self, progress: Progress) -> None:
+    def update(self, progress: Progress | StudyProgress) -> None:
         """Write a line every few seconds."""
         now = time.monotonic()
         if now - self._last >= _LINE_AFTER:
@@ -134,7 +135,7 @@ class Bar(Silence):
         else:
             self._console.print(text)
 
-    def update(self, progress: Progress) -> None:
+    def update(self, progress: Progress | StudyProgress) -> None:
         """Move the bar."""
         state = f"{_state(progress)}  {_clock(progress.left_s)} left"
         self._bar.update(self._task, description="running", total=100.0, completed=progress.percent, state=state)
@@ -149,8 +150,13 @@ class Bar(Silence):
         self._bar.stop()
 
 
-def _state(progress: Progress) -> str:
-    """Write revolutions and torque in a few words."""
+def _state(progress: Progress | StudyProgress) -> str:
+    """Write revolutions and torque, or points, in a few words."""
+    from lambda_core.study.director import StudyProgress
+
+    if isinstance(progress, StudyProgress):
+        failed = f", {progress.failed} failed" if progress.failed else ""
+        return f"{progress.done}/{progress.points} points{failed}"
     turns = f"cage rev {progress.cage_revolutions:.1f}/{progress.cage_revolutions_wanted:.3g}"
     if progress.friction_torque_Nmm is None:
         return turns

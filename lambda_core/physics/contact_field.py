@@ -115,7 +115,7 @@ def contact_field(
         When the bodies do not touch, or a law refuses.
     """
     index, bundle, kernels = RINGS.index(which), assembly.bundle, assembly.kernels
-    system: Any = bundle.system.view(np.recarray)[0]  # type: ignore[attr-defined]
+    system: Any = bundle.system.view(np.recarray)[0]
     kin = np.zeros(L.NKIN)
     if kinematics.contact_kinematics.py_func(ball, ring, index, system, kin) <= 0.0:
         raise SolverError(f"the ball does not touch the {which} ring at this moment")
@@ -125,13 +125,13 @@ def contact_field(
     scalars, wrench, losses = np.zeros(L.NC), np.zeros(64), np.zeros(L.NL)
     run = compile_host(raceway.raceway_wrench, L.wrench_sig, Path(raceway.__file__).parent).dispatcher
     if run(index, kin, laws, bundle.par, bundle.system, grid, cells, scratch, scalars, wrench) != 1:
-        bundle.scratch[L.FAULT] = scratch[L.FAULT]  # type: ignore[index]
+        bundle.scratch[L.FAULT] = scratch[L.FAULT]
         raise SolverError(fault_sentence(assembly))
     raceway.raceway_losses.py_func(index, kin, system, grid, scalars, cells, losses)
     a, b = float(scalars[L.C_A]), float(scalars[L.C_B])
 
     def mesh(values: FloatArray) -> FloatArray:
-        return values.reshape(strips, rows).copy()
+        return values[: strips * rows].reshape(strips, rows).copy()
 
     element = f"ball_{which}"
     pars = {
@@ -163,6 +163,6 @@ def contact_field(
         shear=mesh(cells[L.X_TAU]),
         slip_along=mesh(cells[L.X_VT]),
         slip_across=mesh(cells[L.X_VS]),
-        temperature=mesh(cells[L.X_T]),
+        temperature=mesh(cells[L.X_T1]),
         permittivity=mesh(permittivity),
     )

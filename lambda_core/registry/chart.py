@@ -17,20 +17,29 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 
 Kind = Literal["line", "points", "bars", "area"]
-# What a series stands for; equal roles look alike in every view.
-Role = Literal["inner", "outer", "cage", "ball", "total", "reference", ""]
 Shape = Literal["plain", "polar", "plane"]
 
 
 @dataclass(frozen=True)
 class Axis:
-    """One axis: what it shows, in which unit; `categories` names the places 0, 1, 2 ... of discrete axes."""
+    """One axis: what it shows, in which unit.
+
+    Attributes
+    ----------
+    low, high : float, optional
+        Ends of the axis; by the data where None.
+    least : float
+        Smallest range that is shown: rounding errors of a constant are not blown up.
+    categories : tuple of str
+        Names of the places 0, 1, 2 ... of a discrete axis.
+    """
 
     label: str
     unit: str = ""
     log: bool = False
     low: float | None = None
     high: float | None = None
+    least: float = 0.0
     categories: tuple[str, ...] = ()
     ticks: tuple[float, ...] = ()
 
@@ -47,10 +56,13 @@ class Series:
     Attributes
     ----------
     name : str
-        Entry in the legend; "" for none.
+        What it is; its entry in the legend unless `unlisted`.
     x, y : float64[:], shape (n,)
     kind : str
         ``line``, ``points``, ``bars`` (side by side, or stacked when the panel says so), ``area`` (stacked).
+    role : str
+        What it stands for: ``inner``, ``outer``, ``cage``, ``ball``, ``total``, ``reference``; equal roles look alike
+        in every view. "" for anything else.
     low, high : float64[:], shape (n,), optional
         Band around `y`: a spread or a confidence interval, as `band` says.
     """
@@ -59,11 +71,12 @@ class Series:
     x: FloatArray
     y: FloatArray
     kind: Kind = "line"
-    role: Role = ""
+    role: str = ""
     low: FloatArray | None = None
     high: FloatArray | None = None
     band: str = ""
     group: int | None = None  # series of one group share their look; None gives each its own
+    unlisted: bool = False  # no entry in the legend
 
     def __post_init__(self) -> None:
         shapes = {np.shape(a) for a in (self.x, self.y, self.low, self.high) if a is not None}

@@ -56,6 +56,10 @@ class RunData(Protocol):
     def case_toml(self) -> str:
         """The case, complete."""
 
+    @property
+    def kernel_keys(self) -> dict[str, str]:
+        """Hash of the code behind every law."""
+
 
 class Figure(Protocol):
     """What a drawing returns: a matplotlib figure, or anything that can be saved like one."""

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 from lambda_core.plugins import LazyModel, Model, hookimpl
 
 if TYPE_CHECKING:
+    from lambda_core.registry.chart import ViewData
     from lambda_core.registry.method import Method
+    from lambda_core.registry.view import Figure, View
 
 # role -> name -> module:attribute; the first of a role is its default.
 _LAWS: dict[str, dict[str, str]] = {
@@ -93,3 +95,19 @@ def lambda_methods(register: Callable[[Method], None]) -> None:
     from lambda_plugins.methods import register_methods
 
     register_methods(register)
+
+
+@hookimpl
+def lambda_views(register: Callable[[View], None]) -> None:
+    """Register every built-in view."""
+    from lambda_plugins.views import register_views
+
+    register_views(register)
+
+
+@hookimpl
+def lambda_figure(data: ViewData) -> Figure | None:
+    """Draw a view with matplotlib."""
+    from lambda_plugins.views.drawing import draw
+
+    return draw(data)

@@ -1,0 +1,166 @@
+"""`lambda-bearing study`: run, resume, watch and read studies."""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from lambda_cli.options import JsonOption
+from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+
+if TYPE_CHECKING:
+    from lambda_core.registry.table import StudyTable
+    from lambda_core.study.session import StudyStatus
+
+app = typer.Typer(no_args_is_help=True, add_completion=False, help="Many runs: sweeps, samples, maps, searches.")
+
+FolderArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help="Folder of a study.")]
+WorkersOption = Annotated[
+    int | None, typer.Option("--workers", min=1, metavar="N", help="Processes; default: every processor.")
+]
+ExecutorOption = Annotated[
+    str,
+    typer.Option(
+        "--executor",
+        metavar="WHERE",
+        help="processes, dask (a cluster on this machine), or a dask scheduler: its address (tcp://host:8786) or file.",
+    ),
+]
+
+
+@app.command()
+def run(
+    study: Annotated[Path, typer.Argument(metavar="STUDY", help="Study file (TOML).")],
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="FOLDER", help="Folder to make; default: the study's name.")
+    ] = None,
+    workers: WorkersOption = None,
+    executor: ExecutorOption = "processes",
+    dry: Annotated[bool, typer.Option("--dry-run", help="Check it and say what it costs; run nothing.")] = False,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Run a study into a folder of its own.
+
+    Ctrl+C keeps what there is; lambda-bearing study resume FOLDER goes on. Exit codes: 0 every point has a result,
+    2 the study is too large or cannot be written, 3 it is invalid, 5 points failed or are missing, 130 interrupted.
+    """
+    from lambda_core import api
+
+    with talk(progress, quiet) as speaker:
+        if dry:
+            estimate = api.study_check(study, workers=workers, announce=speaker.say)
+        else:
+            status = api.study_run(
+                study, out, executor=executor, workers=workers, progress=speaker.update, announce=speaker.say
+            )
+    if dry:
+        typer.echo(estimate.model_dump_json(indent=2) if as_json else estimate.text())
+        return
+    _finish(status, as_json)
+
+
+@app.command()
+def resume(
+    folder: FolderArgument,
+    retry: Annotated[bool, typer.Option("--retry", help="Do failed points again.")] = False,
+    workers: WorkersOption = None,
+    executor: ExecutorOption = "processes",
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Go on with an interrupted study: only what is missing is done."""
+    from lambda_core import api
+
+    with talk(progress, quiet) as speaker:
+        status = api.study_resume(folder, executor=executor, workers=workers, retry=retry, progress=speaker.update)
+    _finish(status, as_json)
+
+
+@app.command()
+def status(folder: FolderArgument, as_json: JsonOption = False) -> None:
+    """Say where a study stands, also while it runs."""
+    from lambda_core import api
+
+    found = api.study_status(folder)
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
+
+
+@app.command()
+def show(
+    folder: FolderArgument,
+    as_csv: Annotated[bool, typer.Option("--csv", help="Print comma-separated values.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Print the table of a study: parameters, responses, state of every point."""
+    from lambda_core import api
+
+    table = api.study_table(folder)
+    if as_json:
+        data = {"version": 1, "name": table.name, "mode": table.mode, "design": table.design}
+        typer.echo(json.dumps({**data, "units": table.units(), "points": table.rows()}, indent=2, allow_nan=False))
+    elif as_csv:
+        _csv(table)
+    else:
+        _print(table)
+
+
+@app.command()
+def schema() -> None:
+    """Print the JSON schema of study files, for editors."""
+    from lambda_core import api
+
+    typer.echo(json.dumps(api.study_schema(), indent=2))
+
+
+def _finish(status: StudyStatus, as_json: bool) -> None:
+    """Print where the study stands and end with the exit code that this calls for."""
+    from lambda_core.errors import PartialResultError
+
+    typer.echo(status.model_dump_json(indent=2) if as_json else status.text())
+    if status.pending:
+        typer.echo(f"interrupted; go on with: lambda-bearing study resume {status.folder}", err=True)
+        raise typer.Exit(130)
+    if status.failed:
+        raise PartialResultError(f"{status.failed} of {status.points} points have no result")
+
+
+def _csv(table: StudyTable) -> None:
+    units = table.units()
+    rows = table.rows()
+    writer = csv.writer(sys.stdout, lineterminator="\n")
+    names = ["point", *units, "state", "reason", "file"]
+    writer.writerow([f"{name} [{units[name]}]" if units.get(name) else name for name in names])
+    for row in rows:
+        writer.writerow(["" if row[name] is None else row[name] for name in names])
+
+
+def _print(table: StudyTable) -> None:
+    """Print what fits a terminal: parts of the friction torque are left to --csv and --json."""
+    from rich.console import Console
+    from rich.table import Table
+
+    columns = [*table.parameters, *(c for c in table.responses if "." not in c.name)]
+    shown = Table(box=None, pad_edge=False, header_style="bold")
+    shown.add_column("point", justify="right")
+    for column in columns:
+        text = column.label + (f"\n[{column.unit}]" if column.unit else "")
+        shown.add_column(text.replace("[", "\\["), justify="right", max_width=14)
+    shown.add_column("state")
+    for index, row in enumerate(table.rows()):
+        cells = [_cell(row[column.name]) for column in columns]
+        shown.add_row(str(index + 1), *cells, row["state"], style="dim" if row["state"] == "failed" else None)
+    Console(width=None if sys.stdout.isatty() else 240, highlight=False).print(shown)
+
+
+def _cell(value: float | str | None) -> str:
+    if value is None:
+        return "-"
+    return value if isinstance(value, str) else f"{value:.5g}"

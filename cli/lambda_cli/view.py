@@ -1,0 +1,114 @@
+"""The command view: pictures of results and studies."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from lambda_cli.options import JsonOption
+
+if TYPE_CHECKING:
+    from lambda_core.registry.chart import ViewData
+
+
+def view(
+    words: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="RESULT... [NAME]", help="Result file, several of them, or the folder of a study; then one view."
+        ),
+    ] = None,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for the pictures.")] = Path(),
+    formats: Annotated[
+        list[str] | None, typer.Option("--format", metavar="FORMAT", help="svg, png or pdf; default: svg and png.")
+    ] = None,
+    options: Annotated[
+        list[str] | None, typer.Option("--set", metavar="OPTION=VALUE", help="Option of the view (see --list).")
+    ] = None,
+    show_list: Annotated[bool, typer.Option("--list", help="List the views and their options.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Draw one view, or every one that there is to see.
+
+    Writes RESULT-NAME.svg and .png and prints their names; with --json the data with units instead.
+    """
+    from lambda_core import api
+
+    if show_list:
+        _list(as_json)
+        return
+    sources, name = _sorted_out(words or [])
+    chosen = dict(_pairs(options or []))
+    data = [api.view(sources, name, chosen)] if name else list(_all(sources))
+    if as_json:
+        plain = [one.as_dict() for one in data]
+        typer.echo(json.dumps(plain[0] if name else {"version": 1, "views": plain}, indent=2, allow_nan=False))
+        return
+    stem = api.view_stem(sources)
+    for one in data:
+        for path in api.draw(one, out, stem, formats or ("svg", "png")):
+            typer.echo(str(path))
+
+
+def _all(sources: list[str]) -> Iterable[ViewData]:
+    """Yield the data of every view that applies; say why others do not."""
+    from lambda_core import api
+
+    for name, data in api.view_all(sources):
+        if isinstance(data, api.LambdaError):
+            typer.echo(f"{name}: {data}", err=True)
+        else:
+            yield data
+
+
+def _sorted_out(words: list[str]) -> tuple[list[str], str]:
+    """Split what stands on the command line into results and the name of a view."""
+    from lambda_core import api
+
+    sources = [word for word in words if Path(word).exists()]
+    names = [word for word in words if not Path(word).exists()]
+    known = [card.name for card in api.views()]
+    missing = [word for word in names if word not in known]
+    if missing:
+        kind = "result" if "." in missing[0] or "/" in missing[0] or not sources else "view"
+        if kind == "result":
+            raise api.UsageError(f"{missing[0]} does not exist")
+        from lambda_core.errors import unknown_name
+
+        raise api.UsageError(unknown_name("view", missing[0], known))
+    if not sources:
+        raise api.UsageError("name a result file or the folder of a study, for example: lambda-bearing view RESULT.h5")
+    if len(names) > 1:
+        raise api.UsageError(f"one view at a time, or none for all of them: {', '.join(names)}")
+    return sources, names[0] if names else ""
+
+
+def _pairs(texts: list[str]) -> Iterable[tuple[str, str]]:
+    from lambda_core.errors import UsageError
+
+    for text in texts:
+        name, equals, value = text.partition("=")
+        if not equals or not name.strip():
+            raise UsageError(f'"{text}": write OPTION=VALUE, for example --set ring=outer')
+        yield name.strip(), value.strip()
+
+
+def _list(as_json: bool) -> None:
+    from lambda_core import api
+
+    cards = api.views()
+    if as_json:
+        typer.echo(json.dumps({"version": 1, "views": [card.model_dump(mode="json") for card in cards]}, indent=2))
+        return
+    for heading, subject in (("of a result", "result"), ("of several results", "results"), ("of a study", "study")):
+        typer.echo(f"{heading}:")
+        for card in cards:
+            if card.subject == subject:
+                typer.echo(f"  {card.name:<20} {card.title}")
+                for option in card.options:
+                    default = f" [{option.default}]" if option.default else ""
+                    typer.echo(f"    {option.name + '=':<18} {option.description}{default}")

@@ -1,0 +1,152 @@
+"""Views of one subject: which there are, their data, their figures on disk."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from lambda_core.errors import UsageError, unknown_name
+from lambda_core.registry.chart import ViewData
+from lambda_core.registry.method import NotApplicable
+from lambda_core.registry.registry import Registry
+from lambda_core.registry.view import Subject, View
+
+FORMATS = ("svg", "png", "pdf")
+_RESOLUTION = 160  # of PNG [dots per inch]
+_WORDS = {"result": "one result", "results": "several results", "study": "a study"}
+
+
+class OptionCard(BaseModel):
+    """One option of a view."""
+
+    model_config = ConfigDict(frozen=True)
+
+    name: str
+    default: str
+    description: str
+
+
+class ViewCard(BaseModel):
+    """One installed view, as people read it."""
+
+    model_config = ConfigDict(frozen=True)
+
+    name: str
+    title: str
+    subject: Subject
+    distribution: str
+    reference: str
+    options: list[OptionCard]
+
+
+def cards(registry: Registry, subject: Subject | None = None) -> list[ViewCard]:
+    """Return every installed view, or those of one kind of subject."""
+    return [
+        ViewCard(
+            name=view.name,
+            title=view.title,
+            subject=view.subject,
+            distribution=view.distribution,
+            reference=view.reference,
+            options=[
+                OptionCard(name=name, default=str(info.default), description=info.description or "")
+                for name, info in view.options.model_fields.items()
+            ],
+        )
+        for view in registry.views.values()
+        if subject in (None, view.subject)
+    ]
+
+
+def view_of(registry: Registry, name: str, subject: Subject) -> View:
+    """Return a view by name.
+
+    Raises
+    ------
+    UsageError
+        When there is no such view, or it looks at something else.
+    """
+    fitting = [view.name for view in registry.views.values() if view.subject == subject]
+    if name not in registry.views:
+        raise UsageError(unknown_name("view", name, fitting))
+    view = registry.view(name)
+    if view.subject != subject:
+        raise UsageError(
+            f'the view "{name}" looks at {_WORDS[view.subject]}, this is {_WORDS[subject]}; '
+            f"for it there are: {', '.join(fitting)}"
+        )
+    return view
+
+
+def data_of(view: View, subject: Any, options: Mapping[str, Any]) -> ViewData:
+    """Return the data of a view.
+
+    Parameters
+    ----------
+    subject : object
+        What the view looks at: a run, a sequence of runs, or the table of a study.
+    options : mapping
+        Options by name; text is converted.
+
+    Raises
+    ------
+    UsageError
+        For an option that does not exist or takes no such value.
+    NotApplicable
+        When the view has nothing to show.
+    """
+    known = view.options.model_fields
+    for name in options:
+        if name not in known:
+            raise UsageError(f"view {view.name}: {unknown_name('option', name, known)}")
+    try:
+        chosen = view.options.model_validate(dict(options))
+    except ValidationError as error:
+        first = error.errors()[0]
+        name = ".".join(str(part) for part in first["loc"])
+        raise UsageError(f'view {view.name}: {name} = "{first["input"]}": {first["msg"]}') from None
+    return view.data(subject, chosen)
+
+
+def every(registry: Registry, subject: Any, kind: Subject) -> Iterator[tuple[View, ViewData | NotApplicable]]:
+    """Yield every view of a kind of subject with its data, or with the reason why it shows nothing."""
+    for view in registry.views.values():
+        if view.subject == kind:
+            try:
+                yield view, data_of(view, subject, {})
+            except NotApplicable as reason:
+                yield view, reason
+
+
+def write(registry: Registry, data: ViewData, folder: Path, stem: str, formats: Sequence[str]) -> list[Path]:
+    """Draw a view into files ``stem-view.format`` of a folder; returns their paths.
+
+    Raises
+    ------
+    UsageError
+        For a format that is not known, or a folder that cannot be written.
+    """
+    for name in formats:
+        if name not in FORMATS:
+            raise UsageError(unknown_name("format", name, FORMATS))
+    figure = registry.figure(registry.view(data.view), data)
+    written = []
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name in formats:
+            path = folder / f"{stem}-{data.view}.{name}"
+            figure.savefig(path, format=name, **({"dpi": _RESOLUTION} if name == "png" else {}))
+            written.append(path)
+    except OSError as error:
+        raise UsageError(f"cannot write into {folder}: {error.strerror}") from None
+    return written
+
+
+def stem_of(paths: Sequence[Path]) -> str:
+    """Return the beginning of file names for pictures of these results."""
+    words = [re.sub(r"[^A-Za-z0-9._-]+", "-", path.resolve().stem or path.name) for path in paths]
+    return words[0] if len(words) == 1 else f"{words[0]}-and-{len(words) - 1}-more"

@@ -1,0 +1,27 @@
+"""Built-in views of results and studies; matplotlib is imported when something is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from lambda_core.plugins import View
+
+
+def register_views(register: Callable[[View], None]) -> None:
+    """Register every built-in view: call it from the hook ``lambda_views``."""
+    from lambda_plugins.views import (
+        azimuth,
+        balls,
+        cage,
+        capacitance,
+        comparison,
+        contact_map,
+        energy,
+        friction,
+        ring,
+        study,
+    )
+
+    for module in (azimuth, contact_map, friction, energy, balls, cage, ring, capacitance, comparison, study):
+        for view in module.VIEWS:
+            register(view)

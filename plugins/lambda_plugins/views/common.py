@@ -1,0 +1,207 @@
+"""What several views need: the averaging window, averages over azimuth, spectra, characteristic frequencies."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.physics.channels import RINGS
+from lambda_core.physics.kinematics import FrequencyOrders, cage_speed, frequency_orders
+from lambda_core.physics.model import Solver
+from lambda_core.plugins import NotApplicable, RunData, Series
+from lambda_core.simulate.convergence import window
+
+FloatArray = NDArray[np.float64]
+
+BINS = 72  # over azimuth: 5 degrees each
+BODY = {"inner": 0, "outer": 1, "cage": 2}
+_MOST_POINTS = 4000  # of a drawn line
+SHORTEST_SPECTRUM = 32  # samples
+
+
+@dataclass(frozen=True)
+class Span:
+    """The part of a run that a view looks at."""
+
+    start: float  # [s]
+    words: str
+
+    def rows(self, time: FloatArray) -> slice:
+        """Return the rows of the channels in the span."""
+        return slice(int(np.searchsorted(time, self.start)), None)
+
+
+def averaging(run: RunData) -> Span:
+    """Return the averaging window of a run: whole cage revolutions after the discarded ones."""
+    settings = Solver(**{name: float(value) for name, value in run.model["solver"].items()})
+    chosen = window(settings, run.revolutions(), run.integrals()[-1])
+    start, end = float(chosen.interval.first[0]), float(chosen.interval.last[0])
+    if chosen.revolutions:
+        words = f"{chosen.revolutions} cage revolutions from {1e3 * start:.4g} to {1e3 * end:.4g} ms"
+        return Span(start, words)
+    return Span(start, f"the whole run, {1e3 * end:.4g} ms: no cage revolution to average over yet")
+
+
+def source(run: RunData) -> str:
+    """Return the line that says which run is shown."""
+    return f"{run.title}   {run.headline.splitlines()[-1]}"
+
+
+def require_cage(run: RunData) -> None:
+    """Refuse runs without a cage."""
+    if not run.model["depth"]["cage"]:
+        raise NotApplicable("the cage is switched off in this run")
+
+
+def number(value: object) -> float:
+    """Return a number of the resolved model, which writes NaN and infinity as text."""
+    return float(str(value))
+
+
+@dataclass(frozen=True)
+class Profile:
+    """A channel over azimuth: mean and spread in bins of equal width."""
+
+    azimuth: FloatArray  # centres of the bins [deg], shape (bins,)
+    mean: FloatArray  # NaN where nothing was
+    low: FloatArray
+    high: FloatArray
+
+
+def profile(azimuth: FloatArray, values: FloatArray, keep: NDArray[np.bool_], bins: int = BINS) -> Profile:
+    """Average values over azimuth.
+
+    Parameters
+    ----------
+    azimuth : float64[...]
+        [rad], any winding.
+    values, keep : arrays of the same shape
+        `keep` says which samples count.
+    """
+    used = keep & np.isfinite(values)
+    index = np.floor(np.mod(azimuth[used], 2.0 * math.pi) / (2.0 * math.pi) * bins).astype(int) % bins
+    data = values[used]
+    count = np.bincount(index, minlength=bins)
+    with np.errstate(invalid="ignore"):
+        mean = np.bincount(index, data, bins) / count
+    low, high = np.full(bins, np.inf), np.full(bins, -np.inf)
+    np.minimum.at(low, index, data)
+    np.maximum.at(high, index, data)
+    empty = count == 0
+    low[empty], high[empty] = np.nan, np.nan
+    return Profile((np.arange(bins) + 0.5) * 360.0 / bins, mean, low, high)
+
+
+def over_azimuth(
+    run: RunData,
+    span: Span,
+    values: FloatArray,
+    keep: NDArray[np.bool_],
+    name: str,
+    role: str,
+    *,
+    end: bool = True,
+) -> list[Series]:
+    """Return a channel over azimuth: mean with the range it covers, and every ball at the end state as a point.
+
+    Parameters
+    ----------
+    values, keep : arrays, shape (time, ball)
+        In the unit of the axis, over the whole run.
+    """
+    rows = span.rows(run["time"])
+    azimuth = run["ball_azimuth"]
+    found = profile(azimuth[rows], values[rows], keep[rows])
+    series = []
+    if azimuth.shape[0] > 1:
+        series.append(
+            Series(name, found.azimuth, found.mean, "line", role, found.low, found.high, "smallest to largest")
+        )
+    if end:
+        at = np.degrees(azimuth[-1]) % 360.0
+        last = np.where(keep[-1], values[-1], np.nan)
+        order = np.argsort(at)
+        label = f"{name}, end state" if series else name
+        series.append(Series(label, at[order], last[order], "points", role, unlisted=bool(series)))
+    return series
+
+
+def of_ring(run: RunData, channel: str, ring: str) -> FloatArray:
+    """Return a contact channel of one ring, shape (time, ball), SI."""
+    return run[channel][:, :, RINGS.index(ring)]
+
+
+@dataclass(frozen=True)
+class Speeds:
+    """Mean speeds of a span and what kinematics makes of them, [rad/s] but for `orders`."""
+
+    inner: float
+    outer: float
+    cage: float  # of balls that roll without sliding
+    contact_angle: float  # mean over the loaded contacts [rad]
+    orders: FrequencyOrders
+
+    @property
+    def relative(self) -> float:
+        """Speed of the inner ring against the outer [rad/s]."""
+        return self.inner - self.outer
+
+    def frequencies(self) -> dict[str, float]:
+        """Return the characteristic frequencies by their usual names [Hz]."""
+        turns = abs(self.relative) / (2.0 * math.pi)
+        orders = self.orders
+        return {
+            "FTF": orders.cage * turns,
+            "shaft": turns,
+            "BSF": orders.ball_spin * turns,
+            "BPFO": orders.outer_pass * turns,
+            "BPFI": orders.inner_pass * turns,
+        }
+
+
+def speeds(run: RunData, span: Span) -> Speeds:
+    """Return the mean speeds of the rings in a span and the kinematics that belong to them."""
+    rows = span.rows(run["time"])
+    spin = run["body_spin"][rows].mean(axis=0)
+    load, angle = run["load"][rows], run["contact_angle"][rows]
+    total = load.sum()
+    cosine = float((load * np.cos(angle)).sum() / total) if total > 0.0 else 1.0
+    mean_angle = math.acos(min(max(cosine, -1.0), 1.0))
+    geometry: Mapping[str, float] = run.model["geometry"]
+    ball, pitch, count = geometry["ball_diameter"], geometry["pitch_diameter"], int(geometry["ball_count"])
+    gamma = ball * cosine / pitch
+    inner, outer = float(spin[BODY["inner"]]), float(spin[BODY["outer"]])
+    orders = frequency_orders(count, ball, pitch, mean_angle)
+    return Speeds(inner, outer, cage_speed(inner, outer, gamma), mean_angle, orders)
+
+
+def spectrum(time: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the single-sided amplitude spectrum of evenly sampled values.
+
+    Hann window, amplitude of a sine wave read at its peak (Harris 1978, Proc. IEEE 66, 51: coherent gain 1/2);
+    the mean is taken off first.
+
+    Returns
+    -------
+    frequency : float64[:]
+        [Hz], without zero.
+    amplitude : float64[:]
+        In the unit of `values`.
+    """
+    n = values.size
+    if n < SHORTEST_SPECTRUM:
+        raise NotApplicable(f"{n} samples in the averaging window are too few for a spectrum ({SHORTEST_SPECTRUM})")
+    taper = np.hanning(n + 1)[:n]
+    amplitude: FloatArray = np.asarray(2.0 * np.abs(np.fft.rfft((values - values.mean()) * taper)) / taper.sum(), float)
+    step = float(time[-1] - time[0]) / (n - 1)
+    return np.asarray(np.fft.rfftfreq(n, step)[1:], dtype=np.float64), amplitude[1:]
+
+
+def trace(name: str, x: FloatArray, y: FloatArray, role: str = "") -> Series:
+    """Return a line; of a long record every k-th point, so that at most some thousand are drawn."""
+    step = max(1, -(-x.size // _MOST_POINTS))
+    return Series(name, x[::step], y[::step], "line", role)

@@ -1,0 +1,88 @@
+"""Figures of views with matplotlib: what the hook ``lambda_figure`` of the built-in plugin returns."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from lambda_plugins.views.panels import draw_panel
+from lambda_plugins.views.style import INK, RC, SOFT
+
+if TYPE_CHECKING:
+    from lambda_core.plugins import Panel, ViewData
+
+_WIDTHS = {"plain": 5.0, "plane": 4.8, "polar": 4.6}  # of a panel [inch]
+_HEIGHTS = {"plain": 3.7, "plane": 4.4, "polar": 4.4}
+_ALONE = 8.4  # width of the only panel of a figure [inch]
+_HEAD, _LINE = 0.78, 0.21  # room for title and source, for a line of notes [inch]
+_CHARACTER = 0.074  # width of a character of the notes [inch]
+
+
+class HouseFigure(Figure):
+    """A matplotlib figure that is always written in the house's style."""
+
+    def savefig(self, fname: Any, **options: Any) -> None:
+        """Write the figure; an SVG carries no date, so that equal data give equal files."""
+        if options.get("format") == "svg":
+            options.setdefault("metadata", {"Date": None})
+        with matplotlib.rc_context(RC | {"svg.hashsalt": self.get_label() or "view"}):
+            super().savefig(fname, **options)
+
+
+def draw(data: ViewData) -> Figure:
+    """Draw a view: title, source, panels, notes."""
+    with matplotlib.rc_context(RC):
+        columns = min(data.columns, len(data.panels))
+        rows = -(-len(data.panels) // columns)
+        grid = [list(data.panels[r * columns : (r + 1) * columns]) for r in range(rows)]
+        widths = [max(_width(line[c], columns) for line in grid if c < len(line)) for c in range(columns)]
+        heights = [max(_HEIGHTS[panel.shape] for panel in line) for line in grid]
+        width = sum(widths)
+        notes = _wrapped(data.notes, width)
+        foot = _LINE * len(notes) + 0.12
+        height = sum(heights) + _HEAD + foot
+        figure = HouseFigure(figsize=(width, height), dpi=100, label=f"{data.view} {data.source}")
+        FigureCanvasAgg(figure)
+        figure.set_layout_engine(
+            "constrained", rect=(0.01, foot / height, 0.98, 1.0 - (_HEAD + foot) / height), w_pad=0.12, h_pad=0.1
+        )
+        spec = figure.add_gridspec(rows, columns, width_ratios=widths, height_ratios=heights)
+        legends = _legends(data.panels)
+        for number, panel in enumerate(data.panels):
+            r, c = divmod(number, columns)
+            place = spec[r, :] if len(grid[r]) == 1 else spec[r, c]  # a panel alone in its line takes all of it
+            axes: Any = figure.add_subplot(place, projection="polar" if panel.shape == "polar" else None)
+            draw_panel(axes, panel, legend=number in legends)
+        figure.text(0.15 / width, 1.0 - 0.14 / height, data.title, va="top", fontsize=15, weight="bold", color=INK)
+        figure.text(0.15 / width, 1.0 - 0.46 / height, data.source, va="top", fontsize=10.5, color=SOFT)
+        for i, note in enumerate(notes):
+            figure.text(0.15 / width, (foot - 0.08 - _LINE * i) / height, note, va="top", fontsize=9.5, color=SOFT)
+    return figure
+
+
+def _width(panel: Panel, columns: int) -> float:
+    if columns == 1 and panel.shape == "plain":
+        return _ALONE
+    return _WIDTHS[panel.shape]
+
+
+def _legends(panels: tuple[Panel, ...]) -> set[int]:
+    """Return the panels that get a legend: of several with the same entries one, and rather not a round one."""
+    first: dict[tuple[str, ...], int] = {}
+    for number in sorted(range(len(panels)), key=lambda n: panels[n].shape == "polar"):
+        panel = panels[number]
+        lines = panel.field.line_name if panel.field is not None else ""
+        first.setdefault((lines, *(s.name for s in panel.series if not s.unlisted)), number)
+    return set(first.values())
+
+
+def _wrapped(notes: tuple[str, ...], width: float) -> list[str]:
+    """Break notes into lines that fit the figure."""
+    import textwrap
+
+    most = int(np.floor(width / _CHARACTER))
+    return [line for note in notes for line in textwrap.wrap(note, most)]

@@ -1,0 +1,281 @@
+"""One panel of a figure: series, marks, fields and arrows on matplotlib axes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.colors import LogNorm, TwoSlopeNorm
+from matplotlib.ticker import MaxNLocator
+
+from lambda_plugins.views.style import COLOUR_MAP, INK, SIGNED_MAP, SOFT, Look, look_of
+
+if TYPE_CHECKING:
+    from lambda_core.plugins import Arrows, Axis, Field, Mark, Panel, Series
+
+_BAND = 0.18  # opacity of a band
+_ARROW_SHARE = 0.11  # length of the longest arrow over the width of the panel
+_LABELLED_BARS = 14
+_HEADROOM = 1.06  # above the data, on axes that begin at a given value
+_DASHED = 130  # points up to which lines are dashed
+_OUTSIDE = 4  # a longer legend stands beside the axes
+
+
+def draw_panel(axes: Any, panel: Panel, *, legend: bool = True) -> None:
+    """Draw one panel on its axes."""
+    if panel.field is not None:
+        _field(axes, panel.field)
+    looks = _looks(panel.series)
+    if panel.stacked:
+        _stacks(axes, panel.series, looks)
+    else:
+        bars = [s for s in panel.series if s.kind == "bars"]
+        for series, look in zip(panel.series, looks, strict=True):
+            if series.kind == "bars":
+                _bars(axes, series, look, bars.index(series), len(bars))
+            else:
+                _curve(axes, series, look, polar=panel.shape == "polar")
+    if panel.arrows is not None:
+        _arrows(axes, panel.arrows)
+    for mark in panel.marks:
+        _line(axes, mark)
+    _axes(axes, panel)
+    for mark in panel.marks:
+        _label(axes, mark)
+    if panel.title:
+        axes.set_title(panel.title)
+    if legend:
+        _legend(axes, panel)
+
+
+def _name(series: Series) -> str | None:
+    return None if series.unlisted else series.name or None
+
+
+def _looks(series: tuple[Series, ...]) -> list[Look]:
+    """Return the look of every series; those of one group share it."""
+    found, known, position = [], dict[int, Look](), 0
+    for item in series:
+        if item.group is not None and item.group in known:
+            found.append(known[item.group])
+            continue
+        look = look_of(item.role, position)
+        position += 0 if item.role else 1
+        if item.group is not None:
+            known[item.group] = look
+        found.append(look)
+    return found
+
+
+def _curve(axes: Any, series: Series, look: Look, *, polar: bool) -> None:
+    x, y, low, high = series.x, series.y, series.low, series.high
+    if polar:
+        x = np.radians(x)
+        if series.kind == "line":  # close the circle
+            x, y = np.append(x, x[0]), np.append(y, y[0])
+            low, high = (None if a is None else np.append(a, a[0]) for a in (low, high))
+    name = _name(series)
+    if series.kind == "points":
+        face = look.colour if look.filled else "white"
+        axes.plot(x, y, look.marker, color=look.colour, markerfacecolor=face, markeredgewidth=1.4, label=name, zorder=4)
+    else:
+        # Dashes of a long record would be noise of their own.
+        dash, width = (look.dash, look.width) if x.size <= _DASHED else ("-", min(look.width, 1.4))
+        axes.plot(x, y, color=look.colour, linestyle=dash, linewidth=width, label=name, zorder=3)
+    if low is None or high is None:
+        return
+    if series.kind == "points":
+        axes.errorbar(x, y, [y - low, high - y], fmt="none", ecolor=look.colour, elinewidth=1.2, capsize=3, zorder=3)
+    else:
+        axes.fill_between(x, low, high, color=look.colour, alpha=_BAND, linewidth=0.0, zorder=2)
+
+
+def _bars(axes: Any, series: Series, look: Look, index: int, count: int) -> None:
+    width = 0.8 / count
+    places = series.x + (index - 0.5 * (count - 1)) * width
+    axes.bar(places, series.y, width, label=_name(series), **_fill(look))
+    if count * series.x.size <= _LABELLED_BARS:
+        _values(axes, places, np.maximum(series.y, 0.0), series.y)
+
+
+def _fill(look: Look) -> dict[str, Any]:
+    return {"color": look.colour, "edgecolor": "white", "hatch": look.hatch, "linewidth": 0.8, "zorder": 3}
+
+
+def _values(axes: Any, places: Any, tops: Any, values: Any) -> None:
+    """Write numbers above bars, all to the digits that the largest one has."""
+    largest = np.nanmax(np.abs(values)) if np.isfinite(values).any() else 0.0
+    digits = max(0, 3 - int(np.floor(np.log10(largest)))) if largest > 0.0 else 0
+    for place, top, value in zip(places, tops, values, strict=True):
+        if np.isfinite(value):
+            axes.annotate(
+                f"{value:.{digits}f}",
+                (place, top),
+                (0, 3),
+                textcoords="offset points",
+                ha="center",
+                fontsize=9.5,
+                color=INK,
+            )
+
+
+def _stacks(axes: Any, series: tuple[Series, ...], looks: list[Look]) -> None:
+    """Draw bars or areas on top of each other; anything else lies above them."""
+    base: Any = None
+    for item, look in zip(series, looks, strict=True):
+        if item.kind not in ("bars", "area"):
+            _curve(axes, item, look, polar=False)
+            continue
+        base = np.zeros_like(item.y) if base is None else base
+        height = np.nan_to_num(item.y)
+        if item.kind == "bars":
+            axes.bar(item.x, height, 0.72, bottom=base, label=_name(item), **_fill(look))
+        else:
+            style = _fill(look) | {"zorder": 2}
+            colour = style.pop("color")
+            axes.fill_between(item.x, base, base + height, facecolor=colour, label=_name(item), **style)
+        base = base + height
+    bars = [item for item in series if item.kind == "bars"]
+    if bars and bars[0].x.size <= _LABELLED_BARS:
+        _values(axes, bars[0].x, base, base)
+
+
+def _field(axes: Any, field: Field) -> None:
+    values = np.ma.masked_invalid(field.values)
+    norm: Any = None
+    if field.log:
+        norm = LogNorm()
+    elif field.signed:
+        top = float(np.abs(values).max()) or 1.0
+        norm = TwoSlopeNorm(0.0, -top, top)
+    mesh = axes.pcolormesh(
+        field.x,
+        field.y,
+        values,
+        shading="gouraud",
+        cmap=SIGNED_MAP if field.signed else COLOUR_MAP,
+        norm=norm,
+        rasterized=True,
+        zorder=1,
+    )
+    axes.figure.colorbar(mesh, ax=axes, label=field.text, pad=0.02, fraction=0.06)
+    levels = [level for level in field.levels if values.min() < level < values.max()]
+    if levels:
+        lines = axes.contour(field.x, field.y, values, levels, colors="white", linewidths=1.0, zorder=2)
+        axes.clabel(lines, fontsize=9, fmt="%g")
+    if field.lines is not None and np.nanmin(field.lines) < 0.0 < np.nanmax(field.lines):
+        axes.contour(field.x, field.y, field.lines, [0.0], colors="white", linewidths=2.6, zorder=3)
+        axes.contour(field.x, field.y, field.lines, [0.0], colors=INK, linewidths=1.3, linestyles="--", zorder=3)
+        axes.plot([], [], color=INK, linewidth=1.3, linestyle="--", label=field.line_name)
+
+
+def _arrows(axes: Any, arrows: Arrows) -> None:
+    size = float(np.hypot(arrows.u, arrows.v).max())
+    if size == 0.0:
+        return
+    drawn = axes.quiver(
+        arrows.x,
+        arrows.y,
+        arrows.u,
+        arrows.v,
+        color="white",
+        edgecolor=INK,
+        linewidth=0.5,
+        units="width",
+        width=0.009,
+        scale=size / _ARROW_SHARE,
+        zorder=4,
+    )
+    axes.quiverkey(drawn, 0.78, 1.05, size, f"{size:.2g} {arrows.unit}", labelpos="E", fontproperties={"size": 10})
+
+
+def _axes(axes: Any, panel: Panel) -> None:
+    if panel.shape == "polar":
+        axes.set_theta_zero_location("E")
+        axes.set_thetagrids(range(0, 360, 30))
+        axes.set_ylim(bottom=0.0)
+        axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]))
+        axes.set_rlabel_position(67.5)
+        axes.tick_params(axis="y", labelsize=9.5)
+        axes.set_xlabel(f"{panel.y.text} over {panel.x.text}")
+        return
+    _scale(axes, panel.x, "x")
+    _scale(axes, panel.y, "y")
+    if panel.shape == "plane":
+        _square(axes)
+
+
+def _square(axes: Any) -> None:
+    """Give both axes the same scale in a square box."""
+    middle = [0.5 * sum(limits) for limits in (axes.get_xlim(), axes.get_ylim())]
+    half = 0.5 * max(limits[1] - limits[0] for limits in (axes.get_xlim(), axes.get_ylim()))
+    axes.set_xlim(middle[0] - half, middle[0] + half)
+    axes.set_ylim(middle[1] - half, middle[1] + half)
+    axes.set_aspect("equal", adjustable="box")
+    axes.xaxis.set_major_locator(MaxNLocator(5))
+    axes.yaxis.set_major_locator(MaxNLocator(5))
+
+
+def _scale(axes: Any, axis: Axis, which: str) -> None:
+    if axis.log:
+        getattr(axes, f"set_{which}scale")("log")
+    getattr(axes, f"set_{which}label")(axis.text)
+    _limit(axes, axis, which)
+    if axis.categories:
+        longest = max(len(name) for name in axis.categories)
+        turned = which == "x" and longest * len(axis.categories) > 42
+        getattr(axes, f"set_{which}ticks")(
+            range(len(axis.categories)),
+            axis.categories,
+            **({"rotation": 35, "ha": "right", "rotation_mode": "anchor"} if turned else {}),
+        )
+        axes.grid(False, axis=which)
+    elif axis.ticks:
+        getattr(axes, f"set_{which}ticks")(axis.ticks)
+
+
+def _limit(axes: Any, axis: Axis, which: str) -> None:
+    """Set the ends that the axis asks for; the rest follows the data."""
+    set_limits = getattr(axes, f"set_{which}lim")
+    low, high = getattr(axes, f"get_{which}lim")()
+    if axis.low is not None and axis.high is None and not axis.log:
+        set_limits(axis.low, max(axis.low + _HEADROOM * (high - axis.low), axis.low + axis.least))
+    elif axis.low is not None or axis.high is not None:
+        set_limits(low if axis.low is None else axis.low, high if axis.high is None else axis.high)
+    elif high - low < axis.least and not axis.log:
+        middle = 0.5 * (low + high)
+        set_limits(middle - 0.5 * axis.least, middle + 0.5 * axis.least)
+
+
+def _line(axes: Any, mark: Mark) -> None:
+    draw = axes.axvline if mark.axis == "x" else axes.axhline
+    draw(mark.value, color=SOFT, linewidth=1.1, linestyle=(0, (2, 2)), zorder=2.5)
+
+
+def _label(axes: Any, mark: Mark) -> None:
+    """Write what a mark is, where it can be seen."""
+    low, high = axes.get_xlim() if mark.axis == "x" else axes.get_ylim()
+    if not mark.label or not low <= mark.value <= high:
+        return
+    style = {"fontsize": 9.5, "color": SOFT, "zorder": 6, "textcoords": "offset points"}
+    if mark.axis == "x":
+        place, coordinates = (mark.value, 0.985), ("data", "axes fraction")
+        axes.annotate(mark.label, place, (2, 0), coordinates, rotation=90, va="top", ha="left", **style)
+    else:
+        place, coordinates = (1.0, mark.value), ("axes fraction", "data")
+        axes.annotate(mark.label, place, (4, 0), coordinates, va="center", ha="left", **style)
+
+
+def _legend(axes: Any, panel: Panel) -> None:
+    handles, labels = axes.get_legend_handles_labels()
+    if not labels or (len(labels) == 1 and panel.field is None and not panel.marks and len(panel.series) == 1):
+        return
+    if panel.stacked and len(labels) > _OUTSIDE:
+        axes.legend(handles[::-1], labels[::-1], loc="center left", bbox_to_anchor=(1.01, 0.5))
+    elif panel.shape == "polar":
+        axes.legend(handles, labels, loc="upper left", bbox_to_anchor=(-0.3, 1.08))
+    elif panel.field is not None:
+        axes.legend(handles, labels, loc="upper left", bbox_to_anchor=(0.0, 1.13), borderaxespad=0.0)
+    else:
+        legend = axes.legend(handles, labels, loc="best")
+        legend.set_zorder(7)

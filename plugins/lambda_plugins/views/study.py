@@ -1,0 +1,297 @@
+"""Studies: responses over one or two parameters, friction stacked, sensitivities, stability."""
+
+from __future__ import annotations
+
+import numpy as np
+from pydantic import Field as Declared
+
+from lambda_core.plugins import (
+    Axis,
+    Column,
+    Field,
+    Mark,
+    NotApplicable,
+    Options,
+    Panel,
+    Series,
+    StudyTable,
+    View,
+    ViewData,
+)
+from lambda_core.study.sensitivity import Sensitivity, sensitivities
+from lambda_plugins.views.common import FloatArray
+
+_CURVES = 9  # curves in a panel
+_BREAKDOWN = "friction_breakdown_Nmm."
+
+
+class Choice(Options):
+    """What a study's view shows."""
+
+    response: str = Declared("", description="name of a response; empty: every one, or the first")
+    x: str = Declared("", description="parameter of the first axis; empty: the first numeric one")
+    y: str = Declared("", description="parameter of the second axis; empty: the next numeric one")
+
+
+class Threshold(Choice):
+    """What the stability map shows."""
+
+    response: str = Declared("cage_speed_deviation", description="name of the response that is judged")
+    limit: float = Declared(0.2, description="largest value that counts as stable")
+
+
+def _source(table: StudyTable) -> str:
+    done = sum(state in ("done", "partial") for state in table.states)
+    return f"{table.title}   {table.mode}, {table.design}, {done} of {len(table)} points"
+
+
+def _axis(column: Column) -> Axis:
+    """Return the axis of a column; values that rise by factors are drawn on a logarithmic scale."""
+    values = column.numbers()
+    values = np.unique(values[np.isfinite(values)])
+    log = values.size > 3 and values[0] > 0.0 and np.ptp(np.diff(np.log(values))) < 0.1 * np.diff(np.log(values)).mean()
+    return Axis(column.label, column.unit, log=bool(log))
+
+
+def _varied(table: StudyTable) -> list[Column]:
+    """Return the parameters that take more than one value."""
+    return [column for column in table.parameters if len(set(column.values)) > 1]
+
+
+def _numeric(table: StudyTable) -> list[Column]:
+    return [column for column in _varied(table) if column.numeric]
+
+
+def _responses(table: StudyTable, name: str) -> list[Column]:
+    if name:
+        return [table.response(name)]
+    found = [
+        c for c in table.responses if c.numeric and not c.name.startswith(_BREAKDOWN) and np.isfinite(c.numbers()).any()
+    ]
+    if not found:
+        raise NotApplicable("no point of this study has a result yet")
+    return found
+
+
+def _groups(table: StudyTable, x: Column) -> dict[str, list[int]]:
+    """Return the rows that share the values of all parameters but `x`, by a label of these."""
+    others = [column for column in _varied(table) if column.name != x.name]
+    found: dict[str, list[int]] = {}
+    for row in range(len(table)):
+        label = ", ".join(_cell(column, row) for column in others)
+        found.setdefault(label, []).append(row)
+    return found
+
+
+def _cell(column: Column, row: int) -> str:
+    value = column.values[row]
+    if isinstance(value, str) or value is None:
+        return str(value)
+    return f"{column.label} {value:.4g} {column.unit}".strip()
+
+
+def study_curves(table: StudyTable, options: Choice) -> ViewData:
+    """Every response over one parameter, a curve for each combination of the others."""
+    numeric = _numeric(table)
+    if not numeric:
+        raise NotApplicable("no numeric parameter varies in this study")
+    x = table.parameter(options.x) if options.x else numeric[0]
+    groups = _groups(table, x)
+    sampled = len(groups) > 0.5 * len(table)
+    if not sampled and len(groups) > _CURVES:
+        step = (len(groups) - 1) / (_CURVES - 1)
+        kept = {round(index * step) for index in range(_CURVES)}
+        groups = {label: rows for index, (label, rows) in enumerate(groups.items()) if index in kept}
+    panels = []
+    for response in _responses(table, options.response):
+        if sampled:
+            series: tuple[Series, ...] = (Series("points", x.numbers(), response.numbers(), "points", unlisted=True),)
+        else:
+            series = tuple(_curve(x, response, rows, label) for label, rows in groups.items())
+        panels.append(Panel(response.label, _axis(x), Axis(response.label, response.unit), series))
+    notes = ("points: all other parameters vary too",) if sampled else ()
+    return ViewData("study-curves", "Responses over a parameter", _source(table), tuple(panels), 2, notes)
+
+
+def _curve(x: Column, response: Column, rows: list[int], label: str) -> Series:
+    places, values = x.numbers()[rows], response.numbers()[rows]
+    order = np.argsort(places)
+    return Series(label or response.label, places[order], values[order], "line", unlisted=not label)
+
+
+def _surface(
+    table: StudyTable, options: Choice, response: Column
+) -> tuple[Column, Column, FloatArray, FloatArray, FloatArray]:
+    """Return two parameters and the mesh of one response over them.
+
+    A crossed study fills the mesh as it is; scattered points are interpolated linearly between neighbours.
+    """
+    numeric = _numeric(table)
+    x = table.parameter(options.x) if options.x else (numeric[0] if numeric else None)
+    y = table.parameter(options.y) if options.y else next((c for c in numeric if x is None or c.name != x.name), None)
+    if x is None or y is None:
+        raise NotApplicable("a map needs two numeric parameters that vary")
+    px, py, values = x.numbers(), y.numbers(), response.numbers()
+    extra = [c.label for c in _varied(table) if c.name not in (x.name, y.name)]
+    if extra and table.design == "crossed":
+        raise NotApplicable(f"a map shows two parameters; {', '.join(extra)} varies too: choose it with x or y")
+    gx, gy = np.unique(px), np.unique(py)
+    if gx.size * gy.size == len(table):
+        mesh = np.full((gx.size, gy.size), np.nan)
+        mesh[np.searchsorted(gx, px), np.searchsorted(gy, py)] = values
+        return x, y, *np.meshgrid(gx, gy, indexing="ij"), mesh
+    return x, y, *_interpolated(px, py, values)
+
+
+def _interpolated(px: FloatArray, py: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    from scipy.interpolate import griddata
+    from scipy.spatial import QhullError
+
+    known = np.isfinite(values)
+    if known.sum() < 4:
+        raise NotApplicable("too few points have a result for a map")
+    gx, gy = np.linspace(px.min(), px.max(), 61), np.linspace(py.min(), py.max(), 61)
+    mesh_x, mesh_y = np.meshgrid(gx, gy, indexing="ij")
+    try:
+        mesh = griddata((px[known], py[known]), values[known], (mesh_x, mesh_y), rescale=True)
+    except QhullError:
+        raise NotApplicable("the points lie on a line: a map needs two parameters that vary by themselves") from None
+    return mesh_x, mesh_y, mesh
+
+
+def study_map(table: StudyTable, options: Choice) -> ViewData:
+    """Responses as a surface over two parameters."""
+    panels = []
+    for response in _responses(table, options.response):
+        x, y, mesh_x, mesh_y, mesh = _surface(table, options, response)
+        finite = mesh[np.isfinite(mesh)]
+        if finite.size < 4 or np.ptp(finite) == 0.0:
+            continue
+        levels = _levels(float(finite.min()), float(finite.max()))
+        field = Field(response.label, response.unit, mesh_x, mesh_y, mesh, levels=levels)
+        panels.append(Panel(response.label, _axis(x), _axis(y), _failed(table, x, y), (), field))
+    if not panels:
+        raise NotApplicable("no response varies over the points that have a result")
+    notes = ("crosses: points without a result",) if any(panel.series for panel in panels) else ()
+    return ViewData("study-map", "Responses over two parameters", _source(table), tuple(panels), 2, notes)
+
+
+def _failed(table: StudyTable, x: Column, y: Column) -> tuple[Series, ...]:
+    rows = [row for row, state in enumerate(table.states) if state == "failed"]
+    if not rows:
+        return ()
+    return (Series("failed", x.numbers()[rows], y.numbers()[rows], "points", "reference"),)
+
+
+def _levels(low: float, high: float) -> tuple[float, ...]:
+    """Return round values between two ends for contour lines."""
+    rough = (high - low) / 7.0
+    power = 10.0 ** np.floor(np.log10(rough))
+    step = min((m * power for m in (1.0, 2.0, 2.5, 5.0, 10.0)), key=lambda s: abs(s - rough))
+    return tuple(float(value) for value in np.arange(np.ceil(low / step), np.floor(high / step) + 1.0) * step)
+
+
+def friction_stack(table: StudyTable, options: Choice) -> ViewData:
+    """Friction torque by mechanism, stacked over one parameter."""
+    parts = [c for c in table.responses if c.name.startswith(_BREAKDOWN) and np.isfinite(c.numbers()).any()]
+    if not parts:
+        raise NotApplicable('the study has no responses "friction_breakdown.*": ask for "friction_breakdown"')
+    numeric = _numeric(table)
+    if not numeric:
+        raise NotApplicable("no numeric parameter varies in this study")
+    x = table.parameter(options.x) if options.x else numeric[0]
+    groups = _groups(table, x)
+    if len(groups) > 0.5 * len(table):
+        raise NotApplicable("the points are scattered: a stack needs values along one parameter")
+    panels = []
+    shown = list(groups.items())
+    for label, rows in shown if len(shown) <= 4 else [shown[0], shown[len(shown) // 2], shown[-1]]:
+        places = x.numbers()[rows]
+        order = np.argsort(places)
+        merged: dict[str, FloatArray] = {}
+        for part in parts:
+            name = part.name.removeprefix(_BREAKDOWN).removesuffix("_inner").removesuffix("_outer")
+            values = np.nan_to_num(part.numbers()[rows][order])
+            merged[name] = merged.get(name, 0.0) + values
+        total = sum(merged.values())
+        series = tuple(
+            Series(name, places[order], values, "area")
+            for name, values in merged.items()
+            if values.max() > 1e-3 * np.max(total)
+        )
+        panels.append(
+            Panel(
+                label or "friction torque",
+                _axis(x),
+                Axis("friction torque", parts[0].unit, low=0.0),
+                series,
+                stacked=True,
+            )
+        )
+    return ViewData("friction-stack", "Friction torque by mechanism", _source(table), tuple(panels), 2)
+
+
+def sensitivity(table: StudyTable, options: Choice) -> ViewData:
+    """How much each parameter decides each response."""
+    panels = []
+    for response in _responses(table, options.response):
+        found = sensitivities(table, response.name)
+        panels.append(_tornado(response, found))
+    notes = (_EXPLAINED[found.kind], *found.notes)
+    return ViewData("sensitivity", "Sensitivities", _source(table), tuple(panels), 2, notes)
+
+
+_EXPLAINED = {
+    "sobol": "Sobol' indices: share of the response's variance that a parameter brings alone (first order) and with "
+    "all its interactions (total)",
+    "regression": "standardised regression: change of the response, in its standard deviations, by one standard "
+    "deviation of the parameter; rank: Spearman's correlation",
+}
+
+
+def _tornado(response: Column, found: Sensitivity) -> Panel:
+    places = np.arange(len(found.parameters), dtype=float)
+    first, second = found.names
+    series = (
+        Series(first, places, np.array(found.first), "bars", "inner"),
+        Series(second, places, np.array(found.second), "bars", "outer"),
+    )
+    title = response.label + (f", linear part {100.0 * found.fit:.3g} %" if found.fit is not None else "")
+    return Panel(title, Axis("", categories=found.labels), Axis("sensitivity"), series, (Mark("", 0.0),))
+
+
+def stability_map(table: StudyTable, options: Threshold) -> ViewData:
+    """Where a measure of unsteadiness stays below a limit, over two parameters."""
+    response = table.response(options.response)
+    x, y, mesh_x, mesh_y, mesh = _surface(table, options, response)
+    if not np.isfinite(mesh).any():
+        raise NotApplicable("no point of this study has a result yet")
+    px, py, values = x.numbers(), y.numbers(), response.numbers()
+    stable = values <= options.limit
+    series = (
+        Series("stable", px[stable], py[stable], "points", "inner"),
+        Series("unstable", px[values > options.limit], py[values > options.limit], "points", "outer"),
+        *_failed(table, x, y),
+    )
+    field = Field(
+        response.label,
+        response.unit,
+        mesh_x,
+        mesh_y,
+        mesh,
+        mesh - options.limit,
+        f"limit {options.limit:g} {response.unit}".rstrip(),
+    )
+    panel = Panel("", _axis(x), _axis(y), series, (), field)
+    return ViewData(
+        "stability-map", "Stability", _source(table), (panel,), 1, (f"stable: {response.label} <= {options.limit:g}",)
+    )
+
+
+VIEWS = (
+    View("study-curves", "responses over one parameter", "study", study_curves, Choice),
+    View("study-map", "responses as surfaces over two parameters", "study", study_map, Choice),
+    View("friction-stack", "friction by mechanism, stacked over one parameter", "study", friction_stack, Choice),
+    View("sensitivity", "how much each parameter decides each response", "study", sensitivity, Choice),
+    View("stability-map", "where a measure of unsteadiness stays below a limit", "study", stability_map, Threshold),
+)
