@@ -13,7 +13,7 @@ _CELL_ASPECT = 2.0
 
 
 @dataclass(frozen=True)
-class _Section:
+class Section:
     """Half-section in mm: x from the middle of the width, r from the axis."""
 
     bore: float
@@ -49,7 +49,7 @@ class _Section:
         return axial > 0.0 and radial > 0.0 and axial * axial + radial * radial > self.chamfer**2
 
 
-def _section(row: BearingRow) -> _Section | None:
+def section_of(row: BearingRow) -> Section | None:
     needed = (row.ball_diameter, row.pitch_diameter, row.groove_radius_inner, row.groove_radius_outer)
     if any(value is None for value in needed):
         return None
@@ -60,7 +60,7 @@ def _section(row: BearingRow) -> _Section | None:
         return otherwise if value is None else float(1e3 * value.value)
 
     race_inner, race_outer = known("race_diameter_inner", pitch - ball), known("race_diameter_outer", pitch + ball)
-    return _Section(
+    return Section(
         bore=1e3 * row.bore_diameter.value,
         outside=1e3 * row.outside_diameter.value,
         width=1e3 * row.width.value,
@@ -91,7 +91,7 @@ def cross_section(row: BearingRow, height: int = 17) -> str:
     str
         Lines of text; a sentence where the inner geometry is not known.
     """
-    section = _section(row)
+    section = section_of(row)
     if section is None:
         return "inner geometry not known: no cross-section"
     high = 0.5 * (section.outside - section.bore)
@@ -114,6 +114,6 @@ def cross_section(row: BearingRow, height: int = 17) -> str:
     return "\n".join([*drawn, f"B  {section.width:g} mm".center(columns).rstrip()])
 
 
-def _line(diameter: float, section: _Section, height: int) -> int:
+def _line(diameter: float, section: Section, height: int) -> int:
     high = 0.5 * (section.outside - section.bore)
     return min(height - 2, max(1, int((0.5 * (section.outside - diameter)) / high * height)))

@@ -87,6 +87,13 @@ class Draft:
             self._done.append(_Change(keys, before, deepcopy(value)))
         self._undone.clear()
 
+    def replace(self, tables: Mapping[str, Any]) -> None:
+        """Put other tables in the place of all; each is undone on its own."""
+        keys = dict.fromkeys((*self.tables, *tables))
+        self.seal()
+        for key in keys:
+            self.set(key, value=tables.get(key))
+
     def seal(self) -> None:
         """End a series of changes of one place: the next one is undone on its own."""
         if self._done and self._done[-1].keys:

@@ -1,0 +1,89 @@
+"""What form rows see of the case around them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, cast
+
+from lambda_core.errors import LambdaError
+from lambda_core.registry.roles import ROLES
+from lambda_gui.outline import Keys
+from lambda_gui.rows import Surroundings
+
+if TYPE_CHECKING:
+    from lambda_core.physics.describe import CaseReport, ValueReport
+    from lambda_core.schema.draft import Draft
+
+Name = Literal["bearing", "lubricant", "material", "cage"]
+
+
+class CaseAround(Surroundings):
+    """Resolved values of the last check without mistakes, and the catalogue's names."""
+
+    def __init__(self, draft: Draft) -> None:
+        self.draft = draft
+        self._values: dict[str, ValueReport] = {}
+        self._names: dict[str, list[str]] = {}
+
+    def learn(self, report: CaseReport | None) -> None:
+        """Take the values of a new report; a case with mistakes keeps those it had."""
+        if report is not None:
+            self._values = {value.path: value for value in report.values}
+
+    def forget_names(self) -> None:
+        """Read the catalogue's names anew: it has changed."""
+        self._names.clear()
+
+    def resolved(self, keys: Keys) -> str:
+        """Return the value in effect; ≈ and the grade where it is estimated or assumed."""
+        value = self.value(keys)
+        if value is None or value.text == "None":
+            return ""
+        if value.path.startswith("forces.") and ".models." in value.path:
+            return value.text
+        mark = "≈ " if value.status in ("derived", "assumed") else ""
+        return f"{mark}{value.text}{f' ({value.grade})' if value.grade else ''}"
+
+    def origin(self, keys: Keys) -> str:
+        """Return the value in effect with where it comes from."""
+        value = self.value(keys)
+        if value is None or value.text == "None" or value.source in ("", "case"):
+            return ""
+        return f"{self.resolved(keys)}: {value.source}"
+
+    def table(self, prefix: str) -> list[ValueReport]:
+        """Return the values in effect directly under a table."""
+        return [v for path, v in self._values.items() if path.rpartition(".")[0] == prefix]
+
+    def value(self, keys: Keys) -> ValueReport | None:
+        """Return the resolved value of an option that is not written."""
+        if self.draft.get(*keys) is not None:
+            return None
+        return self._values.get(_path(keys))
+
+    def names(self, kind: str) -> list[str]:
+        """Return the names of one kind in the catalogue."""
+        if kind not in self._names:
+            from contextlib import closing
+
+            from lambda_core import api
+
+            try:
+                with closing(api.catalogue()) as catalogue:
+                    self._names[kind] = catalogue.names(cast(Name, kind))
+            except LambdaError:
+                return []
+        return self._names[kind]
+
+    def is_changed(self, keys: Keys) -> bool:
+        """Tell whether an option differs from the file."""
+        return self.draft.is_changed(*keys)
+
+
+def _path(keys: Keys) -> str:
+    """Return where the report has the value of an option."""
+    first = keys[0]
+    if keys[:2] in (("bearing", "geometry"), ("lubricant", "properties")):
+        keys = (first, *keys[2:])
+    if first in ("models", "parameters") and keys[1] in ROLES:
+        keys = ("forces", ROLES[keys[1]].elements[0], *keys)
+    return ".".join(keys)

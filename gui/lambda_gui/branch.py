@@ -1,0 +1,74 @@
+"""A row that opens into further rows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from textual.app import ComposeResult
+from textual.containers import Vertical
+from textual.widget import Widget
+
+from lambda_gui.rows import Edited, Row
+
+
+class Branch(Row):
+    """A row whose choice decides which rows follow under it."""
+
+    _width = 23
+
+    DEFAULT_CSS = """
+    Branch > .twigs { height: auto; width: 1fr; }
+    Branch > .line > Choice { width: 1fr; }
+    """
+
+    def compose(self) -> ComposeResult:
+        """Lay out the head and the rows under it."""
+        yield from super().compose()
+        with Vertical(classes="twigs"):
+            yield from self.twigs()
+
+    def twigs(self) -> Iterator[Widget]:
+        """Yield the rows that follow for what is written now."""
+        raise NotImplementedError
+
+    def shape(self) -> object:
+        """Return what decides which rows follow; they are made anew when it changes."""
+        raise NotImplementedError
+
+    def on_mount(self) -> None:
+        """Show what is written."""
+        self._shape = self.shape()
+        super().on_mount()
+
+    def reload(self) -> None:
+        """Show what is written; make the rows anew where they are others."""
+        self.mark()
+        if self.shape() != self._shape:
+            self.grow()
+            return
+        for row in self.query(".twigs > Row").results(Row):
+            row.reload()
+
+    def grow(self) -> None:
+        """Make the rows under the head anew."""
+        self._shape = self.shape()
+        below = self.query_one(".twigs", Vertical)
+        with self.app.batch_update():
+            below.remove_children()
+            below.mount(*self.twigs())
+        self.call_after_refresh(self._fit_twigs)
+
+    def _fit_twigs(self) -> None:
+        for row in self.query(".twigs > Row").results(Row):
+            row.fit(self._width)
+            row.reload()
+
+    def fit(self, width: int) -> None:
+        """Give the labels under the head the same room too."""
+        super().fit(width)
+        self._width = width
+
+    def on_edited(self, event: Edited) -> None:
+        """Mark the head too when a row under it changes."""
+        if event.keys != self.place.keys:
+            self.mark()

@@ -1,0 +1,322 @@
+"""The builder's screen: tree, form, help, and the numbers that follow."""
+
+from __future__ import annotations
+
+import time
+from copy import deepcopy
+from typing import TYPE_CHECKING, ClassVar
+
+from rich.text import Text
+from textual import events, work
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical
+from textual.screen import Screen
+from textual.timer import Timer
+from textual.widgets import Footer, Static, Tree
+
+from lambda_core.errors import LambdaError
+from lambda_gui.around import CaseAround
+from lambda_gui.checking import Check, check
+from lambda_gui.derived import Derived
+from lambda_gui.estimating import Estimator
+from lambda_gui.forms import NodeForm
+from lambda_gui.outline import Keys, Node
+from lambda_gui.recovery import Keeper
+from lambda_gui.rows import Edited, Left, Row
+from lambda_gui.sketch import Sketch
+from lambda_gui.tree import ModelTree
+
+if TYPE_CHECKING:
+    from lambda_core.schema.draft import Draft
+    from lambda_core.simulate.estimate import Estimate
+
+_CHECK_AFTER = 0.1  # of quiet [s]
+_KEEP_AFTER = 2.0  # of unsaved work [s]
+
+
+class BuilderScreen(Screen[None]):
+    """One case."""
+
+    HORIZONTAL_BREAKPOINTS = [(0, "-narrow"), (112, "-wide")]  # noqa: RUF012
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("f1", "app.help", "Help", priority=True),
+        Binding("f2", "catalogue", "Catalogue", priority=True),
+        Binding("f5,ctrl+r", "app.run_case", "Run", priority=True),
+        Binding("f6", "app.results", "Results", priority=True),
+        Binding("ctrl+s", "save", "Save", priority=True),
+        Binding("f7", "app.runs", "Runs", show=False, priority=True),
+        Binding("f8", "next_mistake", "Next mistake", show=False, priority=True),
+        Binding("ctrl+z", "undo", "Undo", show=False, priority=True),
+        Binding("ctrl+y", "redo", "Redo", show=False, priority=True),
+        Binding("ctrl+o", "app.open_case", "Open", show=False, priority=True),
+    ]
+    DEFAULT_CSS = """
+    BuilderScreen { layout: vertical; background: $background; }
+    BuilderScreen #head { height: 1; width: 1fr; background: $panel; padding: 0 1; }
+    BuilderScreen #body { height: 1fr; }
+    BuilderScreen #tree { width: 37; height: 1fr; border-right: vkey $border-blurred; }
+    BuilderScreen #tree:focus { border-right: vkey $border; }
+    BuilderScreen #right { width: 1fr; height: 1fr; background: $background; }
+    BuilderScreen #side { height: 9; width: 1fr; border-top: hkey $border-blurred; }
+    BuilderScreen #help { height: 4; width: 1fr; padding: 0 1; color: $text-muted; }
+    BuilderScreen #sketch { display: none; }
+    BuilderScreen.-wide #tree { width: 42; }
+    BuilderScreen.-wide #right { layout: horizontal; }
+    BuilderScreen.-wide #side { width: 46; height: 1fr; border-top: none; border-left: vkey $border-blurred; }
+    BuilderScreen.-wide #help { height: 10; border-bottom: hkey $border-blurred; }
+    BuilderScreen.-wide #derived { height: 15; border-bottom: hkey $border-blurred; }
+    BuilderScreen.-wide #sketch { display: block; height: 1fr; }
+    """
+
+    def __init__(self, draft: Draft) -> None:
+        super().__init__()
+        self.draft = draft
+        self.around = CaseAround(draft)
+        self.check = Check()
+        self.checked_in = 0.0  # how long the last check took [s]
+        self.keeper = Keeper()
+        self._estimator = Estimator(self._estimated)
+        self._check_timer: Timer | None = None
+        self._form_timer: Timer | None = None
+        self._wanted: Keys | None = None
+
+    # -- layout --
+
+    def compose(self) -> ComposeResult:
+        """Lay out head, tree, form and side."""
+        yield Static(id="head")
+        with Horizontal(id="body"):
+            yield ModelTree(self.draft, self.around)
+            with Vertical(id="right"), Vertical(id="side"):
+                yield Static(id="help")
+                yield Derived()
+                yield Sketch()
+        yield Footer()
+
+    def on_mount(self) -> None:
+        """Check in the background once the first picture stands."""
+        self.set_interval(_KEEP_AFTER, self._keep)
+        self.query_one(ModelTree).focus()
+        self._show_head()
+        self.call_after_refresh(self._check_now)
+
+    def on_resize(self, event: events.Resize) -> None:
+        """Fit the head."""
+        self._show_head()
+
+    async def on_unmount(self) -> None:
+        """End the estimator's process."""
+        await self._estimator.close()
+
+    def _show_head(self) -> None:
+        name = self.draft.path.name if self.draft.path else f"{self.draft.get('name') or 'untitled'} (no file)"
+        left = Text.assemble((" λ ", "bold reverse"), " ", (name, "bold"))
+        if self.draft.is_changed():
+            left.append(" ● unsaved", style=self.app.theme_variables["accent"])
+        right = Text()
+        count = len(self.check.problems)
+        if count:
+            right.append(f"▲ {count} mistake{'s' * (count > 1)}  F8", style=self.app.theme_variables["error"])
+        elif self.check.report is not None:
+            right.append("ready", style=self.app.theme_variables["success"])
+            right.append(f"  {len(self.check.report.assumptions)} assumptions", style="dim")
+        running = self.app.run_words()  # type: ignore[attr-defined]
+        if running:
+            right = Text.assemble((running, "bold"), "   ", right)
+        left.pad_right(max(1, self.size.width - 2 - left.cell_len - right.cell_len))
+        self.query_one("#head", Static).update(left.append_text(right))
+
+    # -- tree and form --
+
+    def on_tree_node_highlighted(self, event: Tree.NodeHighlighted[Node]) -> None:
+        """Show the form of the node under the cursor; a held arrow key does not draw every one it passes."""
+        if self._form_timer is not None:
+            self._form_timer.stop()
+        node = event.node.data
+        if node is not None:
+            self._form_timer = self.set_timer(0.04, lambda: self.show_node(node))
+
+    def show_node(self, node: Node) -> None:
+        """Put the form of a node in place."""
+        right = self.query_one("#right", Vertical)
+        if self.form is not None and self.form.node is node:
+            return
+        self.query("#right > NodeForm").remove()
+        form = NodeForm(node, self.draft, self.around)
+        right.mount(form, before="#side")
+        form.call_after_refresh(self._form_ready)
+        self._show_node_help(node)
+
+    def _show_node_help(self, node: Node) -> None:
+        words = node.help[:1].upper() + node.help[1:]
+        self.query_one("#help", Static).update(Text.assemble((node.title, "bold"), f"  {words}"))
+
+    def _form_ready(self) -> None:
+        form = self.form
+        if form is None:
+            return
+        form.reload(self.check.problems)
+        if self._wanted is not None:
+            form.show(self._wanted)
+            self._wanted = None
+
+    @property
+    def form(self) -> NodeForm | None:
+        """The form that is shown."""
+        shown = list(self.query("#right > NodeForm").results(NodeForm))
+        return shown[-1] if shown else None
+
+    def on_model_tree_entered(self) -> None:
+        """Go from the tree into the form."""
+        if self.form is not None:
+            self.form.enter()
+
+    def on_node_form_left(self) -> None:
+        """Go back to the tree."""
+        self.query_one(ModelTree).focus()
+
+    def on_node_form_opened(self, event: NodeForm.Opened) -> None:
+        """Do what a button of the form asks for."""
+        what, _, rest = event.what.partition(" ")
+        if what == "catalogue":
+            self.action_catalogue()
+        elif what == "node":
+            self.query_one(ModelTree).go_to(rest)
+            self.query_one(ModelTree).focus()
+        elif what == "add-marker":
+            self.draft.set("markers", rest, "body", value="inner_ring")
+            self.edited()
+            self.go_to(("markers", rest))
+        elif what == "remove-marker":
+            self.draft.set("markers", rest, value=None)
+            self.edited()
+
+    def on_descendant_focus(self, event: events.DescendantFocus) -> None:
+        """Say what the option under the keyboard is."""
+        row = next((w for w in event.widget.ancestors_with_self if isinstance(w, Row)), None)
+        if row is not None:
+            self.query_one("#help", Static).update(row.help())
+        elif isinstance(event.widget, ModelTree) and self.form is not None:
+            self._show_node_help(self.form.node)
+
+    def go_to(self, keys: Keys) -> None:
+        """Bring an option into view, ready to be changed."""
+        tree = self.query_one(ModelTree)
+        tree.refresh_marks(self.check.problems)
+        node = tree.node_at(keys)
+        if node is None:
+            return
+        if self.form is not None and self.form.node is node:
+            self.form.show(keys)
+            return
+        self._wanted = keys
+        tree.go_to(node.key)
+
+    def has_option(self, path: str) -> bool:
+        """Tell whether an option stands on some node."""
+        return self.query_one(ModelTree).node_at(tuple(path.split("."))) is not None
+
+    # -- changes --
+
+    def on_edited(self, event: Edited) -> None:
+        """Take a change in."""
+        self.edited()
+
+    def on_left(self, event: Left) -> None:
+        """End a series of changes."""
+        self.draft.seal()
+
+    def edited(self) -> None:
+        """Mark the change and check soon."""
+        self._show_head()
+        if self._check_timer is not None:
+            self._check_timer.stop()
+        self._check_timer = self.set_timer(_CHECK_AFTER, self._check_now)
+
+    @work(thread=True, exclusive=True, group="check")
+    def _check_now(self) -> None:
+        begin = time.perf_counter()
+        found = check(self.draft.tables, self.draft.folder)
+        took = time.perf_counter() - begin
+        self.app.call_from_thread(self._checked, found, took)
+
+    def _checked(self, found: Check, took: float) -> None:
+        if not self.is_attached:
+            return
+        self.check, self.checked_in = found, took
+        self.around.learn(found.report)
+        self.query_one(ModelTree).refresh_marks(found.problems)
+        if self.form is not None:
+            self.form.reload(found.problems)
+        self.query_one(Derived).show_check(found)
+        self.query_one(Sketch).show_model(found.model)
+        self._show_head()
+        if found.model is not None:
+            self.run_worker(self._estimator.ask(deepcopy(self.draft.tables), self.draft.folder), group="estimate")
+
+    def _estimated(self, estimate: Estimate | None, say: str) -> None:
+        if self.is_attached:
+            self.query_one(Derived).show_estimate(estimate, say)
+
+    def action_undo(self) -> None:
+        """Take the last change back and show where it was."""
+        self._moved(self.draft.undo(), "nothing to undo")
+
+    def action_redo(self) -> None:
+        """Bring back what was undone."""
+        self._moved(self.draft.redo(), "nothing to bring back")
+
+    def _moved(self, keys: Keys | None, otherwise: str) -> None:
+        if keys is None:
+            self.notify(otherwise, timeout=2)
+            return
+        if self.form is not None:
+            self.form.reload(self.check.problems)
+        self.go_to(keys)
+        self.edited()
+
+    def action_next_mistake(self) -> None:
+        """Go to the next option with a mistake."""
+        problems = self.check.problems
+        if not problems:
+            self.notify("no mistakes", timeout=2)
+            return
+        row = next((w for w in self.focused.ancestors_with_self if isinstance(w, Row)), None) if self.focused else None
+        at = -1
+        if row is not None:
+            at = next((i for i, p in enumerate(problems) if p.where == ".".join(row.place.keys)), -1)
+        problem = problems[(at + 1) % len(problems)]
+        self.go_to(tuple(problem.where.split(".")))
+
+    # -- file --
+
+    def _keep(self) -> None:
+        """Keep unsaved work aside, so that a crash loses seconds."""
+        try:
+            if self.draft.is_changed():
+                self.keeper.keep(self.draft)
+            else:
+                self.keeper.drop()
+        except LambdaError as error:
+            self.notify(f"unsaved work cannot be kept aside: {error}", severity="warning")
+
+    def action_save(self) -> None:
+        """Save, asking for a name where there is none."""
+        self.app.save_case()  # type: ignore[attr-defined]
+
+    def saved(self) -> None:
+        """Show that everything is in the file."""
+        self.keeper.drop()
+        self.query_one(ModelTree).refresh_marks(self.check.problems)
+        if self.form is not None:
+            self.form.reload(self.check.problems)
+        self._show_head()
+
+    def refresh_head(self) -> None:
+        """Draw the head anew: a run has gone on."""
+        self._show_head()
+
+    def action_catalogue(self) -> None:
+        """Choose a bearing or an oil."""
+        self.app.show_catalogue()  # type: ignore[attr-defined]

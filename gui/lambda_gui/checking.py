@@ -1,0 +1,79 @@
+"""What is right and wrong with a draft, and on which node each mistake belongs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from copy import deepcopy
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.errors import Problem
+from lambda_core.schema.case import Case
+from lambda_core.schema.problems import model_at
+from lambda_gui.outline import Keys, Node
+
+if TYPE_CHECKING:
+    from lambda_core.physics.describe import CaseReport
+    from lambda_core.physics.model import BearingModel
+
+
+@dataclass(frozen=True)
+class Check:
+    """The outcome of checking a draft: mistakes, or the resolved model and what it says."""
+
+    problems: tuple[Problem, ...] = ()
+    model: BearingModel | None = None
+    report: CaseReport | None = None
+
+
+def check(tables: Mapping[str, Any], folder: Path | None) -> Check:
+    """Check tables as they would stand in a file; heavy parts are imported at the first call."""
+    from lambda_core import api
+
+    try:
+        model = api.check(deepcopy(dict(tables)), folder=folder)
+    except api.CaseError as error:
+        return Check(tuple(spread(error.problems)))
+    except api.LambdaError as error:  # a broken catalogue or plugin: nothing can be checked
+        return Check((Problem("", str(error)),))
+    return Check((), model, api.describe(model))
+
+
+def spread(problems: Iterable[Problem]) -> list[Problem]:
+    """Put "is required" of a missing table on each of its required options."""
+    found = []
+    for problem in problems:
+        table = model_at(Case, problem.where.split(".")) if problem.where else None
+        required = [name for name, info in table.model_fields.items() if info.is_required()] if table else []
+        if problem.message.startswith("is required") and table is not None and required:
+            for name in required:
+                text = table.model_fields[name].description
+                found.append(Problem(f"{problem.where}.{name}", f"is required: {text}"))
+        else:
+            found.append(problem)
+    return found
+
+
+def belongs(problem: Problem, place: Keys) -> bool:
+    """Tell whether a problem is about the option at a place, or about a part of it."""
+    return f"{problem.where}.".startswith(f"{'.'.join(place)}.")
+
+
+def node_of(problem: Problem, nodes: Iterable[Node]) -> Node | None:
+    """Return the node with the option that a problem is about; the closest one when it has none of its own."""
+    best: tuple[int, Node] | None = None
+    near: Node | None = None
+    for node in nodes:
+        for place in node.places:
+            if belongs(problem, place) and (best is None or len(place) > best[0]):
+                best = (len(place), node)
+            if near is None and ".".join(place).startswith(f"{problem.where}."):
+                near = node
+    return best[1] if best else near
+
+
+def for_place(problems: Iterable[Problem], place: Keys, *, first: bool = False) -> list[str]:
+    """Return the sentences about one option; `first` also takes those about its whole table."""
+    table = ".".join(place[:-1])
+    return [p.message for p in problems if belongs(p, place) or (first and p.where == table)]

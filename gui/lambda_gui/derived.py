@@ -1,0 +1,170 @@
+"""The numbers that follow from a case, beside its form."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from rich.text import Text
+from textual.widgets import Static
+
+from lambda_gui.checking import Check
+
+if TYPE_CHECKING:
+    from lambda_core.simulate.estimate import Estimate
+
+Fact = tuple[str, str, str]  # name, number, unit
+
+
+class Derived(Static):
+    """Derived quantities, or the mistakes that stand in their way."""
+
+    DEFAULT_CSS = """
+    Derived { width: 1fr; height: 1fr; padding: 0 1; }
+    """
+
+    def __init__(self) -> None:
+        super().__init__(id="derived")
+        self._check: Check | None = None
+        self._estimate: Estimate | None = None
+        self._say = ""
+        self._is_current = False
+
+    def show_check(self, check: Check) -> None:
+        """Take the outcome of a check; an estimate of the case before is shown as such."""
+        self._check = check
+        self._is_current = False
+        self._draw()
+
+    def show_estimate(self, estimate: Estimate | None, say: str) -> None:
+        """Take an estimate, or what is being done about it."""
+        if estimate is not None:
+            self._estimate, self._is_current = estimate, True
+        self._say = say
+        self._draw()
+
+    def on_resize(self) -> None:
+        """Draw for the new size."""
+        self._draw()
+
+    def _draw(self) -> None:
+        if self._check is None:
+            self.update(Text("checking ...", style="dim"))
+        elif self._check.model is None:
+            self.update(self._mistakes(self._check))
+        else:
+            geometry = list(_geometry(self._check))
+            numbers = list(_numbers(self._estimate)) if self._estimate else []
+            if self.size.height > len(geometry) + len(numbers) + 1:
+                self.update(self._listed(geometry, numbers))
+            else:
+                self.update(self._inline(geometry, numbers))
+
+    def _mistakes(self, check: Check) -> Text:
+        text = Text()
+        room = max(self.size.height, 1)
+        shown = check.problems if len(check.problems) <= room else check.problems[: room - 1]
+        for problem in shown:
+            text.append("▲ ", style="red")
+            line = Text(f"{problem.where}  {problem.message}" if problem.where else problem.message)
+            line.truncate(max(10, self.size.width - 2), overflow="ellipsis")
+            text.append_text(line).append("\n")
+        if len(shown) < len(check.problems):
+            text.append(f"and {len(check.problems) - len(shown)} more", style="dim")
+        return text
+
+    def _style(self) -> str:
+        return "" if self._is_current else "dim"
+
+    def _inline(self, geometry: Sequence[Fact], numbers: Sequence[Fact]) -> Text:
+        """Pack the facts into as few lines as they take."""
+        room, text, used = max(20, self.size.width - 2), Text(), 0
+        styled = [(fact, "") for fact in geometry] + [(fact, self._style()) for fact in numbers]
+        for (name, number, unit), style in styled:
+            value = f"{number} {unit}".strip()
+            width = len(name) + 1 + len(value)
+            if used and used + 2 + width > room:
+                text.append("\n")
+                used = 0
+            text.append("  " if used else "").append(f"{name} ", style="dim").append(value, style=style)
+            used += width + (2 if used else 0)
+        if self._say:
+            text.append(f"\n{self._say}", style="dim italic")
+        return text
+
+    def _listed(self, geometry: Sequence[Fact], numbers: Sequence[Fact]) -> Text:
+        text = Text()
+        for facts, style in ((geometry, ""), (numbers, self._style())):
+            for name, number, unit in facts:
+                text.append(f"{_LONG.get(name, name):<19}", style="dim").append(f"{number:>12}", style=style)
+                text.append(f" {unit}\n", style="dim")
+        if self._say:
+            text.append(self._say, style="dim italic")
+        return text
+
+
+_LONG = {
+    "pitch": "pitch diameter",
+    "clearance": "radial clearance",
+    "α": "contact angle",
+    "Q": "largest ball load",
+    "p": "largest pressure",
+    "h": "film",
+    "Λ": "Lambda",
+    "κ": "viscosity ratio κ",
+    "L10": "rating life L10h",
+    "M ≈": "friction torque ≈",
+    "run ≈": "run takes ≈",
+}
+
+
+def _geometry(check: Check) -> Iterable[Fact]:
+    assert check.model is not None
+    assert check.report is not None
+    geometry = check.model.geometry
+    estimated = any(v.path == "bearing.ball_diameter" and v.status != "published" for v in check.report.values)
+    mark = "≈ " if estimated else ""
+    yield "balls", f"{mark}{geometry.ball_count} x {geometry.ball_diameter * 1e3:.2f}", "mm"
+    yield "pitch", f"{geometry.pitch_diameter * 1e3:.2f}", "mm"
+    yield "clearance", f"{geometry.clearance * 1e6:.3g}", "um"
+
+
+def _numbers(estimate: Estimate) -> Iterable[Fact]:
+    state = estimate.equilibrium
+    loaded = [contact for contact in state.contacts if contact.load_N > 0.01 * state.max_load_N]
+    angles = [abs(contact.contact_angle_deg) for contact in loaded]
+    if angles:
+        yield "α", f"{max(angles):.1f}", "°"
+    yield "Q", grouped(state.max_load_N), "N"
+    yield "p", f"{state.max_pressure_GPa:.2f}", "GPa"
+    if state.film_um:
+        yield "h", between(state.film_um, 2), "um"
+        yield "Λ", between(state.film_parameter, 1), ""
+    if estimate.viscosity_ratio is not None:
+        yield "κ", f"{estimate.viscosity_ratio:.1f}", ""
+    if estimate.rating_life_h is not None:
+        yield "L10", grouped(float(f"{estimate.rating_life_h:.2g}")), "h"
+    if state.friction_torque_Nmm is not None:
+        yield "M ≈", grouped(state.friction_torque_Nmm), "N mm"
+    if estimate.run_s is not None:
+        yield "run ≈", duration(estimate.run_s), ""
+
+
+def grouped(value: float) -> str:
+    """Write a number with three digits or more, in groups of three."""
+    return f"{value:,.0f}".replace(",", " ") if abs(value) >= 100.0 else f"{value:.3g}"
+
+
+def between(ends: Sequence[float], digits: int) -> str:
+    """Write the smallest and the largest number, one where they read alike."""
+    low, high = (f"{end:.{digits}f}" for end in ends)
+    return low if low == high else f"{low}..{high}"
+
+
+def duration(seconds: float) -> str:
+    """Write a duration for people."""
+    if seconds < 1.0:
+        return "1 s"
+    if seconds < 100.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 6000.0 else f"{seconds / 3600.0:.1f} h"

@@ -1,0 +1,95 @@
+"""Text entry: what a person types, what it completes to, what is written in the case."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from textual.suggester import Suggester
+from textual.widgets import Input
+
+from lambda_core.schema.cards import FieldCard
+
+_BARE = re.compile(r"^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(\s*)([A-Za-z]*)$")
+
+
+def completed(text: str, units: Sequence[str]) -> str:
+    """Return a bare number, or one with the beginning of a unit, with the unit written out."""
+    match = _BARE.match(text)
+    if not match or not units:
+        return text
+    number, gap, begun = match.groups()
+    if not begun:
+        return f"{number} {units[0]}"
+    if begun in units:
+        return text
+    whole = next((unit for unit in units if unit.startswith(begun)), None)
+    return f"{number}{gap}{whole}" if whole else text
+
+
+def value_of(text: str, card: FieldCard) -> Any:
+    """Return what is written in the case for what was typed; None for nothing."""
+    stripped = text.strip()
+    if not stripped:
+        return None
+    if card.units:
+        return completed(stripped, card.units)
+    if card.kind == "integer" and re.fullmatch(r"[+-]?\d+", stripped):
+        return int(stripped)
+    if card.kind in ("number", "integer"):
+        try:
+            return float(stripped)
+        except ValueError:
+            return stripped
+    return stripped
+
+
+def text_of(value: Any) -> str:
+    """Return what stands in the entry for what is written in the case."""
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, float):
+        return f"{value:.15g}"
+    return str(value)
+
+
+class Completion(Suggester):
+    """Proposes the unit, or a name that begins with what was typed."""
+
+    def __init__(self, units: Sequence[str], names: Callable[[], Sequence[str]] | None) -> None:
+        super().__init__(use_cache=False, case_sensitive=True)
+        self._units, self._names = units, names
+
+    async def get_suggestion(self, value: str) -> str | None:
+        """Return the whole text that `value` could become."""
+        if self._names is not None and value:
+            folded = value.casefold()
+            return next(
+                (value + name[len(value) :] for name in self._names() if name.casefold().startswith(folded)), None
+            )
+        whole = completed(value, self._units)
+        return whole if whole != value else None
+
+
+class Entry(Input):
+    """One line of text; a number takes its unit when the entry is left or Enter is pressed."""
+
+    def __init__(self, card: FieldCard, names: Callable[[], Sequence[str]] | None = None) -> None:
+        super().__init__(compact=True, suggester=Completion(card.units, names), select_on_focus=False)
+        self._card = card
+        self._names = names
+
+    def complete(self) -> None:
+        """Write out the unit or the name that is proposed."""
+        if self._card.units:
+            self.value = completed(self.value, self._card.units)
+        elif self._names is not None:
+            folded = self.value.strip().casefold()
+            self.value = next((name for name in self._names() if name.casefold() == folded), self.value)
+
+    def on_blur(self) -> None:
+        """Complete what was typed."""
+        self.complete()

@@ -1,0 +1,212 @@
+"""The form of a node: its rows, made from the declarations of the case."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, ClassVar
+
+from rich.text import Text
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, VerticalScroll
+from textual.message import Message
+from textual.widget import Widget
+from textual.widgets import Button, Input, Static
+
+from lambda_core.schema.cards import field_card
+from lambda_core.schema.problems import members
+from lambda_gui.around import CaseAround
+from lambda_gui.checking import for_place
+from lambda_gui.choice import Entry as ChoiceEntry
+from lambda_gui.laws import LawRow, law_choice_row, law_choices
+from lambda_gui.outline import DOFS, Keys, Node, table_model
+from lambda_gui.parts import FreedomRow, MaterialRow
+from lambda_gui.places import Option
+from lambda_gui.rows import ChoiceRow, Row, TextRow, row_for
+from lambda_gui.signals import SignalRow
+
+if TYPE_CHECKING:
+    from lambda_core.errors import Problem
+    from lambda_core.schema.draft import Draft
+
+_NAMES = {"bearing.designation": "bearing", "lubricant.name": "lubricant"}
+
+
+def row_at(draft: Draft, keys: Keys, around: CaseAround) -> Row:
+    """Return the row for one option of the case."""
+    table, name, place = table_model(keys[:-1]), keys[-1], Option(draft, keys)
+    card, annotation = field_card(table, name), table.model_fields[name].annotation
+    if keys[0] == "bodies" and name in DOFS and len(keys) == 3:
+        return FreedomRow(place, card, around, table_model(keys))
+    if keys[0] == "materials":
+        return MaterialRow(place, card, around)
+    if keys == ("bodies", "cage", "type"):
+        return ChoiceRow(place, card, around, lambda: [ChoiceEntry(name, name) for name in around.names("cage")])
+    if keys == ("lubricant", "properties", "rheology"):
+        return ChoiceRow(place, card, around, lambda: law_choices("rheology")[1:])
+    if card.kind == "signal":
+        return SignalRow(place, card, around, list(members(annotation)))
+    if card.kind == "text":
+        return TextRow(place, card, around, kind=_NAMES.get(".".join(keys), ""))
+    return row_for(place, card, around)
+
+
+class NodeForm(VerticalScroll, can_focus=False):
+    """Rows of one node under its title."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("down", "step(1)", "Next", show=False),
+        Binding("up", "step(-1)", "Previous", show=False),
+        Binding("escape", "leave", "Back to the tree", show=False),
+    ]
+    DEFAULT_CSS = """
+    NodeForm { height: 1fr; padding: 0 1; scrollbar-size-vertical: 1; }
+    NodeForm > .title { width: 1fr; height: auto; margin-bottom: 1; }
+    NodeForm > .group { width: 1fr; height: 1; color: $primary; margin-top: 1; }
+    NodeForm > .in-effect { width: 1fr; height: auto; margin-top: 1; color: $text-muted; text-wrap: nowrap;
+        text-overflow: ellipsis; }
+    NodeForm .buttons { height: 1; margin-top: 1; }
+    NodeForm Button { margin-right: 2; }
+    NodeForm > Input { margin-top: 1; width: 32; }
+    """
+
+    class Left(Message):
+        """The person goes back to the tree."""
+
+    class Opened(Message):
+        """A button asks for something: "catalogue", "add-marker NAME", "remove-marker NAME", "node KEY"."""
+
+        def __init__(self, what: str) -> None:
+            super().__init__()
+            self.what = what
+
+    def __init__(self, node: Node, draft: Draft, around: CaseAround) -> None:
+        super().__init__()
+        self.node, self._draft, self._around = node, draft, around
+
+    def compose(self) -> ComposeResult:
+        """Lay out the title and the rows."""
+        yield Static(Text(self.node.title, style="bold"), classes="title")
+        yield from self._rows()
+        yield from self._buttons()
+        yield Static(classes="in-effect")
+
+    def on_mount(self) -> None:
+        """Give all labels the same room."""
+        rows = list(self.query(Row))
+        width = min(24, max((len(row.label) + (2 if row.has_class("-deep") else 0) for row in rows), default=0) + 2)
+        for row in rows:
+            row.fit(max(width, 14))
+
+    def _rows(self) -> Iterator[Widget]:
+        node = self.node
+        if node.kind == "role":
+            yield LawRow(self._draft, node, self._around)
+        elif node.kind == "roles":
+            for child in node.children:
+                yield law_choice_row(self._draft, child, self._around)
+        for group in node.groups:
+            if group.title:
+                yield Static(group.title, classes="group")
+            for keys in group.fields:
+                yield row_at(self._draft, keys, self._around)
+        if not (node.groups or node.kind in ("role", "roles", "markers")):
+            for child in node.children:
+                yield _Link(child)
+
+    def _buttons(self) -> Iterator[Widget]:
+        node = self.node
+        if node.key in ("bearing", "lubricant"):
+            with Horizontal(classes="buttons"):
+                yield Button("F2  choose from the catalogue", id="catalogue", compact=True)
+        if node.kind == "markers":
+            for child in node.children:
+                yield _Link(child)
+            yield Input(placeholder="name of a new marker, then Enter", compact=True, id="marker-name")
+        if node.kind == "marker":
+            with Horizontal(classes="buttons"):
+                yield Button("remove this marker", id="remove-marker", compact=True)
+
+    def reload(self, problems: Sequence[Problem]) -> None:
+        """Show what is written and what is wrong with it."""
+        first = True
+        for row in self.query(Row):
+            row.reload()
+            row.say(for_place(problems, row.place.keys, first=first))
+            first = False
+        self.query_one(".in-effect", Static).update(self._in_effect())
+
+    def _in_effect(self) -> Text:
+        """Say what the case takes from elsewhere for this node, with grades and sources."""
+        text = Text()
+        if self.node.key in ("bearing", "lubricant"):
+            own = {row.place.keys[-1] for row in self.query(Row)}
+            for value in self._around.table(self.node.key):
+                name = value.path.rpartition(".")[2]
+                if name in own or value.source == "case":
+                    continue
+                mark = "≈ " if value.status in ("derived", "assumed") else ""
+                source = f"  {value.source}" if self.size.width >= 60 else ""
+                text.append(f"{name.replace('_', ' '):<24}").append(f"{mark}{value.text}".ljust(15), style="not dim")
+                text.append(f" {value.grade or ' '}{source}\n")
+        text.no_wrap, text.overflow = True, "ellipsis"
+        return text
+
+    def show(self, keys: Keys) -> None:
+        """Bring one option into view and to the keyboard."""
+        for row in self.query(Row):
+            if row.place.keys == keys[: len(row.place.keys)]:
+                entry = next((w for w in row.query("*") if w.focusable), None)
+                if entry is not None:
+                    entry.focus()
+                    return
+
+    def enter(self) -> None:
+        """Give the keyboard to the first entry."""
+        first = next(self._stops(), None)
+        if first is not None:
+            first.focus()
+
+    def _stops(self) -> Iterator[Widget]:
+        return (widget for widget in self.query("*").results(Widget) if widget.focusable)
+
+    def action_step(self, by: int) -> None:
+        """Go to the next or previous entry."""
+        stops = list(self._stops())
+        if self.screen.focused in stops:
+            at = stops.index(self.screen.focused) + by
+            if 0 <= at < len(stops):
+                stops[at].focus()
+
+    def action_leave(self) -> None:
+        """Go back to the tree."""
+        self.post_message(self.Left())
+
+    def on_button_pressed(self, event: Button.Pressed) -> None:
+        """Hand the wish on."""
+        event.stop()
+        what = event.button.id or ""
+        self.post_message(self.Opened(f"{what} {self.node.title}" if what == "remove-marker" else what))
+
+    def on_input_submitted(self, event: Input.Submitted) -> None:
+        """Ask for a new marker."""
+        if event.input.id == "marker-name" and event.value.strip():
+            event.stop()
+            self.post_message(self.Opened(f"add-marker {event.value.strip()}"))
+
+
+class _Link(Button):
+    """Leads to a node below."""
+
+    DEFAULT_CSS = """
+    _Link { width: 1fr; text-align: left; content-align-horizontal: left; background: transparent; }
+    """
+
+    def __init__(self, node: Node) -> None:
+        super().__init__(f"▸ {node.title}  {node.help}", compact=True)
+        self._node = node
+
+    def press(self) -> _Link:
+        """Open the node."""
+        self.post_message(NodeForm.Opened(f"node {self._node.key}"))
+        return self

@@ -1,0 +1,147 @@
+"""Rows for the models that fill the roles of the force elements, with the parameters of each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from rich.text import Text
+from textual.widget import Widget
+from textual.widgets import Static
+
+from lambda_core.errors import LambdaError
+from lambda_core.registry.roles import DEFAULT_MODELS
+from lambda_core.schema.cards import FieldCard, field_card
+from lambda_core.schema.modelling import Models
+from lambda_gui.branch import Branch
+from lambda_gui.choice import Choice
+from lambda_gui.choice import Entry as ChoiceEntry
+from lambda_gui.entry import text_of
+from lambda_gui.outline import Node
+from lambda_gui.places import Option
+from lambda_gui.rows import ChoiceRow, Left, Surroundings, row_for
+
+if TYPE_CHECKING:
+    from lambda_core.registry.survey import ModelCard
+    from lambda_core.schema.draft import Draft
+
+_OWN = "lambda-bearing"
+
+
+def law_choices(role: str) -> list[ChoiceEntry]:
+    """Return the installed models of a role; those of other packages carry their distribution."""
+    from lambda_core import api
+
+    found = [ChoiceEntry("auto", "auto", "the law that the oil has data for")] if role == "rheology" else []
+    for item in api.plugins().items:
+        if item.kind == "model" and item.role == role:
+            foreign = "" if item.distribution.split(" ")[0] == _OWN else f"  ({item.distribution})"
+            found.append(ChoiceEntry(item.name, f"{item.name}{foreign}", _gist(role, item.name)))
+    return found
+
+
+def _gist(role: str, name: str) -> str:
+    from lambda_core import api
+
+    card = api.plugin_model(f"{role}/{name}")
+    return "\n".join(filter(None, (card.summary, card.reference)))
+
+
+def law_card(role: str) -> FieldCard:
+    """Return the card of the choice of a role's model."""
+    return field_card(Models, role)
+
+
+def law_choice_row(draft: Draft, node: Node, around: Surroundings) -> ChoiceRow:
+    """Return a row that only chooses the model."""
+    place = Option(draft, node.law_places[0])
+    return ChoiceRow(place, law_card(node.role), around, lambda: law_choices(node.role))
+
+
+class LawRow(Branch):
+    """The model of a role, what it is, and its parameters."""
+
+    DEFAULT_CSS = """
+    LawRow .about { width: 1fr; height: auto; color: $text-muted; margin: 1 0; }
+    LawRow .about.-none { display: none; }
+    """
+
+    def __init__(self, draft: Draft, node: Node, around: Surroundings) -> None:
+        model, self._parameters = (Option(draft, keys) for keys in node.law_places)
+        super().__init__(model, law_card(node.role), around, label="model")
+        self._draft, self._node = draft, node
+
+    def control(self) -> Widget:
+        """Return the choice of models."""
+        return Choice(self._entries, text_of(self.place.get()))
+
+    def _entries(self) -> list[ChoiceEntry]:
+        known = self.around.resolved(self.place.keys) or DEFAULT_MODELS[self._node.role]
+        unset = ChoiceEntry("", f"default ({known})", "as when nothing is written")
+        return [unset, *law_choices(self._node.role)]
+
+    def _model(self) -> str:
+        """Return the name of the model in effect, as far as it is known."""
+        written = self.place.get()
+        if isinstance(written, str) and written != "auto":
+            return written
+        return self.around.resolved(self.place.keys) or DEFAULT_MODELS[self._node.role]
+
+    def _card(self) -> ModelCard | str:
+        from lambda_core import api
+
+        try:
+            return api.plugin_model(f"{self._node.role}/{self._model()}")
+        except LambdaError as error:
+            return str(error) if self._model() != "auto" else ""
+
+    def shape(self) -> object:
+        """Return the model."""
+        return self._model()
+
+    def reload(self) -> None:
+        """Show the choice."""
+        choice = self.query_one(Choice)
+        choice.forget()
+        choice.value = text_of(self.place.get())
+        choice.refresh()
+        super().reload()
+
+    def twigs(self) -> Iterator[Widget]:
+        """Yield what the model is, and a row for each of its parameters."""
+        card = self._card()
+        if isinstance(card, str):
+            yield Static(card, classes="about", markup=False)
+            return
+        yield Static(_about(card), classes="about")
+        for parameter in card.parameters:
+            reference = " ".join(filter(None, (parameter.source, f"[{parameter.status}]" if parameter.status else "")))
+            shown = FieldCard(**{**parameter.model_dump(include=set(FieldCard.model_fields)), "reference": reference})
+            yield row_for(self._parameters.part(parameter.name), shown, self.around)
+
+    def on_choice_changed(self, event: Choice.Changed) -> None:
+        """Write the model; parameters that only the old one had go with it."""
+        if event.choice is not self.query_one(Choice):
+            return
+        event.stop()
+        self.write(event.value or None)
+        card = self._card()
+        if not isinstance(card, str):
+            known = {parameter.name for parameter in card.parameters}
+            for name in list(self._parameters.get() or ()):
+                if name not in known:
+                    self._parameters.part(name).put(None)
+        self.post_message(Left())
+        self.reload()
+
+
+def _about(card: ModelCard) -> Text:
+    text = Text(card.summary)
+    for title, line in (("", card.reference), ("valid for ", card.validity)):
+        if line:
+            text.append(f"\n{title}{line}", style="italic")
+    if card.distribution.split(" ")[0] != _OWN:
+        text.append(f"\nfrom {card.distribution}")
+    if not card.parameters:
+        text.append("\nno parameters")
+    return text

@@ -1,0 +1,233 @@
+"""The model tree: which nodes there are, and which options of the case stand on which node.
+
+The order is that in which a multibody model is set up. Every declared option has one place;
+a new option of a section appears on that section's node by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal
+
+from pydantic import BaseModel
+
+from lambda_core.registry.roles import ROLES
+from lambda_core.schema.case import Case
+from lambda_core.schema.problems import members, model_at
+
+Keys = tuple[str, ...]
+Kind = Literal["form", "roles", "role", "markers", "marker"]
+
+DOFS = ("x", "y", "z", "tilt_y", "tilt_z", "spin")
+BODIES = {"inner_ring": "Inner ring", "outer_ring": "Outer ring", "cage": "Cage"}
+ELEMENTS = {
+    "ball_inner": "Ball - inner",
+    "ball_outer": "Ball - outer",
+    "ball_cage": "Ball - cage",
+    "cage_inner": "Cage - inner",
+    "cage_outer": "Cage - outer",
+    "fluid_drag": "Oil on the balls",
+}
+
+
+@dataclass(frozen=True)
+class Group:
+    """Options of one table of the case under a heading."""
+
+    title: str
+    table: Keys
+    names: tuple[str, ...]
+
+    @property
+    def fields(self) -> list[Keys]:
+        """Places of the options."""
+        return [(*self.table, name) for name in self.names]
+
+
+@dataclass(eq=False)
+class Node:
+    """One node of the tree.
+
+    Attributes
+    ----------
+    key : str
+        Unique, stable.
+    groups : list of Group
+        The options on its form, in order.
+    role, element : str
+        Of a node for one role: which, and of which force element ("" for all of them).
+    """
+
+    key: str
+    title: str
+    help: str = ""
+    groups: list[Group] = field(default_factory=list)
+    children: list[Node] = field(default_factory=list)
+    kind: Kind = "form"
+    role: str = ""
+    element: str = ""
+
+    def walk(self) -> Iterator[Node]:
+        """Yield this node and all below it."""
+        yield self
+        for child in self.children:
+            yield from child.walk()
+
+    @cached_property
+    def places(self) -> list[Keys]:
+        """Places in the case that this node answers for."""
+        found = [place for group in self.groups for place in group.fields]
+        if self.kind == "role":
+            found += list(self.law_places)
+        if self.kind in ("markers", "marker"):
+            found.append(tuple(self.key.split(".", 1)) if self.kind == "marker" else ("markers",))
+        return found
+
+    @property
+    def law_places(self) -> tuple[Keys, Keys]:
+        """Where the model of a role and its parameters are written."""
+        base: Keys = ("forces", self.element) if self.element else ()
+        return (*base, "models", self.role), (*base, "parameters", self.role)
+
+
+def outline(markers: tuple[str, ...] = ()) -> list[Node]:
+    """Return the top nodes of the tree of a case with these markers."""
+    return [
+        Node("case", "Case", "name, description, what its author assumed", [Group("", (), tuple(_case_fields()))]),
+        _bearing(),
+        _bodies(),
+        _markers(markers),
+        _forces(),
+        _loads(),
+        _lubricant(),
+        _form("depth", "Modelling depth", ("depth",)),
+        _form("solver", "Solver", ("solver",)),
+        _form("output", "Outputs", ("output",)),
+    ]
+
+
+def _bearing() -> Node:
+    node = _form("bearing", "Bearing", ("bearing",))
+    node.children = [
+        _form("bearing.geometry", "Inner geometry", ("bearing", "geometry")),
+        _form("bearing.fits", "Fits", ("bearing", "fits")),
+    ]
+    return node
+
+
+def _bodies() -> Node:
+    parts = {"inner_ring": "inner", "outer_ring": "outer", "cage": "cage"}
+    nodes = []
+    for body, title in BODIES.items():
+        own = [name for name in plain_fields(("bodies", body)) if name not in DOFS]
+        groups = [Group("", ("bodies", body), tuple(own)), Group("Material", ("materials",), (parts[body],))]
+        nodes.append(Node(f"bodies.{body}", title, _doc(("bodies", body)), groups))
+    balls = Node("bodies.balls", "Balls", "number and size are the bearing's", [Group("", ("materials",), ("balls",))])
+    nodes.insert(2, balls)
+    return Node("bodies", "Bodies", "rings, balls and cage: masses, materials, the cage's type", children=nodes)
+
+
+def _markers(markers: tuple[str, ...]) -> Node:
+    nodes = [
+        Node(f"markers.{name}", name, "a point whose motion is written", kind="marker", groups=[_marker_group(name)])
+        for name in markers
+    ]
+    return Node("markers", "Markers", "named points whose motion is written", children=nodes, kind="markers")
+
+
+def _marker_group(name: str) -> Group:
+    return Group("", ("markers", name), tuple(plain_fields(("markers", name))))
+
+
+def _forces() -> Node:
+    every = Node(
+        "models",
+        "All elements",
+        "one choice for every force element that has the role",
+        kind="roles",
+        children=[_role("", role) for role in ROLES],
+    )
+    nodes = [every]
+    for element, title in ELEMENTS.items():
+        roles = [role.name for role in ROLES.values() if element in role.elements]
+        nodes.append(
+            Node(
+                f"forces.{element}",
+                title,
+                f"{_doc(('forces', element), own=False)}: models of its own before the general ones",
+                kind="roles",
+                element=element,
+                children=[_role(element, role) for role in roles],
+            )
+        )
+    return Node("forces", "Force elements", "every contact and the model that fills each role", children=nodes)
+
+
+def _role(element: str, role: str) -> Node:
+    key = f"forces.{element}.{role}" if element else f"models.{role}"
+    return Node(key, role.replace("_", " "), ROLES[role].summary, kind="role", role=role, element=element)
+
+
+def _loads() -> Node:
+    own = [name for name in plain_fields(("loads",)) if name not in BODIES]
+    nodes = [
+        Node("operation", "Drive", _doc(("operation",)), [_group(("operation",))]),
+        Node("loads", "Loads", "external loads on the inner ring over time", [Group("", ("loads",), tuple(own))]),
+    ]
+    for body, title in BODIES.items():
+        freedoms = Group("", ("bodies", body), tuple(name for name in DOFS))
+        more = Group("Further loads", ("loads", body), tuple(plain_fields(("loads", body))))
+        text = f"boundary conditions of the {title.lower()}: free, locked, or moved; further loads on it"
+        nodes.append(Node(f"boundary.{body}", title, text, [freedoms, more]))
+    nodes.append(Node("gravity", "Gravity", _doc(("gravity",)), [_group(("gravity",))]))
+    return Node("motion", "Loads and motion", "what drives, loads and holds the bodies", children=nodes)
+
+
+def _lubricant() -> Node:
+    node = _form("lubricant", "Lubricant", ("lubricant",))
+    node.children = [
+        _form("lubricant.properties", "Own properties", ("lubricant", "properties")),
+        _form("surface", "Surfaces", ("surface",)),
+        _form("bearing.temperatures", "Temperatures", ("bearing", "temperatures")),
+    ]
+    return node
+
+
+def _form(key: str, title: str, table: Keys) -> Node:
+    return Node(key, title, _doc(table), [_group(table)])
+
+
+def _group(table: Keys) -> Group:
+    return Group("", table, tuple(plain_fields(table)))
+
+
+def _case_fields() -> list[str]:
+    """Return the options that stand before the first table of the file."""
+    return [name for name in plain_fields(()) if name != "parameters"]
+
+
+def table_model(table: Keys) -> type[BaseModel]:
+    """Return the class of a table of the case."""
+    found = model_at(Case, table)
+    assert found is not None, table
+    return found
+
+
+def plain_fields(table: Keys) -> list[str]:
+    """Return the options of a table that are no tables themselves (time functions are options)."""
+    model = table_model(table)
+    return [
+        name
+        for name, info in model.model_fields.items()
+        if not any("kind" not in inner.model_fields for inner in members(info.annotation))
+    ]
+
+
+def _doc(table: Keys, *, own: bool = True) -> str:
+    """Return what a table is: the first sentence of its class, or the description of its field."""
+    if not own:
+        return str(table_model(table[:-1]).model_fields[table[-1]].description)
+    text = (table_model(table).__doc__ or "").strip().split("\n")[0]
+    return text[:1].lower() + text[1:].rstrip(".") if text else ""

@@ -1,0 +1,139 @@
+"""Rows for degrees of freedom and materials."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from pydantic import BaseModel
+from textual.widget import Widget
+
+from lambda_core.schema.cards import FieldCard, field_card
+from lambda_core.schema.parts import InlineMaterial
+from lambda_core.schema.problems import members
+from lambda_gui.branch import Branch
+from lambda_gui.choice import Choice
+from lambda_gui.choice import Entry as ChoiceEntry
+from lambda_gui.entry import text_of
+from lambda_gui.places import Option
+from lambda_gui.rows import Left, Surroundings, row_for
+from lambda_gui.signals import SignalRow
+
+
+class FreedomRow(Branch):
+    """One degree of freedom of a body: how it moves, and its support or motion."""
+
+    _MODES = (
+        ("free", "free", "moves by the forces on it"),
+        ("support", "free on a support", "moves by the forces on it and an elastic, damped support to ground"),
+        ("locked", "locked", "does not move"),
+        ("prescribed", "prescribed", "moves as written, whatever the forces"),
+    )
+
+    def __init__(self, place: Option, card: FieldCard, around: Surroundings, table: type[BaseModel]) -> None:
+        super().__init__(place, card, around, label=f"{card.name.replace('_', ' ')}  {card.description.split(':')[0]}")
+        self._option, self._table = place, table
+        self._supported = False
+
+    def control(self) -> Widget:
+        """Return the choice of modes."""
+        modes = [ChoiceEntry(value, label, text) for value, label, text in self._MODES]
+        return Choice(modes, self._mode())
+
+    def _mode(self) -> str:
+        value = self.place.get()
+        mode = str(self._option.part("mode").get() or (self.card.default if value is None else "free"))
+        held = isinstance(value, dict) and (value.keys() & {"stiffness", "damping"})
+        return "support" if mode == "free" and (held or self._supported) else mode
+
+    def shape(self) -> object:
+        """Return the mode."""
+        return self._mode()
+
+    def reload(self) -> None:
+        """Show the mode."""
+        self.query_one(Choice).value = self._mode()
+        super().reload()
+
+    def twigs(self) -> Iterator[Widget]:
+        """Yield the support's options, or the motion."""
+        mode = self._mode()
+        if mode == "prescribed" and "motion" in self._table.model_fields:
+            tables = list(members(self._table.model_fields["motion"].annotation))
+            card = field_card(self._table, "motion").model_copy(update={"required": True})
+            yield SignalRow(self._option.part("motion"), card, self.around, tables, deep=True)
+        if mode == "support":
+            for name in ("stiffness", "damping"):
+                if name in self._table.model_fields:
+                    yield row_for(self._option.part(name), field_card(self._table, name), self.around, deep=True)
+
+    def on_choice_changed(self, event: Choice.Changed) -> None:
+        """Write the mode; what belongs to another mode goes with it."""
+        if event.choice is not self.query_one(Choice):
+            return
+        event.stop()
+        self._supported = event.value == "support"
+        mode = "free" if self._supported else event.value
+        self.write(None if mode == self.card.default and not self._supported else mode)
+        self.post_message(Left())
+        self.reload()
+
+
+class MaterialRow(Branch):
+    """A material by name, or its properties written here."""
+
+    _OWN = "own values"
+
+    def __init__(self, place: Option, card: FieldCard, around: Surroundings) -> None:
+        super().__init__(place, card, around)
+        self._option = place
+
+    def control(self) -> Widget:
+        """Return the choice of materials."""
+        return Choice(self._entries, self._chosen())
+
+    def _entries(self) -> list[ChoiceEntry]:
+        known = self.card.default or self.around.resolved(self.place.keys)
+        unset = f"default ({known})" if known else "that of the cage type"
+        names = [ChoiceEntry(name, name) for name in self.around.names("material")]
+        own = ChoiceEntry(self._OWN, self._OWN, "write the properties here")
+        return [ChoiceEntry("", unset, "as when nothing is written"), *names, own]
+
+    def _chosen(self) -> str:
+        value = self.place.get()
+        return self._OWN if isinstance(value, dict) else text_of(value)
+
+    def shape(self) -> object:
+        """Return whether the properties are written here."""
+        return self._chosen() == self._OWN
+
+    def reload(self) -> None:
+        """Show the name."""
+        choice = self.query_one(Choice)
+        choice.forget()
+        choice.value = self._chosen()
+        choice.refresh()
+        super().reload()
+
+    def twigs(self) -> Iterator[Widget]:
+        """Yield the properties."""
+        if self._chosen() == self._OWN:
+            for name in InlineMaterial.model_fields:
+                yield row_for(self._option.part(name), field_card(InlineMaterial, name), self.around, deep=True)
+
+    def on_choice_changed(self, event: Choice.Changed) -> None:
+        """Write the name, or begin a table with the values of the material so far."""
+        event.stop()
+        if event.value == self._OWN:
+            names = list(InlineMaterial.model_fields)
+            known = {name: self.around.resolved((*self.place.keys, name)) for name in names}
+            self.write({name: _plain(name, text) for name, text in known.items() if text} or {"youngs_modulus": ""})
+        else:
+            self.write(event.value or None)
+        self.post_message(Left())
+        self.reload()
+
+
+def _plain(name: str, text: str) -> Any:
+    """Return a shown value as a case would write it."""
+    return float(text) if name == "poisson_ratio" else text

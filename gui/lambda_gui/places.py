@@ -1,0 +1,77 @@
+"""Places that form rows read and write: options of the draft, and parts of a value such as one term of a sum."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from typing import Any, Protocol
+
+from lambda_core.schema.draft import Draft
+from lambda_gui.outline import Keys
+
+
+class Place(Protocol):
+    """Where a value is written."""
+
+    @property
+    def keys(self) -> Keys:
+        """Path in the case."""
+
+    def get(self) -> Any:
+        """Return what is written, None where nothing is."""
+
+    def put(self, value: Any) -> None:
+        """Write a value; None takes it out."""
+
+
+class Option:
+    """An option of the draft."""
+
+    def __init__(self, draft: Draft, keys: Keys) -> None:
+        self._draft = draft
+        self.keys = keys
+
+    def get(self) -> Any:
+        """Return what is written."""
+        return self._draft.get(*self.keys)
+
+    def put(self, value: Any) -> None:
+        """Write a value."""
+        self._draft.set(*self.keys, value=value)
+
+    def part(self, name: str) -> Option:
+        """Return the place of an entry of the table that stands here."""
+        return Option(self._draft, (*self.keys, name))
+
+
+class Part:
+    """An entry of a list that is written as a whole."""
+
+    def __init__(self, whole: Place, *path: int | str) -> None:
+        self._whole, self._path = whole, path
+        self.keys = (*whole.keys, *(str(part) for part in path))
+
+    def get(self) -> Any:
+        """Return the entry."""
+        value = self._whole.get()
+        for part in self._path:
+            try:
+                value = value[part]
+            except (KeyError, IndexError, TypeError):
+                return None
+        return value
+
+    def put(self, value: Any) -> None:
+        """Write the list with this entry changed."""
+        whole = deepcopy(self._whole.get())
+        inner = whole
+        for part in self._path[:-1]:
+            inner = inner[part]
+        if value is None and isinstance(inner, dict):
+            inner.pop(self._path[-1], None)
+        else:
+            inner[self._path[-1]] = "" if value is None else value
+        self._whole.put(whole)
+
+    def part(self, name: str) -> Part:
+        """Return the place of an entry of the table that stands here."""
+        return Part(self._whole, *self._path, name)

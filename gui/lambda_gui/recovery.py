@@ -1,0 +1,122 @@
+"""Unsaved work that survives a crash: one small file per case that is being edited."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import socket
+import time
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lambda_core.errors import UsageError
+from lambda_core.schema.case_writer import save_text
+from lambda_core.simulate.status import Status, this_process
+
+if TYPE_CHECKING:
+    from lambda_core.schema.draft import Draft
+
+
+def state_folder() -> Path:
+    """Return where the builder keeps recovery files and the files of runs."""
+    from lambda_db.paths import data_folder
+
+    return data_folder() / "builder"
+
+
+@dataclass(frozen=True)
+class Rescue:
+    """Unsaved work of a builder that is gone."""
+
+    file: Path
+    path: Path | None  # of the case
+    text: str
+    when: float
+
+    def age(self) -> str:
+        """Return how long ago it was kept, for people."""
+        minutes = (time.time() - self.when) / 60.0
+        if minutes < 1.5:
+            return "a minute ago"
+        if minutes < 90.0:
+            return f"{minutes:.0f} minutes ago"
+        return f"{minutes / 60.0:.0f} hours ago" if minutes < 2880.0 else f"{minutes / 1440.0:.0f} days ago"
+
+
+class Keeper:
+    """Keeps the unsaved state of one draft."""
+
+    def __init__(self) -> None:
+        self._file: Path | None = None
+
+    def keep(self, draft: Draft) -> None:
+        """Write the draft's text aside; UsageError when that cannot be done."""
+        file = _file_of(draft.path)
+        if self._file is not None and self._file != file:
+            self.drop()
+        content = {
+            "path": str(draft.path.resolve()) if draft.path else None,
+            "text": draft.text(),
+            "when": time.time(),
+            "process": this_process(),
+        }
+        try:
+            file.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise UsageError(f'cannot write "{file.parent}": {error.strerror}') from None
+        save_text(json.dumps(content), file)
+        self._file = file
+
+    def drop(self) -> None:
+        """Remove the file: everything is saved, or given up on purpose."""
+        if self._file is not None:
+            _remove(self._file)
+            self._file = None
+
+
+def rescues(path: Path | None) -> list[Rescue]:
+    """Return unsaved work on a case (on cases without a file for None), the newest first."""
+    folder = state_folder() / "unsaved"
+    wanted = str(path.resolve()) if path else None
+    found = []
+    for file in folder.glob("*.json") if folder.is_dir() else ():
+        try:
+            content = json.loads(file.read_text(encoding="utf-8"))
+            if content["path"] != wanted or _is_in_use(content["process"]):
+                continue
+            tomllib.loads(content["text"])
+            found.append(Rescue(file, path, content["text"], float(content["when"])))
+        except (OSError, ValueError, KeyError, TypeError):
+            continue  # half a file of a full disk, or none of ours
+    return sorted(found, key=lambda rescue: -rescue.when)
+
+
+def take(rescue: Rescue, draft: Draft) -> None:
+    """Put rescued work into the draft of its case, as unsaved changes."""
+    draft.replace(tomllib.loads(rescue.text))
+    forget(rescue)
+
+
+def forget(rescue: Rescue) -> None:
+    """Give rescued work up."""
+    _remove(rescue.file)
+
+
+def _file_of(path: Path | None) -> Path:
+    name = str(path.resolve()) if path else f"untitled-{os.getpid()}"
+    return state_folder() / "unsaved" / f"{hashlib.sha256(name.encode()).hexdigest()[:16]}.json"
+
+
+def _is_in_use(process: dict[str, str]) -> bool:
+    """Tell whether the builder that wrote may still be open; on another machine one cannot see."""
+    return process["host"] != socket.gethostname() or Status(process=process).alive()
+
+
+def _remove(file: Path) -> None:
+    try:
+        file.unlink(missing_ok=True)
+    except OSError:
+        return  # a read-only home; the file is offered again, nothing is lost

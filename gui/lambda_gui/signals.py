@@ -1,0 +1,183 @@
+"""Rows for what changes over time: a value, a ramp, a harmonic, a table of points, or a sum of these."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from pydantic import BaseModel
+from textual.app import ComposeResult
+from textual.containers import Horizontal, Vertical
+from textual.widget import Widget
+from textual.widgets import Button, Input, Static
+
+from lambda_core.schema.cards import FieldCard, field_card
+from lambda_core.schema.problems import members
+from lambda_core.schema.signals import KINDS
+from lambda_gui.branch import Branch
+from lambda_gui.choice import Choice
+from lambda_gui.choice import Entry as ChoiceEntry
+from lambda_gui.entry import Entry, text_of, value_of
+from lambda_gui.places import Option, Part
+from lambda_gui.rows import Left, LinesRow, Surroundings, row_for
+
+_SIGNALS = {
+    "value": "the same at all times",
+    "constant": "the same at all times, written as a table",
+    "ramp": "linear from one value to another, constant before and after",
+    "harmonic": "amplitude * sin(2 pi frequency t + phase)",
+    "table": "points in time joined by a cubic spline, or a CSV file",
+    "sum": "several of these added",
+}
+
+
+class SignalRow(Branch):
+    """A load, speed or motion over time: a value or one of the time functions."""
+
+    DEFAULT_CSS = """
+    SignalRow > .line > Choice { width: 12; margin-right: 1; }
+    SignalRow > .line > Entry { width: 1fr; }
+    """
+
+    def __init__(
+        self, place: Option | Part, card: FieldCard, around: Surroundings, tables: Sequence[type[BaseModel]], **how: Any
+    ) -> None:
+        super().__init__(place, card, around, **how)
+        self._option = place
+        self._tables = {_kind_of(table): table for table in tables}
+        self._plain = card.model_copy(update={"kind": "quantity"})
+
+    def compose(self) -> ComposeResult:
+        """Lay out kind, value and what follows."""
+        with Horizontal(classes="line"):
+            yield Static(self.label, classes="label", markup=False)
+            kinds = ["value", *(kind for kind in KINDS if kind in self._tables)]
+            yield Choice([ChoiceEntry(kind, kind, _SIGNALS[kind]) for kind in kinds], self._kind())
+            yield Entry(self._plain)
+            yield Static(classes="mark")
+        yield Static(classes="mistake", markup=False)
+        with Vertical(classes="twigs"):
+            yield from self.twigs()
+
+    def _kind(self) -> str:
+        value = self.place.get()
+        return str(value.get("kind", "value")) if isinstance(value, dict) else "value"
+
+    def shape(self) -> object:
+        """Return the kind, and of a sum how many terms of which kinds."""
+        value = self.place.get()
+        terms = value.get("terms") if isinstance(value, dict) else None
+        return self._kind(), [isinstance(term, dict) for term in terms] if isinstance(terms, list) else None
+
+    def reload(self) -> None:
+        """Show kind and value."""
+        kind = self._kind()
+        self.query_one(Choice).value = kind
+        entry = self.query_one(Entry)
+        entry.display = kind == "value"
+        if kind == "value":
+            value = self.place.get()
+            if value_of(entry.value, self._plain) != value:
+                with self.prevent(Input.Changed):
+                    entry.value = text_of(value)
+            entry.placeholder = "required" if self.card.required else self.card.default or "none"
+        super().reload()
+
+    def twigs(self) -> Iterator[Widget]:
+        """Yield the options of the kind, or the terms of a sum."""
+        table = self._tables.get(self._kind())
+        if table is None:
+            return
+        if _kind_of(table) == "sum":
+            yield from self._terms(table)
+            return
+        for name in table.model_fields:
+            if name == "kind":
+                continue
+            card = field_card(table, name)
+            if name == "points":
+                yield PointsRow(self._option.part(name), card, self.around, deep=True)
+            else:
+                yield row_for(self._option.part(name), card, self.around, deep=True)
+
+    def _terms(self, table: type[BaseModel]) -> Iterator[Widget]:
+        inner = list(members(table.model_fields["terms"].annotation))
+        terms = (self.place.get() or {}).get("terms") or []
+        whole = self._option.part("terms")
+        for number, _ in enumerate(terms):
+            card = self.card.model_copy(update={"description": "one term of the sum", "required": True})
+            yield SignalRow(Part(whole, number), card, self.around, inner, deep=True, label=f"term {number + 1}")
+        with Horizontal(classes="buttons"):
+            yield Button("add a term", id="add-term", compact=True)
+            yield Button("remove the last", id="drop-term", compact=True, disabled=len(terms) < 2)
+
+    def on_choice_changed(self, event: Choice.Changed) -> None:
+        """Write the new kind with what the old one has for it."""
+        event.stop()
+        self.write(_as_kind(event.value, self.place.get()))
+        self.post_message(Left())
+        self.reload()
+
+    def on_input_changed(self, event: Input.Changed) -> None:
+        """Write the value."""
+        event.stop()
+        value = value_of(event.value, self._plain)
+        if self._kind() == "value" and value != self.place.get():
+            self.write(value)
+
+    def on_input_submitted(self, event: Input.Submitted) -> None:
+        """Go on to the next entry."""
+        event.stop()
+        self.query_one(Entry).complete()
+        self.screen.focus_next()
+
+    def on_button_pressed(self, event: Button.Pressed) -> None:
+        """Add or remove a term."""
+        event.stop()
+        value = self.place.get()
+        terms = list(value["terms"])
+        terms = [*terms, "0 " + self.card.units[0]] if event.button.id == "add-term" else terms[:-1]
+        self.write({**value, "terms": terms})
+        self.reload()
+
+    def on_descendant_blur(self) -> None:
+        """End a series of changes."""
+        self.post_message(Left())
+
+
+def _kind_of(table: type[BaseModel]) -> str:
+    return str(table.model_fields["kind"].annotation.__args__[0])  # type: ignore[union-attr]
+
+
+def _as_kind(kind: str, value: Any) -> Any:
+    """Return a time function of another kind that begins with what the old one says."""
+    plain = value
+    if isinstance(value, dict):
+        terms = value.get("terms") or [None]
+        plain = value.get("value") or value.get("end") or value.get("amplitude") or terms[0]
+        if isinstance(plain, dict):
+            plain = None
+    if kind == "value":
+        return plain
+    known: dict[str, dict[str, Any]] = {
+        "constant": {"value": plain},
+        "ramp": {"start": plain, "end": plain},
+        "harmonic": {"amplitude": plain},
+        "table": {"points": [["0 s", plain]] if plain else None},
+        "sum": {"terms": [value] if value is not None else [""]},
+    }
+    return {"kind": kind, **{name: text for name, text in known[kind].items() if text is not None}}
+
+
+class PointsRow(LinesRow):
+    """The points of a table over time, one "time, value" per line."""
+
+    def show(self, value: Any) -> str:
+        """Return one line per point."""
+        return "\n".join(", ".join(str(cell) for cell in point) for point in value or ())
+
+    def parse(self, text: str) -> Any:
+        """Return pairs of time and value."""
+        lines = [line for line in text.splitlines() if line.strip()]
+        return [[cell.strip() for cell in re.split(r"[,;\t]", line)] for line in lines] or None

@@ -1,0 +1,171 @@
+"""The model tree with what is set, what has changed and what is wrong beside each node."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, ClassVar
+
+from rich.text import Text
+from textual.binding import Binding, BindingType
+from textual.message import Message
+from textual.widgets import Tree
+from textual.widgets.tree import TreeNode
+
+from lambda_gui.checking import node_of
+from lambda_gui.outline import Keys, Node, outline
+from lambda_gui.summaries import summary
+
+if TYPE_CHECKING:
+    from lambda_core.errors import Problem
+    from lambda_core.schema.draft import Draft
+    from lambda_gui.around import CaseAround
+
+_OPEN = ("bearing", "bodies", "motion", "lubricant", "markers")
+
+
+class ModelTree(Tree[Node]):
+    """Nodes of the case; moving onto one shows its form, Enter goes into it."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("enter", "enter", "Edit", show=False),
+        Binding("right", "deeper", "Open", show=False),
+        Binding("left", "shallower", "Close", show=False),
+        Binding("space", "toggle_node", "Open or close", show=False),
+    ]
+    DEFAULT_CSS = """
+    ModelTree { background: $background; padding: 0 0 0 1; scrollbar-size-vertical: 1; scrollbar-size-horizontal: 0; }
+    """
+
+    class Entered(Message):
+        """The person goes into the form of the node under the cursor."""
+
+    def __init__(self, draft: Draft, around: CaseAround) -> None:
+        super().__init__("case", id="tree")
+        self.show_root, self.guide_depth, self.auto_expand = False, 2, False
+        self.draft, self._around = draft, around
+        self._markers: tuple[str, ...] = ()
+        self._wrong: dict[str, int] = {}
+        self._plant()
+
+    def _plant(self) -> None:
+        self._markers = _marker_names(self.draft)
+        for node in outline(self._markers):
+            self._add(self.root, node)
+        self.root.expand()
+        self.cursor_line = 0
+
+    def _add(self, parent: TreeNode[Node], node: Node) -> None:
+        if node.children:
+            branch = parent.add(node.title, node, expand=node.key in _OPEN)
+            for child in node.children:
+                self._add(branch, child)
+        else:
+            parent.add_leaf(node.title, node)
+
+    def all_nodes(self) -> list[Node]:
+        """Return every node of the case."""
+        return [node.data for node in self._tree_nodes.values() if node.data is not None]
+
+    def refresh_marks(self, problems: Sequence[Problem]) -> None:
+        """Count the mistakes of each node and say what is set; markers that came or went are taken in."""
+        if _marker_names(self.draft) != self._markers:
+            self.clear()
+            self._plant()
+        nodes = self.all_nodes()
+        self._wrong = {}
+        for problem in problems:
+            found = node_of(problem, nodes)
+            if found is not None:
+                self._wrong[found.key] = self._wrong.get(found.key, 0) + 1
+        for node in self._tree_nodes.values():
+            if node.data is not None:
+                node.set_label(self._label(node, node.data))
+
+    def on_resize(self) -> None:
+        """Fit the labels to the new width."""
+        for node in self._tree_nodes.values():
+            if node.data is not None:
+                node.set_label(self._label(node, node.data))
+
+    def _label(self, line: TreeNode[Node], node: Node) -> Text:
+        wrong = sum(self._wrong.get(inner.key, 0) for inner in node.walk())
+        changed = any(self.draft.is_changed(*place) for inner in node.walk() for place in inner.places)
+        depth, above = 0, line.parent
+        while above is not None and above is not self.root:
+            depth, above = depth + 1, above.parent
+        room = max(12, (self.size.width or 31) - 2 * depth - 3)
+        colours = self.app.theme_variables
+        marks = Text()
+        if changed:
+            marks.append(" ●", style=colours["accent"])
+        if wrong:
+            marks.append(f" ▲{wrong}", style=colours["error"])
+        text = Text(node.title, style="bold" if depth == 0 else "")
+        words = summary(node, self.draft, self._around)
+        if words:
+            arrow = 2 if node.children else 0
+            column = max(1, 18 - 2 * depth - arrow - len(node.title))
+            left = room - arrow - len(marks) - len(text) - column
+            text.append(" " * column + _fitting(words.split("\t"), left), style="dim not bold")
+        text.truncate(room - len(marks) - (2 if node.children else 0), overflow="ellipsis", pad=True)
+        return text.append_text(marks)
+
+    def wrong_nodes(self) -> list[str]:
+        """Return the keys of the nodes with mistakes, in order."""
+        return [node.key for node in self.all_nodes() if self._wrong.get(node.key)]
+
+    def node_at(self, keys: Keys) -> Node | None:
+        """Return the node that answers for a place in the case."""
+        best: tuple[int, Node] | None = None
+        for node in self.all_nodes():
+            for place in node.places:
+                if place == keys[: len(place)] and (best is None or len(place) > best[0]):
+                    best = (len(place), node)
+        return best[1] if best else None
+
+    def go_to(self, key: str) -> None:
+        """Move to a node, opening what is above it."""
+        for line in self._tree_nodes.values():
+            if line.data is not None and line.data.key == key:
+                above = line.parent
+                while above is not None:
+                    above.expand()
+                    above = above.parent
+                self.call_after_refresh(self.move_cursor, line, False)
+
+    def action_enter(self) -> None:
+        """Go into the form; a node that only groups others opens."""
+        self.post_message(self.Entered())
+
+    def action_deeper(self) -> None:
+        """Open the node, or go into the form of one that is open."""
+        line = self.cursor_node
+        if line is not None and line.allow_expand and not line.is_expanded:
+            line.expand()
+        else:
+            self.post_message(self.Entered())
+
+    def action_shallower(self) -> None:
+        """Close the node, or go to the one above."""
+        line = self.cursor_node
+        if line is None:
+            return
+        if line.allow_expand and line.is_expanded:
+            line.collapse()
+        elif line.parent is not None and line.parent is not self.root:
+            self.move_cursor(line.parent)
+
+
+def _fitting(parts: list[str], room: int) -> str:
+    """Join the first parts, as many as there is room for."""
+    shown = parts[0]
+    for part in parts[1:]:
+        if len(shown) + 1 + len(part) > room:
+            break
+        shown += f" {part}"
+    return shown
+
+
+def _marker_names(draft: Draft) -> tuple[str, ...]:
+    found = draft.get("markers")
+    return tuple(found) if isinstance(found, dict) else ()
