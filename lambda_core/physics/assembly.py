@@ -32,6 +32,7 @@ Announce = Callable[[str], None] | None
 ROLL_FLOOR = 1e-3  # [m/s]
 # Slip below which the direction of shear fades out; small against creep at any running speed.
 SLIP_FLOOR = 1e-6  # [m/s]
+_VECTOR = 16  # cells that vectorised loops take at once
 _MODES = {"free": L.FREE, "locked": L.LOCKED, "prescribed": L.PRESCRIBED}
 _KINDS = {"constant": L.TF_CONSTANT, "ramp": L.TF_RAMP, "harmonic": L.TF_HARMONIC, "table": L.TF_TABLE}
 
@@ -59,7 +60,7 @@ def unit_grid(strips: int, rows: int) -> FloatArray:
 
     Returns
     -------
-    float64[:, :], shape (6, strips * rows)
+    float64[:, :], shape (6, strips * rows rounded up to full vectors)
         Rows layout.GRID_S ... GRID_DT. sum(area) = pi and sum(area * pressure) = 2 pi/3, the Hertzian load over
         a b p_max.
     """
@@ -72,7 +73,7 @@ def unit_grid(strips: int, rows: int) -> FloatArray:
     row_load = np.diff(_disc_area(row_edges)) / np.pi
     shape = (strips, rows)
     per_area = np.repeat(area[:, None] / rows, rows, 1)
-    return np.array(
+    grid = np.array(
         [
             np.repeat(mid[:, None], rows, 1).ravel(),
             (half[:, None] * row_mid[None, :]).ravel(),
@@ -82,6 +83,10 @@ def unit_grid(strips: int, rows: int) -> FloatArray:
             np.repeat(half[:, None] * 2.0 / rows, rows, 1).ravel(),
         ]
     )
+    # Loops over cells run in vectors: filled up with copies of the last cell that have no area.
+    filling = np.repeat(grid[:, -1:], -grid.shape[1] % _VECTOR, axis=1)
+    filling[L.GRID_AREA] = 0.0
+    return np.concatenate([grid, filling], axis=1)
 
 
 def _disc_area(x: FloatArray) -> FloatArray:

@@ -141,7 +141,7 @@ class Solver:
 class Output:
     """What is written, how often."""
 
-    interval: float  # simulated time between samples; 0 means 1/200 of a cage revolution [s]
+    interval: float  # simulated time between samples; 0 means 1/100 of a cage revolution [s]
     checkpoint_interval: float  # wall time between checkpoints [s]
 
 

@@ -71,5 +71,5 @@ class Solver(Section):
 class Output(Section):
     """What is written."""
 
-    interval: Time | None = option(None, "simulated time between samples; absent: 1/200 of a cage turn", gt=0.0)
+    interval: Time | None = option(None, "simulated time between samples; absent: 1/100 of a cage turn", gt=0.0)
     checkpoint_interval: Time = option("10 s", "wall time between checkpoints", gt=0.0)

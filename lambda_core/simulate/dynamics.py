@@ -18,11 +18,10 @@ from lambda_core.physics.compiled.entry import Core, core
 from lambda_core.physics.compiled.observe import CONTACT_CHANNELS
 from lambda_core.physics.equilibrium import Equilibrium, fault_sentence, solve
 from lambda_core.physics.model import BearingModel
-from lambda_core.simulate.engine import Advance
+from lambda_core.simulate.engine import SAMPLES_PER_REVOLUTION, Advance
 
 FloatArray = NDArray[np.float64]
 
-SAMPLES_PER_REVOLUTION = 200.0
 # Asperities that carry more than this share of the load short the contact electrically.
 SHORTED = 0.01
 _CAPACITY = 512

@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 
 from lambda_core.physics.channels import Channel
 
+# Enough for ball passes and pocket impacts; each sample costs about three right-hand sides.
+SAMPLES_PER_REVOLUTION = 100.0
+
 
 @dataclass(frozen=True)
 class Advance:
@@ -37,7 +40,7 @@ class Engine(Protocol):
 
     @property
     def sample_interval(self) -> float:
-        """Return the time between samples [s]; by default 1/200 of a nominal cage revolution."""
+        """Return the time between samples [s]; by default 1/SAMPLES_PER_REVOLUTION of a nominal cage revolution."""
 
     def advance(self, until: float) -> Advance:
         """Integrate until `time` >= `until` [s]; samples gather in the buffer meanwhile."""

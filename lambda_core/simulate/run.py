@@ -21,7 +21,7 @@ from lambda_core.physics.time_functions import peak
 from lambda_core.simulate.averages import COLUMNS, FloatArray, Interval, boundaries, finite, row
 from lambda_core.simulate.checkpoint import Checkpoint, Position
 from lambda_core.simulate.convergence import Window, revolutions_wanted, shortfalls, window
-from lambda_core.simulate.engine import Advance, Engine
+from lambda_core.simulate.engine import SAMPLES_PER_REVOLUTION, Advance, Engine
 from lambda_core.simulate.progress import Progress, Report, StopRequest, stop_request
 from lambda_core.simulate.provenance import Provenance
 from lambda_core.simulate.results import Result, ResultError
@@ -119,11 +119,11 @@ def _converged(solver: Solver, known: list[FloatArray], last: FloatArray) -> boo
 def record_interval(engine: Engine, model: BearingModel) -> float:
     """Return the simulated time between records [s]: 1/40 of a nominal cage revolution.
 
-    The engine's default of 200 samples per cage revolution says how long that is; with an
+    The engine's default of SAMPLES_PER_REVOLUTION says how long that is; with an
     interval of one's own, the inner ring's planned speed and D_w/d_m do.
     """
     if model.output.interval == 0.0:
-        return engine.sample_interval * 200.0 / RECORDS_PER_REVOLUTION
+        return engine.sample_interval * SAMPLES_PER_REVOLUTION / RECORDS_PER_REVOLUTION
     speed = peak(model.inner_ring.dofs["spin"].motion)
     if speed == 0.0:
         return engine.sample_interval

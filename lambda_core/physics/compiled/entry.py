@@ -10,7 +10,16 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from lambda_core.physics.compiled import bdf, forces, jacobian, layout, observe, raceway, statics, tangent
+from lambda_core.physics.compiled import (
+    bdf,
+    forces,
+    jacobian,
+    layout,
+    observe,
+    raceway,
+    statics,
+    tangent,
+)
 from lambda_core.registry.kernels import compile_host, host_folder, host_key
 from lambda_core.registry.machine_code import Pointer
 

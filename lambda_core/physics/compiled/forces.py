@@ -17,7 +17,11 @@ from lambda_core.physics.compiled.cage import (
     pocket_apply,
     pocket_state,
 )
-from lambda_core.physics.compiled.kinematics import apply_wrench, axis_x, contact_kinematics
+from lambda_core.physics.compiled.kinematics import (
+    apply_wrench,
+    axis_x,
+    contact_kinematics,
+)
 from lambda_core.physics.compiled.layout import (
     BODY_FM,
     BPSI,
@@ -98,11 +102,19 @@ def raceway_forces(y, j, bundle, rates, want):
         if ok != 1:
             scratch[FAULT][2] = j
             return 0
-        apply_wrench(ball, kin, scratch[WRENCH], ball_fm, scratch[RING_FM])
+        apply_wrench(kin, scratch[WRENCH], ball_fm, scratch[RING_FM])
         for k in range(6):
             scratch[BODY_FM + which, k] += scratch[RING_FM][k]
         if want == 1 and system.friction_on == 1:
-            raceway_losses(which, kin, system, bundle.grid, scratch[SCALARS], bundle.cells[0], rates)
+            raceway_losses(
+                which,
+                kin,
+                system,
+                bundle.grid,
+                scratch[SCALARS],
+                bundle.cells[0],
+                rates,
+            )
     return 1
 
 
@@ -115,7 +127,13 @@ def drag_force(ball, bundle, ball_fm):
     nu = system.eta0 / system.rho0
     scratch[OUT][:2] = np.nan
     status = bundle.laws.drag(
-        ball[BVT], w, ball[BPSI], nu, system.rho0, par_of(bundle.par, system, P_DRAG), scratch[OUT]
+        ball[BVT],
+        w,
+        ball[BPSI],
+        nu,
+        system.rho0,
+        par_of(bundle.par, system, P_DRAG),
+        scratch[OUT],
     )
     force, moment = scratch[OUT][0], scratch[OUT][1]
     if status != 1 or not abs(force) + abs(moment) < np.inf:
@@ -142,14 +160,40 @@ def cage_forces(y, bundle, rates, want):
             k = (j + 1) % z
             ball, other = y[NB * j : NB * j + NB], y[NB * k : NB * k + NB]
             neighbour_state(ball, other, g)
-            if guide_force(bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), g, eta0, out, fault, -1.0) != 1:
+            if (
+                guide_force(
+                    bundle.laws.pocket,
+                    par_of(bundle.par, system, P_POCKET),
+                    g,
+                    eta0,
+                    out,
+                    fault,
+                    -1.0,
+                )
+                != 1
+            ):
                 fault[2] = j
                 return 0
             if want == 1:
                 rates[L_LAND] += guide_loss(
-                    bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), g, eta0, out, scratch[STILL], fault, -1.0
+                    bundle.laws.pocket,
+                    par_of(bundle.par, system, P_POCKET),
+                    g,
+                    eta0,
+                    out,
+                    scratch[STILL],
+                    fault,
+                    -1.0,
                 )
-                guide_force(bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), g, eta0, out, fault, -1.0)
+                guide_force(
+                    bundle.laws.pocket,
+                    par_of(bundle.par, system, P_POCKET),
+                    g,
+                    eta0,
+                    out,
+                    fault,
+                    -1.0,
+                )
             a0, a1, a2 = out[3] - g[G_R], out[4] - g[G_R + 1], out[5] - g[G_R + 2]
             neighbour_apply(ball[BPSI], a0, a1, a2, out, 1.0, bundle.ball_fm[j])
             neighbour_apply(other[BPSI], out[3], out[4], out[5], out, -1.0, bundle.ball_fm[k])
@@ -159,9 +203,27 @@ def cage_forces(y, bundle, rates, want):
         pocket_state(ball, cage, j, system, g)
         if want == 1:
             rates[L_POCKET] += guide_loss(
-                bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), g, eta0, out, scratch[STILL], fault, -1.0
+                bundle.laws.pocket,
+                par_of(bundle.par, system, P_POCKET),
+                g,
+                eta0,
+                out,
+                scratch[STILL],
+                fault,
+                -1.0,
             )
-        if guide_force(bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), g, eta0, out, fault, -1.0) != 1:
+        if (
+            guide_force(
+                bundle.laws.pocket,
+                par_of(bundle.par, system, P_POCKET),
+                g,
+                eta0,
+                out,
+                fault,
+                -1.0,
+            )
+            != 1
+        ):
             fault[2] = j
             return 0
         pocket_apply(ball, cage, g, out, bundle.ball_fm[j], scratch[BODY_FM + CAGE])
@@ -235,7 +297,11 @@ def body_rates(body, b, fm, channels, system, rate, rates, want):
             power += (mass * rate[SVX + i] - force) * v
     # Moments: contacts, loads, and supports. Their springs have the potential (k_y a_z^2 + k_z a_y^2)/2 of the
     # tilt (phi_y, phi_z) = (-a_z, a_y); their dampers act across the axis (c_y, c_z) and about it (c_s).
-    lx, ly, lz = channels[CH_MOMENT + 3 * b, 0], channels[CH_MOMENT + 3 * b + 1, 0], channels[CH_MOMENT + 3 * b + 2, 0]
+    lx, ly, lz = (
+        channels[CH_MOMENT + 3 * b, 0],
+        channels[CH_MOMENT + 3 * b + 1, 0],
+        channels[CH_MOMENT + 3 * b + 2, 0],
+    )
     d = 6 * b
     ky, kz = system.stiffness[d + 3], system.stiffness[d + 4]
     dy, dz = system.damping[d + 3] * wy, system.damping[d + 4] * wz
@@ -256,7 +322,10 @@ def body_rates(body, b, fm, channels, system, rate, rates, want):
         if want == 1:
             rates[I_DRIVE] += drive
     slant = about - dy * ay - dz * az
-    gy, gz = my - dy - slant * ay - ip * sigma * ty, mz - dz - slant * az - ip * sigma * tz
+    gy, gz = (
+        my - dy - slant * ay - ip * sigma * ty,
+        mz - dz - slant * az - ip * sigma * tz,
+    )
     if system.mode[d + 3] == FREE:
         rate[SWY] = gy / it
     else:
@@ -327,7 +396,16 @@ def evaluate(t, y, bundle, dydt, rates, want):
         if b == CAGE and system.cage_on == 0:
             continue
         body = scratch[SHARED][NS * b : NS * b + NS]
-        body_rates(body, b, scratch[BODY_FM + b], bundle.channels, system, scratch[RATE], rates, want)
+        body_rates(
+            body,
+            b,
+            scratch[BODY_FM + b],
+            bundle.channels,
+            system,
+            scratch[RATE],
+            rates,
+            want,
+        )
         while k < active.size and active[k] < NS * (b + 1):
             dydt[NB * z + k] = scratch[RATE][active[k] - NS * b]
             k += 1

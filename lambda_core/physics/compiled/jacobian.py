@@ -29,7 +29,11 @@ from lambda_core.physics.compiled.cage import (
     pocket_state,
 )
 from lambda_core.physics.compiled.forces import body_rates, drag_force
-from lambda_core.physics.compiled.kinematics import apply_wrench, axis_x, contact_kinematics
+from lambda_core.physics.compiled.kinematics import (
+    apply_wrench,
+    axis_x,
+    contact_kinematics,
+)
 from lambda_core.physics.compiled.layout import (
     BODY_FM,
     BPSI,
@@ -99,7 +103,14 @@ class Blocks(NamedTuple):
     index: Any  # int64 (36,): position among the free shared states, or -1
 
 
-_BLOCK_TYPES = {"a": array3, "b": array3, "c": array3, "from_ball": array3, "shared": array3, "index": iarray1}
+_BLOCK_TYPES = {
+    "a": array3,
+    "b": array3,
+    "c": array3,
+    "from_ball": array3,
+    "shared": array3,
+    "index": iarray1,
+}
 _BLOCK_TYPES.update(dict.fromkeys(("d", "own", "to_shared", "slope", "fm", "map"), array2))
 blocks_t = types.NamedTuple([_BLOCK_TYPES.get(name, array1) for name in Blocks._fields], Blocks)
 
@@ -161,7 +172,7 @@ def _contact_columns(ball, ring, which, bundle, bl):
     system = bundle.system[0]
     fm = bl.fm
     fm[:, :] = 0.0
-    apply_wrench(ball, scratch[KIN], scratch[WRENCH], fm[0], fm[1])
+    apply_wrench(scratch[KIN], scratch[WRENCH], fm[0], fm[1])
     for c in range(NB):
         step = _ball_step(c, False)
         for i in range(NB):
@@ -171,7 +182,7 @@ def _contact_columns(ball, ring, which, bundle, bl):
             continue
         wrench_at(scratch[KIN2], scratch[KIN], scratch[WRENCH], bl.slope, scratch[WRENCH2])
         fm[2, :] = 0.0
-        apply_wrench(bl.ball, scratch[KIN2], scratch[WRENCH2], fm[2], fm[3])
+        apply_wrench(scratch[KIN2], scratch[WRENCH2], fm[2], fm[3])
         for i in range(6):
             bl.own[i, c] += (fm[2, i] - fm[0, i]) / step
             bl.from_ball[which, i, c] += (fm[3, i] - fm[1, i]) / step
@@ -187,7 +198,7 @@ def _contact_columns(ball, ring, which, bundle, bl):
             continue
         wrench_at(scratch[KIN2], scratch[KIN], scratch[WRENCH], bl.slope, scratch[WRENCH2])
         fm[2, :] = 0.0
-        apply_wrench(ball, scratch[KIN2], scratch[WRENCH2], fm[2], fm[3])
+        apply_wrench(scratch[KIN2], scratch[WRENCH2], fm[2], fm[3])
         for i in range(6):
             bl.to_shared[i, column] += (fm[2, i] - fm[0, i]) / step
             bl.shared[which, i, column] += (fm[3, i] - fm[1, i]) / step
@@ -221,7 +232,13 @@ def _pocket_columns(y, j, bundle, bl):
     system = bundle.system[0]
     ball = y[NB * j : NB * j + NB]
     cage = scratch[SHARED][NS * CAGE : NS * CAGE + NS]
-    law, par, g, out, fm = bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), scratch[GUIDE], scratch[OUT], bl.fm
+    law, par, g, out, fm = (
+        bundle.laws.pocket,
+        par_of(bundle.par, system, P_POCKET),
+        scratch[GUIDE],
+        scratch[OUT],
+        bl.fm,
+    )
     pocket_state(ball, cage, j, system, g)
     if guide_force(law, par, g, system.eta0, out, scratch[FAULT], -1.0) != 1:
         return 0
@@ -268,14 +285,28 @@ def _neighbour_columns(y, j, other_index, bundle, bl):
     system = bundle.system[0]
     ball = y[NB * j : NB * j + NB]
     other = y[NB * other_index : NB * other_index + NB]
-    law, par, g, out, fm = bundle.laws.pocket, par_of(bundle.par, system, P_POCKET), scratch[GUIDE], scratch[OUT], bl.fm
+    law, par, g, out, fm = (
+        bundle.laws.pocket,
+        par_of(bundle.par, system, P_POCKET),
+        scratch[GUIDE],
+        scratch[OUT],
+        bl.fm,
+    )
     neighbour_state(ball, other, g)
     if guide_force(law, par, g, system.eta0, out, scratch[FAULT], -1.0) != 1:
         return 0
     if out[0] == 0.0 and out[1] == 0.0 and out[2] == 0.0:
         return 1
     fm[:, :] = 0.0
-    neighbour_apply(ball[BPSI], out[3] - g[G_R], out[4] - g[G_R + 1], out[5] - g[G_R + 2], out, 1.0, fm[0])
+    neighbour_apply(
+        ball[BPSI],
+        out[3] - g[G_R],
+        out[4] - g[G_R + 1],
+        out[5] - g[G_R + 2],
+        out,
+        1.0,
+        fm[0],
+    )
     for k in range(NB):
         step = _ball_step(k, True)
         for i in range(NB):
@@ -487,7 +518,10 @@ def jacobian(t, y, bundle, bl):
             if system.drag_on == 1 and _drag_columns(ball, bundle, bl) != 1:
                 return 0
         c, s = math.cos(ball[BPSI]), math.sin(ball[BPSI])
-        gy, gz = system.ball_mass * system.gravity[1], system.ball_mass * system.gravity[2]
+        gy, gz = (
+            system.ball_mass * system.gravity[1],
+            system.ball_mass * system.gravity[2],
+        )
         bl.own[1, BPSI] += -gy * s + gz * c
         bl.own[2, BPSI] += -gy * c - gz * s
         _ball_block(ball, system, bl, bl.a[j], bl.b[j])

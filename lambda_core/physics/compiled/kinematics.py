@@ -19,12 +19,14 @@ from lambda_core.physics.compiled.layout import (
     BWX,
     BX,
     INNER,
-    K_ALPHA,
     K_ARM,
+    K_AXIAL,
+    K_COS,
     K_D,
-    K_L,
     K_N,
+    K_RADIAL,
     K_S,
+    K_SIN,
     K_T,
     Q_DELTA,
     Q_UT,
@@ -90,11 +92,8 @@ def contact_kinematics(ball, ring, which, system, kin):
     length = math.sqrt(axial * axial + radial * radial)
     delta = length + system.ball_radius - system.groove_radius[which]
     kin[Q_DELTA] = delta
-    kin[K_L] = length
-    if which == INNER:
-        kin[K_ALPHA] = math.atan2(-axial, -radial)
-    else:
-        kin[K_ALPHA] = math.atan2(axial, radial)
+    kin[K_AXIAL], kin[K_RADIAL] = axial, radial
+    kin[K_COS], kin[K_SIN] = c, s
     if delta <= 0.0:
         return delta
     na, nr = axial / length, radial / length
@@ -153,7 +152,15 @@ def contact_kinematics(ball, ring, which, system, kin):
 
 
 @helper
-def apply_wrench(ball, kin, wrench, ball_fm, ring_fm):
+def contact_angle(kin, which):
+    """Return the contact angle of an identified contact [rad]."""
+    if which == INNER:
+        return math.atan2(-kin[K_AXIAL], -kin[K_RADIAL])
+    return math.atan2(kin[K_AXIAL], kin[K_RADIAL])
+
+
+@helper
+def apply_wrench(kin, wrench, ball_fm, ring_fm):
     """Turn a contact wrench into force and moment on ball and ring, equal and opposite.
 
     Parameters
@@ -180,25 +187,9 @@ def apply_wrench(ball, kin, wrench, ball_fm, ring_fm):
     ball_fm[4] += m1 + d * (n2 * f0 - n0 * f2)
     ball_fm[5] += m2 + d * (n0 * f1 - n1 * f0)
     r0, r1, r2 = kin[K_ARM], kin[K_ARM + 1], kin[K_ARM + 2]
-    to_inertial(
-        ball[BPSI],
-        -f0,
-        -f1,
-        -f2,
-        -m0 - (r1 * f2 - r2 * f1),
-        -m1 - (r2 * f0 - r0 * f2),
-        -m2 - (r0 * f1 - r1 * f0),
-        ring_fm,
-    )
-
-
-@helper
-def to_inertial(psi, f0, f1, f2, m0, m1, m2, out):
-    """Write force and moment given along x, r, t at azimuth psi along x, y, z."""
-    c, s = math.cos(psi), math.sin(psi)
-    out[0] = f0
-    out[1] = f1 * c - f2 * s
-    out[2] = f1 * s + f2 * c
-    out[3] = m0
-    out[4] = m1 * c - m2 * s
-    out[5] = m1 * s + m2 * c
+    m0 = -m0 - (r1 * f2 - r2 * f1)
+    m1 = -m1 - (r2 * f0 - r0 * f2)
+    m2 = -m2 - (r0 * f1 - r1 * f0)
+    c, s = kin[K_COS], kin[K_SIN]
+    ring_fm[0], ring_fm[1], ring_fm[2] = -f0, -f1 * c + f2 * s, -f1 * s - f2 * c
+    ring_fm[3], ring_fm[4], ring_fm[5] = m0, m1 * c - m2 * s, m1 * s + m2 * c

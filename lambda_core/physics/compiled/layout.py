@@ -118,7 +118,11 @@ SYSTEM = np.dtype(
         ("ball_radius", np.float64),  # [m]
         ("ball_mass", np.float64),  # [kg]
         ("ball_inertia", np.float64),  # [kg m2]
-        ("groove_circle", np.float64, (2,)),  # radius of the circle of groove centres [m]
+        (
+            "groove_circle",
+            np.float64,
+            (2,),
+        ),  # radius of the circle of groove centres [m]
         ("groove_radius", np.float64, (2,)),  # [m]
         ("radius_x", np.float64, (2,)),  # reduced, along rolling [m]
         ("radius_y", np.float64, (2,)),  # reduced, across rolling [m]
@@ -144,9 +148,19 @@ SYSTEM = np.dtype(
         ("land_offset", np.float64),  # half the distance of the two land stations [m]
         ("land_on", np.int64, (2,)),
         ("drag_on", np.int64),
-        ("roll_floor", np.float64),  # width of the change of sign of rolling losses [m/s]
-        ("slip_floor", np.float64),  # smallest slip that directions are computed with [m/s]
-        ("par_start", np.int64, (32,)),  # where each kernel's parameters begin in Bundle.par
+        (
+            "roll_floor",
+            np.float64,
+        ),  # width of the change of sign of rolling losses [m/s]
+        (
+            "slip_floor",
+            np.float64,
+        ),  # smallest slip that directions are computed with [m/s]
+        (
+            "par_start",
+            np.int64,
+            (32,),
+        ),  # where each kernel's parameters begin in Bundle.par
         ("friction_on", np.int64),  # 0: normal forces only (static equilibrium)
         ("guides_on", np.int64),  # 0: no cage forces (quasi-static equilibrium)
     ],
@@ -227,11 +241,12 @@ GRID_S, GRID_T, GRID_P, GRID_AREA, GRID_DS, GRID_DT = range(6)
 N_SCRATCH = 16
 
 # Kinematics of one contact beyond q: frame and arms (components x, r, t).
-K_T, K_S, K_N, K_D, K_ARM, K_ALPHA, K_L = NQ, NQ + 3, NQ + 6, NQ + 9, NQ + 10, NQ + 13, NQ + 14
-NKIN = NQ + 16
+# K_AXIAL, K_RADIAL: ball centre from the groove's centre; K_COS, K_SIN: of the ball's azimuth.
+K_T, K_S, K_N, K_D, K_ARM, K_AXIAL, K_RADIAL, K_COS, K_SIN = (NQ + i for i in (0, 3, 6, 9, 10, 13, 14, 15, 16))
+NKIN = NQ + 17
 
-# Rows of Work.cells.
-(X_SLIP, X_P, X_T, X_LN, X_RHO, X_TAU, X_MU, X_VT, X_VS, X_TAU0, X_SPIN2, X_T1) = range(12)
+# Rows of one block of Bundle.cells.
+(X_SLIP, X_P, X_T, X_LN, X_RHO, X_TAU, X_MU, X_VT, X_VS, X_TAU0, X_T1) = range(11)
 
 _raceway_sigs = [
     _sig(s)
@@ -258,7 +273,15 @@ RACEWAY_SIGS = dict(zip(RacewayLaws._fields, _raceway_sigs, strict=True))
 raceway_laws_t = types.NamedTuple([types.FunctionType(s) for s in _raceway_sigs], RacewayLaws)
 _cage_t = types.FunctionType(CAGE_SIG)
 laws_t = types.NamedTuple(
-    [raceway_laws_t, raceway_laws_t, _cage_t, _cage_t, _cage_t, types.FunctionType(DRAG_SIG)], Laws
+    [
+        raceway_laws_t,
+        raceway_laws_t,
+        _cage_t,
+        _cage_t,
+        _cage_t,
+        types.FunctionType(DRAG_SIG),
+    ],
+    Laws,
 )
 # One contact: (ring, q, laws, par, system, grid, cells, scratch, scalars, wrench) -> status
 wrench_sig = i8(i8, array1, raceway_laws_t, array1, system_t, array2, array2, array2, array1, array1)
@@ -302,6 +325,14 @@ bundle_t = types.NamedTuple(
     ],
     Bundle,
 )
+
+
+def vector_helper(function):
+    """Compile a helper whose loops over cells may be summed in any order, so that they vectorise.
+
+    Only the order of sums, fused multiply-adds and the sign of zero are set free: NaN and infinity keep their meaning.
+    """
+    return numba.njit(error_model="numpy", fastmath={"reassoc", "contract", "nsz"})(function)
 
 
 def helper(function):

@@ -17,7 +17,11 @@ from lambda_core.physics.compiled.cage import (
     pocket_apply,
     pocket_state,
 )
-from lambda_core.physics.compiled.kinematics import axis_x, contact_kinematics
+from lambda_core.physics.compiled.kinematics import (
+    axis_x,
+    contact_angle,
+    contact_kinematics,
+)
 from lambda_core.physics.compiled.layout import (
     BODY_FM,
     BVR,
@@ -41,7 +45,6 @@ from lambda_core.physics.compiled.layout import (
     GRID_AREA,
     GUIDE,
     INNER,
-    K_ALPHA,
     KIN,
     NB,
     NS,
@@ -107,7 +110,19 @@ CONTACT_CHANNELS = (
     "capacitance",
     "contact_loss",
 )
-observe_sig = i8(array1, array2, bundle_t, evaluate_t, f8, array4, array3, array3, array2, array2, array2)
+observe_sig = i8(
+    array1,
+    array2,
+    bundle_t,
+    evaluate_t,
+    f8,
+    array4,
+    array3,
+    array3,
+    array2,
+    array2,
+    array2,
+)
 
 
 @helper
@@ -120,9 +135,21 @@ def contact_capacitance(which, q, laws, bundle, shorted, channels):
     h = scalars[C_HCEN]
     temp[:] = system.oil_temperature
     eps[:] = np.nan
-    status = laws.rheology(p, temp, par_of(par, system, RACEWAY_KERNELS * which + R_RHEOLOGY), cells[X_LN], rho)
+    status = laws.rheology(
+        p,
+        temp,
+        par_of(par, system, RACEWAY_KERNELS * which + R_RHEOLOGY),
+        cells[X_LN],
+        rho,
+    )
     if status == 1:
-        status = laws.permittivity(p, temp, rho, par_of(par, system, RACEWAY_KERNELS * which + R_PERMITTIVITY), eps)
+        status = laws.permittivity(
+            p,
+            temp,
+            rho,
+            par_of(par, system, RACEWAY_KERNELS * which + R_PERMITTIVITY),
+            eps,
+        )
     total = 0.0
     for i in range(eps.size):
         total += eps[i] * grid[GRID_AREA, i]
@@ -131,8 +158,20 @@ def contact_capacitance(which, q, laws, bundle, shorted, channels):
     a, b, load = scalars[C_A], scalars[C_B], scalars[C_LOAD]
     hertz = VACUUM_PERMITTIVITY * total * a * b / h
     p[:1] = 0.0
-    laws.rheology(p[:1], temp[:1], par_of(par, system, RACEWAY_KERNELS * which + R_RHEOLOGY), cells[X_LN][:1], rho[:1])
-    laws.permittivity(p[:1], temp[:1], rho[:1], par_of(par, system, RACEWAY_KERNELS * which + R_PERMITTIVITY), eps[:1])
+    laws.rheology(
+        p[:1],
+        temp[:1],
+        par_of(par, system, RACEWAY_KERNELS * which + R_RHEOLOGY),
+        cells[X_LN][:1],
+        rho[:1],
+    )
+    laws.permittivity(
+        p[:1],
+        temp[:1],
+        rho[:1],
+        par_of(par, system, RACEWAY_KERNELS * which + R_PERMITTIVITY),
+        eps[:1],
+    )
     rx, e = system.radius_x[which], system.e_eff[which]
     u = system.eta0 * abs(q[Q_UT]) / (e * rx)
     out[0] = np.nan
@@ -172,7 +211,7 @@ def _raceway_channels(y, j, which, bundle, shorted, channels, losses):
     channels[:] = 0.0
     kin = scratch[KIN]
     delta = contact_kinematics(ball, ring, which, system, kin)
-    channels[1] = kin[K_ALPHA]
+    channels[1] = contact_angle(kin, which)
     channels[9] = system.oil_temperature
     if delta <= 0.0:
         eps, cells = bundle.cells[0][X_MU][:1], bundle.cells[0]
@@ -204,7 +243,11 @@ def _raceway_channels(y, j, which, bundle, shorted, channels, losses):
     raceway_losses(which, kin, system, bundle.grid, scalars, bundle.cells[0], losses)
     channels[0] = scalars[C_LOAD] + scalars[C_DAMP]
     channels[2], channels[3], channels[4] = scalars[C_PMAX], scalars[C_A], scalars[C_B]
-    channels[5], channels[6], channels[7] = scalars[C_HCEN], scalars[C_HMIN], scalars[C_LAMBDA]
+    channels[5], channels[6], channels[7] = (
+        scalars[C_HCEN],
+        scalars[C_HMIN],
+        scalars[C_LAMBDA],
+    )
     channels[8], channels[9] = scalars[C_PSI], scalars[C_TMEAN]
     channels[10], channels[11], channels[12] = kin[Q_VT], kin[Q_UT], kin[Q_WN]
     for i in range(losses.size):
@@ -266,7 +309,11 @@ def stored_energy(t, y, bundle):
             if contact_kinematics(ball, ring, which, system, scratch[KIN]) > 0.0:
                 total += _contact_energy(which, scratch[KIN][Q_DELTA], bundle)
         if system.guides_on == 1:
-            g, law, par = scratch[GUIDE], bundle.laws.pocket, par_of(bundle.par, system, P_POCKET)
+            g, law, par = (
+                scratch[GUIDE],
+                bundle.laws.pocket,
+                par_of(bundle.par, system, P_POCKET),
+            )
             start = 0.0
             if system.cage_on == 1:
                 pocket_state(ball, cage, j, system, g)
@@ -331,7 +378,14 @@ def _observe_one(t, y, bundle, shorted, contacts, pockets, lands, extra):
         ):
             return 0
         bundle.ball_fm[:, :] = 0.0
-        pocket_apply(ball, cage, scratch[GUIDE], scratch[OUT], bundle.ball_fm[0], scratch[BODY_FM + CAGE])
+        pocket_apply(
+            ball,
+            cage,
+            scratch[GUIDE],
+            scratch[OUT],
+            bundle.ball_fm[0],
+            scratch[BODY_FM + CAGE],
+        )
         for k in range(3):
             pockets[j, k] = bundle.ball_fm[0, k]
     for which in range(2):
@@ -342,7 +396,18 @@ def _observe_one(t, y, bundle, shorted, contacts, pockets, lands, extra):
         ring = scratch[SHARED][NS * which : NS * which + NS]
         for side in range(2):
             land_state(cage, ring, (2 * side - 1) * system.land_offset, scratch[GUIDE])
-            if guide_force(law, par, scratch[GUIDE], system.eta0, scratch[OUT], scratch[FAULT], which) != 1:
+            if (
+                guide_force(
+                    law,
+                    par,
+                    scratch[GUIDE],
+                    system.eta0,
+                    scratch[OUT],
+                    scratch[FAULT],
+                    which,
+                )
+                != 1
+            ):
                 return 0
             for axis in range(3):
                 for k in range(3):
@@ -350,7 +415,19 @@ def _observe_one(t, y, bundle, shorted, contacts, pockets, lands, extra):
     return 1
 
 
-def observe(times, states, bundle, evaluate, shorted, contacts, pockets, lands, extra, shared, rates):
+def observe(
+    times,
+    states,
+    bundle,
+    evaluate,
+    shorted,
+    contacts,
+    pockets,
+    lands,
+    extra,
+    shared,
+    rates,
+):
     """Write what samples show; an entry point.
 
     Parameters
@@ -383,7 +460,19 @@ def observe(times, states, bundle, evaluate, shorted, contacts, pockets, lands, 
     dydt = np.zeros(states.shape[1])
     for i in range(times.size):
         y = states[i]
-        if _observe_one(times[i], y, bundle, shorted, contacts[i], pockets[i], lands[i], extra[i]) != 1:
+        if (
+            _observe_one(
+                times[i],
+                y,
+                bundle,
+                shorted,
+                contacts[i],
+                pockets[i],
+                lands[i],
+                extra[i],
+            )
+            != 1
+        ):
             return 0
         if evaluate(times[i], y, bundle, dydt, rates[i], 1) != 1:
             return 0

@@ -67,7 +67,6 @@ from lambda_core.physics.compiled.layout import (
     X_P,
     X_RHO,
     X_SLIP,
-    X_SPIN2,
     X_T,
     X_T1,
     X_TAU,
@@ -76,6 +75,7 @@ from lambda_core.physics.compiled.layout import (
     X_VT,
     helper,
     par_of,
+    vector_helper,
 )
 
 # Variance of a uniform distribution over a cell of unit width: the slip's own spread in a cell.
@@ -93,7 +93,7 @@ def report(fault, role, status, which, i0, i1, i2, i3):
     return 0
 
 
-@helper
+@vector_helper
 def _finite(values):
     total = 0.0
     for i in range(values.size):
@@ -116,7 +116,13 @@ def normal_stage(which, q, laws, par, system, scalars, out, fault):
         scalars[C_DAMP] = 0.0
         return 1
     out[0] = np.nan
-    status = laws.damping(delta, q[Q_VN], load, par_of(par, system, RACEWAY_KERNELS * which + R_DAMPING), out)
+    status = laws.damping(
+        delta,
+        q[Q_VN],
+        load,
+        par_of(par, system, RACEWAY_KERNELS * which + R_DAMPING),
+        out,
+    )
     if status != 1 or not abs(out[0]) < np.inf:
         return report(fault, R_DAMPING, status, which, delta, q[Q_VN], load, 0.0)
     # A contact never pulls: the damping force cannot exceed the elastic one.
@@ -136,7 +142,16 @@ def film_stage(which, q, laws, par, system, scalars, out, fault):
     scalars[C_UMEAN] = u
     out[:2] = np.nan
     status = laws.film_thickness(
-        u, theta, load, rx, ry, e, eta0, alpha, par_of(par, system, RACEWAY_KERNELS * which + R_FILM), out
+        u,
+        theta,
+        load,
+        rx,
+        ry,
+        e,
+        eta0,
+        alpha,
+        par_of(par, system, RACEWAY_KERNELS * which + R_FILM),
+        out,
     )
     if status != 1 or not _finite(out[:2]):
         return report(fault, R_FILM, status, which, u, theta, load, eta0)
@@ -144,7 +159,15 @@ def film_stage(which, q, laws, par, system, scalars, out, fault):
     slide = math.sqrt(q[Q_VT] ** 2 + q[Q_VS] ** 2)
     out[0] = np.nan
     status = laws.thermal_correction(
-        u, slide, pmax, e, eta0, beta, k_oil, par_of(par, system, RACEWAY_KERNELS * which + R_THERMAL), out
+        u,
+        slide,
+        pmax,
+        e,
+        eta0,
+        beta,
+        k_oil,
+        par_of(par, system, RACEWAY_KERNELS * which + R_THERMAL),
+        out,
     )
     if status != 1 or not abs(out[0]) < np.inf:
         return report(fault, R_THERMAL, status, which, u, slide, pmax, eta0)
@@ -154,7 +177,11 @@ def film_stage(which, q, laws, par, system, scalars, out, fault):
     scalars[C_HMIN] = h_min * factor
     scalars[C_LAMBDA] = scalars[C_HCEN] / system.roughness
     out[0] = np.nan
-    status = laws.asperity_load(scalars[C_LAMBDA], par_of(par, system, RACEWAY_KERNELS * which + R_ASPERITY), out)
+    status = laws.asperity_load(
+        scalars[C_LAMBDA],
+        par_of(par, system, RACEWAY_KERNELS * which + R_ASPERITY),
+        out,
+    )
     if status != 1 or not abs(out[0]) < np.inf:
         return report(fault, R_ASPERITY, status, which, scalars[C_LAMBDA], load, 0.0, 0.0)
     scalars[C_PSI] = out[0]
@@ -179,7 +206,14 @@ def film_stage(which, q, laws, par, system, scalars, out, fault):
     scalars[C_ROLL] = out[0]
     out[0] = np.nan
     status = laws.elastic_hysteresis(
-        load, a, b, rx, ry, system.ball_radius, par_of(par, system, RACEWAY_KERNELS * which + R_HYSTERESIS), out
+        load,
+        a,
+        b,
+        rx,
+        ry,
+        system.ball_radius,
+        par_of(par, system, RACEWAY_KERNELS * which + R_HYSTERESIS),
+        out,
     )
     if status != 1 or not abs(out[0]) < np.inf:
         return report(fault, R_HYSTERESIS, status, which, load, a, b, rx)
@@ -188,32 +222,75 @@ def film_stage(which, q, laws, par, system, scalars, out, fault):
     return 1
 
 
-@helper
+@vector_helper
 def slip_field(which, q, system, grid, scalars, cells):
-    """Slip of every cell with the spread of slip inside the cell, and its pressure."""
+    """Slip of every cell with the spread of slip inside the cell, and its pressure.
+
+    Several short loops: the compiler vectorises a loop only while it can tell its few arrays apart.
+    """
     a, b, pmax = scalars[C_A], scalars[C_B], scalars[C_PMAX]
     vt0, vs0 = q[Q_VT], q[Q_VS]
     wt, ws, wn = q[Q_WT], q[Q_WS], q[Q_WN]
     curvature = 1.0 / system.radius_deformed[which]
     floor = system.slip_floor * system.slip_floor
-    n = grid.shape[1]
-    slip, p, vt, vs, spin2 = cells[X_SLIP], cells[X_P], cells[X_VT], cells[X_VS], cells[X_SPIN2]
+    slip, p, vt, vs = cells[X_SLIP], cells[X_P], cells[X_VT], cells[X_VS]
+    across, along, width_s, width_t = (
+        grid[GRID_S],
+        grid[GRID_T],
+        grid[GRID_DS],
+        grid[GRID_DT],
+    )
+    share = grid[GRID_P]
+    n = slip.size
     for i in range(n):
-        s = a * grid[GRID_S, i]
-        tau = b * grid[GRID_T, i]
-        z = 0.5 * s * s * curvature
-        vt[i] = vt0 - wn * s - ws * z
-        vs[i] = vs0 + wn * tau + wt * z
-        slope = s * curvature
-        ds, dt = a * grid[GRID_DS, i], b * grid[GRID_DT, i]
-        spread = ds * ds * ((wn + ws * slope) ** 2 + (wt * slope) ** 2) + dt * dt * wn * wn
-        slip[i] = math.sqrt(vt[i] * vt[i] + vs[i] * vs[i] + _CELL_VARIANCE * spread + floor)
-        spin2[i] = wn * wn * (s * s + tau * tau + _CELL_VARIANCE * (ds * ds + dt * dt))
-        p[i] = pmax * grid[GRID_P, i]
+        p[i] = pmax * share[i]
+    for i in range(n):
+        s = a * across[i]
+        vt[i] = vt0 - s * (wn + 0.5 * ws * s * curvature)
+    for i in range(n):
+        s = a * across[i]
+        vs[i] = vs0 + wn * b * along[i] + 0.5 * wt * s * s * curvature
+    # Variance of the slip inside a cell, from its slopes across and along.
+    for i in range(n):
+        kink = a * across[i] * curvature
+        slope_t, slope_s = a * width_s[i] * (wn + ws * kink), a * width_s[i] * wt * kink
+        turn = b * width_t[i] * wn
+        slip[i] = floor + _CELL_VARIANCE * (slope_t * slope_t + slope_s * slope_s + turn * turn)
+    for i in range(n):
+        slip[i] = math.sqrt(slip[i] + vt[i] * vt[i] + vs[i] * vs[i])
+
+
+@vector_helper
+def _close_loop(tau0, tau, hot, area, inlet, scalars):
+    """Close the loop of temperature and traction: tau between its values at the inlet's and at the hot temperature.
+
+    Shear stress linear in temperature, temperature rise linear in shear stress.
+    """
+    first, second, heat = 0.0, 0.0, 0.0
+    for i in range(tau.size):
+        second += tau[i] * area[i]
+    for i in range(tau.size):
+        cold = tau0[i] + 1e-30
+        closed = cold * cold / max(2.0 * cold - tau[i], 1e-3 * cold)
+        hot[i] = inlet + (hot[i] - inlet) * closed / cold
+        heat += hot[i] * area[i]
+        first += closed * area[i]
+        tau[i] = closed
+    scalars[C_CHANGE] = abs(first - second) / (first + 1e-30)
+    scalars[C_TMEAN] = heat / math.pi
+
+
+@vector_helper
+def _mix(psi, tau, tau0, mu, p):
+    """Add film and asperities: tau0 and mu become their shares of the shear stress, tau the sum."""
+    for i in range(tau.size):
+        tau0[i] = (1.0 - psi) * tau[i]
+        mu[i] = psi * mu[i] * p[i]
+        tau[i] = tau0[i] + mu[i]
 
 
 @helper
-def shear_stage(which, laws, par, system, scalars, cells, fault):
+def shear_stage(which, laws, par, system, grid, scalars, cells, fault):
     """Shear stress of film and asperities in every cell.
 
     Temperature and traction form a loop (T -> eta -> tau -> T). Two sweeps: at the inlet temperature,
@@ -221,7 +298,13 @@ def shear_stage(which, laws, par, system, scalars, cells, fault):
     taken as linear in temperature, which closes the loop. The relative change of
     the mean shear stress from the second sweep to the result is kept in scalars[C_CHANGE].
     """
-    slip, p, temp, ln_eta, rho = cells[X_SLIP], cells[X_P], cells[X_T], cells[X_LN], cells[X_RHO]
+    slip, p, temp, ln_eta, rho = (
+        cells[X_SLIP],
+        cells[X_P],
+        cells[X_T],
+        cells[X_LN],
+        cells[X_RHO],
+    )
     tau, tau0, hot, mu = cells[X_TAU], cells[X_TAU0], cells[X_T1], cells[X_MU]
     h, b, u, psi = scalars[C_HCEN], scalars[C_B], scalars[C_UMEAN], scalars[C_PSI]
     temp[:] = system.oil_temperature
@@ -229,13 +312,37 @@ def shear_stage(which, laws, par, system, scalars, cells, fault):
     tau0[:] = np.nan
     status = laws.rheology(p, temp, par_of(par, system, RACEWAY_KERNELS * which + R_RHEOLOGY), ln_eta, rho)
     if status != 1 or not _finite(ln_eta):
-        return report(fault, R_RHEOLOGY, status, which, scalars[C_PMAX], system.oil_temperature, 0.0, 0.0)
-    status = laws.traction(slip, p, temp, ln_eta, h, par_of(par, system, RACEWAY_KERNELS * which + R_TRACTION), tau0)
+        return report(
+            fault,
+            R_RHEOLOGY,
+            status,
+            which,
+            scalars[C_PMAX],
+            system.oil_temperature,
+            0.0,
+            0.0,
+        )
+    status = laws.traction(
+        slip,
+        p,
+        temp,
+        ln_eta,
+        h,
+        par_of(par, system, RACEWAY_KERNELS * which + R_TRACTION),
+        tau0,
+    )
     if status != 1 or not _finite(tau0):
         return report(fault, R_TRACTION, status, which, scalars[C_PMAX], h, slip[0], ln_eta[0])
     hot[:] = np.nan
     status = laws.contact_temperature(
-        system.oil_temperature, u, h, b, tau0, slip, par_of(par, system, RACEWAY_KERNELS * which + R_TEMPERATURE), hot
+        system.oil_temperature,
+        u,
+        h,
+        b,
+        tau0,
+        slip,
+        par_of(par, system, RACEWAY_KERNELS * which + R_TEMPERATURE),
+        hot,
     )
     if status != 1 or not _finite(hot):
         return report(fault, R_TEMPERATURE, status, which, u, h, b, tau0[0])
@@ -244,52 +351,53 @@ def shear_stage(which, laws, par, system, scalars, cells, fault):
     status = laws.rheology(p, hot, par_of(par, system, RACEWAY_KERNELS * which + R_RHEOLOGY), ln_eta, rho)
     if status != 1 or not _finite(ln_eta):
         return report(fault, R_RHEOLOGY, status, which, scalars[C_PMAX], hot[0], 0.0, 0.0)
-    status = laws.traction(slip, p, hot, ln_eta, h, par_of(par, system, RACEWAY_KERNELS * which + R_TRACTION), tau)
+    status = laws.traction(
+        slip,
+        p,
+        hot,
+        ln_eta,
+        h,
+        par_of(par, system, RACEWAY_KERNELS * which + R_TRACTION),
+        tau,
+    )
     if status != 1 or not _finite(tau):
         return report(fault, R_TRACTION, status, which, scalars[C_PMAX], h, slip[0], ln_eta[0])
-    first, second, heat = 0.0, 0.0, 0.0
-    for i in range(tau.size):
-        closed = tau0[i] * tau0[i] / max(2.0 * tau0[i] - tau[i], 1e-3 * tau0[i] + 1e-30)
-        second += tau[i]
-        first += closed
-        share = closed / (tau0[i] + 1e-30)
-        temp[i] = system.oil_temperature + (hot[i] - system.oil_temperature) * share
-        heat += temp[i]
-        tau[i] = closed
-    scalars[C_CHANGE] = abs(first - second) / (first + 1e-30)
-    scalars[C_TMEAN] = heat / tau.size
+    _close_loop(tau0, tau, hot, grid[GRID_AREA], system.oil_temperature, scalars)
     mu[:] = np.nan
     status = laws.boundary_friction(slip, p, par_of(par, system, RACEWAY_KERNELS * which + R_BOUNDARY), mu)
     if status != 1 or not _finite(mu):
         return report(fault, R_BOUNDARY, status, which, slip[0], p[0], 0.0, 0.0)
-    for i in range(tau.size):
-        tau0[i] = (1.0 - psi) * tau[i]
-        mu[i] = psi * mu[i] * p[i]
-        tau[i] = tau0[i] + mu[i]
+    _mix(psi, tau, tau0, mu, p)
     return 1
 
 
-@helper
-def sum_wrench(which, q, system, grid, scalars, cells, wrench):
-    """Integrate the shear over the ellipse and add the scalar laws: wrench on the ball."""
-    a, b = scalars[C_A], scalars[C_B]
+@vector_helper
+def _sum_cells(half_curvature, a, b, grid, cells, wrench):
+    """Write the resultant of the shear on the ball over a b: forces, couples."""
     tau, slip, vt, vs = cells[X_TAU], cells[X_SLIP], cells[X_VT], cells[X_VS]
-    half_curvature = 0.5 / system.radius_deformed[which]
+    across, along, area = grid[GRID_S], grid[GRID_T], grid[GRID_AREA]
     ft, fs, mt, ms, mn = 0.0, 0.0, 0.0, 0.0, 0.0
-    for i in range(grid.shape[1]):
-        g = tau[i] * grid[GRID_AREA, i] / slip[i]
+    for i in range(tau.size):
+        g = tau[i] * area[i] / slip[i]
         dt, ds = -g * vt[i], -g * vs[i]
-        s, t = a * grid[GRID_S, i], b * grid[GRID_T, i]
+        s, t = a * across[i], b * along[i]
         z = half_curvature * s * s
         ft += dt
         fs += ds
         ms -= z * dt
         mt += z * ds
         mn += t * ds - s * dt
-    ab = a * b
-    wrench[0], wrench[1] = ab * ft, ab * fs
+    wrench[0], wrench[1], wrench[3], wrench[4], wrench[5] = ft, fs, mt, ms, mn
+
+
+@helper
+def sum_wrench(which, q, system, grid, scalars, cells, wrench):
+    """Integrate the shear over the ellipse and add the scalar laws: wrench on the ball."""
+    a, b = scalars[C_A], scalars[C_B]
+    _sum_cells(0.5 / system.radius_deformed[which], a, b, grid, cells, wrench)
+    for i in range(NW):
+        wrench[i] *= a * b
     wrench[2] = -(scalars[C_LOAD] + scalars[C_DAMP])
-    wrench[3], wrench[4], wrench[5] = ab * mt, ab * ms, ab * mn
     add_rolling(which, q, system, scalars, wrench)
 
 
@@ -353,13 +461,38 @@ def raceway_wrench(which, q, laws, par, systems, grid, cells, scratch, scalars, 
     if film_stage(which, q, laws, par, system, scalars, out, fault) != 1:
         return 0
     slip_field(which, q, system, grid, scalars, cells)
-    if shear_stage(which, laws, par, system, scalars, cells, fault) != 1:
+    if shear_stage(which, laws, par, system, grid, scalars, cells, fault) != 1:
         return 0
     sum_wrench(which, q, system, grid, scalars, cells, wrench)
     return 1
 
 
 pipeline = helper(raceway_wrench)
+
+
+@vector_helper
+def _cell_powers(a, b, wn, grid, cells):
+    """Return the power of film shear by sliding and by spin and that of the asperities, over a b."""
+    slip, vt, vs, fluid, solid = (
+        cells[X_SLIP],
+        cells[X_VT],
+        cells[X_VS],
+        cells[X_TAU0],
+        cells[X_MU],
+    )
+    across, along, area = grid[GRID_S], grid[GRID_T], grid[GRID_AREA]
+    width_s, width_t = grid[GRID_DS], grid[GRID_DT]
+    slide, spin, boundary = 0.0, 0.0, 0.0
+    for i in range(slip.size):
+        v2 = (vt[i] * vt[i] + vs[i] * vs[i]) * area[i] / slip[i]
+        s, t, ds, dt = a * across[i], b * along[i], a * width_s[i], b * width_t[i]
+        turning = wn * wn * (s * s + t * t + _CELL_VARIANCE * (ds * ds + dt * dt))
+        rest_t, rest_s = vt[i] + wn * s, vs[i] - wn * t
+        share = turning / (turning + rest_t * rest_t + rest_s * rest_s + 1e-30)
+        spin += fluid[i] * v2 * share
+        slide += fluid[i] * v2 * (1.0 - share)
+        boundary += solid[i] * v2
+    return slide, spin, boundary
 
 
 @helper
@@ -372,20 +505,7 @@ def raceway_losses(which, q, system, grid, scalars, cells, losses):
     if scalars[C_WET] == 0.0:
         return
     a, b = scalars[C_A], scalars[C_B]
-    slip, vt, vs = cells[X_SLIP], cells[X_VT], cells[X_VS]
-    fluid, solid, spin2 = cells[X_TAU0], cells[X_MU], cells[X_SPIN2]
-    wn = q[Q_WN]
-    slide, spin, boundary = 0.0, 0.0, 0.0
-    for i in range(grid.shape[1]):
-        v2 = (vt[i] * vt[i] + vs[i] * vs[i]) * grid[GRID_AREA, i] / slip[i]
-        power = fluid[i] * v2
-        rest_t = vt[i] + wn * a * grid[GRID_S, i]
-        rest_s = vs[i] - wn * b * grid[GRID_T, i]
-        rest2 = rest_t * rest_t + rest_s * rest_s
-        share = spin2[i] / (spin2[i] + rest2 + 1e-30)
-        spin += power * share
-        slide += power * (1.0 - share)
-        boundary += solid[i] * v2
+    slide, spin, boundary = _cell_powers(a, b, q[Q_WN], grid, cells)
     roll, bend = rolling_speeds(which, q, system)
     floor = system.roll_floor
     losses[L_SLIDE + which] += a * b * slide

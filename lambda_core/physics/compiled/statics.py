@@ -215,7 +215,13 @@ def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations
     """
     system, scratch = bundle.system[0], bundle.scratch
     n = y.size
-    dydt, f, step, trial, rates = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(NI)
+    dydt, f, step, trial, rates = (
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros(NI),
+    )
     held = np.zeros(system.balls, dtype=np.bool_)
     new, dt = np.zeros(n), _FIRST_STEP
     if evaluate(0.0, y, bundle, dydt, rates, 0) != 1:
@@ -234,7 +240,10 @@ def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations
             if arrow_factor(bl, 1.0, dt, fa) == 1:
                 arrow_solve(fa, step)
                 size = _merit(step, weight)
-                shrink = min(1.0, _LARGEST_MOVE / (_largest_move(step, weight, system.balls) + 1e-300))
+                shrink = min(
+                    1.0,
+                    _LARGEST_MOVE / (_largest_move(step, weight, system.balls) + 1e-300),
+                )
                 for i in range(n):
                     trial[i] = y[i] + shrink * step[i]
                 if size < np.inf and evaluate(0.0, trial, bundle, dydt, rates, 0) == 1:

@@ -144,7 +144,11 @@ def contact_tangent(which, q, laws, par, systems, grid, blocks, scratch, slope):
         step = 1e-4 * abs(q[Q_VN]) + 1e-6
         out[0] = 0.0
         laws.damping(
-            q[Q_DELTA], q[Q_VN] + step, scalars[C_LOAD], par_of(par, system, RACEWAY_KERNELS * which + R_DAMPING), out
+            q[Q_DELTA],
+            q[Q_VN] + step,
+            scalars[C_LOAD],
+            par_of(par, system, RACEWAY_KERNELS * which + R_DAMPING),
+            out,
         )
         slope[W_FN, Q_VN] = -(max(out[0], -scalars[C_LOAD]) - scalars[C_DAMP]) / step
     # Penetration.
@@ -168,7 +172,7 @@ def contact_tangent(which, q, laws, par, systems, grid, blocks, scratch, slope):
     ok = film_stage(which, q, laws, par, system, scalars2, out, fault)
     if ok == 1:
         slip_field(which, q, system, grid, scalars2, cells2)
-        ok = shear_stage(which, laws, par, system, scalars2, cells2, fault)
+        ok = shear_stage(which, laws, par, system, grid, scalars2, cells2, fault)
     if ok == 1:
         sum_wrench(which, q, system, grid, scalars2, cells2, wrench2)
     q[Q_UT] = ut
@@ -182,7 +186,7 @@ def contact_tangent(which, q, laws, par, systems, grid, blocks, scratch, slope):
         cells2[X_P, i] = cells[X_P, i]
     for i in range(NC):
         scalars2[i] = scalars[i]
-    if shear_stage(which, laws, par, system, scalars2, cells2, fault) != 1:
+    if shear_stage(which, laws, par, system, grid, scalars2, cells2, fault) != 1:
         return 0
     slip_columns(which, q, system, grid, scalars, cells, cells2[X_TAU], _RELATIVE, slope)
     rolling_columns(which, q, system, scalars, slope)
