@@ -1,0 +1,41 @@
+"""The command compare: methods side by side, and a simulation beside them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lambda_cli.options import CaseArgument, JsonOption, SetOption
+from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+
+
+def compare(
+    case: CaseArgument,
+    changes: SetOption = None,
+    method: Annotated[
+        list[str] | None, typer.Option("--method", metavar="NAME", help="Only this method; may be repeated.")
+    ] = None,
+    result: Annotated[
+        Path | None, typer.Option("--result", metavar="FILE", help="Result of the same case, as the first column.")
+    ] = None,
+    contamination: Annotated[
+        float | None, typer.Option("--contamination", metavar="E_C", min=0.0, max=1.0, help="e_C of ISO 281, 0 to 1.")
+    ] = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Put catalogue formulas, standards and the quasi-static solution of a case side by side.
+
+    Friction by the SKF and Schaeffler models, analytical capacitance, rating life after ISO 281 and ISO/TS
+    16281, loads and stiffness of the quasi-static equilibrium, and the methods of plugins.
+    """
+    from lambda_core import api
+
+    with talk(progress, quiet) as speaker:
+        found = api.compare(
+            case, changes or (), methods=method or (), result=result, contamination=contamination, announce=speaker.say
+        )
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
