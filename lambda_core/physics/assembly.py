@@ -234,6 +234,7 @@ class Kernels:
         # one model in several force elements is compiled once
         known: dict[tuple[str, str], Any] = {}
         self.compiled: dict[tuple[str, str], Any] = {}
+        self.tried: set[tuple[str, str, str, str]] = set()  # what check_laws has found in order
         for element, roles in model.laws.items():
             for role, law in roles.items():
                 name = (role, law.model.name)
@@ -273,20 +274,20 @@ def prepare(law: Law, context: Context) -> FloatArray:
 def check_laws(model: BearingModel, kernels: Kernels, frame: ContactFrame, oil: Oil) -> None:
     """Try every law out with the parameters of this run before any compiled code calls it.
 
+    Kernels that serve many runs (a study) are tried once for each choice of parameters.
+
     Raises
     ------
     PluginError
         With the first law that does not keep the contract of its role.
     """
-    tried: set[tuple[str, str, bytes]] = set()
     for element, roles in model.laws.items():
         context = build_context(model, element, frame, oil)
         for role, law in roles.items():
-            par = prepare(law, context)
-            key = (role, law.model.name, par.tobytes())
-            if key not in tried:
-                tried.add(key)
-                check_choice(law.model, par, kernels.compiled[element, role])
+            key = (element, role, law.model.name, law.parameters.model_dump_json())
+            if key not in kernels.tried:
+                check_choice(law.model, prepare(law, context), kernels.compiled[element, role])
+                kernels.tried.add(key)
 
 
 def prepare_all(model: BearingModel, frame: ContactFrame, oil: Oil) -> list[FloatArray]:

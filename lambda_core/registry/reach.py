@@ -13,6 +13,7 @@ import hashlib
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import cache
 from types import BuiltinFunctionType, CodeType, FunctionType, ModuleType
 from typing import Any
 
@@ -183,6 +184,16 @@ def _of_library(value: Any) -> bool:
     return bool(_name(value)) and module.split(".")[0] in _LIBRARIES
 
 
+@cache
+def _instructions(code: CodeType) -> tuple[tuple[str, Any], ...]:
+    """Return operation and argument of every instruction; code never changes, so it is taken apart once."""
+    return tuple(
+        (instruction.opname, instruction.argval)
+        for instruction in dis.get_instructions(code)
+        if instruction.opname not in ("EXTENDED_ARG", "CACHE")
+    )
+
+
 def _globals_read(code: CodeType, scope: dict[str, Any], where: str) -> Iterator[tuple[str, Any]]:
     """Yield (dotted name, value) of every global that `code` loads, through modules.
 
@@ -190,15 +201,12 @@ def _globals_read(code: CodeType, scope: dict[str, Any], where: str) -> Iterator
     """
     found: dict[str, Any] = {}
     path, value = "", _MISSING
-    for instruction in dis.get_instructions(code):
-        name = instruction.argval
-        if instruction.opname in ("EXTENDED_ARG", "CACHE"):
-            continue
+    for operation, name in _instructions(code):
         if isinstance(value, ModuleType):
-            if instruction.opname not in ("LOAD_ATTR", "LOAD_METHOD"):
+            if operation not in ("LOAD_ATTR", "LOAD_METHOD"):
                 raise UnreachableError(f'{where} hands the module "{path}" on: call {path}.function(...) directly')
             path, value = f"{path}.{name}", getattr(value, name, _MISSING)
-        elif instruction.opname == "LOAD_GLOBAL":
+        elif operation == "LOAD_GLOBAL":
             path, value = name, scope.get(name, getattr(builtins, name, _MISSING))
         else:
             continue
