@@ -20,6 +20,7 @@ from lambda_gui.theme import DARK, LIGHT
 
 if TYPE_CHECKING:
     from lambda_core.schema.draft import Draft
+    from lambda_gui.catalogue import Kind
 
 
 class BuilderApp(App[None]):
@@ -189,6 +190,24 @@ class BuilderApp(App[None]):
             then()
 
     # -- other screens --
+
+    def show_catalogue(self, kind: Kind = "bearing") -> None:
+        """Choose a bearing or a lubricant for the case."""
+        from lambda_gui.catalogue import CatalogueScreen, Taken
+
+        builder = self.builder
+        try:
+            catalogue = api.catalogue()
+        except LambdaError as error:
+            self.notify(str(error), severity="error", timeout=12)
+            return
+
+        def taken(found: Taken | None) -> None:
+            builder.around.forget_names()
+            if found is not None:
+                builder.take(found)
+
+        self.push_screen(CatalogueScreen(catalogue, kind), taken)
 
     def action_help(self) -> None:
         """Explain the screen."""

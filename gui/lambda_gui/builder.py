@@ -30,6 +30,7 @@ from lambda_gui.tree import ModelTree
 if TYPE_CHECKING:
     from lambda_core.schema.draft import Draft
     from lambda_core.simulate.estimate import Estimate
+    from lambda_gui.catalogue import Taken
 
 _CHECK_AFTER = 0.1  # of quiet [s]
 _KEEP_AFTER = 2.0  # of unsaved work [s]
@@ -318,5 +319,25 @@ class BuilderScreen(Screen[None]):
         self._show_head()
 
     def action_catalogue(self) -> None:
-        """Choose a bearing or an oil."""
-        self.app.show_catalogue()  # type: ignore[attr-defined]
+        """Choose a bearing, or an oil when its form is shown."""
+        form = self.form
+        is_oil = form is not None and form.node.key.startswith("lubricant")
+        self.app.show_catalogue("lubricant" if is_oil else "bearing")  # type: ignore[attr-defined]
+
+    def take(self, found: Taken) -> None:
+        """Put a row of the catalogue into the case; values of another bearing or oil written here go."""
+        if found.kind == "bearing":
+            self.draft.set("bearing", "designation", value=found.name)
+            self.draft.set("bearing", "maker", value=found.maker)
+            old = ("bearing", "geometry")
+        else:
+            self.draft.set("lubricant", "name", value=found.name)
+            old = ("lubricant", "properties")
+        if self.draft.get(*old) is not None:
+            self.draft.set(*old, value=None)
+            self.notify(f"[{'.'.join(old)}] belonged to the one before and was taken out; Ctrl+Z brings it back")
+        self.draft.seal()
+        self.go_to((found.kind, "designation" if found.kind == "bearing" else "name"))
+        if self.form is not None:
+            self.form.reload(self.check.problems)
+        self.edited()
