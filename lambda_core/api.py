@@ -59,6 +59,7 @@ __all__ = [
     "plugins",
     "problems",
     "quasistatic",
+    "report",
     "resolve",
     "result",
     "resume",
@@ -570,6 +571,40 @@ def view_stem(source: Sequence[str | Path]) -> str:
     from lambda_core.report.gallery import stem_of
 
     return stem_of([Path(path) for path in source])
+
+
+def report(source: str | Path, out: str | Path | None = None, *, overwrite: bool = False) -> Path:
+    """Write one self-contained, printable HTML page about a run or a study; return its path.
+
+    Parameters
+    ----------
+    source : path-like
+        A result file or the folder of a study.
+    out : path-like, optional
+        Default: the name of the source with ``.html`` in the working directory.
+
+    Raises
+    ------
+    UsageError
+        When the source is neither, or the page exists or cannot be written.
+    """
+    from lambda_core.registry.manager import registry
+    from lambda_core.report.page import case_inputs, run_report, study_report, write_page
+
+    path = Path(out) if out is not None else Path(f"{view_stem([source])}.html")
+    if path.exists() and not overwrite:
+        raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
+    subject, kind = _subject(source)
+    if kind == "study":
+        from lambda_core.schema.case_io import parse_case
+        from lambda_core.study.session import files
+
+        definition, case_toml = files(Path(source))
+        inputs = case_inputs(resolve(parse_case(case_toml, str(source))))
+        text = study_report(registry(), subject, study_status(source), inputs, definition)
+    else:
+        text = run_report(registry(), subject)
+    return write_page(text, path)
 
 
 def study_check(

@@ -75,7 +75,7 @@ class Series:
     low: FloatArray | None = None
     high: FloatArray | None = None
     band: str = ""
-    group: int | None = None  # series of one group share their look; None gives each its own
+    group: int | None = None  # equal numbers look alike in every panel; None gives each series its own look
     unlisted: bool = False  # no entry in the legend
 
     def __post_init__(self) -> None:

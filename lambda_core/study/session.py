@@ -151,6 +151,14 @@ def table(folder: Path) -> StudyTable:
         return manifest.table()
 
 
+def files(folder: Path) -> tuple[str, str]:
+    """Return the study file and the case, complete, as they were when the study was started."""
+    import tomlkit
+
+    with closing(Manifest(folder)) as manifest:
+        return tomlkit.dumps(manifest.study.model_dump(mode="json", exclude_unset=True)), manifest.case_toml
+
+
 def is_study(path: Path) -> bool:
     """Tell whether a path is the folder of a study."""
     from lambda_core.study.manifest import FILE

@@ -39,10 +39,10 @@ def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
         return Panel(title, which, Axis(label, unit), (series,))
 
     stacks = []
-    for name in (*PER_RING, *REST):
+    for group, name in enumerate((*PER_RING, *REST)):
         keys = [f"{name}_inner", f"{name}_outer"] if name in PER_RING else [name]
         values = [sum(s.friction_breakdown_Nmm[key] or 0.0 for key in keys) for s in summaries]
-        stacks.append(Series(name, places, column(values), "bars"))
+        stacks.append(Series(name, places, column(values), "bars", group=group))
     slip = [
         None if s.cage_speed_over_epicyclic is None else 100.0 * (1.0 - s.cage_speed_over_epicyclic) for s in summaries
     ]

@@ -53,17 +53,14 @@ def _name(series: Series) -> str | None:
 
 
 def _looks(series: tuple[Series, ...]) -> list[Look]:
-    """Return the look of every series; those of one group share it."""
-    found, known, position = [], dict[int, Look](), 0
+    """Return the look of every series: that of its role, of its group, or the next of the cycle."""
+    found, position = [], 0
     for item in series:
-        if item.group is not None and item.group in known:
-            found.append(known[item.group])
-            continue
-        look = look_of(item.role, position)
-        position += 0 if item.role else 1
         if item.group is not None:
-            known[item.group] = look
-        found.append(look)
+            found.append(look_of("", item.group))
+            continue
+        found.append(look_of(item.role, position))
+        position += 0 if item.role else 1
     return found
 
 
@@ -105,7 +102,7 @@ def _fill(look: Look) -> dict[str, Any]:
 def _values(axes: Any, places: Any, tops: Any, values: Any) -> None:
     """Write numbers above bars, all to the digits that the largest one has."""
     largest = np.nanmax(np.abs(values)) if np.isfinite(values).any() else 0.0
-    digits = max(0, 3 - int(np.floor(np.log10(largest)))) if largest > 0.0 else 0
+    digits = max(0, 2 - int(np.floor(np.log10(largest)))) if largest > 0.0 else 0
     for place, top, value in zip(places, tops, values, strict=True):
         if np.isfinite(value):
             axes.annotate(
@@ -270,8 +267,9 @@ def _legend(axes: Any, panel: Panel) -> None:
     handles, labels = axes.get_legend_handles_labels()
     if not labels or (len(labels) == 1 and panel.field is None and not panel.marks and len(panel.series) == 1):
         return
-    if panel.stacked and len(labels) > _OUTSIDE:
-        axes.legend(handles[::-1], labels[::-1], loc="center left", bbox_to_anchor=(1.01, 0.5))
+    if len(labels) > _OUTSIDE and panel.shape == "plain":
+        order = slice(None, None, -1) if panel.stacked else slice(None)
+        axes.legend(handles[order], labels[order], loc="center left", bbox_to_anchor=(1.01, 0.5))
     elif panel.shape == "polar":
         axes.legend(handles, labels, loc="upper left", bbox_to_anchor=(-0.3, 1.08))
     elif panel.field is not None:

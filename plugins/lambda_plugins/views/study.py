@@ -20,9 +20,14 @@ from lambda_core.plugins import (
 )
 from lambda_core.study.sensitivity import Sensitivity, sensitivities
 from lambda_plugins.views.common import FloatArray
+from lambda_plugins.views.friction import PER_RING, REST
 
 _CURVES = 9  # curves in a panel
 _BREAKDOWN = "friction_breakdown_Nmm."
+
+
+_STEADINESS = "cage_speed_deviation"  # the response that the stability map judges unless told otherwise
+_MECHANISMS = (*PER_RING, *REST)
 
 
 class Choice(Options):
@@ -36,7 +41,7 @@ class Choice(Options):
 class Threshold(Choice):
     """What the stability map shows."""
 
-    response: str = Declared("cage_speed_deviation", description="name of the response that is judged")
+    response: str = Declared(_STEADINESS, description="name of the response that is judged")
     limit: float = Declared(0.2, description="largest value that counts as stable")
 
 
@@ -108,7 +113,7 @@ def study_curves(table: StudyTable, options: Choice) -> ViewData:
             series: tuple[Series, ...] = (Series("points", x.numbers(), response.numbers(), "points", unlisted=True),)
         else:
             series = tuple(_curve(x, response, rows, label) for label, rows in groups.items())
-        panels.append(Panel(response.label, _axis(x), Axis(response.label, response.unit), series))
+        panels.append(Panel("", _axis(x), Axis(response.label, response.unit), series))
     notes = ("points: all other parameters vary too",) if sampled else ()
     return ViewData("study-curves", "Responses over a parameter", _source(table), tuple(panels), 2, notes)
 
@@ -169,7 +174,7 @@ def study_map(table: StudyTable, options: Choice) -> ViewData:
             continue
         levels = _levels(float(finite.min()), float(finite.max()))
         field = Field(response.label, response.unit, mesh_x, mesh_y, mesh, levels=levels)
-        panels.append(Panel(response.label, _axis(x), _axis(y), _failed(table, x, y), (), field))
+        panels.append(Panel("", _axis(x), _axis(y), _failed(table, x, y), (), field))
     if not panels:
         raise NotApplicable("no response varies over the points that have a result")
     notes = ("crosses: points without a result",) if any(panel.series for panel in panels) else ()
@@ -215,7 +220,7 @@ def friction_stack(table: StudyTable, options: Choice) -> ViewData:
             merged[name] = merged.get(name, 0.0) + values
         total = sum(merged.values())
         series = tuple(
-            Series(name, places[order], values, "area")
+            Series(name, places[order], values, "area", group=_MECHANISMS.index(name))
             for name, values in merged.items()
             if values.max() > 1e-3 * np.max(total)
         )
@@ -262,6 +267,8 @@ def _tornado(response: Column, found: Sensitivity) -> Panel:
 
 def stability_map(table: StudyTable, options: Threshold) -> ViewData:
     """Where a measure of unsteadiness stays below a limit, over two parameters."""
+    if options.response == _STEADINESS and _STEADINESS not in table.units():
+        raise NotApplicable(f'the study has no response "{options.response}": choose another with response=NAME')
     response = table.response(options.response)
     x, y, mesh_x, mesh_y, mesh = _surface(table, options, response)
     if not np.isfinite(mesh).any():
