@@ -67,7 +67,12 @@ class Equilibrium:
 
 
 def solve(
-    model: BearingModel, kernels: A.Kernels | None = None, announce: A.Announce = None, *, strict: bool = True
+    model: BearingModel,
+    kernels: A.Kernels | None = None,
+    announce: A.Announce = None,
+    *,
+    strict: bool = True,
+    phase: float = 0.0,
 ) -> Equilibrium:
     """Find the quasi-static equilibrium at t = 0.
 
@@ -76,6 +81,8 @@ def solve(
     strict : bool
         Whether the balls' friction must be in equilibrium too. The dynamics can start without it: a ball that the
         inner ring barely touches has no steady motion of its own.
+    phase : float
+        Where the balls stand, in ball pitches: at 0 one of them is lowest, at 0.5 two are equally low.
 
     Raises
     ------
@@ -83,15 +90,16 @@ def solve(
         When there is none, with what was tried.
     """
     kernels = kernels or A.Kernels(model, announce)
-    compiled = core(announce)
     frame = _first_frame(model)
     oil = A.derive_oil(model, kernels, frame)
+    # A law that breaks the rules is refused at once, not after the solver was compiled.
     A.check_laws(model, kernels, frame, oil)
+    compiled = core(announce)
     state: FloatArray | None = None
     for _ in range(_FRAME_ITERATIONS):
         assembly = A.assemble(model, kernels, frame, oil)
         if state is None:
-            state = first_state(assembly)
+            state = first_state(assembly, phase)
         _settle(compiled, assembly, state, friction=False)
         contacts, _ = _contacts(compiled, assembly, state)
         new = _frame_of(contacts, frame)
@@ -138,8 +146,8 @@ def free_contact_angle(model: BearingModel) -> float:
     return math.acos(max(-1.0, min(1.0, 1.0 - 0.5 * max(g.clearance, 0.0) / distance)))
 
 
-def first_state(assembly: A.Assembly) -> FloatArray:
-    """Return balls evenly spaced, one of them lowest, and the inner ring moved into contact."""
+def first_state(assembly: A.Assembly, phase: float = 0.0) -> FloatArray:
+    """Return balls evenly spaced, one of them lowest (moved on by `phase` pitches), the inner ring in contact."""
     model = assembly.model
     g = model.geometry
     z = g.ball_count
@@ -168,7 +176,7 @@ def first_state(assembly: A.Assembly) -> FloatArray:
     for j in range(z):
         y[L.NB * j + L.BX] = axial
         y[L.NB * j + L.BR] = 0.5 * g.pitch_diameter
-        y[L.NB * j + L.BPSI] = -0.5 * math.pi + 2.0 * math.pi * j / z
+        y[L.NB * j + L.BPSI] = -0.5 * math.pi + 2.0 * math.pi * (j + phase) / z
     y[L.NB * z :] = shared[assembly.bundle.active]
     _roll(assembly, y)
     return y
