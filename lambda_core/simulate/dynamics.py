@@ -55,8 +55,8 @@ class BearingEngine:
         self, model: BearingModel, announce: A.Announce = None, equilibrium: Equilibrium | None = None
     ) -> None:
         self.model = model
-        self._core = core(announce)
         self._equilibrium = equilibrium or solve(model, announce=announce, strict=False)
+        self._core = core(announce)
         self._assembly = self._equilibrium.assembly
         self._balls = model.geometry.ball_count
         start = initial_state(self._equilibrium)

@@ -54,8 +54,9 @@ OK, FULL, STEP_TOO_SMALL, FAULT = 0, 1, 2, 3
 
 _NEWTON_TOLERANCE = 0.3  # of the error allowed per step
 _MAX_NEWTON = 4
-_REFACTOR = 0.25  # relative change of gamma beyond which M is factored anew
+_REFACTOR = 0.4  # relative change of gamma beyond which M is factored anew
 _SLOW = 0.3  # convergence rate beyond which the Jacobian is renewed
+_SAFETY = 0.8  # of the step that the error would just allow
 _GROWTH = 1.4  # of the step, at most; BDF2 is stable up to 2.4
 _MAX_AGE = 60  # steps after which the Jacobian is renewed in any case
 
@@ -278,7 +279,7 @@ def advance(evaluate, jacobian, until, max_steps, bundle, bl, fa, mem):
                 for i in range(mem.change.size):
                     mem.change[i] = share * (mem.new[i] - mem.predicted[i])
                 error = _norm(mem.change, mem.weight)
-                factor = 0.9 * (error + 1e-10) ** (-1.0 / 3.0 if count[HISTORY] >= 2 else -0.5)
+                factor = _SAFETY * (error + 1e-10) ** (-1.0 / 3.0 if count[HISTORY] >= 2 else -0.5)
                 if error <= 1.0:
                     break
                 count[REJECTED] += 1

@@ -6,7 +6,6 @@ import subprocess
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -86,8 +85,16 @@ def _build_side_by_side(names: list[str], announce: Callable[[str], None] | None
         worker.wait()
 
 
-@cache
-def _core(announce: Callable[[str], None] | None) -> Core:
+def _call(dispatcher: Any, signature: Any) -> Any:
+    """Return the machine code of one signature as a Python callable.
+
+    A dispatcher would work out the types of its arguments at every call, a millisecond for the bundle; here they are
+    always the same, made by lambda_core.physics.assembly.
+    """
+    return dispatcher.get_compile_result(signature).entry_point
+
+
+def _load(announce: Callable[[str], None] | None) -> Core:
     absent = missing()
     if len(absent) > 1:
         _build_side_by_side(absent, announce)
@@ -99,8 +106,11 @@ def _core(announce: Callable[[str], None] | None) -> Core:
         f"{name}_pointer": Pointer(built[name], UNITS[name][1])
         for name in ("wrench", "tangent", "evaluate", "jacobian")
     }
-    rest = {name: built[name] for name in ("evaluate", "jacobian", "advance", "observe", "settle")}
-    return Core(**pointers, **rest)
+    names = ("evaluate", "jacobian", "advance", "observe", "settle")
+    return Core(**pointers, **{name: _call(built[name], UNITS[name][1]) for name in names})
+
+
+_loaded: list[Core] = []
 
 
 def core(announce: Callable[[str], None] | None = None) -> Core:
@@ -108,4 +118,6 @@ def core(announce: Callable[[str], None] | None = None) -> Core:
 
     `announce` is called with a sentence before anything is compiled.
     """
-    return _core(announce)
+    if not _loaded:
+        _loaded.append(_load(announce))
+    return _loaded[0]
