@@ -16,11 +16,14 @@ from lambda_gui import recovery
 from lambda_gui.builder import BuilderScreen
 from lambda_gui.commands import OptionSearch
 from lambda_gui.dialogs import EMPTY, Ask, AskText, OpenCase
+from lambda_gui.runs import Queue, Run
 from lambda_gui.theme import DARK, LIGHT
 
 if TYPE_CHECKING:
     from lambda_core.schema.draft import Draft
     from lambda_gui.catalogue import Kind
+
+_POLL = 0.2  # how often runs are asked what is new [s]
 
 
 class BuilderApp(App[None]):
@@ -47,12 +50,15 @@ class BuilderApp(App[None]):
     def __init__(self, case: str | None = None) -> None:
         super().__init__()
         self._start = case
+        self.queue = Queue(self._run_ended)
 
     def on_mount(self) -> None:
         """Show the case, or ask for one."""
         self.register_theme(DARK)
         self.register_theme(LIGHT)
         self.theme = DARK.name
+        self.queue.find_earlier()
+        self.set_interval(_POLL, self._poll_runs)
         if self._start is None:
             self._open(None)
             self.call_after_refresh(self.action_open_case)
@@ -215,9 +221,56 @@ class BuilderApp(App[None]):
 
         self.push_screen(HelpScreen(type(self.screen).__name__))
 
+    # -- runs --
+
+    def action_run_case(self) -> None:
+        """Run the case as it stands, saved or not."""
+        builder = self.builder
+        model = builder.check.model
+        if model is None:
+            count = len(builder.check.problems)
+            text = f"{count} mistake{'s' * (count != 1)} to mend first: F8" if count else "still checking"
+            self.notify(text, severity="warning", timeout=4)
+            return
+        draft = builder.draft
+        folder = draft.path.resolve().parent if draft.path else Path.cwd()
+        try:
+            run = self.queue.add(model.name, model.case_toml, folder)
+        except LambdaError as error:
+            self.notify(str(error), severity="error", timeout=10)
+            return
+        self.action_runs(run)
+
+    def action_runs(self, shown: Run | None = None) -> None:
+        """Show all runs."""
+        from lambda_gui.run_screen import RunScreen
+
+        if not isinstance(self.screen, RunScreen):
+            self.push_screen(RunScreen(self.queue, shown))
+
+    def _poll_runs(self) -> None:
+        if not self.queue.poll():
+            return
+        from lambda_gui.run_screen import RunScreen
+
+        if isinstance(self.screen, RunScreen):
+            self.screen.follow()
+        for screen in self.screen_stack:
+            if isinstance(screen, BuilderScreen) and screen.is_mounted:
+                screen.refresh_head()
+
+    def _run_ended(self, run: Run) -> None:
+        severity: Any = {"done": "information", "stopped": "warning", "failed": "error"}[run.state]
+        self.notify(f"{run.name}: {run.message}", severity=severity, timeout=6)
+
     def run_words(self) -> str:
         """Return a few words about the runs that are going on."""
-        return ""
+        active = self.queue.active
+        if not active:
+            return ""
+        last = active[0].last
+        words = f"▶ {last.percent:.0f} %" if last else "▶ starting"
+        return f"{words} +{len(active) - 1}" if len(active) > 1 else words
 
     def action_toggle_theme(self) -> None:
         """Change between light and dark."""
@@ -225,13 +278,44 @@ class BuilderApp(App[None]):
 
     async def action_quit(self) -> None:
         """Leave when everything is saved or given up."""
-        self.unless_unsaved(self.exit)
+        self.unless_unsaved(self._unless_running)
+
+    def _unless_running(self) -> None:
+        active = self.queue.active
+        waiting = [run for run in active if run.state == "waiting"]
+        if not active:
+            self.leave()
+            return
+
+        def answered(answer: str | None) -> None:
+            if answer == "stop them":
+                for run in active:
+                    run.cancel()
+            if answer in ("stop them", "let them go on"):
+                self.leave()
+
+        going = len(active) - len(waiting)
+        text = f"{going} run{'s' * (going != 1)} going on, {len(waiting)} waiting (these would not be started)."
+        self.push_screen(Ask(text, ["let them go on", "stop them", "go back"]), answered)
+
+    def leave(self) -> None:
+        """End the builder."""
+        self.builder.keeper.drop()
+        self.queue.close()
+        self.exit()
 
     def get_system_commands(self, screen: Screen[Any]) -> Iterable[SystemCommand]:
         """Return what the command palette offers besides the options of the case."""
         yield SystemCommand("Open a case", "a file, a built-in case, or an empty model", self.action_open_case)
         yield SystemCommand("Save", "write the case to its file", self.save_case)
         yield SystemCommand("Save as", "write the case to another file", self.action_save_as)
+        yield SystemCommand("Run", "run the case as it stands", self.action_run_case)
+        yield SystemCommand("Runs", "the queue and live traces", self.action_runs)
+        yield SystemCommand("Catalogue of bearings", "choose one for the case", self.show_catalogue)
+        yield SystemCommand(
+            "Catalogue of lubricants", "choose one for the case", lambda: self.show_catalogue("lubricant")
+        )
+        yield SystemCommand("Undo", "take the last change back", lambda: self.builder.action_undo())
         yield SystemCommand("Light or dark", "change the colours", self.action_toggle_theme)
         yield SystemCommand("Themes", "choose among all colour themes", self.search_themes)
         yield SystemCommand("Help", "keys, axes and signs", self.action_help)

@@ -77,7 +77,12 @@ class Status:
 
 def this_process() -> dict[str, str]:
     """Return what identifies this process on this host."""
-    return {"host": socket.gethostname(), "pid": str(os.getpid()), "start": _started(os.getpid())}
+    return identity(os.getpid())
+
+
+def identity(pid: int) -> dict[str, str]:
+    """Return what identifies a process on this host."""
+    return {"host": socket.gethostname(), "pid": str(pid), "start": _started(pid)}
 
 
 def _started(pid: int) -> str:

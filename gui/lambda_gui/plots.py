@@ -1,0 +1,92 @@
+"""Plots in the terminal, in the colours of the theme."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from textual.color import Color
+from textual_plotext import PlotextPlot
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    FloatArray = NDArray[np.float64]
+
+Colour = tuple[int, int, int]
+_CYCLE = ("primary", "accent", "success", "error", "warning", "secondary")
+
+
+class Plot(PlotextPlot):
+    """A plot whose content is drawn by `fill`, again whenever size or theme change."""
+
+    DEFAULT_CSS = """
+    Plot { background: $background; }
+    """
+
+    def clear(self, title: str = "") -> None:
+        """Begin anew."""
+        self.plt.clear_figure()
+        self.plt.title(title)
+
+    def colour(self, name: str) -> Colour:
+        """Return a colour of the theme."""
+        return Color.parse(self.app.theme_variables[name]).rgb
+
+    def cycle(self, number: int) -> Colour:
+        """Return the colour of the n-th series."""
+        return self.colour(_CYCLE[number % len(_CYCLE)])
+
+    def ticks(self, low: float, high: float, axis: str, wanted: int) -> None:
+        """Put round numbers along an axis."""
+        places = round_numbers(low, high, wanted)
+        labels = labels_of(places)
+        if axis == "x":
+            self.plt.xlim(low, high)
+            self.plt.xticks(places, labels)
+        else:
+            self.plt.ylim(low, high)
+            self.plt.yticks(places, labels)
+
+
+def round_numbers(low: float, high: float, wanted: int) -> list[float]:
+    """Return about `wanted` round numbers between two."""
+    if not (math.isfinite(low) and math.isfinite(high)) or high <= low:
+        return [low] if math.isfinite(low) else []
+    rough = (high - low) / max(wanted, 1)
+    power = 10.0 ** math.floor(math.log10(rough))
+    step = next((power * factor for factor in (1.0, 2.0, 2.5, 5.0, 10.0) if power * factor >= rough), 10.0 * power)
+    first = math.ceil(low / step - 1e-9)
+    last = math.floor(high / step + 1e-9)
+    return [step * number for number in range(first, last + 1)]
+
+
+def labels_of(places: Sequence[float]) -> list[str]:
+    """Write ticks with as few digits as tell them apart."""
+    for digits in range(2, 8):
+        labels = [f"{place:.{digits}g}" for place in places]
+        if len(set(labels)) == len(labels) and all(
+            math.isclose(float(label), place, rel_tol=1e-6, abs_tol=1e-12)
+            for label, place in zip(labels, places, strict=True)
+        ):
+            break
+    else:
+        labels = [f"{place:g}" for place in places]
+    return [_plain(label) for label in labels]
+
+
+def _plain(label: str) -> str:
+    """Write 1.5e+03 as 1500."""
+    value = float(label)
+    return f"{value:.10g}" if "e" in label and 1e-3 <= abs(value) < 1e6 else label
+
+
+def padded(low: float, high: float, least: float = 0.0) -> tuple[float, float]:
+    """Return a range a little wider than the data's, at least `least` wide."""
+    if not (math.isfinite(low) and math.isfinite(high)):
+        return 0.0, 1.0
+    width = max(high - low, least, 1e-9 * max(abs(low), abs(high)), 1e-30)
+    middle = 0.5 * (low + high)
+    return middle - 0.55 * width, middle + 0.55 * width
