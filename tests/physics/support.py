@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 from lambda_core import api
 from lambda_core.physics import assembly as A
 from lambda_core.physics.channels import LOSSES
+from lambda_core.physics.compiled import bdf
 from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.compiled.arrow import make_factors
 from lambda_core.physics.compiled.entry import core
 from lambda_core.physics.equilibrium import fault_sentence
 from lambda_core.physics.model import BearingModel
@@ -140,6 +142,37 @@ class Machine:
         """Return the whole shared state (3, 12), prescribed motions included."""
         self.evaluate(y, t, want=0)
         return self.assembly.bundle.scratch[L.SHARED, : 3 * L.NS].reshape(3, L.NS).copy()
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What the integrator wrote."""
+
+    times: FloatArray  # (n,)
+    states: FloatArray  # (n, size)
+    steps: int
+
+    def ball(self, j: int) -> FloatArray:
+        """Return the states of one ball, (n, 9)."""
+        return self.states[:, L.NB * j : L.NB * (j + 1)]
+
+
+def integrate(m: Machine, y: FloatArray, duration: float, tolerance: float, samples: int = 100) -> Motion:
+    """Integrate from any state, sampled at equal intervals from 0 on."""
+    memory = bdf.make_memory(y, m.assembly.scale, tolerance, samples + 8)
+    interval = duration / samples
+    memory.control[bdf.H], memory.control[bdf.H_MIN], memory.control[bdf.H_MAX] = 1e-9, 1e-16, interval
+    memory.control[bdf.SAMPLE_STEP] = interval
+    memory.count[bdf.STALE] = 1
+    compiled, factors = core(), make_factors(m.count, m.active.size)
+    while memory.control[bdf.T] < duration:
+        status = compiled.advance(
+            compiled.evaluate_pointer, compiled.jacobian_pointer, duration, 10_000, m.assembly.bundle,
+            m.assembly.blocks, factors, memory,
+        )  # fmt: skip
+        assert status == bdf.OK, (status, memory.control[bdf.T], fault_sentence(m.assembly))
+    n = int(memory.count[bdf.SAMPLES])
+    return Motion(memory.sample_t[:n].copy(), memory.sample_y[:n].copy(), int(memory.count[bdf.STEPS]))
 
 
 @cache
