@@ -30,7 +30,6 @@ from lambda_core.simulate.writer import ResultWriter
 
 RECORDS_PER_REVOLUTION = 40
 _FLUSH_AFTER = 1.0  # wall time [s]
-_FLUSH_SAMPLES = 4096
 _REPORT_AFTER = 0.1  # wall time [s]
 
 
@@ -68,7 +67,7 @@ def run(
 
 def _begin(engine: Engine, provenance: Provenance, writer: ResultWriter, report: Report | None) -> Result:
     start = row(engine.time, engine.integrals())
-    writer.add(engine.samples(), start, [start])
+    writer.add_record(start, [start])
     return _Session(engine, provenance.model, writer, [start], start, Position(0, Rows(), 0.0), report).drive()
 
 
@@ -206,12 +205,9 @@ class _Session:
         advance = engine.advance(min(target, self._end))
         if advance.ok and engine.time <= before:
             advance = Advance(False, f"the engine does not get past t = {before:.9g} s")
-        samples = engine.samples()
-        if len(samples.get("time", ())):
-            self._loads = tuple(samples["load"][-1, :, RINGS.index("inner")].tolist())
         record = row(engine.time, engine.integrals())
         crossed = boundaries(self._last, record, len(self._known) - 1)
-        self._writer.add(samples, record, crossed)
+        self._writer.add_record(record, crossed)
         self._recent, self._last = Interval(self._last, record), record
         self._known.extend(crossed)
         if crossed or not self._window.revolutions:
@@ -231,28 +227,40 @@ class _Session:
         now = time.perf_counter()
         if self._report is not None and now - self._reported >= _REPORT_AFTER:
             self._reported = now
+            self._collect()
             self._report(self._progress())
         if now - self._saved >= self._checkpoint_after:
             self._save()
-        elif now - self._flushed >= _FLUSH_AFTER or self._writer.pending() >= _FLUSH_SAMPLES:
-            self._writer.flush(self._status("running", ""))
-            self._flushed = time.perf_counter()
+        elif now - self._flushed >= _FLUSH_AFTER:
+            self._flush("running", "")
 
     def _save(self) -> None:
         """Flush, then write a checkpoint of what was flushed."""
-        self._writer.flush(self._status("running", ""))
+        self._flush("running", "")
         status = self._status("running", "")
         written, tail = self._writer.written(), self._off_grid
         rows = Rows(written.samples, written.records - tail.records, written.revolutions - tail.revolutions)
         self._sequence += 1
         position = Position(self._sequence, rows, status.wall, status.statistics)
         self._writer.save(Checkpoint(position, self._engine.state()))
-        self._saved = self._flushed = time.perf_counter()
+        self._saved = time.perf_counter()
+
+    def _collect(self) -> None:
+        """Take the samples that the engine has gathered; each call of it costs, so not after every record."""
+        samples = self._engine.samples()
+        if len(samples["time"]):
+            self._loads = tuple(samples["load"][-1, :, RINGS.index("inner")].tolist())
+        self._writer.add_samples(samples)
+
+    def _flush(self, state: State, message: str) -> None:
+        self._collect()
+        self._writer.flush(self._status(state, message))
+        self._flushed = time.perf_counter()
 
     def _finish(self, state: State, message: str, *, save: bool = True) -> None:
         if save:
             self._save()
-        self._writer.flush(self._status(state, message))
+        self._flush(state, message)
         self._writer.close(compress=True)
         if self._report is not None and save:
             self._report(self._progress())

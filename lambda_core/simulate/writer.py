@@ -85,12 +85,13 @@ class ResultWriter:
         files.rewrite(path, status.rows, compress=False)
         return cls(h5py.File(path, "r+", libver="latest"), path, channels, status)
 
-    def add(
-        self, samples: Mapping[str, NDArray[np.float64]], record: FloatArray, revolutions: Sequence[FloatArray]
-    ) -> None:
-        """Take what one advance of the engine brought."""
-        if samples and len(samples["time"]):
+    def add_samples(self, samples: Mapping[str, NDArray[np.float64]]) -> None:
+        """Take samples, channel -> array."""
+        if len(samples["time"]):
             self._samples.append(samples)
+
+    def add_record(self, record: FloatArray, revolutions: Sequence[FloatArray]) -> None:
+        """Take running integrals, and those at the cage revolutions that were completed since the last."""
         self._records.append(record)
         self._revolutions.extend(revolutions)
 

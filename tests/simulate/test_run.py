@@ -187,3 +187,30 @@ def test_the_window_is_what_extremes_are_taken_over(provenance: MakeProvenance, 
     summary = result.summary()
     assert summary.max_pressure_GPa == pytest.approx(1e-9 * result["max_pressure"][kept][loaded].max())
     assert summary.min_film_um == pytest.approx(1e6 * result["film_minimum"][kept][loaded].min())
+
+
+def test_memory_is_flat_over_a_long_run(
+    provenance: MakeProvenance, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """18 against 8 cage revolutions: what Python holds grows by less than a twentieth of what is written.
+
+    A hundred times the real rate of flushes, since the fake engine is about that much faster than a real one.
+    """
+    import tracemalloc
+
+    held: dict[int, int] = {}
+
+    def look(progress: Progress) -> None:
+        held.setdefault(int(progress.cage_revolutions), tracemalloc.get_traced_memory()[0])
+
+    monkeypatch.setattr("lambda_core.simulate.run._FLUSH_AFTER", 0.1)
+    monkeypatch.setattr("lambda_core.simulate.run._REPORT_AFTER", 0.0)
+    tracemalloc.start()
+    try:
+        result = run(FakeEngine(), provenance(duration=18 * TURN), tmp_path / "r.h5", report=look)
+    finally:
+        tracemalloc.stop()
+    late = [size for turn, size in held.items() if 14 <= turn < 18]
+    early = [size for turn, size in held.items() if 4 <= turn < 8]
+    written = 10 * 200 * 8 * sum(math.prod(result[c.name].shape[1:]) for c in result.channels)
+    assert min(late) - min(early) < 0.05 * written
