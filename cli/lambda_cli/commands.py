@@ -56,7 +56,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "db": ("lambda_cli.db:app", "Search and edit the catalogue of bearings, oils and materials."),
     "plugins": ("lambda_cli.plugins:app", "List, show, check and start plugins."),
     "warmup": ("lambda_cli.warmup:warmup", "Compile ahead of the first run."),
-    "gui": ("lambda_cli.gui:gui", "Build cases and look at results in the terminal."),
+    "gui": ("lambda_gui.command:gui", "Build cases and look at results in the terminal."),
 }
 
 

@@ -49,7 +49,8 @@ def run(
     """Run a study into a folder of its own.
 
     Ctrl+C keeps what there is; lambda-bearing study resume FOLDER goes on. Exit codes: 0 every point has a result,
-    2 the study is too large or cannot be written, 3 it is invalid, 5 points failed or are missing, 130 interrupted.
+    2 the study is too large or cannot be written, 3 it is invalid, 5 points failed or have not converged, 130
+    interrupted.
     """
     from lambda_core import api
 
@@ -128,8 +129,10 @@ def _finish(status: StudyStatus, as_json: bool) -> None:
     if status.pending:
         typer.echo(f"interrupted; go on with: lambda-bearing study resume {status.folder}", err=True)
         raise typer.Exit(130)
-    if status.failed:
-        raise PartialResultError(f"{status.failed} of {status.points} points have no result")
+    lacks = [(status.failed, "have no result"), (status.partial, "have not converged")]
+    short = [f"{count} of {status.points} points {what}" for count, what in lacks if count]
+    if short:
+        raise PartialResultError("; ".join(short))
 
 
 def _csv(table: StudyTable) -> None:
