@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lambda_core.study.values import scale_of
 
@@ -63,11 +63,13 @@ class Entry:
 def blind_set() -> tuple[Entry, ...]:
     """Return the entries of the parameter file."""
     data = tomllib.loads(files(__package__).joinpath(FILE).read_text(encoding="utf-8"))
-    lists = ("range", "alternatives")
-    return tuple(
-        Entry(**{key: tuple(value) if key in lists else value for key, value in entry.items()})
-        for entry in data["entry"]
-    )
+    return tuple(_entry(**table) for table in data["entry"])
+
+
+def _entry(
+    *, range: Sequence[str] = (), alternatives: Sequence[str] = (), path: str, value: str, source: str, **rest: Any
+) -> Entry:
+    return Entry(path, value, source, tuple(range), alternatives=tuple(alternatives), **rest)
 
 
 def entry(path: str) -> Entry:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,6 +50,17 @@ def friction(model: BearingModel) -> Numbers:
         for name, value in numbers.items():
             total[name] += weight * value
     return {**total}
+
+
+def skf(model: BearingModel) -> Numbers:
+    """Friction torque of the complete SKF model on the same case [N mm]."""
+    from lambda_core.physics.comparison import comparison_inputs
+    from lambda_core.physics.equilibrium import solve
+    from lambda_core.registry.manager import registry
+    from lambda_core.study.task import kernels_of
+
+    table = registry().method("skf").evaluate(comparison_inputs(solve(model, kernels_of(model))))
+    return {row.name: row.value for row in table.rows if row.group == "friction"}
 
 
 def capacitance(model: BearingModel) -> Numbers:
@@ -126,7 +136,9 @@ def torque(result: Result) -> Numbers:
     """Averages of a run: torque and parts [N mm], load of the most loaded ball, what says how good they are."""
     summary = result.summary()
     parts = _grouped({name: value or 0.0 for name, value in summary.friction_breakdown_Nmm.items()})
-    largest = np.concatenate([block["load"][:, :, 0].max(axis=1) for block in result.blocks(("load",), _averages_start(result))])
+    largest = np.concatenate(
+        [block["load"][:, :, 0].max(axis=1) for block in result.blocks(("load",), _averages_start(result))]
+    )
     return {
         **parts,
         "torque": summary.friction_torque_Nmm,
@@ -155,6 +167,7 @@ def contacts(result: Result) -> Numbers:
 
 STATIC: Mapping[str, Callable[[BearingModel], Numbers]] = {
     "friction": friction,
+    "skf": skf,
     "capacitance": capacitance,
     "axial resonance": axial_resonance,
 }

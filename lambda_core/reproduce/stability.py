@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,7 +58,7 @@ def excitation_frequency(result: Result) -> float:
     return max((float(t["values"][1]) for t in terms if t["kind"] == "harmonic"), default=0.0)
 
 
-def jackknife(sums: FloatArray, counts: FloatArray) -> tuple[float, float]:
+def jackknife(sums: NDArray[Any], counts: NDArray[Any]) -> tuple[float, float]:
     """Return rms over bins of the mean of a quantity, and its standard error (Efron and Tibshirani 1993, eq. 11.5).
 
     Parameters
@@ -66,7 +67,7 @@ def jackknife(sums: FloatArray, counts: FloatArray) -> tuple[float, float]:
         Sum of the quantity and number of its samples.
     """
 
-    def rms(total: FloatArray, number: FloatArray) -> float:
+    def rms(total: NDArray[Any], number: NDArray[Any]) -> float:
         seen = number > 0
         return float(np.sqrt(np.mean((total[seen] / number[seen]) ** 2)))
 
@@ -88,7 +89,7 @@ def stability(result: Result) -> dict[str, float | None]:
     place = np.floor(np.mod(azimuth, 2.0 * math.pi) / (2.0 * math.pi) * BINS).astype(int) % BINS
     index = (block[:, None] * BINS + place)[outside]
     shape = (BLOCKS, BINS)
-    counts = np.bincount(index, minlength=BLOCKS * BINS).reshape(shape).astype(float)
+    counts = np.bincount(index, np.ones(index.size), BLOCKS * BINS).reshape(shape)
     slip = np.bincount(index, ratio[outside] - 1.0, BLOCKS * BINS).reshape(shape)
     touch = np.bincount(index, (load[outside] > 0.0).astype(float), BLOCKS * BINS).reshape(shape)
     s, s_error = jackknife(slip, counts)

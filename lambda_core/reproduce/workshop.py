@@ -13,6 +13,7 @@ import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, as_completed
 from dataclasses import asdict, dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from types import TracebackType
 
@@ -63,15 +64,13 @@ def do(job: Job, folder: str) -> Answer:
     """Do one job in `folder`, or read what was found before."""
     started = time.perf_counter()
     try:
-        model = resolve_point(_case_text(job.case), job.changes)
+        model = resolve_point(case_text(job.case), job.changes)
         hash_ = point_hash(model)
         kept = Path(folder) / "points" / f"{hash_[:_DIGITS]}-{job.kind.replace(' ', '-')}-{_FORMAT}.json"
         if kept.exists():
             return Answer(**json.loads(kept.read_text(encoding="utf-8")))
-        if job.kind in DYNAMIC:
-            answer = _run(job, hash_, folder)
-        else:
-            answer = Answer("done", "", hash_, STATIC[job.kind](model))
+        dynamic = job.kind in DYNAMIC
+        answer = _run(job, hash_, folder) if dynamic else Answer("done", "", hash_, STATIC[job.kind](model))
     except LambdaError as error:
         return Answer("failed", str(error), "", {})
     answer = Answer(**{**asdict(answer), "seconds": time.perf_counter() - started})
@@ -80,7 +79,9 @@ def do(job: Job, folder: str) -> Answer:
     return answer
 
 
-def _case_text(name: str) -> str:
+@lru_cache(maxsize=16)
+def case_text(name: str) -> str:
+    """Return a built-in case as a file of its own."""
     from lambda_core.schema.case_io import load_case
     from lambda_core.schema.case_writer import standalone_toml
 
@@ -88,7 +89,7 @@ def _case_text(name: str) -> str:
 
 
 def _run(job: Job, hash_: str, folder: str) -> Answer:
-    outcome = work(Task(0, _case_text(job.case), job.changes, "dynamic", (), folder))
+    outcome = work(Task(0, case_text(job.case), job.changes, "dynamic", (), folder))
     if outcome.state in ("failed", "stopped"):
         return Answer("failed", outcome.reason, hash_, {})
     numbers = DYNAMIC[job.kind](Result(Path(folder) / outcome.file))
