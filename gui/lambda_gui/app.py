@@ -272,6 +272,23 @@ class BuilderApp(App[None]):
         words = f"▶ {last.percent:.0f} %" if last else "▶ starting"
         return f"{words} +{len(active) - 1}" if len(active) > 1 else words
 
+    # -- results --
+
+    def action_results(self) -> None:
+        """Show the results beside the case."""
+        path = self.builder.draft.path
+        self.show_result(None, path.resolve().parent if path else Path.cwd())
+
+    def show_result(self, path: Path | None, folder: Path | None = None) -> None:
+        """Show one result, or those of a folder."""
+        from lambda_gui.results_screen import ResultsScreen
+
+        if path is not None and not path.exists():
+            self.notify(f"{path} does not exist yet, or not any more", severity="warning")
+            return
+        where = folder or (path.parent if path is not None else Path.cwd())
+        self.push_screen(ResultsScreen(where, path))
+
     def action_toggle_theme(self) -> None:
         """Change between light and dark."""
         self.theme = LIGHT.name if self.theme == DARK.name else DARK.name
@@ -311,6 +328,7 @@ class BuilderApp(App[None]):
         yield SystemCommand("Save as", "write the case to another file", self.action_save_as)
         yield SystemCommand("Run", "run the case as it stands", self.action_run_case)
         yield SystemCommand("Runs", "the queue and live traces", self.action_runs)
+        yield SystemCommand("Results", "summary, views, comparison, export", self.action_results)
         yield SystemCommand("Catalogue of bearings", "choose one for the case", self.show_catalogue)
         yield SystemCommand(
             "Catalogue of lubricants", "choose one for the case", lambda: self.show_catalogue("lubricant")

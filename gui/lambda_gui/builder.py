@@ -19,8 +19,8 @@ from lambda_core.errors import LambdaError
 from lambda_gui.around import CaseAround
 from lambda_gui.checking import Check, check
 from lambda_gui.derived import Derived
-from lambda_gui.estimating import Estimator
 from lambda_gui.forms import NodeForm
+from lambda_gui.helper import Estimator
 from lambda_gui.outline import Keys, Node
 from lambda_gui.recovery import Keeper
 from lambda_gui.rows import Edited, Left, Row

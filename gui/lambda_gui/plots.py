@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     FloatArray = NDArray[np.float64]
 
 Colour = tuple[int, int, int]
-_CYCLE = ("primary", "accent", "success", "error", "warning", "secondary")
+CYCLE = ("primary", "accent", "success", "error", "warning", "secondary")
 
 
 class Plot(PlotextPlot):
@@ -37,7 +37,7 @@ class Plot(PlotextPlot):
 
     def cycle(self, number: int) -> Colour:
         """Return the colour of the n-th series."""
-        return self.colour(_CYCLE[number % len(_CYCLE)])
+        return self.colour(CYCLE[number % len(CYCLE)])
 
     def ticks(self, low: float, high: float, axis: str, wanted: int) -> None:
         """Put round numbers along an axis."""

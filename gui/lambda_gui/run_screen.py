@@ -35,8 +35,8 @@ class RunScreen(Screen[None]):
     ]
     DEFAULT_CSS = """
     RunScreen { background: $background; }
-    RunScreen DataTable { height: 6; background: $background; scrollbar-size-vertical: 1; }
-    RunScreen #state { height: 3; padding: 0 1; border-top: hkey $border-blurred; }
+    RunScreen DataTable { height: 5; background: $background; scrollbar-size-vertical: 1; }
+    RunScreen #state { height: 3; padding: 0 1; }
     RunScreen #plots { height: 1fr; }
     RunScreen #right { width: 1fr; }
     RunScreen.-wide DataTable { height: 10; }
@@ -62,7 +62,7 @@ class RunScreen(Screen[None]):
     def on_mount(self) -> None:
         """Show the queue and follow it."""
         table = self.query_one(DataTable)
-        for title, width in (("", 1), ("case", 22), ("", 12), ("left", 7), ("M N mm", 16), ("result", None)):
+        for title, width in (("", 1), ("case", 26), ("progress", 12), ("left", 7), ("M N mm", 18)):
             table.add_column(title, width=width)
         table.focus()
         self.follow()
@@ -160,7 +160,7 @@ def _cells(run: Run) -> list[Text]:
         if last.friction_torque_ci_Nmm:
             torque += f" ± {last.friction_torque_ci_Nmm:.2g}"
     time_left = duration(left) if run.is_active and left is not None else ""
-    cells = (_MARK[run.state], run.name, bar, time_left, torque, run.result.name)
+    cells = (_MARK[run.state], run.name, bar, time_left, torque)
     return [Text(cell, no_wrap=True, overflow="ellipsis") for cell in cells]
 
 
@@ -182,8 +182,8 @@ def _state(run: Run, width: int) -> Text:
         text.append(f"{_MARK[run.state]} {run.name}  {run.state}", style="bold")
     text.append(f"\n{run.message}", style="dim")
     if last is not None and last.energy_residual is not None:
-        text.append(f"   energy residual {last.energy_residual:.1e}   wall {last.wall_s:.1f} s", style="dim")
-    return text
+        text.append(f"   energy residual {last.energy_residual:.1e}", style="dim")
+    return text.append(f"   {run.result.name}", style="dim")
 
 
 def _torque(plot: Plot, history: list[Progress]) -> None:

@@ -1,0 +1,131 @@
+"""The builder's side of its helper process, and the estimates it asks for."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import pickle
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.errors import LambdaError
+
+if TYPE_CHECKING:
+    from lambda_core.simulate.estimate import Estimate
+
+_STARTS = 3  # a process that keeps dying is not started for ever
+
+
+class Helper:
+    """One helper process, started when first asked; it does one thing at a time.
+
+    Parameters
+    ----------
+    say : callable
+        Called with a sentence about what is being done.
+    """
+
+    def __init__(self, say: Callable[[str], None]) -> None:
+        self._say = say
+        self._process: asyncio.subprocess.Process | None = None
+        self._turn = asyncio.Lock()
+        self._deaths = 0
+
+    async def ask(self, work: str, **arguments: Any) -> Any:
+        """Have something done and return it.
+
+        Raises
+        ------
+        LambdaError
+            With a sentence: of the work itself, or about the process.
+        """
+        async with self._turn:
+            process = await self._started()
+            assert process.stdin is not None
+            assert process.stdout is not None
+            try:
+                process.stdin.write(json.dumps({"work": work, **arguments}).encode() + b"\n")
+                await process.stdin.drain()
+                while True:
+                    size = int.from_bytes(await process.stdout.readexactly(8), "big")
+                    kind, content = pickle.loads(await process.stdout.readexactly(size))
+                    if kind != "say":
+                        break
+                    self._say(content)
+            except (OSError, asyncio.IncompleteReadError):
+                self._deaths += 1
+                raise LambdaError(f"the helper process has ended while it did this: {work}") from None
+            except asyncio.CancelledError:
+                await self.close()  # the answer to a question that nobody waits for must not meet the next one
+                raise
+        if kind == "error":
+            raise LambdaError(content)
+        self._deaths = 0
+        return content
+
+    async def _started(self) -> asyncio.subprocess.Process:
+        if self._process is not None and self._process.returncode is None:
+            return self._process
+        if self._deaths == _STARTS:
+            raise LambdaError("the helper process has ended several times and is not started again")
+        pipe, null = asyncio.subprocess.PIPE, asyncio.subprocess.DEVNULL
+        command = (sys.executable, "-m", "lambda_gui.helper_process")
+        try:
+            self._process = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe, stderr=null)
+        except OSError as error:
+            raise LambdaError(f"the helper process cannot be started: {error.strerror}") from None
+        return self._process
+
+    async def close(self) -> None:
+        """End the process."""
+        process, self._process = self._process, None
+        if process is not None and process.returncode is None:
+            with contextlib.suppress(ProcessLookupError):
+                process.kill()
+            await process.wait()
+
+
+class Estimator:
+    """Estimates of the case that is being edited; only the newest question counts.
+
+    Parameters
+    ----------
+    tell : callable
+        ``tell(estimate, sentence)``: an estimate, or what is being done or what went wrong.
+    """
+
+    def __init__(self, tell: Callable[[Estimate | None, str], None]) -> None:
+        self._tell = tell
+        self._helper = Helper(lambda text: tell(None, text))
+        self._waiting: tuple[dict[str, Any], Path | None] | None = None
+        self._is_busy = False
+
+    async def ask(self, tables: dict[str, Any], folder: Path | None) -> None:
+        """Ask about a case without mistakes; the answer comes through `tell`."""
+        self._waiting = (tables, folder)
+        if self._is_busy:
+            return
+        self._is_busy = True
+        try:
+            while self._waiting is not None:
+                (tables, folder), self._waiting = self._waiting, None
+                await self._answer(tables, folder)
+        finally:
+            self._is_busy = False
+
+    async def _answer(self, tables: dict[str, Any], folder: Path | None) -> None:
+        try:
+            found = await self._helper.ask("estimate", tables=tables, folder=str(folder) if folder else None)
+        except LambdaError as error:
+            found, words = None, str(error)
+        else:
+            words = ""
+        if self._waiting is None:
+            self._tell(found, words)
+
+    async def close(self) -> None:
+        """End the helper."""
+        await self._helper.close()

@@ -1,0 +1,115 @@
+"""The process that does the heavy work of the builder: equilibria, views, figures.
+
+It is a process of its own because compiled code takes seconds to load and holds the
+interpreter meanwhile. ``python -m lambda_gui.helper_process`` reads one JSON object per line
+(``work`` and its arguments) and answers with pickled pairs, each behind its length in eight
+bytes: ("say", sentence) while it works, then ("done", object) or ("error", sentence).
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import pickle
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+Say = Callable[[str], None]
+
+
+def estimate(say: Say, tables: dict[str, Any], folder: str | None) -> Any:
+    """Solve the equilibrium of a case."""
+    from lambda_core import api
+
+    return api.estimate(api.check(tables, folder=Path(folder) if folder else None), announce=say)
+
+
+def summary(say: Say, path: str) -> Any:
+    """Return the summary of a result."""
+    from lambda_core import api
+
+    return api.summary(path)
+
+
+def case_text(say: Say, path: str) -> str:
+    """Return the case that a result was computed from."""
+    from lambda_core import api
+
+    return api.result(path).case_toml
+
+
+def views(say: Say, subject: str) -> Any:
+    """Return the views of one kind of subject."""
+    from lambda_core import api
+
+    return api.views(subject)  # type: ignore[arg-type]
+
+
+def view(say: Say, sources: list[str], name: str) -> Any:
+    """Return what a view shows."""
+    from lambda_core import api
+
+    say(f"reading {', '.join(Path(source).name for source in sources)} ...")
+    return api.view(sources if len(sources) > 1 else sources[0], name)
+
+
+def draw(say: Say, sources: list[str], name: str, folder: str) -> list[str]:
+    """Draw a view into files."""
+    from lambda_core import api
+
+    say("drawing ...")
+    data = api.view(sources if len(sources) > 1 else sources[0], name)
+    return [str(path) for path in api.draw(data, folder, api.view_stem(sources))]
+
+
+def report(say: Say, sources: list[str], target: str) -> list[str]:
+    """Write a report of each result; several are numbered."""
+    from lambda_core import api
+
+    say("writing the report ...")
+    whole = Path(target)
+    names = [whole if n == 0 else whole.with_stem(f"{whole.stem}-{n + 1}") for n in range(len(sources))]
+    return [str(api.report(source, name)) for source, name in zip(sources, names, strict=True)]
+
+
+_WORK: dict[str, Callable[..., Any]] = {
+    work.__name__: work for work in (estimate, summary, case_text, views, view, draw, report)
+}
+
+
+def main() -> None:
+    """Answer until the other side closes the line."""
+    out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # nothing else may write between the answers
+
+    def reply(kind: str, content: Any) -> None:
+        data = pickle.dumps((kind, content))
+        out.write(len(data).to_bytes(8, "big") + data)
+        out.flush()
+
+    if hasattr(os, "nice"):
+        os.nice(5)
+    for line in sys.stdin:
+        question = json.loads(line)
+        _answer(question.pop("work"), question, reply)
+
+
+def _answer(work: str, arguments: dict[str, Any], reply: Callable[[str, Any], None]) -> None:
+    from lambda_core.errors import LambdaError
+
+    try:
+        found = _WORK[work](lambda text: reply("say", text), **arguments)
+    except LambdaError as error:
+        reply("error", str(error))
+    except Exception as error:  # a plugin's view may fail in any way
+        from lambda_core.registry.faults import describe
+
+        reply("error", f"{work} failed: {describe(error)}")
+    else:
+        reply("done", found)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,346 @@
+"""Results: summary, views, comparison of several, export."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar
+
+from rich.text import Text
+from textual import work
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, Vertical, VerticalScroll
+from textual.screen import Screen
+from textual.widgets import DataTable, Footer, OptionList, Static
+from textual.widgets.option_list import Option
+
+from lambda_core.errors import LambdaError
+from lambda_gui.charts import notes_text, shape_of, widget_for
+from lambda_gui.dialogs import AskText
+from lambda_gui.helper import Helper
+from lambda_gui.summary_view import summary_view
+
+if TYPE_CHECKING:
+    from lambda_core.registry.chart import ViewData
+
+SUMMARY = "summary"
+_LIVE = 2.0  # how often a result that grows is read again [s]
+
+
+class ResultsScreen(Screen[None]):
+    """Result files of a folder.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        Whose results are listed.
+    shown : pathlib.Path, optional
+        The result to begin with.
+    """
+
+    HORIZONTAL_BREAKPOINTS = [(0, "-narrow"), (112, "-wide")]  # noqa: RUF012
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("f1", "app.help", "Help", priority=True),
+        Binding("space", "mark", "Mark"),
+        Binding("e", "figure", "Figure"),
+        Binding("t", "report", "Report"),
+        Binding("c", "case", "Case"),
+        Binding("o", "other", "Open", show=False),
+        Binding("tab", "switch", "Results or views", show=False, priority=True),
+        Binding("pagedown", "scroll(1)", show=False, priority=True),
+        Binding("pageup", "scroll(-1)", show=False, priority=True),
+        Binding("escape,f6", "app.pop_screen", "Back"),
+    ]
+    DEFAULT_CSS = """
+    ResultsScreen { background: $background; }
+    ResultsScreen #left { width: 27; border-right: vkey $border-blurred; }
+    ResultsScreen #files { height: 7; background: $background; scrollbar-size: 0 1; padding: 0 1; }
+    ResultsScreen #views { height: 1fr; background: $background; border: none; padding: 0 1;
+        border-top: hkey $border-blurred; scrollbar-size-vertical: 1; }
+    ResultsScreen #views:focus { border: none; border-top: hkey $border; }
+    ResultsScreen #title { height: 2; padding: 0 1; width: 1fr; }
+    ResultsScreen #content { height: 1fr; padding: 0 1; scrollbar-size-vertical: 1; }
+    ResultsScreen #content Static { width: auto; height: auto; }
+    ResultsScreen .row { width: 1fr; }
+    ResultsScreen.-wide #left { width: 36; }
+    ResultsScreen.-wide #files { height: 14; }
+    """
+
+    def __init__(self, folder: Path, shown: Path | None = None) -> None:
+        super().__init__()
+        self._folder, self._first = folder, shown
+        self._files: list[Path] = []
+        self._more: list[Path] = [shown] if shown is not None else []
+        self._marked: set[Path] = set()
+        self._helper = Helper(self._say)
+        self._name = SUMMARY
+        self._stamp: object = None
+        self._data: ViewData | None = None
+
+    def compose(self) -> ComposeResult:
+        """Lay out files and views beside what is shown."""
+        with Horizontal():
+            with Vertical(id="left"):
+                yield DataTable(cursor_type="row", show_header=False, cell_padding=0, id="files")
+                yield OptionList(id="views", markup=False)
+            with Vertical():
+                yield Static(id="title")
+                yield VerticalScroll(id="content", can_focus=False)
+        yield Footer()
+
+    def on_mount(self) -> None:
+        """List what there is."""
+        table = self.query_one("#files", DataTable)
+        table.add_column("", width=2)
+        table.add_column("result")
+        self._list(self._first)
+        self.query_one("#views", OptionList).focus()
+        self.set_interval(_LIVE, self._refresh_live)
+        self._fill_views()
+
+    async def on_unmount(self) -> None:
+        """End the helper."""
+        await self._helper.close()
+
+    def on_resize(self) -> None:
+        """Lay the panels out for the new size."""
+        if self._data is not None:
+            self._show_data(self._data)
+
+    def _say(self, text: str) -> None:
+        if self.is_attached:
+            self._title(text)
+
+    def _title(self, words: str = "") -> None:
+        names = "  ".join(path.name for path in self._chosen())
+        text = Text(names or "no result files here", style="bold", no_wrap=True, overflow="ellipsis")
+        self.query_one("#title", Static).update(text.append(f"\n{words}", style="dim not bold"))
+
+    # -- files --
+
+    def _list(self, keep: Path | None) -> None:
+        table = self.query_one("#files", DataTable)
+        found = {path.resolve(): None for path in (*self._more, *_results_in(self._folder))}
+        self._files = [path for path in found if path.exists()]
+        table.clear()
+        for path in self._files:
+            table.add_row(Text("●" if path in self._marked else "", style="bold"), path.stem)
+        if keep is not None and keep.resolve() in self._files:
+            table.move_cursor(row=self._files.index(keep.resolve()))
+
+    def _current(self) -> Path | None:
+        at = self.query_one("#files", DataTable).cursor_row
+        return self._files[at] if 0 <= at < len(self._files) else None
+
+    def _chosen(self) -> list[Path]:
+        """Return the marked results, else the one under the cursor."""
+        marked = [path for path in self._files if path in self._marked]
+        current = self._current()
+        return marked or ([current] if current is not None else [])
+
+    def on_data_table_row_highlighted(self, event: DataTable.RowHighlighted) -> None:
+        """Show the result under the cursor."""
+        self._show()
+
+    def action_mark(self) -> None:
+        """Mark a result; two or more are compared."""
+        path = self._current()
+        if path is None:
+            return
+        self._marked ^= {path}
+        was_many = len(self._marked - {path}) > 1 or len(self._marked) > 1
+        self._list(path)
+        if was_many or len(self._marked) < 2:
+            self._fill_views()
+
+    def action_other(self) -> None:
+        """Open a result from elsewhere."""
+
+        def named(text: str | None) -> None:
+            if text is None:
+                return
+            path = Path(text).expanduser()
+            if path.is_dir():
+                self._folder = path
+            elif path.exists():
+                self._more.append(path)
+            else:
+                self.notify(f"{path} does not exist", severity="error")
+                return
+            self._list(path)
+            self._show()
+
+        self.app.push_screen(AskText("Result file or folder", str(self._folder)), named)
+
+    def action_switch(self) -> None:
+        """Go from the results to the views and back."""
+        files, views = self.query_one("#files", DataTable), self.query_one("#views", OptionList)
+        (files if views.has_focus else views).focus()
+
+    def action_scroll(self, by: int) -> None:
+        """Scroll what is shown."""
+        content = self.query_one("#content", VerticalScroll)
+        content.scroll_relative(y=by * max(1, content.size.height - 1), animate=False)
+
+    # -- views --
+
+    @work(exclusive=True, group="views")
+    async def _fill_views(self) -> None:
+        """List the views of one result, or of several."""
+        many = len(self._chosen()) > 1
+        try:
+            cards = await self._helper.ask("views", subject="results" if many else "result")
+        except LambdaError as error:
+            self.notify(str(error), severity="error")
+            return
+        options = self.query_one("#views", OptionList)
+        options.clear_options()
+        options.add_option(Option(SUMMARY, id=SUMMARY))
+        options.add_options([Option(card.name.replace("-", " "), id=card.name) for card in cards])
+        names = [SUMMARY, *(card.name for card in cards)]
+        if self._name not in names:
+            self._name = names[-1] if many else SUMMARY
+        options.highlighted = names.index(self._name)
+        self._show()
+
+    def on_option_list_option_highlighted(self, event: OptionList.OptionHighlighted) -> None:
+        """Show the view under the cursor."""
+        name = event.option_id or SUMMARY
+        if name != self._name:
+            self._name = name
+            self._show()
+
+    def _refresh_live(self) -> None:
+        """Read a result again that has grown; take in files that came or went."""
+        known = {path.resolve() for path in (*self._more, *_results_in(self._folder)) if path.exists()}
+        if known != set(self._files):
+            self._marked &= known
+            self._list(self._current())
+            self._show()
+        elif _stamp(self._chosen()) != self._stamp:
+            self._show()
+
+    @work(exclusive=True, group="show")
+    async def _show(self) -> None:
+        paths = self._chosen()
+        self._title("reading ..." if paths else "F5 in the builder runs a case")
+        if not paths:
+            await self.query_one("#content", VerticalScroll).remove_children()
+            return
+        self._stamp = _stamp(paths)
+        try:
+            if self._name == SUMMARY:
+                found = [await self._helper.ask("summary", path=str(path)) for path in paths]
+                self._data = None
+                await self._put(*(Static(summary_view(summary, self.app.theme_variables)) for summary in found))
+                self._title(f"{found[0].title}   {found[0].state}")
+                return
+            self._data = await self._helper.ask("view", sources=[str(path) for path in paths], name=self._name)
+        except LambdaError as error:
+            self._data = None
+            await self._put(Static(Text(str(error), style="bold")))
+            self._title()
+            return
+        self._show_data(self._data)
+
+    def _show_data(self, data: ViewData) -> None:
+        self._title(f"{data.title}   {data.source}")
+        content = self.query_one("#content", VerticalScroll)
+        side, height = shape_of(data.panels, data.columns, content.size.width, content.size.height)
+        rows = []
+        for first in range(0, len(data.panels), side):
+            row = Horizontal(*(widget_for(panel) for panel in data.panels[first : first + side]), classes="row")
+            row.styles.height = height
+            rows.append(row)
+        self.run_worker(self._put(*rows, Static(notes_text(data.notes))), exclusive=True, group="put")
+
+    async def _put(self, *widgets: Static | Horizontal) -> None:
+        content = self.query_one("#content", VerticalScroll)
+        async with self.batch():
+            await content.remove_children()
+            await content.mount(*widgets)
+        for widget in widgets:
+            if isinstance(widget, Static):
+                widget.styles.width = "1fr"
+
+    # -- export --
+
+    def action_figure(self) -> None:
+        """Write the view as SVG and PNG."""
+        if self._name == SUMMARY:
+            self.notify("choose a view first; the summary goes into the report", severity="warning")
+        else:
+            self._export("draw", "figures into the folder", sources=True)
+
+    def action_report(self) -> None:
+        """Write a report of the results."""
+        self._export("report", "report into the file", sources=True)
+
+    def action_case(self) -> None:
+        """Write the case of the result, complete, into a file."""
+        path = self._current()
+        if path is not None:
+            self._ask_case(path)
+
+    @work
+    async def _ask_case(self, path: Path) -> None:
+        from lambda_core.schema.case_writer import save_text
+
+        try:
+            text = await self._helper.ask("case_text", path=str(path))
+        except LambdaError as error:
+            self.notify(str(error), severity="error")
+            return
+        answer = await self.app.push_screen_wait(AskText("Write the case as", str(path.with_suffix(".toml"))))
+        if answer is None:
+            return
+        target = Path(answer).expanduser()
+        if target.exists():
+            self.notify(f"{target} exists: choose another name", severity="error")
+            return
+        try:
+            save_text(text, target)
+        except LambdaError as error:
+            self.notify(str(error), severity="error")
+            return
+        self.notify(f"wrote {target}")
+
+    @work
+    async def _export(self, what: str, words: str, *, sources: bool) -> None:
+        paths = [str(path) for path in self._chosen()]
+        if not paths:
+            return
+        proposal = self._folder if what == "draw" else Path(paths[0]).with_suffix(".html")
+        answer = await self.app.push_screen_wait(AskText(f"Write the {words}", str(proposal)))
+        if answer is None:
+            return
+        target = str(Path(answer).expanduser())
+        more = {"name": self._name, "folder": target} if what == "draw" else {"target": target}
+        try:
+            written: Sequence[str] = await self._helper.ask(what, sources=paths, **more)
+        except LambdaError as error:
+            self.notify(str(error), severity="error", timeout=10)
+            return
+        self.notify("wrote " + ", ".join(written), timeout=8)
+        self._title()
+
+
+def _results_in(folder: Path) -> list[Path]:
+    """Return the result files of a folder, the newest first."""
+    try:
+        return sorted(folder.glob("*.h5"), key=lambda path: -path.stat().st_mtime)
+    except OSError:
+        return []
+
+
+def _stamp(paths: Sequence[Path]) -> object:
+    """Return what changes when one of the files does."""
+    found = []
+    for path in paths:
+        try:
+            status = path.stat()
+            found.append((path, status.st_size, status.st_mtime_ns))
+        except OSError:
+            found.append((path, 0, 0))
+    return found

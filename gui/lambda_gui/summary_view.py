@@ -1,0 +1,71 @@
+"""The summary of a result, laid out for a narrow column."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from rich.text import Text
+
+from lambda_core.simulate.text import interval, number, plus_minus
+
+if TYPE_CHECKING:
+    from lambda_core.simulate.summary import Summary
+
+_LABEL = 16
+
+
+def summary_view(summary: Summary, colours: Mapping[str, str]) -> Text:
+    """Return what a run found: friction, kinematics, films, capacitance, how far it can be trusted."""
+    text = Text()
+    for line in summary.headline.splitlines():
+        text.append(f"{line}\n", style="dim")
+    verdict, style = (
+        ("converged", colours["success"])
+        if summary.converged
+        else (f"not converged, {summary.state}", colours["warning"])
+    )
+    torque = plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm)
+    text.append(f"\nfriction torque {torque} N mm", style="bold").append(f"   {verdict}\n", style=style)
+    if summary.revolutions_averaged:
+        text.append(f"mean over {summary.revolutions_averaged} cage revolutions, 95 % confidence\n", style="dim")
+    for reason in summary.reasons:
+        text.append(f"  {reason}\n", style=colours["warning"])
+    _breakdown(text, summary)
+    x, y, z = (number(value, 2) for value in summary.inner_ring_displacement_um)
+    slip = summary.cage_speed_over_epicyclic
+    rows: Sequence[tuple[str, str, str]] = (
+        ("input torque", number(summary.input_torque_Nmm), "N mm"),
+        ("cage speed", number(summary.cage_speed_ratio, 4), "of inner ring"),
+        ("  slip", "-" if slip is None else f"{100.0 * (1.0 - slip):.2f}", "% against epicyclic"),
+        ("inner ring", f"{x}  {y}  {z}", "um (x, y, z)"),
+        ("p_max", number(summary.max_pressure_GPa, 3), "GPa"),
+        ("film", interval(summary.film_um, 2), "um"),
+        ("Lambda", interval(summary.film_parameter, 1), ""),
+        ("C of contacts", interval(summary.contact_capacitance_pF, 0), "pF"),
+        ("C of bearing", number(summary.bearing_capacitance_nF, 3), "nF"),
+        ("energy residual", "-" if summary.energy_residual is None else f"{summary.energy_residual:.1e}", "of input"),
+        ("wall time", f"{summary.wall_s:.2f}", f"s for {summary.simulated_s:.4g} s"),
+    )
+    for label, value, unit in rows:
+        text.append(f"{label:<{_LABEL}}", style="dim").append(value).append(f" {unit}\n", style="dim")
+    if summary.assumptions:
+        text.append("\nassumed\n", style="dim")
+        for assumption in summary.assumptions:
+            text.append("· ", style="dim").append(f"{assumption}\n")
+    return text
+
+
+def _breakdown(text: Text, summary: Summary) -> None:
+    """Append the parts of the friction torque: per ring side by side, then the rest."""
+    parts = summary.friction_breakdown_Nmm
+    text.append(f"\n{'N mm':<{_LABEL}}{'inner':>9}{'outer':>9}\n", style="dim")
+    for mechanism in dict.fromkeys(name.rpartition("_")[0] for name in parts if name.endswith(("_inner", "_outer"))):
+        text.append(f"{mechanism:<{_LABEL}}", style="dim")
+        for ring in ("inner", "outer"):
+            text.append(f"{number(parts.get(f'{mechanism}_{ring}')):>9}")
+        text.append("\n")
+    for name, value in parts.items():
+        if not name.endswith(("_inner", "_outer")):
+            text.append(f"{name:<{_LABEL}}", style="dim").append(f"{number(value):>9}\n")
+    text.append("\n")
