@@ -12,6 +12,8 @@ import pytest
 if TYPE_CHECKING:
     from lambda_db.catalogue import SqlCatalogue
 
+    from lambda_core.simulate.results import Result
+
 
 @pytest.fixture(scope="session", autouse=True)
 def own_folders(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
@@ -42,3 +44,20 @@ def catalogue(user_folder: Path) -> Iterator[SqlCatalogue]:
     opened = open_catalogue()
     yield opened
     opened.close()
+
+
+@pytest.fixture(scope="session")
+def radial_run(tmp_path_factory: pytest.TempPathFactory) -> Result:
+    """Run the 6319 under radial load until it has converged: what views and reports are drawn from."""
+    from lambda_core import api
+
+    return api.run("6319-cp10-1500", out=tmp_path_factory.mktemp("radial") / "radial.h5")
+
+
+@pytest.fixture(scope="session")
+def combined_run(tmp_path_factory: pytest.TempPathFactory) -> Result:
+    """Run the 6208 for a short time under axial and radial load: every ball loaded, contact angles of 15 degrees."""
+    from lambda_core import api
+
+    changes = ["loads.radial=0.4 kN", "solver.duration=0.05 s"]
+    return api.run("6208-axial-1300", changes, out=tmp_path_factory.mktemp("combined") / "combined.h5")

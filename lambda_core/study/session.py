@@ -54,7 +54,8 @@ class StudyStatus(BaseModel):
         states += [f"{n} {name}" for name, n in (("partial", self.partial), ("failed", self.failed)) if n]
         states += [f"{self.pending} to do"] if self.pending else []
         lines = [f"{self.title or self.name}: {self.points} points, {', '.join(states)}   {self.mode}, {self.design}"]
-        spent = f"{duration(self.wall_s)} ({duration(self.worker_seconds)} of workers)"
+        wall = duration(self.wall_s) if self.wall_s else "unknown"  # the director was killed
+        spent = f"{wall} ({duration(self.worker_seconds)} of workers)"
         if self.parallel_efficiency is not None:
             spent += f", parallel efficiency {100.0 * self.parallel_efficiency:.0f} %"
         lines.append(f"time       {spent}")

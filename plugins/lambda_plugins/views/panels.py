@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +19,8 @@ _ARROW_SHARE = 0.11  # length of the longest arrow over the width of the panel
 _LABELLED_BARS = 14
 _HEADROOM = 1.06  # above the data, on axes that begin at a given value
 _DASHED = 130  # points up to which lines are dashed
+_SMOOTH = 6  # places along each side from which a mesh is drawn smoothly
+_LABEL = 32  # characters of a line of a label
 _OUTSIDE = 4  # a longer legend stands beside the axes
 
 
@@ -25,6 +28,7 @@ def draw_panel(axes: Any, panel: Panel, *, legend: bool = True) -> None:
     """Draw one panel on its axes."""
     if panel.field is not None:
         _field(axes, panel.field)
+        axes.use_sticky_edges = not any(series.kind == "points" for series in panel.series)
     looks = _looks(panel.series)
     if panel.stacked:
         _stacks(axes, panel.series, looks)
@@ -145,17 +149,19 @@ def _field(axes: Any, field: Field) -> None:
     elif field.signed:
         top = float(np.abs(values).max()) or 1.0
         norm = TwoSlopeNorm(0.0, -top, top)
+    # A coarse or incomplete mesh is shown as it is, a cell per value.
+    coarse = min(values.shape) < _SMOOTH or bool(np.ma.getmaskarray(values).any())
     mesh = axes.pcolormesh(
         field.x,
         field.y,
         values,
-        shading="gouraud",
+        shading="nearest" if coarse else "gouraud",
         cmap=SIGNED_MAP if field.signed else COLOUR_MAP,
         norm=norm,
         rasterized=True,
         zorder=1,
     )
-    axes.figure.colorbar(mesh, ax=axes, label=field.text, pad=0.02, fraction=0.06)
+    axes.figure.colorbar(mesh, ax=axes, label=textwrap.fill(field.text, _LABEL), pad=0.02, fraction=0.06)
     levels = [level for level in field.levels if values.min() < level < values.max()]
     if levels:
         lines = axes.contour(field.x, field.y, values, levels, colors="white", linewidths=1.0, zorder=2)
@@ -216,7 +222,7 @@ def _square(axes: Any) -> None:
 def _scale(axes: Any, axis: Axis, which: str) -> None:
     if axis.log:
         getattr(axes, f"set_{which}scale")("log")
-    getattr(axes, f"set_{which}label")(axis.text)
+    getattr(axes, f"set_{which}label")(textwrap.fill(axis.text, _LABEL))
     _limit(axes, axis, which)
     if axis.categories:
         longest = max(len(name) for name in axis.categories)
