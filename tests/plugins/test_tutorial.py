@@ -16,7 +16,7 @@ from lambda_core.registry.reference import renewed
 
 DOCS = Path(__file__).parents[2] / "docs"
 TUTORIAL = (DOCS / "plugins.md").read_text()
-FILES = re.findall(r'^```\w+ title="(.+?)"\n(.*?)^```$', TUTORIAL, re.M | re.S)
+FILES = re.findall(r"^`([^`\s]+)`:\n\n```\w+\n(.*?)^```$", TUTORIAL, re.M | re.S)
 CONSOLE = re.findall(r"^```console\n(.*?)^```$", TUTORIAL, re.M | re.S)
 TEST_CODE = re.findall(r"^```python\n(from hyperbolic_limit.*?)^```$", TUTORIAL, re.M | re.S)
 

@@ -1,0 +1,9 @@
+"""The tools that make the pages are beside the pages."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+DOCS = Path(__file__).parents[2] / "docs"
+sys.path.insert(0, str(DOCS / "tools"))

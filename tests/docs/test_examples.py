@@ -1,0 +1,128 @@
+"""Every command and every Python example of every page runs and says what the page prints."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import examples
+import pytest
+
+DOCS = examples.DOCS
+PAGES = examples.pages()
+NAMES = [path.relative_to(DOCS).as_posix() for path in PAGES]
+# What a page tells but a test cannot do: each block says why.
+NOT_RUN = {"quickstart.md": 1, "contributing.md": 2}
+
+
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize("name", NAMES)
+def test_the_page_is_right(name: str, tmp_path: Path) -> None:
+    differences = examples.follow(DOCS / name, tmp_path, slow=False)
+    assert not differences, "\n\n".join(map(str, differences))
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1800)
+@pytest.mark.parametrize(
+    "name", [n for n, p in zip(NAMES, PAGES, strict=True) if any(s.slow for s in examples.steps(p))]
+)
+def test_the_whole_page_is_right(name: str, tmp_path: Path) -> None:
+    differences = examples.follow(DOCS / name, tmp_path, slow=True)
+    assert not differences, "\n\n".join(map(str, differences))
+
+
+def test_pages_have_examples() -> None:
+    assert {"index.md", "quickstart.md", "simulation.md", "frames.md", "python.md", "errors.md", "catalogue.md"} <= set(
+        NAMES
+    )
+    kinds = [step.kind for path in PAGES for step in examples.steps(path)]
+    assert kinds.count("command") >= 25
+    assert kinds.count("python") >= 12
+
+
+def test_only_set_up_is_left_out() -> None:
+    left = {path.relative_to(DOCS).as_posix(): len(examples.not_run(path)) for path in DOCS.rglob("*.md")}
+    assert {name: count for name, count in left.items() if count} == NOT_RUN
+
+
+def test_no_command_hides_in_a_block_that_is_not_run() -> None:
+    """A call of the program in a block without a language would be an example that nobody tries."""
+    for path in DOCS.rglob("*.md"):
+        fenced, language = False, ""
+        for line in path.read_text(encoding="utf-8").splitlines():
+            if line.startswith("```"):
+                fenced, language = not fenced, line[3:]
+            elif fenced and language != "console":
+                assert not line.startswith(("lambda-bearing ", "$ lambda-bearing")), f"{path.name}: {line}"
+
+
+def test_the_papers_results_take_less_than_20_lines() -> None:
+    text = (DOCS / "python.md").read_text(encoding="utf-8")
+    part = text[text.index("## The paper's three results") : text.index("## What to cite")]
+    blocks = part.split("```python\n")[1:]
+    assert len(blocks) == 3
+    for block in blocks:
+        assert len(block.split("```")[0].strip().splitlines()) < 20
+
+
+class TestComparison:
+    """The comparison itself: it must not let wrong pages pass."""
+
+    @pytest.mark.parametrize(
+        ("page", "said", "agrees"),
+        [
+            (["torque 100.0 N mm"], ["torque 100.9 N mm"], True),
+            (["torque 100.0 N mm"], ["torque 102.0 N mm"], False),
+            (["9 balls"], ["8 balls"], False),
+            (["x 0.01"], ["x 0.02"], True),  # one unit of the last decimal
+            (["x 0.01"], ["x 0.03"], False),
+            (["x 1.0e-04"], ["x 9.0e-05"], True),
+            (["x 1.0e-04"], ["x 1.0e-05"], False),
+            (["1 012.1 ± ... N mm"], ["1 013.0 ± 3.3 N mm"], True),
+            (["1 012.1 ± ... N mm"], ["101.2 ± 3.3 N mm"], False),
+            (["a", "...", "c"], ["a", "b1", "b2", "c"], True),
+            (["a", "...", "c"], ["a", "b1", "b2"], False),
+            (["...", "c"], ["c", "d"], False),
+            (["a"], ["a", "b"], False),
+            (["a", "..."], ["a", "b"], True),
+            (["a   b"], ["a b"], True),
+            (["-1.0"], ["1.0"], False),
+            (["eq. 1-11"], ["eq. 1-11"], True),
+            (["eq. 1-11"], ["eq. 1-12"], False),
+            (["True"], ["False"], False),
+            (["6208-axial-700"], ["6208-axial-701"], False),
+            (["6208-axial-700"], ["6208-axial-1300"], False),
+        ],
+    )
+    def test_lines(self, page: list[str], said: list[str], agrees: bool) -> None:
+        assert (examples.compare(page, said) is not None) == agrees
+
+    def test_new_numbers_go_where_the_old_ones_stood(self) -> None:
+        assert examples.compare(["a   1.0 of ...", "...", "b 2"], ["a 3.5 of x", "y", "b 7"], exact=True) == [
+            "a   3.5 of ...",
+            "...",
+            "b 7",
+        ]
+
+    def test_a_failing_command_is_a_difference(self, tmp_path: Path) -> None:
+        page = tmp_path / "page.md"
+        page.write_text("```console\n$ false\n```\n\n```console\n$ false\n$ echo $?\n1\n```\n")
+        found = examples.follow(page, tmp_path, slow=False)
+        assert [difference.reason for difference in found] == ["ended with exit code 1"]
+
+    def test_python_blocks_share_names_and_fail_loudly(self, tmp_path: Path) -> None:
+        page = tmp_path / "page.md"
+        page.write_text(
+            "```python\nx = 1\n```\n\n```python\nprint(x + 1)\n```\n\n```text\n2\n```\n\n```python\n1 / 0\n```\n"
+        )
+        found = examples.follow(page, tmp_path, slow=False)
+        assert len(found) == 1
+        assert "ZeroDivisionError" in found[0].said
+
+    def test_files_and_slow_parts(self, tmp_path: Path) -> None:
+        page = tmp_path / "page.md"
+        page.write_text(
+            "`a/b.txt`:\n\n```\nhello\n```\n\n```console\n$ cat a/b.txt\nhello\n```\n\n<!-- slow -->\n```console\n$ false\n```\n"
+        )
+        assert examples.follow(page, tmp_path, slow=False) == []
+        assert len(examples.follow(page, tmp_path, slow=True)) == 1
