@@ -189,6 +189,7 @@ class TrialRun:
         self.title = self.headline = self.case = "trial"
         self.case_toml = ""
         self.model = dict(model or {})
+        self.kernel_keys: dict[str, str] = {}
 
     def __getitem__(self, name: str) -> FloatArray:
         """Return one channel, first axis time."""

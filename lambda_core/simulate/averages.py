@@ -13,7 +13,6 @@ from itertools import accumulate
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import stdtrit
 
 from lambda_core.physics.channels import DIMENSIONS, LOSSES, Channel
 
@@ -145,6 +144,8 @@ def estimate(values: FloatArray) -> Estimate:
     for a first-order autoregressive series (Law and Kelton, Simulation Modeling and
     Analysis, batch means). A negative r never narrows the interval. `values` has shape (n,).
     """
+    from scipy.special import stdtrit  # views import this module when plugins are listed
+
     count = values.size
     mean = float(values.mean()) if count else math.nan
     if count < 2:
