@@ -54,7 +54,7 @@ OK, FULL, STEP_TOO_SMALL, FAULT = 0, 1, 2, 3
 
 _NEWTON_TOLERANCE = 0.3  # of the error allowed per step
 _MAX_NEWTON = 4
-_REFACTOR = 0.4  # relative change of gamma beyond which M is factored anew
+_REFACTOR = 0.41  # relative change of gamma beyond which M is factored anew; not a tie with one growth of the step
 _SLOW = 0.3  # convergence rate beyond which the Jacobian is renewed
 _SAFETY = 0.8  # of the step that the error would just allow
 _GROWTH = 1.4  # of the step, at most; BDF2 is stable up to 2.4
