@@ -1,7 +1,8 @@
-"""HDF5 files on real disks: opened while they grow, replaced in one step, never surprised by a full disk."""
+"""HDF5 files on real disks: opened while they grow, copied whole, never surprised by a full disk."""
 
 from __future__ import annotations
 
+import glob
 import os
 import re
 import shutil
@@ -11,7 +12,7 @@ import h5py
 
 from lambda_core.errors import UsageError
 from lambda_core.simulate import layout
-from lambda_core.simulate.status import Rows
+from lambda_core.simulate.status import Rows, exists
 
 METADATA = 1 << 20  # more than HDF5 needs for indexes and headers at a time [byte]
 
@@ -43,7 +44,11 @@ def reserve(file: h5py.File, growth: int) -> None:
 
 
 def beside(path: Path) -> Path:
-    """Return a hidden name in the same folder, of this process."""
+    """Return a hidden name in the same folder, of this process; sweep away those of dead ones."""
+    for old in path.absolute().parent.glob(f".{glob.escape(path.name)}.*"):
+        number = old.name.rpartition(".")[2]
+        if number.isdecimal() and not exists(int(number)):
+            old.unlink(missing_ok=True)
     return path.with_name(f".{path.name}.{os.getpid()}")
 
 
@@ -53,27 +58,27 @@ def trim(path: Path, size: int) -> None:
         os.truncate(path, size)
 
 
-def rewrite(path: Path, rows: Rows, *, compress: bool) -> None:
-    """Replace a result by a copy with the first `rows` rows, in one step.
+def copy(path: Path, rows: Rows, *, compress: bool) -> Path:
+    """Copy a result with the first `rows` rows beside itself; return where.
 
     Raises
     ------
     UsageError
-        When the copy cannot be written; the original is untouched.
+        When the copy cannot be written.
     """
-    copy = beside(path)
+    made = beside(path)
     try:
         with open_for_reading(path) as source:
             # SWMR needs the newest file format; for keeping, the oldest one is read by most programs.
-            with h5py.File(copy, "w", libver="earliest" if compress else "latest") as target:
+            with h5py.File(made, "w", libver="earliest" if compress else "latest") as target:
                 reserve(target, layout.size(source, rows))
                 layout.copy(source, target, rows, compress)
                 target.flush()
                 size = target.id.get_filesize()
-            trim(copy, size)
-        os.replace(copy, path)
+            trim(made, size)
+        return made
     except (OSError, RuntimeError) as error:
-        copy.unlink(missing_ok=True)
+        made.unlink(missing_ok=True)
         raise UsageError(f"cannot write a copy of {path} beside it: {reason(error)}") from None
 
 

@@ -32,7 +32,7 @@ INTEGRALS_GROUP = "integrals"
 REVOLUTIONS_GROUP = "revolutions"
 INPUTS_GROUP = "inputs"
 
-_ROWS = 1024  # per chunk
+ROWS = 1024  # of one chunk
 _SLOT_CHUNK = 65536
 _TEXT = h5py.string_dtype()
 _LAW_COLUMNS = ("element", "role", "model", "distribution", "reference", "parameters", "origins", "kernel_key")
@@ -79,7 +79,7 @@ def _series(group: h5py.Group, channels: Sequence[Channel], along: str) -> None:
     for channel in ordered:
         shape = tuple(root[dim].size for dim in channel.dims)
         data = group.create_dataset(
-            channel.name, (0, *shape), np.float64, maxshape=(None, *shape), chunks=(_ROWS, *shape)
+            channel.name, (0, *shape), np.float64, maxshape=(None, *shape), chunks=(ROWS, *shape)
         )
         data.attrs["units"] = channel.unit
         data.attrs["long_name"] = channel.meaning
@@ -131,6 +131,11 @@ def grows(item: object) -> bool:
     return isinstance(item, h5py.Dataset) and bool(item.maxshape) and item.maxshape[0] is None
 
 
+def chunk_bytes(item: h5py.Dataset) -> int:
+    """Return the bytes of ROWS rows of a dataset."""
+    return int(ROWS * math.prod(item.shape[1:]) * item.dtype.itemsize)
+
+
 def size(source: h5py.File, rows: Rows) -> int:
     """Return an upper bound of the bytes that a copy with the first `rows` rows takes, metadata aside."""
     total = 0
@@ -139,7 +144,7 @@ def size(source: h5py.File, rows: Rows) -> int:
         nonlocal total
         if grows(item):
             assert isinstance(item, h5py.Dataset)
-            total += -(-_rows_of(name, rows) // item.chunks[0]) * math.prod(item.chunks) * item.dtype.itemsize
+            total += math.ceil(_rows_of(name, rows) / ROWS) * chunk_bytes(item)
         elif isinstance(item, h5py.Dataset):
             total += 2 * item.nbytes + 4096
 
@@ -190,11 +195,11 @@ def _copy_dataset(name: str, item: h5py.Dataset, target: h5py.File, rows: Rows, 
     else:
         count = _rows_of(name, rows)
         shape = (count, *item.shape[1:])
-        chunk = (min(item.chunks[0], max(count, 1)) if compress else item.chunks[0], *item.chunks[1:])
+        chunk = (min(ROWS, max(count, 1)) if compress else ROWS, *item.chunks[1:])
         packing = {"compression": "gzip", "compression_opts": 4, "shuffle": True} if compress else {}
         data = target.create_dataset(name, shape, item.dtype, maxshape=item.maxshape, chunks=chunk, **packing)
-        for start in range(0, count, _ROWS):
-            stop = min(start + _ROWS, count)
+        for start in range(0, count, ROWS):
+            stop = min(start + ROWS, count)
             data[start:stop] = item[start:stop]
     for key in ("units", "long_name"):
         if key in item.attrs:

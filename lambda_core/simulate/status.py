@@ -72,7 +72,7 @@ class Status:
         if self.state != "running" or self.process.get("host") != socket.gethostname():
             return False
         pid = int(self.process["pid"])
-        return _started(pid) == self.process["start"] and _exists(pid)
+        return _started(pid) == self.process["start"] and exists(pid)
 
 
 def this_process() -> dict[str, str]:
@@ -94,7 +94,8 @@ def _started(pid: int) -> str:
     return text.rpartition(")")[2].split()[19]
 
 
-def _exists(pid: int) -> bool:
+def exists(pid: int) -> bool:
+    """Tell whether a process runs on this host."""
     if os.name == "nt":  # signal 0 means Ctrl+C there: do not ask
         return False
     try:

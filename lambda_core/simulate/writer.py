@@ -46,6 +46,16 @@ class ResultWriter:
         self._channels = tuple(channels)
         self._status = status
         self._written = status.rows
+        self._growing = {
+            kind: {name: item for name, item in file[group].items() if layout.grows(item)}
+            for kind, group in (
+                ("samples", "/"),
+                ("records", layout.INTEGRALS_GROUP),
+                ("revolutions", layout.REVOLUTIONS_GROUP),
+            )
+        }
+        # What one more chunk of everything that grows together takes on disk.
+        self._chunk = {kind: sum(map(layout.chunk_bytes, items.values())) for kind, items in self._growing.items()}
         self._samples: list[Mapping[str, NDArray[np.float64]]] = []
         self._records: list[FloatArray] = []
         self._revolutions: list[FloatArray] = []
@@ -69,9 +79,10 @@ class ResultWriter:
             with h5py.File(made, "w", libver="latest") as file:
                 files.reserve(file, 0)
                 layout.create(file, provenance, channels)
-                file[layout.STATUS][()] = status.to_bytes(layout.STATUS_BYTES)
+            # Under its name only when SWMR is on: from its first moment it can be read, whatever happens.
+            writer = cls(h5py.File(made, "r+", libver="latest"), path, channels, status)
             _publish(made, path, force)
-            return cls(h5py.File(path, "r+", libver="latest"), path, channels, status)
+            return writer
         except (OSError, RuntimeError) as error:
             made.unlink(missing_ok=True)
             raise UsageError(f"cannot write {path}: {files.reason(error)}") from None
@@ -82,8 +93,10 @@ class ResultWriter:
 
         The file is copied first: one whose writer was killed can be read, not written.
         """
-        files.rewrite(path, status.rows, compress=False)
-        return cls(h5py.File(path, "r+", libver="latest"), path, channels, status)
+        made = files.copy(path, status.rows, compress=False)
+        writer = cls(h5py.File(made, "r+", libver="latest"), path, channels, status)
+        os.replace(made, path)
+        return writer
 
     def add_samples(self, samples: Mapping[str, NDArray[np.float64]]) -> None:
         """Take samples, channel -> array."""
@@ -138,11 +151,10 @@ class ResultWriter:
             raise DiskError(self.path, "it was deleted or renamed during the run")
         if compress:
             try:
-                files.rewrite(self.path, self._written, compress=True)
+                os.replace(files.copy(self.path, self._written, compress=True), self.path)
             except UsageError:
-                files.trim(self.path, size)
                 # No room for a second copy or no right to make one: the result is complete as it is.
-                return
+                files.trim(self.path, size)
 
     def _append_samples(self) -> None:
         if not self._samples:
@@ -151,17 +163,15 @@ class ResultWriter:
         count = self.pending()
         for channel in self._channels:
             values = np.concatenate([samples[channel.name] for samples in self._samples])
-            _append(self._file[channel.name], start, values)
+            _append(self._growing["samples"][channel.name], start, values)
         self._written = replace(self._written, samples=start + count)
         self._samples.clear()
 
     def _append_records(self) -> None:
-        for kind, group, rows in (
-            ("records", self._file[layout.INTEGRALS_GROUP], self._records),
-            ("revolutions", self._file[layout.REVOLUTIONS_GROUP], self._revolutions),
-        ):
+        for kind, rows in (("records", self._records), ("revolutions", self._revolutions)):
             if not rows:
                 continue
+            group = self._growing[kind]
             table = np.stack(rows)
             start = getattr(self._written, kind)
             for channel in INTEGRALS:
@@ -180,17 +190,12 @@ class ResultWriter:
 
     def _growth(self) -> int:
         """Return the bytes of the chunks that the waiting rows will open."""
-        waiting = {
-            "": (self._written.samples, self.pending()),
-            layout.INTEGRALS_GROUP: (self._written.records, len(self._records)),
-            layout.REVOLUTIONS_GROUP: (self._written.revolutions, len(self._revolutions)),
-        }
+        waiting = {"samples": self.pending(), "records": len(self._records), "revolutions": len(self._revolutions)}
         total = 0
-        for group, (start, count) in waiting.items():
-            for item in self._file[f"/{group}"].values():
-                if layout.grows(item):
-                    opened = -(-(start + count) // item.chunks[0]) - -(-start // item.chunks[0])
-                    total += opened * math.prod(item.chunks) * item.dtype.itemsize
+        for kind, count in waiting.items():
+            start = getattr(self._written, kind)
+            opened = math.ceil((start + count) / layout.ROWS) - math.ceil(start / layout.ROWS)
+            total += opened * self._chunk[kind]
         return total
 
     def _reserve(self, growth: int) -> None:

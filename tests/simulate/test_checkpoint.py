@@ -151,6 +151,18 @@ def test_a_longer_duration_continues_a_finished_run(
     assert long.statistics["steps"] > short.statistics["steps"]
 
 
+def test_copies_of_killed_processes_are_swept_away(provenance: MakeProvenance, tmp_path: Path) -> None:
+    process = subprocess.Popen([sys.executable, "-c", ""])
+    process.wait()
+    dead, living = tmp_path / f".r.h5.{process.pid}", tmp_path / f".r.h5.{os.getppid()}"
+    other = tmp_path / f".r.h5.old.{process.pid}"
+    for path in (dead, living, other):
+        path.write_bytes(b"")
+    run(FakeEngine(), provenance(duration=0.01), tmp_path / "r.h5")
+    assert not dead.exists()
+    assert living.exists()
+
+
 def test_nothing_left_to_do_is_said(provenance: MakeProvenance, tmp_path: Path) -> None:
     path = tmp_path / "r.h5"
     for solver in ({"duration": 0.05}, {}):
