@@ -13,9 +13,9 @@ import tables as md
 _INTRODUCTION = """# Python reference
 
 Every public name, from its docstring: [lambda_core.api](#lambda_coreapi) runs things,
-[lambda_core.plugins](#lambda_coreplugins) is what a plugin imports, [lambda_core.testing](#lambda_coretesting) is for its
-tests. [What the functions return](#what-the-functions-return) stands at the end. Everything else is internal and may
-change. [Python](../python.md) has examples.
+[lambda_core.plugins](#lambda_coreplugins) is what a plugin imports, [lambda_core.testing](#lambda_coretesting) is for
+its tests. [What the functions return](#what-the-functions-return) stands at the end. Everything else is internal and
+may change. [Python](../python.md) has examples.
 """
 
 
@@ -88,15 +88,15 @@ def _section(doc: docstrings.Docstring, name: str) -> list[str]:
     if name in ("Examples", "Notes"):
         return [f"*{name}*", "", "~~~", text, "~~~", ""] if ">>>" in text else [f"*{name}*", "", *_prose(text)]
     lines: list[str] = []
+    fresh = False  # whether the last line is a name whose meaning follows
     for line in text.splitlines():
         if line and not line[0].isspace():
             head, colon, kind = line.partition(" : ")
             lines.append(f"- `{head}`{' : ' + _inline(kind) if colon else ''}")
+            fresh = True
         elif line.strip() and lines:
-            joint = (
-                ": " if lines[-1].endswith("`") or " : " in lines[-1].split("  ")[0] and "  " not in lines[-1] else " "
-            )
-            lines[-1] += f"{joint if not lines[-1].endswith(':') else ' '}{_inline(line.strip())}"
+            lines[-1] += f"{': ' if fresh else ' '}{_inline(line.strip())}"
+            fresh = False
     return [f"*{name}*", "", *lines, ""]
 
 

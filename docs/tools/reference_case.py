@@ -38,8 +38,8 @@ _WHERE: dict[type[BaseModel], str] = {
 }
 _INTRODUCTION = """# Case reference
 
-Every option of a case file, from the declarations in the code. A case is a TOML file; `lambda-bearing schema` prints the
-same as a JSON schema for editors, and `--set PATH=VALUE` changes one option for one call.
+Every option of a case file, from the declarations in the code. A case is a TOML file; `lambda-bearing schema` prints
+the same as a JSON schema for editors, and `--set PATH=VALUE` changes one option for one call.
 
 A dimensional value is a text with its unit, `"16 kN"`; [the units](#units) of each quantity are a closed list. A value
 without unit, with a decimal comma or in a unit of another quantity is an error that says what to write. Where a
@@ -109,8 +109,7 @@ def _value(table: type[BaseModel], name: str, card: FieldCard) -> str:
     if members and members[0] in _DOFS:
         return f"degree of freedom, see [{_SHARED[members[0]]}](#{_anchor(_SHARED[members[0]])})"
     if card.kind == "table":
-        names = "name or table" if members == [parts.InlineMaterial] else "table"
-        return names
+        return "name or table" if members == [parts.InlineMaterial] else "table"
     words = {"text": "text", "number": "number", "integer": "whole number", "flag": "`true` or `false`"}
     return f"{words.get(card.kind, 'list of texts')}{limits}"
 
@@ -139,9 +138,9 @@ def _models() -> list[str]:
     return [
         "## `[models]`",
         "",
-        "Which law fills each role; the [model reference](models.md) has them all. `forces.ELEMENT.models.ROLE` sets one "
-        "force element apart. `parameters.ROLE.NAME` sets a parameter of the chosen law, `forces.ELEMENT.parameters.ROLE."
-        "NAME` that of one force element.",
+        "Which law fills each role; the [model reference](models.md) has them all. `forces.ELEMENT.models.ROLE` sets "
+        "one force element apart. `parameters.ROLE.NAME` sets a parameter of the chosen law, "
+        "`forces.ELEMENT.parameters.ROLE.NAME` that of one force element.",
         "",
         *md.table(("option", "default", "meaning", "force elements"), rows),
     ]

@@ -17,11 +17,11 @@ from lambda_core.registry.survey import ModelCard, model_card
 _INTRODUCTION = """# Model reference
 
 Every built-in law with its parameters, every comparison method and every view, from their declarations. The
-[theory](../theory/index.md) explains them in context; `lambda-bearing plugins show ROLE/NAME` prints one of them, those of
-[your own packages](../plugins.md) too.
+[theory](../theory/index.md) explains them in context; `lambda-bearing plugins show ROLE/NAME` prints one of them,
+those of [your own packages](../plugins.md) too.
 
-A law is chosen with `models.ROLE = "NAME"`, or for one force element with `forces.ELEMENT.models.ROLE`; its parameters are
-set with `parameters.ROLE.NAME`. A parameter marked *lubricant* comes from the oil's row in the catalogue. Status:
+A law is chosen with `models.ROLE = "NAME"`, or for one force element with `forces.ELEMENT.models.ROLE`; its parameters
+are set with `parameters.ROLE.NAME`. A parameter marked *lubricant* comes from the oil's row in the catalogue. Status:
 *unconfirmed* is in common use but was not checked in its original; *assumed* is a value without a published source;
 *numerical* is a regularisation.
 """

@@ -13,7 +13,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-import examples
+import page_examples as examples
 import reference_errors as errors
 from reference_api import api_page
 from reference_case import case_page

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import examples
+import page_examples as examples
 import pytest
 
 DOCS = examples.DOCS
@@ -122,7 +122,8 @@ class TestComparison:
     def test_files_and_slow_parts(self, tmp_path: Path) -> None:
         page = tmp_path / "page.md"
         page.write_text(
-            "`a/b.txt`:\n\n```\nhello\n```\n\n```console\n$ cat a/b.txt\nhello\n```\n\n<!-- slow -->\n```console\n$ false\n```\n"
+            "`a/b.txt`:\n\n```\nhello\n```\n\n```console\n$ cat a/b.txt\nhello\n```\n\n"
+            "<!-- slow -->\n```console\n$ false\n```\n"
         )
         assert examples.follow(page, tmp_path, slow=False) == []
         assert len(examples.follow(page, tmp_path, slow=True)) == 1

@@ -1,0 +1,60 @@
+"""Citation, changelog and contributing notes say what the package says."""
+
+from __future__ import annotations
+
+import re
+from importlib.metadata import metadata
+from pathlib import Path
+
+import yaml
+
+from lambda_core import __version__
+from lambda_core.plugins import METHOD_API, ROLE_API, VIEW_API
+from lambda_core.simulate import citation
+from lambda_core.simulate.layout import LAYOUT
+from lambda_core.simulate.summary import INTERFACE
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_the_citation_file_is_that_of_this_version() -> None:
+    found = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert found["cff-version"] == "1.2.0"
+    assert {"message", "title", "authors", "version", "license", "type"} <= found.keys()
+    assert str(found["version"]) == __version__ == metadata("lambda-bearing")["Version"]
+    assert found["license"] == metadata("lambda-bearing")["License-Expression"] == "BSD-3-Clause"
+    assert found["title"] == citation.TITLE
+    reference = found["references"][0]
+    assert reference["doi"] in citation.METHOD
+    assert reference["title"] in citation.METHOD
+
+
+def test_the_changelog_knows_this_version_and_these_interfaces() -> None:
+    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    assert re.search(rf"^## {re.escape(__version__)}\b", text, re.M)
+    said = f"`ROLE_API` {ROLE_API}, `METHOD_API` {METHOD_API}, `VIEW_API` {VIEW_API}, result layout {LAYOUT}"
+    assert f"{said}, machine interface {INTERFACE}" in " ".join(text.split())
+
+
+def test_every_command_is_in_the_changelog() -> None:
+    from lambda_cli.commands import entries
+
+    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    for entry in entries().values():
+        if entry.panel == "Commands":
+            assert f"`{entry.name}`" in text
+
+
+def test_links_between_the_files_of_the_root_hold() -> None:
+    for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md"):
+        for target in re.findall(r"\]\((?!https?:)([^)#]+)", (ROOT / name).read_text(encoding="utf-8")):
+            assert (ROOT / target).exists(), f"{name}: {target}"
+
+
+def test_the_house_plan_names_every_package_and_room() -> None:
+    text = (ROOT / "docs" / "contributing.md").read_text(encoding="utf-8")
+    for name in ("lambda_core", "lambda_plugins", "lambda_db", "lambda_gui", "lambda_cli"):
+        assert name in text
+    rooms = {path.name for path in (ROOT / "lambda_core").iterdir() if (path / "__init__.py").exists()}
+    for room in rooms:
+        assert f"`{room}" in text, room

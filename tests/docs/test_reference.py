@@ -1,0 +1,175 @@
+"""The pages made from the code are those of today, and nothing that people can choose or meet is missing from them."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import reference_errors
+from lambda_cli.commands import entries
+from lambda_cli.main import _command as load
+from pydantic import BaseModel
+
+from lambda_core.physics.channels import CHANNELS
+from lambda_core.physics.model import BODIES, DOFS, ELEMENTS
+from lambda_core.registry import hookspecs
+from lambda_core.registry.collect import OWN
+from lambda_core.registry.manager import registry
+from lambda_core.registry.roles import ROLES
+from lambda_core.schema import signals
+from lambda_core.schema.case import Case
+from lambda_core.schema.problems import option_paths
+from lambda_core.schema.units import UNITS
+from lambda_core.simulate.summary import Summary
+
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+def page(name: str) -> str:
+    return (DOCS / name).read_text(encoding="utf-8")
+
+
+def test_the_pages_are_those_of_today() -> None:
+    command = [sys.executable, str(DOCS / "tools" / "renew.py"), "--check"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_a_stale_page_is_found(tmp_path: Path) -> None:
+    """The check fails when an option is renamed: tried on a copy of the pages."""
+    import shutil
+
+    copy = tmp_path / "docs"
+    shutil.copytree(DOCS, copy)
+    stale = copy / "reference" / "case.md"
+    stale.write_text(stale.read_text().replace("`depth.strips`", "`depth.slices`"))
+    command = [sys.executable, str(copy / "tools" / "renew.py"), "--check"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "stale: docs/reference/case.md" in done.stdout
+
+
+def _described(path: str) -> str:
+    """Return the name under which an option stands on the page: tables of several places are described once."""
+    path = re.sub(rf"^forces\.({'|'.join(ELEMENTS)})\.models\.", "models.", path)
+    path = re.sub(rf"^forces\.({'|'.join(ELEMENTS)})\.", "forces.ELEMENT.", path)
+    path = re.sub(rf"^loads\.({'|'.join(BODIES)})\.", "loads.BODY.", path)
+    path = re.sub(r"^materials\.(inner|outer|balls|cage)\.", "materials.PART.", path)
+    match = re.fullmatch(rf"bodies\.({'|'.join(BODIES)})\.({'|'.join(DOFS)})\.(\w+)", path)
+    if match:
+        dof = {"y": "x", "z": "x", "tilt_z": "tilt_y"}.get(match[2], match[2])
+        body = "inner_ring" if (match[1], dof) == ("inner_ring", "spin") else "BODY"
+        path = f"bodies.{body}.{dof}.{match[3]}"
+    return path
+
+
+@pytest.mark.parametrize("path", option_paths(Case))
+def test_every_option_of_a_case_is_described(path: str) -> None:
+    text = page("reference/case.md")
+    name = _described(path)
+    keyed = {"parameters": "`parameters.ROLE.NAME`", "markers": "`markers.NAME.body`"}
+    assert keyed.get(name, f"| `{name}` |") in text, f"{path} ({name})"
+
+
+def test_every_option_has_a_meaning_and_every_unit_is_listed() -> None:
+    rows = [line.split(" | ") for line in page("reference/case.md").splitlines() if line.startswith("| `")]
+    assert len(rows) > 150
+    for row in rows:
+        assert row[-1].strip(" |") not in ("", "-"), row
+    for units in UNITS.values():
+        assert all(f"`{unit}`" in page("reference/case.md") for unit in units)
+    for kind in signals.KINDS:
+        assert f'`kind = "{kind}"`' in page("reference/case.md")
+
+
+def _built_in_laws() -> list[str]:
+    models = registry()
+    return [
+        f"{role}/{name}" for role in ROLES for name in models.names(role) if models.origin(role, name).startswith(OWN)
+    ]
+
+
+@pytest.mark.parametrize("label", _built_in_laws())
+def test_every_law_is_described_with_all_its_parameters(label: str) -> None:
+    law = registry().model(*label.split("/"))
+    text = page("reference/models.md")
+    part = re.search(rf"^### {label}\n(.*?)(?=^##|\Z)", text, re.M | re.S)
+    assert part is not None
+    for name in law.parameters.model_fields:
+        assert f"| `{name}` |" in part[1]
+    for sentence in law.errors.values():
+        assert sentence in part[1]
+    if law.reference != "-":
+        assert law.reference in part[1]
+
+
+def test_every_method_and_view_is_listed() -> None:
+    text = page("reference/models.md")
+    for kind, named in (("method", registry().methods), ("view", registry().views)):
+        for name in named:
+            if registry().origin(kind, name).startswith(OWN):
+                assert f"| `{name}` |" in text
+
+
+@pytest.mark.parametrize("name", [entry.name for entry in entries().values() if entry.panel == "Commands"])
+def test_every_command_and_option_is_described(name: str) -> None:
+    text = page("reference/cli.md")
+
+    def described(path: str, command: object) -> None:
+        part = re.search(rf"^##+ `{path}`\n(.*?)(?=^##|\Z)", text, re.M | re.S)
+        assert part is not None, path
+        for parameter in command.params:  # type: ignore[attr-defined]
+            for option in parameter.opts:
+                if parameter.param_type_name == "option" and not option.endswith(("-completion", "--help")):
+                    assert f"`{option}`" in part[1], f"{path} {option}"
+        for child, below in getattr(command, "commands", {}).items():
+            described(f"{path} {child}", below)
+
+    described(name, load(entries()[name]))
+
+
+def test_every_hook_is_described() -> None:
+    hooks = [name for name in vars(hookspecs) if name.startswith("lambda_")]
+    assert hooks
+    for hook in hooks:
+        assert f"`{hook}`" in page("plugins.md")
+
+
+def test_every_error_and_exit_code_is_described() -> None:
+    text = page("errors.md")
+    classes = reference_errors.error_classes()
+    assert {error.exit_code for error in classes} <= set(reference_errors.MEANINGS)
+    for error in classes:
+        assert f"| `{error.__name__}` | `{error.__module__}` | {error.exit_code} |" in text
+        assert error.__doc__
+    for code in reference_errors.MEANINGS:
+        assert re.search(rf"^\| {code} \| \w", text, re.M), code
+    # Each code that an input can lead to is shown by an example that runs.
+    for code in (2, 3, 4, 5):
+        assert f"$ echo $?\n{code}\n" in text
+
+
+def test_every_environment_variable_is_described() -> None:
+    """Variables are read in few places; each has to stand on some page."""
+    root = DOCS.parent
+    folders = ("lambda_core", "plugins", "db", "gui", "cli")
+    sources = [path.read_text(encoding="utf-8") for folder in folders for path in (root / folder).rglob("*.py")]
+    names = {name for source in sources for name in re.findall(r"\bLAMBDA_BEARING_[A-Z_]+\b", source)}
+    assert names
+    pages = "".join(path.read_text(encoding="utf-8") for path in DOCS.rglob("*.md"))
+    assert not [name for name in names if name not in pages]
+
+
+def test_results_and_their_summary_are_described() -> None:
+    text = page("results.md")
+    for channel in CHANNELS:
+        assert f"`{channel.name}`" in text
+    for field in ("converged", "reasons", "friction_torque_Nmm", "energy_residual", "contacts"):
+        assert f"`{field}`" in text
+    reference = page("reference/api.md")
+    for name in Summary.model_fields:
+        assert f"| `{name}` |" in reference
+    assert issubclass(Summary, BaseModel)

@@ -1,0 +1,56 @@
+"""The site builds without a network, without a warning, and with every page in its navigation."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+LOADED = re.compile(r"""<(?:script|link|img|iframe)\b[^>]*?(?:src|href)=["']([^"']+)["']""")
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(folder)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder
+
+
+def test_every_page_is_built_and_in_the_navigation(site: Path) -> None:
+    navigation = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+    for path in DOCS.rglob("*.md"):
+        name = path.relative_to(DOCS)
+        assert (site / name.with_suffix(".html")).is_file()
+        assert f"- {name.as_posix()}\n" in navigation, f"docs/{name} is not in the navigation: add it to mkdocs.yml"
+
+
+def test_nothing_is_loaded_from_elsewhere(site: Path) -> None:
+    pages = list(site.rglob("*.html"))
+    assert len(pages) > 20
+    for path in pages:
+        for address in LOADED.findall(path.read_text(encoding="utf-8")):
+            assert not re.match(r"(https?:)?//", address), f"{path.name} loads {address}"
+    for style in site.rglob("*.css"):
+        assert not re.search(r"url\(['\"]?(https?:)?//", style.read_text(encoding="utf-8")), style.name
+
+
+def test_blocks_are_rendered_as_code(site: Path) -> None:
+    """A fence that the renderer does not know stays in the text as three backticks."""
+    for path in site.rglob("*.html"):
+        assert "```" not in path.read_text(encoding="utf-8"), path.name
+    assert not (site / "tools").exists()
+
+
+def test_images_exist_and_are_drawings(site: Path) -> None:
+    for name in ("axes.svg", "contact.svg"):
+        tree = ElementTree.parse(DOCS / "images" / name)
+        assert tree.getroot().tag.endswith("svg")
+        assert f"images/{name}" in (site / "frames.html").read_text(encoding="utf-8")
