@@ -91,6 +91,11 @@ def case(source: str | Path, overrides: Iterable[str] = ()) -> Case:
     overrides : iterable of str
         Changes ``path=value``, as ``--set`` takes them.
 
+    Returns
+    -------
+    Case
+        Values in SI; what the file leaves open has its default.
+
     Raises
     ------
     UsageError
@@ -105,14 +110,32 @@ def case(source: str | Path, overrides: Iterable[str] = ()) -> Case:
 
 
 def builtin_cases() -> dict[str, str]:
-    """Return the names of the built-in cases and what each is."""
+    """Return the names of the built-in cases and what each is.
+
+    Returns
+    -------
+    dict of str to str
+    """
     from lambda_core.schema.case_io import builtin_cases
 
     return builtin_cases()
 
 
 def save(case: Case, path: str | Path) -> None:
-    """Write a case as TOML; comments of the file that stands there are kept."""
+    """Write a case as TOML; comments of the file that stands there are kept.
+
+    Parameters
+    ----------
+    case : Case
+        What to write: options at their default are left out.
+    path : path-like
+        The file.
+
+    Raises
+    ------
+    UsageError
+        When the file cannot be written; what stood there is untouched.
+    """
     from lambda_core.schema.case_writer import save_case
 
     save_case(case, path)
@@ -121,7 +144,23 @@ def save(case: Case, path: str | Path) -> None:
 def init_case(
     name: str, start: str = "6319-cp10-1500", path: str | Path | None = None, overwrite: bool = False
 ) -> Path:
-    """Write a commented case called `name` that starts from another; return its file (default NAME.toml).
+    """Write a commented case called `name` that starts from another.
+
+    Parameters
+    ----------
+    name : str
+        Letters, digits, dot, dash and underscore.
+    start : str
+        Built-in case or case file to start from.
+    path : path-like, optional
+        Default: NAME.toml in the working directory.
+    overwrite : bool
+        Replace a file that stands there.
+
+    Returns
+    -------
+    pathlib.Path
+        The file.
 
     Raises
     ------
@@ -136,7 +175,13 @@ def init_case(
 
 
 def schema() -> dict[str, Any]:
-    """Return the JSON schema of a case file."""
+    """Return the JSON schema of a case file.
+
+    Returns
+    -------
+    dict
+        JSON Schema, draft 2020-12.
+    """
     from lambda_core.schema.case_io import case_json_schema
 
     return case_json_schema()
@@ -144,6 +189,16 @@ def schema() -> dict[str, Any]:
 
 def resolve(case: Case) -> BearingModel:
     """Freeze a case into the model of a run: every value in SI with its origin.
+
+    Parameters
+    ----------
+    case : Case
+        What the engineer wrote.
+
+    Returns
+    -------
+    BearingModel
+        Immutable: values, laws, assumptions.
 
     Raises
     ------
@@ -209,7 +264,18 @@ def check(
 
 
 def problems(source: Mapping[str, Any] | Case) -> tuple[Problem, ...]:
-    """Return every mistake of a case or of plain tables, none if it is fine; for forms that check while one types."""
+    """Return every mistake of a case or of plain tables; for forms that check while one types.
+
+    Parameters
+    ----------
+    source : mapping or Case
+        Plain tables as they stand in a file, or a case.
+
+    Returns
+    -------
+    tuple of Problem
+        Place and sentence of each; empty when the case is fine.
+    """
     try:
         check(source)
     except CaseError as error:
@@ -219,6 +285,16 @@ def problems(source: Mapping[str, Any] | Case) -> tuple[Problem, ...]:
 
 def draft(source: str | Path | None = None) -> Draft:
     """Open a case for editing: a file, a copy of a built-in case, or one that says nothing yet.
+
+    Parameters
+    ----------
+    source : str or Path, optional
+        File or built-in name; None for an empty draft.
+
+    Returns
+    -------
+    Draft
+        Plain tables that may be wrong, with undo.
 
     Raises
     ------
@@ -233,21 +309,49 @@ def draft(source: str | Path | None = None) -> Draft:
 
 
 def describe(model: BearingModel) -> CaseReport:
-    """Say what a resolved model is: headline, bodies, models, assumptions, every value with its origin."""
+    """Say what a resolved model is: headline, bodies, models, assumptions, every value with its origin.
+
+    Parameters
+    ----------
+    model : BearingModel
+        From :func:`check` or :func:`resolve`.
+
+    Returns
+    -------
+    CaseReport
+        ``text()`` are the lines for people.
+    """
     from lambda_core.physics.describe import describe as report
 
     return report(model)
 
 
 def catalogue() -> Catalogue:
-    """Open the catalogue of bearings, lubricants, materials and cages; the caller closes it."""
+    """Open the catalogue of bearings, lubricants, materials and cages.
+
+    Returns
+    -------
+    Catalogue
+        The caller closes it.
+
+    Raises
+    ------
+    PluginError
+        When no installed plugin provides one.
+    """
     from lambda_core.registry.manager import registry
 
     return registry().catalogue()
 
 
 def plugins() -> Inventory:
-    """Return every installed model, method, view and data folder, and the plugins that are not in use."""
+    """Return everything that is installed, and the plugins that are not in use.
+
+    Returns
+    -------
+    Inventory
+        Models, methods, views and data folders with their distributions; faults with the reason.
+    """
     from lambda_core.registry.manager import registry
     from lambda_core.registry.survey import inventory
 
@@ -261,6 +365,17 @@ def plugin_model(label: str) -> ModelCard:
     ----------
     label : str
         "role/name", for example "traction/ree-eyring".
+
+    Returns
+    -------
+    ModelCard
+
+    Raises
+    ------
+    UsageError
+        When `label` is not of that form or there is no such role.
+    PluginError
+        When the role has no such model, or it cannot be imported.
     """
     from lambda_core.registry.manager import registry
     from lambda_core.registry.survey import model_card
@@ -275,6 +390,16 @@ def check_plugins(names: Sequence[str] = ()) -> Iterator[CheckCard]:
     ----------
     names : sequence of str
         Distributions, roles or "role/name"; everything when empty.
+
+    Yields
+    ------
+    CheckCard
+        One per model, in the order of the pipeline.
+
+    Raises
+    ------
+    UsageError
+        When a name is none of these.
     """
     from lambda_core.registry.manager import registry
     from lambda_core.registry.survey import check_installed
@@ -283,7 +408,18 @@ def check_plugins(names: Sequence[str] = ()) -> Iterator[CheckCard]:
 
 
 def plugin_faults(names: Sequence[str] = ()) -> list[FaultCard]:
-    """Return the plugins of these distributions (all when empty) that could not be taken into use."""
+    """Return the plugins that could not be taken into use.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Distributions; all when empty.
+
+    Returns
+    -------
+    list of FaultCard
+        With the reason of each.
+    """
     from lambda_core.registry.manager import registry
     from lambda_core.registry.survey import broken
 
@@ -291,7 +427,25 @@ def plugin_faults(names: Sequence[str] = ()) -> list[FaultCard]:
 
 
 def new_plugin(name: str, folder: str | Path = ".") -> list[Path]:
-    """Write the sources of a small plugin package into ``folder/name`` and return its files."""
+    """Write the sources of a small plugin package.
+
+    Parameters
+    ----------
+    name : str
+        Lower case and hyphens, for example "my-traction".
+    folder : path-like
+        Where the package's folder `name` is made.
+
+    Returns
+    -------
+    list of pathlib.Path
+        The files that were written.
+
+    Raises
+    ------
+    UsageError
+        When the name is taken or not of that form, or the folder exists or cannot be written.
+    """
     from lambda_core.registry.scaffold import new_plugin as write
 
     return write(name, Path(folder))
@@ -312,6 +466,11 @@ def quasistatic(
     announce : callable, optional
         Called with a sentence before something is compiled.
 
+    Returns
+    -------
+    QuasiStatic
+        Numbers in the units of their names.
+
     Raises
     ------
     CaseError, SolverError
@@ -327,6 +486,18 @@ def estimate(
     source: str | Path | Mapping[str, Any] | Case | BearingModel, *, announce: Callable[[str], None] | None = None
 ) -> Estimate:
     """Say what can be said of a case before it is run: equilibrium, rating life, wall time.
+
+    Parameters
+    ----------
+    source
+        As for :func:`check`, or a resolved model.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Estimate
+        Numbers that there are none of are None.
 
     Raises
     ------
@@ -398,6 +569,11 @@ def resume(
     progress, announce
         As for :func:`run`.
 
+    Returns
+    -------
+    Result
+        As from :func:`run`.
+
     Raises
     ------
     UsageError
@@ -412,14 +588,46 @@ def resume(
 
 
 def result(path: str | Path) -> Result:
-    """Open a result file: finished, still growing, or left behind by a killed process."""
+    """Open a result file: finished, still growing, or left behind by a killed process.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+
+    Returns
+    -------
+    Result
+        Reads from the file what it is asked for.
+
+    Raises
+    ------
+    UsageError
+        When the file does not exist, is not a result, or is damaged.
+    """
     from lambda_core.simulate.results import Result
 
     return Result(path)
 
 
 def summary(path: str | Path) -> Summary:
-    """Return the averages and the end state of a result (the machine interface)."""
+    """Return the averages and the end state of a result (the machine interface).
+
+    Parameters
+    ----------
+    path : path-like
+        Result file.
+
+    Returns
+    -------
+    Summary
+        Numbers in the units of their names.
+
+    Raises
+    ------
+    UsageError
+        When the file is no result or holds no samples yet.
+    """
     return result(path).summary()
 
 
@@ -486,6 +694,13 @@ def compare(
         Result file of the same case: its simulation becomes the first column.
     contamination : float, optional
         e_C of ISO 281, for modified lives.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Comparison
+        One column per method, rows with units; methods that do not apply with the reason.
 
     Raises
     ------
@@ -509,12 +724,16 @@ def compare(
 
 
 def views(subject: Subject | None = None) -> list[ViewCard]:
-    """Return every installed view with its options, or those of one kind of subject.
+    """Return the installed views with their options.
 
     Parameters
     ----------
     subject : str, optional
-        ``result``, ``results`` (two or more) or ``study``.
+        Only those of ``result``, ``results`` (two or more) or ``study``.
+
+    Returns
+    -------
+    list of ViewCard
     """
     from lambda_core.registry.manager import registry
     from lambda_core.report.gallery import cards
@@ -534,6 +753,11 @@ def view(source: str | Path | Sequence[str | Path], name: str, options: Mapping[
     options : mapping, optional
         Options of the view by name.
 
+    Returns
+    -------
+    ViewData
+        Panels of series and fields; ``as_dict()`` is ready for JSON.
+
     Raises
     ------
     UsageError
@@ -549,7 +773,23 @@ def view(source: str | Path | Sequence[str | Path], name: str, options: Mapping[
 
 
 def view_all(source: str | Path | Sequence[str | Path]) -> Iterator[tuple[str, ViewData | LambdaError]]:
-    """Yield every view of a source by name: its data, or the reason why it shows nothing."""
+    """Show every view of a source, one after the other.
+
+    Parameters
+    ----------
+    source : path-like or sequence of them
+        As for :func:`view`.
+
+    Yields
+    ------
+    tuple of str and (ViewData or LambdaError)
+        Name of the view; its data, or the reason why it shows nothing.
+
+    Raises
+    ------
+    UsageError
+        For a file that does not exist or is no result.
+    """
     from lambda_core.registry.manager import registry
     from lambda_core.report.gallery import every
 
@@ -559,7 +799,29 @@ def view_all(source: str | Path | Sequence[str | Path]) -> Iterator[tuple[str, V
 
 
 def draw(data: ViewData, folder: str | Path, stem: str, formats: Sequence[str] = ("svg", "png")) -> list[Path]:
-    """Draw a view into files ``stem-view.format`` of a folder; returns their paths."""
+    """Draw a view into files ``stem-view.format`` of a folder.
+
+    Parameters
+    ----------
+    data : ViewData
+        From :func:`view`.
+    folder : path-like
+        Where the files go; made if it does not exist.
+    stem : str
+        Beginning of their names (:func:`view_stem`).
+    formats : sequence of str
+        What matplotlib can write: ``svg``, ``png``, ``pdf``.
+
+    Returns
+    -------
+    list of pathlib.Path
+        One per format.
+
+    Raises
+    ------
+    UsageError
+        When a file cannot be written or the format is unknown.
+    """
     from lambda_core.registry.manager import registry
     from lambda_core.report.gallery import write
 
@@ -567,14 +829,24 @@ def draw(data: ViewData, folder: str | Path, stem: str, formats: Sequence[str] =
 
 
 def view_stem(source: Sequence[str | Path]) -> str:
-    """Return the beginning of file names for pictures of these results."""
+    """Return the beginning of file names for pictures of these results.
+
+    Parameters
+    ----------
+    source : sequence of path-like
+        Result files, or the folder of one study.
+
+    Returns
+    -------
+    str
+    """
     from lambda_core.report.gallery import stem_of
 
     return stem_of([Path(path) for path in source])
 
 
 def report(source: str | Path, out: str | Path | None = None, *, overwrite: bool = False) -> Path:
-    """Write one self-contained, printable HTML page about a run or a study; return its path.
+    """Write one self-contained, printable HTML page about a run or a study.
 
     Parameters
     ----------
@@ -582,6 +854,13 @@ def report(source: str | Path, out: str | Path | None = None, *, overwrite: bool
         A result file or the folder of a study.
     out : path-like, optional
         Default: the name of the source with ``.html`` in the working directory.
+    overwrite : bool
+        Replace a page that stands there.
+
+    Returns
+    -------
+    pathlib.Path
+        The page.
 
     Raises
     ------
@@ -614,6 +893,20 @@ def study_check(
     announce: Callable[[str], None] | None = None,
 ) -> StudyEstimate:
     """Check a study file without running it: its points, and about what they cost.
+
+    Parameters
+    ----------
+    source : path-like, mapping or Study
+        Study file, the same as plain tables, or as an object.
+    workers : int, optional
+        Processes to reckon with; default: the processors that this process may use.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    StudyEstimate
+        Points, wall time, disk space.
 
     Raises
     ------
@@ -651,6 +944,11 @@ def study_run(
     progress, announce : callable, optional
         Called with where the study stands; with a sentence before something is compiled and with the estimate.
 
+    Returns
+    -------
+    StudyStatus
+        Also when points failed: they are counted, with reasons in the table.
+
     Raises
     ------
     CaseError, UsageError
@@ -673,7 +971,20 @@ def study_resume(
     retry: bool = False,
     progress: Callable[[StudyProgress], None] | None = None,
 ) -> StudyStatus:
-    """Go on with an interrupted study; with `retry` failed points are done again.
+    """Go on with an interrupted study.
+
+    Parameters
+    ----------
+    folder : path-like
+        Of the study.
+    executor, workers, progress
+        As for :func:`study_run`.
+    retry : bool
+        Do failed points again.
+
+    Returns
+    -------
+    StudyStatus
 
     Raises
     ------
@@ -686,21 +997,58 @@ def study_resume(
 
 
 def study_status(folder: str | Path) -> StudyStatus:
-    """Return where a study stands, also while it is being worked on."""
+    """Return where a study stands, also while it is being worked on.
+
+    Parameters
+    ----------
+    folder : path-like
+        Of the study.
+
+    Returns
+    -------
+    StudyStatus
+
+    Raises
+    ------
+    UsageError
+        When the folder holds no study.
+    """
     from lambda_core.study.session import status
 
     return status(Path(folder))
 
 
 def study_table(folder: str | Path) -> StudyTable:
-    """Return the table of a study as far as it is known."""
+    """Return the table of a study as far as it is known.
+
+    Parameters
+    ----------
+    folder : path-like
+        Of the study.
+
+    Returns
+    -------
+    StudyTable
+        One row per point, parameters and responses with units.
+
+    Raises
+    ------
+    UsageError
+        When the folder holds no study.
+    """
     from lambda_core.study.session import table
 
     return table(Path(folder))
 
 
 def study_schema() -> dict[str, Any]:
-    """Return the JSON schema of a study file."""
+    """Return the JSON schema of a study file.
+
+    Returns
+    -------
+    dict
+        JSON Schema, draft 2020-12.
+    """
     from lambda_core.study.definition import study_json_schema
 
     return study_json_schema()
