@@ -12,7 +12,8 @@ import inspect
 import os
 import re
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -214,6 +215,28 @@ def host_folder(key: str) -> Path:
     return cache_folder() / f"host-{key[:24]}-{_environment()}"
 
 
+@contextmanager
+def _one_at_a_time(folder: Path) -> Iterator[None]:
+    """Let one process compile into an empty folder while others wait and then load what it left.
+
+    Without a lock (Windows, a cache that cannot be written) each compiles for itself, which is only slower.
+    """
+    if any(folder.rglob("*.nbc")):
+        yield
+        return
+    try:
+        import fcntl
+
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        handle = (folder.parent / f"{folder.name}.lock").open("w")
+    except (ImportError, OSError):
+        yield
+        return
+    with handle:
+        fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+
+
 def compile_host(
     function: Callable[..., Any],
     signature: Any,
@@ -264,7 +287,8 @@ def compile_host(
     from lambda_core.registry import machine_code
 
     start = time.perf_counter()
-    dispatcher = machine_code.compile_into(function, signature, host_folder(key), on_miss, **options)
+    with _one_at_a_time(host_folder(key)):
+        dispatcher = machine_code.compile_into(function, signature, host_folder(key), on_miss, **options)
     return CompiledHost(dispatcher, key, not missed, time.perf_counter() - start)
 
 
