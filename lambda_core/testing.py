@@ -68,6 +68,11 @@ def check_model(
     samples : int
         Number of argument sets.
 
+    Returns
+    -------
+    ModelReport
+        Without faults and warnings; with the time per call [s].
+
     Raises
     ------
     AssertionError
@@ -154,6 +159,11 @@ def method_inputs(**changes: Any) -> MethodInputs:
     ----------
     **changes
         Fields of :class:`lambda_core.plugins.MethodInputs` that differ, SI.
+
+    Returns
+    -------
+    MethodInputs
+        Plain numbers, SI.
     """
     inner = trial_context("ball_inner")
     groove = inner.groove_radius
@@ -218,14 +228,41 @@ class TrialRun:
 
 
 def run_data(**channels: ArrayLike) -> RunData:
-    """Return a run made of these channels, each with time as its first axis, SI."""
+    """Return a run made of given channels, for the tests of views.
+
+    Parameters
+    ----------
+    **channels : array_like
+        Channels by name, each with time as its first axis, SI; ``time`` [s] is one of them.
+
+    Returns
+    -------
+    RunData
+        Without integrals and summary: asking for them raises NotApplicable.
+    """
     return TrialRun(channels)
 
 
 def assert_increasing(model: Model | str, argument: str, values: ArrayLike, *, output: int = 0, **given: Any) -> None:
-    """Assert that an output never falls while `argument` runs through increasing `values`.
+    """Assert that an output never falls while one argument rises.
 
-    `given` holds the other arguments (and ``parameters``, ``context``) as for :func:`evaluate`.
+    Parameters
+    ----------
+    model : Model or str
+        The law, or "role/name" of an installed one.
+    argument : str
+        Name of the argument of the role.
+    values : array_like
+        Its values, increasing, SI.
+    output : int
+        Which output array (rheology has two), or which entry of the one.
+    **given
+        The other arguments, ``parameters`` and ``context`` as for :func:`evaluate`.
+
+    Raises
+    ------
+    AssertionError
+        With the place where it falls.
     """
     found = _along(model, argument, values, output, given)
     falls = np.flatnonzero(np.diff(found) < 0.0)
@@ -245,7 +282,28 @@ def assert_limit(
     output: int = 0,
     **given: Any,
 ) -> None:
-    """Assert that an output is `expected` at the end ``argument = value`` of its range."""
+    """Assert that an output is `expected` at one end of its range.
+
+    Parameters
+    ----------
+    model : Model or str
+        The law, or "role/name" of an installed one.
+    argument : str
+        Name of the argument of the role.
+    value, expected : float
+        The argument at the end of its range; the output there, SI.
+    rtol, atol : float
+        Allowed relative and absolute deviation.
+    output : int
+        Which output array (rheology has two), or which entry of the one.
+    **given
+        The other arguments, ``parameters`` and ``context`` as for :func:`evaluate`.
+
+    Raises
+    ------
+    AssertionError
+        With what it is instead.
+    """
     found = float(_along(model, argument, [value], output, given)[0])
     if not abs(found - expected) <= atol + rtol * abs(expected):
         label = _model(model).label
@@ -262,7 +320,30 @@ def assert_symmetric(
     output: int = 0,
     **given: Any,
 ) -> None:
-    """Assert that an output keeps (or, `odd`, changes) its sign and keeps its size when `argument` is mirrored."""
+    """Assert that an output is even, or odd, in one argument.
+
+    Parameters
+    ----------
+    model : Model or str
+        The law, or "role/name" of an installed one.
+    argument : str
+        Name of the argument of the role.
+    values : array_like
+        Its values on one side, SI; the other side is mirrored.
+    odd : bool
+        The output changes its sign with the argument; otherwise it keeps it.
+    rtol : float
+        Allowed relative deviation of the two sides.
+    output : int
+        Which output array (rheology has two), or which entry of the one.
+    **given
+        The other arguments, ``parameters`` and ``context`` as for :func:`evaluate`.
+
+    Raises
+    ------
+    AssertionError
+        With both sides.
+    """
     array = np.asarray(values, np.float64)
     there = _along(model, argument, array, output, given)
     back = _along(model, argument, -array, output, given)

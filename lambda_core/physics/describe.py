@@ -25,7 +25,21 @@ class ValueReport(BaseModel):
 
 
 class CaseReport(BaseModel):
-    """What ``check`` says of a valid case; its dump is the machine interface (version 1)."""
+    """What ``check`` says of a valid case; its dump is the machine interface (version 1).
+
+    Attributes
+    ----------
+    valid : bool
+        Always true: an invalid case is an error.
+    hash : str
+        Of all that decides the numbers of a run.
+    bodies : dict of str to str
+        Mass and boundary conditions of each body.
+    models : dict of str to dict
+        Force element to role to the name of the law.
+    values : list of ValueReport
+        Every frozen value with its origin.
+    """
 
     version: Literal[1] = 1
     valid: Literal[True] = True

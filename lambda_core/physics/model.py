@@ -167,7 +167,23 @@ class Marker:
 
 @dataclass(frozen=True)
 class BearingModel:
-    """Everything that a run needs, SI, immutable."""
+    """Everything that a run needs, SI, immutable.
+
+    Attributes
+    ----------
+    geometry : Geometry
+        Inner geometry at the clearance in operation.
+    ball_material, inner_material, outer_material, cage_material : Material
+        Solid properties of the parts.
+    inner_ring, outer_ring, cage_body : Body
+        Masses, boundary conditions and loads; the shaft counts to the inner ring.
+    cage : Cage
+        Its geometry.
+    depth, solver, output : Depth, Solver, Output
+        Settings.
+    values : tuple of ResolvedValue
+        Every frozen number with its origin.
+    """
 
     name: str
     title: str  # one line for people: "6319 (Syla2026)"

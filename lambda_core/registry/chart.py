@@ -26,12 +26,18 @@ class Axis:
 
     Attributes
     ----------
+    label, unit : str
+        What is shown; its unit, "" for plain numbers.
+    log : bool
+        Logarithmic.
     low, high : float, optional
         Ends of the axis; by the data where None.
     least : float
         Smallest range that is shown: rounding errors of a constant are not blown up.
     categories : tuple of str
         Names of the places 0, 1, 2 ... of a discrete axis.
+    ticks : tuple of float
+        Where numbers stand; chosen by the drawing where empty.
     """
 
     label: str
@@ -65,6 +71,8 @@ class Series:
         in every view. "" for anything else.
     low, high : float64[:], shape (n,), optional
         Band around `y`: a spread or a confidence interval, as `band` says.
+    band : str
+        What the band is.
     """
 
     name: str
@@ -86,7 +94,17 @@ class Series:
 
 @dataclass(frozen=True)
 class Mark:
-    """A labelled straight line across a panel at one value of one axis."""
+    """A labelled straight line across a panel at one value of one axis.
+
+    Attributes
+    ----------
+    label : str
+        What stands beside it.
+    value : float
+        Where it is, in the axis' unit.
+    axis : str
+        ``x`` or ``y``.
+    """
 
     label: str
     value: float
@@ -99,14 +117,20 @@ class Field:
 
     Attributes
     ----------
+    name, unit : str
+        What the values are, and their unit.
     x, y, values : float64[:, :], equal shapes
         Places of the values in the units of the axes; NaN where there is nothing.
     lines : float64[:, :], optional
-        A second quantity on the mesh whose zero is drawn as a line, labelled `line_name`.
+        A second quantity on the mesh whose zero is drawn as a line.
+    line_name : str
+        Label of that line.
     levels : tuple of float
         Values at which contour lines are drawn.
     signed : bool
         Zero is the middle of the colours.
+    log : bool
+        Colours by the logarithm.
     """
 
     name: str
@@ -133,7 +157,17 @@ class Field:
 
 @dataclass(frozen=True)
 class Arrows:
-    """Vectors (u, v) at places (x, y), shape (n,) each; `u` and `v` are in `unit`."""
+    """Vectors at places of a panel.
+
+    Attributes
+    ----------
+    name, unit : str
+        What the vectors are, and their unit.
+    x, y : float64[:], shape (n,)
+        Places, in the units of the axes.
+    u, v : float64[:], shape (n,)
+        Components along x and y, in `unit`.
+    """
 
     name: str
     unit: str
@@ -149,6 +183,12 @@ class Panel:
 
     Attributes
     ----------
+    x, y : Axis
+        The two axes.
+    series, marks : tuple of Series, tuple of Mark
+        Lines, points, bars and areas; labelled lines across.
+    field, arrows : Field or None, Arrows or None
+        At most one field of values; vectors on it.
     shape : str
         ``plain``; ``polar``: x is an angle in degrees, counted from the right, counter-clockwise, y the radius;
         ``plane``: both axes are lengths and drawn to one scale.

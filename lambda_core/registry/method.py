@@ -68,14 +68,14 @@ class MethodInputs:
     bore_diameter: float  # [m]
     outside_diameter: float  # [m]
     width: float  # [m]
-    ball_count: int
+    ball_count: int  # Z
     ball_diameter: float  # [m]
     pitch_diameter: float  # [m]
     groove_radius_inner: float  # [m]
     groove_radius_outer: float  # [m]
-    ball: Material
-    inner_ring: Material
-    outer_ring: Material
+    ball: Material  # of the balls
+    inner_ring: Material  # of the inner ring
+    outer_ring: Material  # of the outer ring
     oil: Oil  # viscosity, density, alpha_p and beta filled in at the bulk temperature
     radial_load: float  # magnitude [N]
     axial_load: float  # magnitude [N]
@@ -85,12 +85,12 @@ class MethodInputs:
     static_rating: float | None = None  # C_0 [N]
     fatigue_limit: float | None = None  # C_u [N]
     contamination: float | None = None  # e_C of ISO 281, 0..1
-    lubrication: Lubrication = "oil bath"
+    lubrication: Lubrication = "oil bath"  # "oil bath", "oil jet", "oil-air", "grease"
     oil_level: float | None = None  # above the lowest point of the pitch circle [m]
     drag_volume_factor: float | None = None  # V_M of SKF, read from its chart at H/d_m
     drag_edition: Literal["2008", "2018"] = "2018"  # edition of SKF's drag formula, to which V_M belongs
     permittivity: Callable[[float], float] | None = None  # pressure [Pa] -> eps_r at the bulk temperature
-    state: EquilibriumState | None = None
+    state: EquilibriumState | None = None  # quasi-static loads, displacement, stiffness and friction
 
     @property
     def mean_diameter(self) -> float:
@@ -112,11 +112,11 @@ class MethodInputs:
 class MethodRow:
     """One number of a method, in a unit of its group (:data:`GROUP_UNITS`)."""
 
-    group: Group
+    group: Group  # "friction", "capacitance", "life", "rating", "kinematics", "stiffness", "load"
     name: str  # "total", "rolling", "sliding", ...; equal names of two methods stand side by side
-    value: float
-    unit: str
-    meaning: str = ""
+    value: float  # in `unit`
+    unit: str  # one of the group's
+    meaning: str = ""  # one line for people
 
     def __post_init__(self) -> None:
         if self.unit not in GROUP_UNITS[self.group]:
@@ -127,7 +127,7 @@ class MethodRow:
 class MethodTable:
     """What a method returns: rows, and what it had to assume."""
 
-    rows: tuple[MethodRow, ...]
+    rows: tuple[MethodRow, ...]  # in the order in which they are shown
     assumptions: tuple[str, ...] = ()
 
     def value(self, group: str, name: str) -> float:
@@ -160,6 +160,8 @@ class Method:
     evaluate : callable
         ``evaluate(inputs: MethodInputs) -> MethodTable``; raises :class:`NotApplicable` with a sentence when the
         method does not cover the case.
+    validity : str
+        Cases that it is made for.
     """
 
     name: str

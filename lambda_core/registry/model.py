@@ -28,7 +28,7 @@ class Material:
 
     name: str
     youngs_modulus: float  # [Pa]
-    poisson_ratio: float
+    poisson_ratio: float  # [-]
     density: float  # [kg/m3]
     thermal_conductivity: float  # [W/(m K)]
     specific_heat: float  # [J/(kg K)]
@@ -43,7 +43,7 @@ class Oil:
     """
 
     name: str
-    base_type: str
+    base_type: str  # "mineral", "PAO", ...
     temperature: float  # bulk and inlet temperature [K]
     thermal_conductivity: float  # [W/(m K)]
     specific_heat: float  # [J/(kg K)]
@@ -61,7 +61,7 @@ class Context:
     """
 
     element: str  # "ball_inner", "ball_outer", "ball_cage", "cage_inner", "cage_outer", "fluid_drag"
-    ball_count: int
+    ball_count: int  # Z
     ball_diameter: float  # [m]
     pitch_diameter: float  # [m]
     bore_diameter: float  # [m]
@@ -70,9 +70,9 @@ class Context:
     series: str  # "60", "62", "63", "64", "618", "619" or "" when unknown
     speed: float  # |Omega_i - Omega_o| at the start or its largest planned value [rad/s]
     mean_load: float  # mean normal load of the loaded contacts at equilibrium [N]
-    ball: Material
+    ball: Material  # of the balls
     partner: Material  # ring or cage
-    oil: Oil
+    oil: Oil  # at the bulk temperature
     contact_angle: float = float("nan")  # at which R_x is frozen [rad]
     groove_radius: float = float("nan")  # [m]
     race_diameter: float = float("nan")  # at the groove's bottom [m]
@@ -99,6 +99,8 @@ class Model:
 
     Attributes
     ----------
+    role, name : str
+        Which stage of the pipeline it fills; how a case names it.
     kernel : callable
         Plain Python function with the role's signature (:mod:`lambda_core.registry.roles`).
     parameters : type of pydantic.BaseModel
@@ -107,10 +109,14 @@ class Model:
         ``prepare(parameters, context) -> float64[:]``; None means the fields in order, SI.
     reference : str
         Paper and equation number.
+    summary : str
+        One line for people.
     validity : str
         Range in which the law was established.
     errors : mapping of int to str
         Sentences for the kernel's own status codes (2 and up).
+    role_api : int
+        Version of the role interface that it is written for.
     """
 
     role: str
@@ -164,7 +170,32 @@ def model(
     errors: Mapping[int, str] | None = None,
     role_api: int = ROLE_API,
 ) -> Model:
-    """Describe a law for `role`; pass the result to ``register`` in ``lambda_models``."""
+    """Describe a law for `role`; pass the result to ``register`` in ``lambda_models``.
+
+    Parameters
+    ----------
+    role, name : str
+        A role of :data:`lambda_core.registry.roles.ROLES`; the name by which a case chooses the law.
+    kernel : callable
+        Plain Python function with the role's arguments; returns 1, or one of `errors`.
+    parameters : type of pydantic.BaseModel
+        Fields with defaults, units, limits and sources; the kernel finds them in order in ``par``, SI.
+    reference : str
+        Publication and equation numbers, "-" where there is nothing to cite.
+    summary, validity : str
+        One line about the law (default: first line of the kernel's docstring); range in which it was established.
+    prepare : callable, optional
+        ``prepare(parameters, context) -> float64[:]``: what the kernel gets as ``par``, made once per run.
+    errors : mapping of int to str, optional
+        A sentence for each status of the kernel from 2 on.
+    role_api : int
+        Version of the role interface that the law is written for.
+
+    Returns
+    -------
+    Model
+        Frozen; it is checked when it is registered and when it is chosen.
+    """
     doc = (kernel.__doc__ or "").strip().splitlines()
     return Model(
         role,
@@ -181,5 +212,15 @@ def model(
 
 
 def default_par(parameters: BaseModel) -> FloatArray:
-    """Fields of `parameters` in order as float64, shape (n,), SI: the default of `prepare`."""
+    """Return the fields of `parameters` in order: what a kernel without `prepare` gets as ``par``.
+
+    Parameters
+    ----------
+    parameters : pydantic.BaseModel
+        An instance; every field a number, SI.
+
+    Returns
+    -------
+    float64[:], shape (number of fields,)
+    """
     return np.array([float(getattr(parameters, name)) for name in type(parameters).model_fields], dtype=np.float64)

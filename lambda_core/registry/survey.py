@@ -34,17 +34,17 @@ class ModelCard(BaseModel):
     """One model: what it is, where it comes from, and what can be set."""
 
     version: int = 1  # of this form
-    role: str
+    role: str  # stage of the pipeline
     name: str
     distribution: str
-    summary: str
+    summary: str  # one line for people
     reference: str
-    validity: str
+    validity: str  # range in which the law was established
     default: bool  # whether it fills the role when a case says nothing
     elements: list[str]  # force elements that carry the role
-    outputs: list[str]
-    errors: dict[int, str]
-    parameters: list[ParameterCard]
+    outputs: list[str]  # what the kernel writes, with units
+    errors: dict[int, str]  # sentence of each status from 2 on
+    parameters: list[ParameterCard]  # with units, limits, defaults and sources
 
 
 class Item(BaseModel):
@@ -61,8 +61,8 @@ class FaultCard(BaseModel):
     """A plugin, or one of its models, that cannot be used."""
 
     distribution: str
-    entry_point: str
-    message: str
+    entry_point: str  # name of the entry point, or "role/name" of the model
+    message: str  # one sentence
     is_broken: bool = True  # False when it was switched off on purpose
 
 
@@ -70,19 +70,19 @@ class Inventory(BaseModel):
     """Everything installed."""
 
     version: int = 1  # of this form
-    items: list[Item]
-    faults: list[FaultCard]
+    items: list[Item]  # models, methods, views, data folders
+    faults: list[FaultCard]  # plugins that are not in use, and why
 
 
 class CheckCard(BaseModel):
     """What came out of trying one model."""
 
-    role: str
+    role: str  # stage of the pipeline
     name: str
     distribution: str
-    ok: bool
-    faults: list[str]
-    warnings: list[str]
+    ok: bool  # whether the model may be used
+    faults: list[str]  # sentences that keep it from being used
+    warnings: list[str]  # sentences that do not (slow)
     not_tried: str  # why, when no parameters were at hand
     nanoseconds: float | None  # per call, or per cell of an elementwise role
 

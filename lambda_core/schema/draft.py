@@ -50,7 +50,7 @@ class Draft:
     path: Path | None
     original: str
     tables: dict[str, Any]
-    folder: Path | None = None
+    folder: Path | None = None  # that file names in the tables are relative to; None: the working directory
     _saved: dict[str, Any] = field(default_factory=dict)
     _done: list[_Change] = field(default_factory=list)
     _undone: list[_Change] = field(default_factory=list)
@@ -75,6 +75,13 @@ class Draft:
         """Write a value, or take it out with None; empty tables go with their last value.
 
         Changes of one place that follow each other are undone together.
+
+        Parameters
+        ----------
+        *keys : str
+            Path of the option.
+        value : object
+            What would stand in the file.
         """
         before = deepcopy(self.get(*keys))
         if before == value and type(before) is type(value):

@@ -20,12 +20,12 @@ class Warmup(Record):
 
     interface: int = INTERFACE
     folder: str = Field(description="where compiled code is kept")
-    solver_parts: int
+    solver_parts: int = Field(description="parts that the solver is compiled in")
     solver_parts_compiled: int = Field(description="by this call; the others were there")
-    laws: int
+    laws: int = Field(description="installed laws")
     laws_compiled: int = Field(description="by this call; the others were there")
     faults: list[str] = Field(description="laws that cannot be compiled, and why")
-    seconds: float
+    seconds: float = Field(description="wall time of this call [s]")
 
     def text(self) -> str:
         """Return the lines for people."""
