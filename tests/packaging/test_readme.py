@@ -55,15 +55,15 @@ def test_the_output_shown_is_what_a_run_prints(
     monkeypatch.chdir(tmp_path)
     assert main(["run", "6319-cp10-1500"]) == 0
     printed = capsys.readouterr()
-    heads = [line[:17].strip() for line in printed.out.splitlines()]
-    assert [head for head in heads if head and not head.startswith(("inner  ", "outer  "))] == [
-        line[:17].strip()
-        for line in shown.splitlines()
-        if line[:17].strip() in heads and line[:17].strip() and not line[:17].strip().startswith(("inner  ", "outer  "))
-    ]
+    assert _labels(printed.out) == _labels(shown)
     (mean, band), (mean_now, band_now) = _torque(shown), _torque(printed.out)
     assert abs(mean - mean_now) <= 1.5 * (band + band_now) + 0.002 * mean
     assert printed.err.splitlines()[0] in shown
+
+
+def _labels(text: str) -> list[str]:
+    """Return what stands in front of each line of a summary; continued lines are indented."""
+    return [found[1] for line in text.splitlines() if (found := re.match(r"([a-z][a-z ]*?)  ", line))]
 
 
 def _torque(text: str) -> tuple[float, float]:
