@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,14 +15,16 @@ if TYPE_CHECKING:
 
 
 @pytest.fixture(scope="session", autouse=True)
-def own_folders(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """Point cache and user data at folders of this test session; parallel workers share compiled code."""
+def own_folders(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """Point cache and user data at folders of the tests.
+
+    Compiled code is kept in pytest's own cache: it is named by its content, and compiling anew in every session and in
+    every worker would take longer than the tests.
+    """
     root = tmp_path_factory.mktemp("lambda-bearing")
-    shared = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        shared = shared.parent
+    assert request.config.cache is not None
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("LAMBDA_BEARING_CACHE", str(shared / "lambda-bearing-cache"))
+        patch.setenv("LAMBDA_BEARING_CACHE", str(request.config.cache.mkdir("lambda-bearing")))
         patch.setenv("LAMBDA_BEARING_DATA", str(root / "data"))
         yield root
 
