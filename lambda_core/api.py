@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from lambda_core.registry.table import StudyTable
     from lambda_core.registry.view import Subject
     from lambda_core.report.gallery import ViewCard
+    from lambda_core.reproduce.session import Reproduction
     from lambda_core.schema.case import Case
     from lambda_core.schema.draft import Draft
     from lambda_core.simulate.citation import Citation
@@ -60,6 +61,7 @@ __all__ = [
     "problems",
     "quasistatic",
     "report",
+    "reproduce",
     "resolve",
     "result",
     "resume",
@@ -187,13 +189,15 @@ def schema() -> dict[str, Any]:
     return case_json_schema()
 
 
-def resolve(case: Case) -> BearingModel:
+def resolve(case: Case, catalogue: Catalogue | None = None) -> BearingModel:
     """Freeze a case into the model of a run: every value in SI with its origin.
 
     Parameters
     ----------
     case : Case
         What the engineer wrote.
+    catalogue : Catalogue, optional
+        An open catalogue to look things up in; default: one is opened for this call.
 
     Returns
     -------
@@ -211,12 +215,18 @@ def resolve(case: Case) -> BearingModel:
     from lambda_core.registry.manager import registry
 
     models = registry()
-    with closing(models.catalogue()) as catalogue:
+    if catalogue is not None:
         return freeze(case, models, catalogue)
+    with closing(models.catalogue()) as opened:
+        return freeze(case, models, opened)
 
 
 def check(
-    source: str | Path | Mapping[str, Any] | Case, overrides: Iterable[str] = (), *, folder: Path | None = None
+    source: str | Path | Mapping[str, Any] | Case,
+    overrides: Iterable[str] = (),
+    *,
+    folder: Path | None = None,
+    catalogue: Catalogue | None = None,
 ) -> BearingModel:
     """Read and resolve a case without running it.
 
@@ -228,6 +238,8 @@ def check(
         Changes ``path=value``.
     folder : pathlib.Path, optional
         Where file names in plain tables are looked up; default: the working directory.
+    catalogue : Catalogue, optional
+        An open catalogue to look things up in; default: one is opened for this call.
 
     Returns
     -------
@@ -252,12 +264,12 @@ def check(
             loaded = validate_case(source, str(source.get("name", "case")), folder)
         else:
             loaded = source if isinstance(source, Case) else case(source)
-        return resolve(apply_overrides(loaded, changes) if changes else loaded)
+        return resolve(apply_overrides(loaded, changes) if changes else loaded, catalogue)
     except InvalidCase as error:
         if error.remainder is None:
             raise
         try:
-            resolve(error.remainder)
+            resolve(error.remainder, catalogue)
         except CaseError as more:
             raise error.joined(more.problems) from None
         raise
@@ -721,6 +733,48 @@ def compare(
     simulated = None if result is None else Result(result)
     chosen = [known[name] for name in methods or known]
     return comparison_of(model, ask(model, chosen, contamination=contamination, announce=announce), simulated)
+
+
+def reproduce(
+    what: str,
+    out: str | Path = "reproduction",
+    *,
+    workers: int | None = None,
+    quick: bool = False,
+    progress: Callable[[StudyProgress], None] | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Reproduction:
+    """Repeat published experiments, write their figures and one HTML page.
+
+    Parameters
+    ----------
+    what : str
+        ``table4``, ``fig5``, ``fig7`` (of Syla et al. 2026, Lubricants 14, 154) or ``all``.
+    out : path-like
+        Folder; what an earlier call has computed there is used again.
+    workers : int, optional
+        Processes; up to 4 when not given.
+    quick : bool
+        Fewer runs; the notes say what is left out.
+    progress, announce : callable, optional
+        Called with the number of points done; with a sentence.
+
+    Returns
+    -------
+    Reproduction
+        Numbers, the bars that are met or missed, and the files written.
+
+    Raises
+    ------
+    UsageError
+        For an unknown experiment, or a folder that cannot be written.
+    SolverError
+        When a point that everything else depends on has no solution.
+    """
+    from lambda_core.registry.manager import registry
+    from lambda_core.reproduce.session import reproduce as repeat
+
+    return repeat(registry(), what, Path(out), workers=workers, quick=quick, progress=progress, announce=announce)
 
 
 def views(subject: Subject | None = None) -> list[ViewCard]:

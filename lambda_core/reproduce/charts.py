@@ -1,0 +1,100 @@
+"""The figures of the reproduction as data: drawn by the house's drawing like any other view."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.registry.chart import Axis, Panel, Series, ViewData
+from lambda_core.reproduce.fig5 import Fig5
+from lambda_core.reproduce.fig7 import Fig7
+from lambda_core.reproduce.published import METHODS, PAPER, POINTS, SPEEDS, TABLE_4
+from lambda_core.reproduce.table4 import Table4
+
+FloatArray = NDArray[np.float64]
+_ROWS = {"C/P = 10": slice(0, 3), "C/P = 6.5": slice(3, 6)}
+_CRITERIA = {"S": "criterion S: speed of unloaded balls", "T": "criterion T: contacts outside the load zone"}
+
+
+def _array(values: object) -> FloatArray:
+    return np.array(values, dtype=np.float64)
+
+
+def table4_chart(found: Table4) -> ViewData:
+    """Torque over speed for both loads: measurement, blind with its band, calibrated, and the other methods."""
+    speed = _array(SPEEDS)
+    panels = []
+    for title, rows in _ROWS.items():
+        blind = _array([p.simulated_Nmm for p in found.points[rows]])
+        low = _array([d.low_Nmm for d in found.details[rows]])
+        high = _array([d.high_Nmm for d in found.details[rows]])
+        fitted = _array([p.calibrated_Nmm for p in found.points[rows]])
+        measured = _array([p.measured for p in POINTS[rows]])
+        # The band need not hold the blind value: it is a band of all published values.
+        series = [
+            Series("measured", speed, measured, "points", "total"),
+            Series("blind, 90 % band", speed, blind, "line", "inner", np.minimum(low, blind), np.maximum(high, blind)),
+            Series("calibrated on C/P = 10", speed, fitted, "line", "outer"),
+            *(Series(name, speed, _array(TABLE_4[name][rows]), "points", group=i) for i, name in enumerate(METHODS)),
+        ]
+        panels.append(Panel(title, Axis("speed", "1/min"), Axis("friction torque", "N mm", low=0.0), tuple(series)))
+    errors = ", ".join(f"{name} {value:.1f} %" for name, value in found.mean_absolute_error_pct.items())
+    return ViewData(
+        "table4", "Friction torque of the 6319, oil bath", PAPER, tuple(panels), 2, (f"mean absolute error: {errors}",)
+    )
+
+
+def sensitivity_chart(found: Table4) -> ViewData:
+    """Change of the torque from one end of every range to the other, largest first."""
+    names = tuple(s.name for s in found.sensitivities)
+    place = np.arange(len(names), dtype=np.float64)
+    series = (
+        Series("at the low end", place, _array([s.low_change_pct for s in found.sensitivities]), "bars", "inner"),
+        Series("at the high end", place, _array([s.high_change_pct for s in found.sensitivities]), "bars", "outer"),
+    )
+    panel = Panel("", Axis("", categories=names), Axis("change of the friction torque", "%"), series)
+    notes = tuple(f"{s.name}: {s.low} to {s.high}" for s in found.sensitivities[:6])
+    return ViewData("sensitivity", "What every assumed parameter does", "6319, mean of six points", (panel,), 1, notes)
+
+
+def fig5_chart(found: Fig5) -> ViewData:
+    """Excitation velocity at the boundary over frequency, a panel per variant and criterion."""
+    panels = []
+    for variant, criterion in dict.fromkeys((p.variant, p.criterion) for p in found.points):
+        mine = [p for p in found.points if (p.variant, p.criterion) == (variant, criterion)]
+        series = []
+        for load in dict.fromkeys(p.load_N for p in mine):
+            line = [p for p in mine if p.load_N == load]
+            frequency = _array([p.frequency_Hz for p in line])
+            low, mid, high = (
+                _array([np.nan if v is None else v for v in values])
+                for values in (
+                    [p.low_m_per_s for p in line],
+                    [p.velocity_m_per_s for p in line],
+                    [p.high_m_per_s for p in line],
+                )
+            )
+            series.append(Series(f"{load / 1e3:g} kN", frequency, mid, "line", "", low, high, "bracket"))
+        title = f"variant {variant}, {_CRITERIA[criterion]}"
+        axes = Axis("frequency", "Hz", log=True), Axis("excitation velocity", "m/s", log=True)
+        panels.append(Panel(title, *axes, tuple(series)))
+    lowest = min(r.frequency_Hz for r in found.resonances)
+    notes = (f"bands: the bisection's brackets; lowest axial resonance {lowest:.0f} Hz", *found.notes[:1])
+    return ViewData(
+        "fig5", "Boundary of altered running of the 6220", f"after {PAPER}, Fig. 5", tuple(panels), 2, notes
+    )
+
+
+def fig7_chart(found: Fig7) -> ViewData:
+    """C_Hertz over axial load, simulation beside analytical, for both rings."""
+    panels = []
+    for ring in ("inner", "outer"):
+        mine = [c for c in found.contacts if c.ring == ring]
+        load = _array([c.load_N for c in mine])
+        series = (
+            Series("simulation", load, _array([c.hertz_pF for c in mine]), "line", ring),
+            Series("analytical, isothermal", load, _array([c.analytical_pF for c in mine]), "points", "reference"),
+        )
+        axes = Axis("axial load", "N"), Axis("C_Hertz", "pF", low=0.0)
+        panels.append(Panel(f"{ring} ring contact", *axes, series))
+    return ViewData("fig7", "Capacitance of the Hertzian contacts, 6208", f"after {PAPER}, Fig. 7", tuple(panels), 2)

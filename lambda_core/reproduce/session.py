@@ -1,0 +1,92 @@
+"""What the api calls: repeat experiments, write figures and page, say what was found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Literal, get_args
+
+from pydantic import Field
+
+from lambda_core.errors import UsageError, unknown_name
+from lambda_core.registry.registry import Registry
+from lambda_core.reproduce import charts, text
+from lambda_core.reproduce.fig5 import Fig5, fig5
+from lambda_core.reproduce.fig7 import Fig7, fig7
+from lambda_core.reproduce.page import Chapter, write
+from lambda_core.reproduce.table4 import Table4, table4
+from lambda_core.reproduce.workshop import Report, Workshop
+from lambda_core.simulate.summary import Record
+from lambda_core.study.executors import usable_cores
+
+What = Literal["table4", "fig5", "fig7", "all"]
+MOST_WORKERS = 4
+
+
+class Reproduction(Record):
+    """Everything that was repeated; null what was not asked for."""
+
+    table4: Table4 | None = None
+    fig5: Fig5 | None = None
+    fig7: Fig7 | None = None
+    files: list[str] = Field(description="figures and the page")
+    unconverged: list[str] = Field(description="runs whose torque or energy balance has not converged, with reasons")
+
+    def text(self) -> str:
+        """Return bars, tables and notes for people."""
+        parts = [text.plain(c.title, c.bars, c.tables, c.notes) for c in chapters(self)]
+        return "\n\n".join([*parts, *(f"written: {name}" for name in self.files)])
+
+
+def reproduce(
+    registry: Registry,
+    what: str,
+    folder: Path,
+    *,
+    workers: int | None = None,
+    quick: bool = False,
+    progress: Report | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Reproduction:
+    """Repeat one experiment or all; what an earlier call in the same folder has computed is not done again.
+
+    Raises
+    ------
+    UsageError
+        For an unknown experiment, or a folder that cannot be written.
+    """
+    if what not in get_args(What):
+        raise UsageError(unknown_name("experiment", what, get_args(What)))
+    say = announce or (lambda sentence: None)
+    found: dict[str, Table4 | Fig5 | Fig7] = {}
+    with Workshop(folder, workers or min(usable_cores(), MOST_WORKERS), progress) as workshop:
+        for name, run in (("table4", table4), ("fig7", fig7), ("fig5", fig5)):
+            if what in (name, "all"):
+                say(f"repeating {name}")
+                found[name] = run(workshop, quick=quick)
+        result = Reproduction.model_validate({**found, "files": [], "unconverged": workshop.failures})
+    files = [str(path) for path in write(registry, chapters(result), folder)]
+    return result.model_copy(update={"files": files})
+
+
+def chapters(found: Reproduction) -> list[Chapter]:
+    """Return what is said, drawn and tabled about each experiment."""
+    result = []
+    if found.table4 is not None:
+        t = found.table4
+        pictures = (charts.table4_chart(t), charts.sensitivity_chart(t))
+        tables = (*text.table4_tables(t), text.blind_table())
+        notes = (f"90 % band: {t.band}", *t.notes)
+        result.append(Chapter("table4", "Table 4: friction torque of the 6319", tuple(t.bars), pictures, tables, notes))
+    if found.fig5 is not None:
+        f = found.fig5
+        title = "Fig. 5: altered running of the 6220"
+        tables = text.fig5_tables(f)
+        result.append(Chapter("fig5", title, tuple(f.bars), (charts.fig5_chart(f),), tables, tuple(f.notes)))
+    if found.fig7 is not None:
+        c = found.fig7
+        title = "Fig. 7: capacitance of the 6208"
+        result.append(
+            Chapter("fig7", title, tuple(c.bars), (charts.fig7_chart(c),), text.fig7_tables(c), tuple(c.notes))
+        )
+    return result
