@@ -209,7 +209,7 @@ class BuilderApp(App[None]):
             return
 
         def taken(found: Taken | None) -> None:
-            builder.around.forget_names()
+            builder.catalogue_changed()
             if found is not None:
                 builder.take(found)
 

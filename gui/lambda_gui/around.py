@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal, cast
 
 from lambda_core.errors import LambdaError
@@ -10,7 +11,7 @@ from lambda_gui.outline import Keys
 from lambda_gui.rows import Surroundings
 
 if TYPE_CHECKING:
-    from lambda_core.physics.describe import CaseReport, ValueReport
+    from lambda_core.physics.describe import ValueReport
     from lambda_core.schema.draft import Draft
 
 Name = Literal["bearing", "lubricant", "material", "cage"]
@@ -24,10 +25,10 @@ class CaseAround(Surroundings):
         self._values: dict[str, ValueReport] = {}
         self._names: dict[str, list[str]] = {}
 
-    def learn(self, report: CaseReport | None) -> None:
-        """Take the values of a new report; a case with mistakes keeps those it had."""
-        if report is not None:
-            self._values = {value.path: value for value in report.values}
+    def learn(self, values: Sequence[ValueReport]) -> None:
+        """Take new values; a case with mistakes keeps those it had."""
+        if values:
+            self._values = {value.path: value for value in values}
 
     def forget_names(self) -> None:
         """Read the catalogue's names anew: it has changed."""

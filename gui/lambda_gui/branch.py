@@ -14,7 +14,7 @@ from lambda_gui.rows import Edited, Row
 class Branch(Row):
     """A row whose choice decides which rows follow under it."""
 
-    _width = 23
+    _shape: object = None
 
     DEFAULT_CSS = """
     Branch > .twigs { height: auto; width: 1fr; }
@@ -40,7 +40,7 @@ class Branch(Row):
         self._shape = self.shape()
         super().on_mount()
 
-    def reload(self) -> None:
+    def show(self) -> None:
         """Show what is written; make the rows anew where they are others."""
         self.mark()
         if self.shape() != self._shape:
@@ -56,17 +56,14 @@ class Branch(Row):
         with self.app.batch_update():
             below.remove_children()
             below.mount(*self.twigs())
-        self.call_after_refresh(self._fit_twigs)
-
-    def _fit_twigs(self) -> None:
         for row in self.query(".twigs > Row").results(Row):
             row.fit(self._width)
-            row.reload()
 
     def fit(self, width: int) -> None:
         """Give the labels under the head the same room too."""
         super().fit(width)
-        self._width = width
+        for row in self.query(".twigs > Row").results(Row):
+            row.fit(width)
 
     def on_edited(self, event: Edited) -> None:
         """Mark the head too when a row under it changes."""

@@ -15,9 +15,9 @@ from textual.screen import Screen
 from textual.timer import Timer
 from textual.widgets import Footer, Static, Tree
 
-from lambda_core.errors import LambdaError
+from lambda_core.errors import LambdaError, Problem
 from lambda_gui.around import CaseAround
-from lambda_gui.checking import Check, check
+from lambda_gui.checking import Check, Checker, node_of
 from lambda_gui.derived import Derived
 from lambda_gui.forms import NodeForm
 from lambda_gui.helper import Estimator
@@ -78,6 +78,7 @@ class BuilderScreen(Screen[None]):
         self.checked_in = 0.0  # how long the last check took [s]
         self.keeper = Keeper()
         self._estimator = Estimator(self._estimated)
+        self._checker = Checker()
         self._check_timer: Timer | None = None
         self._form_timer: Timer | None = None
         self._wanted: Keys | None = None
@@ -107,8 +108,9 @@ class BuilderScreen(Screen[None]):
         self._show_head()
 
     async def on_unmount(self) -> None:
-        """End the estimator's process."""
+        """End the estimator's process and release the catalogue."""
         await self._estimator.close()
+        self._checker.close()
 
     def _show_head(self) -> None:
         name = self.draft.path.name if self.draft.path else f"{self.draft.get('name') or 'untitled'} (no file)"
@@ -119,9 +121,9 @@ class BuilderScreen(Screen[None]):
         count = len(self.check.problems)
         if count:
             right.append(f"▲ {count} mistake{'s' * (count > 1)}  F8", style=self.app.theme_variables["error"])
-        elif self.check.report is not None:
+        elif self.check.model is not None:
             right.append("ready", style=self.app.theme_variables["success"])
-            right.append(f"  {len(self.check.report.assumptions)} assumptions", style="dim")
+            right.append(f"  {len(self.check.model.assumptions)} assumptions", style="dim")
         running = self.app.run_words()  # type: ignore[attr-defined]
         if running:
             right = Text.assemble((running, "bold"), "   ", right)
@@ -146,16 +148,16 @@ class BuilderScreen(Screen[None]):
         self.query("#right > NodeForm").remove()
         form = NodeForm(node, self.draft, self.around)
         right.mount(form, before="#side")
-        form.call_after_refresh(self._form_ready)
         self._show_node_help(node)
 
     def _show_node_help(self, node: Node) -> None:
         words = node.help[:1].upper() + node.help[1:]
         self.query_one("#help", Static).update(Text.assemble((node.title, "bold"), f"  {words}"))
 
-    def _form_ready(self) -> None:
+    def on_node_form_ready(self) -> None:
+        """Fill the form once its rows stand."""
         form = self.form
-        if form is None:
+        if form is None or not form.is_ready:
             return
         form.reload(self.check.problems)
         if self._wanted is not None:
@@ -205,10 +207,10 @@ class BuilderScreen(Screen[None]):
         """Bring an option into view, ready to be changed."""
         tree = self.query_one(ModelTree)
         tree.refresh_marks(self.check.problems)
-        node = tree.node_at(keys)
+        node = tree.node_at(keys) or node_of(Problem(".".join(keys), ""), tree.all_nodes())
         if node is None:
             return
-        if self.form is not None and self.form.node is node:
+        if self.form is not None and self.form.node is node and self.form.is_ready:
             self.form.show(keys)
             return
         self._wanted = keys
@@ -238,7 +240,7 @@ class BuilderScreen(Screen[None]):
     @work(thread=True, exclusive=True, group="check")
     def _check_now(self) -> None:
         begin = time.perf_counter()
-        found = check(self.draft.tables, self.draft.folder)
+        found = self._checker.check(self.draft.tables, self.draft.folder)
         took = time.perf_counter() - begin
         self.app.call_from_thread(self._checked, found, took)
 
@@ -246,7 +248,7 @@ class BuilderScreen(Screen[None]):
         if not self.is_attached:
             return
         self.check, self.checked_in = found, took
-        self.around.learn(found.report)
+        self.around.learn(found.values)
         self.query_one(ModelTree).refresh_marks(found.problems)
         if self.form is not None:
             self.form.reload(found.problems)
@@ -313,6 +315,11 @@ class BuilderScreen(Screen[None]):
         if self.form is not None:
             self.form.reload(self.check.problems)
         self._show_head()
+
+    def catalogue_changed(self) -> None:
+        """Look things up anew: rows may have been added."""
+        self.around.forget_names()
+        self._checker.close()
 
     def refresh_head(self) -> None:
         """Draw the head anew: a run has gone on."""

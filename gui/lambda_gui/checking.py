@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from dataclasses import dataclass
@@ -14,30 +15,49 @@ from lambda_core.schema.problems import model_at
 from lambda_gui.outline import Keys, Node
 
 if TYPE_CHECKING:
-    from lambda_core.physics.describe import CaseReport
+    from lambda_core.physics.describe import ValueReport
     from lambda_core.physics.model import BearingModel
+    from lambda_core.registry.catalogue import Catalogue
 
 
 @dataclass(frozen=True)
 class Check:
-    """The outcome of checking a draft: mistakes, or the resolved model and what it says."""
+    """The outcome of checking a draft: mistakes, or the resolved model and its values for people."""
 
     problems: tuple[Problem, ...] = ()
     model: BearingModel | None = None
-    report: CaseReport | None = None
+    values: tuple[ValueReport, ...] = ()
 
 
-def check(tables: Mapping[str, Any], folder: Path | None) -> Check:
-    """Check tables as they would stand in a file; heavy parts are imported at the first call."""
-    from lambda_core import api
+class Checker:
+    """Checks drafts against one open catalogue: opening it takes as long as a check."""
 
-    try:
-        model = api.check(deepcopy(dict(tables)), folder=folder)
-    except api.CaseError as error:
-        return Check(tuple(spread(error.problems)))
-    except api.LambdaError as error:  # a broken catalogue or plugin: nothing can be checked
-        return Check((Problem("", str(error)),))
-    return Check((), model, api.describe(model))
+    def __init__(self) -> None:
+        self._catalogue: Catalogue | None = None
+        self._turn = threading.Lock()
+
+    def check(self, tables: Mapping[str, Any], folder: Path | None) -> Check:
+        """Check tables as they would stand in a file; heavy parts are imported at the first call."""
+        from lambda_core import api
+        from lambda_core.physics.describe import value_reports
+
+        try:
+            with self._turn:
+                if self._catalogue is None:
+                    self._catalogue = api.catalogue()
+                model = api.check(deepcopy(dict(tables)), folder=folder, catalogue=self._catalogue)
+        except api.CaseError as error:
+            return Check(tuple(spread(error.problems)))
+        except api.LambdaError as error:  # a broken catalogue or plugin: nothing can be checked
+            return Check((Problem("", str(error)),))
+        return Check((), model, tuple(value_reports(model)))
+
+    def close(self) -> None:
+        """Release the catalogue; the next check opens it anew, with what has been added meanwhile."""
+        with self._turn:
+            if self._catalogue is not None:
+                self._catalogue.close()
+                self._catalogue = None
 
 
 def spread(problems: Iterable[Problem]) -> list[Problem]:
@@ -45,7 +65,10 @@ def spread(problems: Iterable[Problem]) -> list[Problem]:
     found = []
     for problem in problems:
         table = model_at(Case, problem.where.split(".")) if problem.where else None
-        required = [name for name, info in table.model_fields.items() if info.is_required()] if table else []
+        is_signal = table is not None and "kind" in table.model_fields
+        required = (
+            [n for n, info in table.model_fields.items() if info.is_required()] if table and not is_signal else []
+        )
         if problem.message.startswith("is required") and table is not None and required:
             for name in required:
                 text = table.model_fields[name].description
@@ -64,13 +87,17 @@ def node_of(problem: Problem, nodes: Iterable[Node]) -> Node | None:
     """Return the node with the option that a problem is about; the closest one when it has none of its own."""
     best: tuple[int, Node] | None = None
     near: Node | None = None
+    beside: Node | None = None
+    table = problem.where.rpartition(".")[0]
     for node in nodes:
         for place in node.places:
             if belongs(problem, place) and (best is None or len(place) > best[0]):
                 best = (len(place), node)
             if near is None and ".".join(place).startswith(f"{problem.where}."):
                 near = node
-    return best[1] if best else near
+            if beside is None and ".".join(place[:-1]) == table:
+                beside = node
+    return best[1] if best else near or beside
 
 
 def for_place(problems: Iterable[Problem], place: Keys, *, first: bool = False) -> list[str]:

@@ -22,7 +22,7 @@ class OptionSearch(Provider):
         for path in option_paths(Case):
             info = field_at(Case, path)
             about = info.description if info is not None else ""
-            score = max(matcher.match(path.replace("_", " ")), 0.8 * matcher.match(about or ""))
+            score = max(matcher.match(path), matcher.match(path.replace("_", " ")), 0.8 * matcher.match(about or ""))
             if score > 0.0 and self.screen.has_option(path):
                 go = partial(self.screen.go_to, tuple(path.split(".")))
                 yield Hit(score, matcher.highlight(path), go, help=about)

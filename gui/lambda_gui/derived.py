@@ -67,7 +67,8 @@ class Derived(Static):
         for problem in shown:
             text.append("▲ ", style="red")
             line = Text(f"{problem.where}  {problem.message}" if problem.where else problem.message)
-            line.truncate(max(10, self.size.width - 2), overflow="ellipsis")
+            if 3 * len(check.problems) > room:
+                line.truncate(max(10, self.size.width - 2), overflow="ellipsis")
             text.append_text(line).append("\n")
         if len(shown) < len(check.problems):
             text.append(f"and {len(check.problems) - len(shown)} more", style="dim")
@@ -120,9 +121,8 @@ _LONG = {
 
 def _geometry(check: Check) -> Iterable[Fact]:
     assert check.model is not None
-    assert check.report is not None
     geometry = check.model.geometry
-    estimated = any(v.path == "bearing.ball_diameter" and v.status != "published" for v in check.report.values)
+    estimated = any(v.path == "bearing.ball_diameter" and v.status != "published" for v in check.values)
     mark = "≈ " if estimated else ""
     yield "balls", f"{mark}{geometry.ball_count} x {geometry.ball_diameter * 1e3:.2f}", "mm"
     yield "pitch", f"{geometry.pitch_diameter * 1e3:.2f}", "mm"

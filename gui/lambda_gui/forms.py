@@ -13,7 +13,7 @@ from textual.message import Message
 from textual.widget import Widget
 from textual.widgets import Button, Input, Static
 
-from lambda_core.schema.cards import field_card
+from lambda_core.schema.cards import FieldCard, field_card
 from lambda_core.schema.problems import members
 from lambda_gui.around import CaseAround
 from lambda_gui.checking import for_place
@@ -30,6 +30,19 @@ if TYPE_CHECKING:
     from lambda_core.schema.draft import Draft
 
 _NAMES = {"bearing.designation": "bearing", "lubricant.name": "lubricant"}
+
+_STRANGER = FieldCard(
+    name="",
+    description="is not a known option; empty the field to take it out of the file",
+    default="",
+    required=False,
+    quantity="",
+    units=[],
+    limits=[],
+    kind="text",
+    choices=[],
+    reference="",
+)
 
 
 def row_at(draft: Draft, keys: Keys, around: CaseAround) -> Row:
@@ -73,6 +86,9 @@ class NodeForm(VerticalScroll, can_focus=False):
     class Left(Message):
         """The person goes back to the tree."""
 
+    class Ready(Message):
+        """All rows stand."""
+
     class Opened(Message):
         """A button asks for something: "catalogue", "add-marker NAME", "remove-marker NAME", "node KEY"."""
 
@@ -83,6 +99,7 @@ class NodeForm(VerticalScroll, can_focus=False):
     def __init__(self, node: Node, draft: Draft, around: CaseAround) -> None:
         super().__init__()
         self.node, self._draft, self._around = node, draft, around
+        self.is_ready = False
 
     def compose(self) -> ComposeResult:
         """Lay out the title and the rows."""
@@ -97,6 +114,8 @@ class NodeForm(VerticalScroll, can_focus=False):
         width = min(24, max((len(row.label) + (2 if row.has_class("-deep") else 0) for row in rows), default=0) + 2)
         for row in rows:
             row.fit(max(width, 14))
+        self.is_ready = True
+        self.post_message(self.Ready())
 
     def _rows(self) -> Iterator[Widget]:
         node = self.node
@@ -110,9 +129,19 @@ class NodeForm(VerticalScroll, can_focus=False):
                 yield Static(group.title, classes="group")
             for keys in group.fields:
                 yield row_at(self._draft, keys, self._around)
+            yield from self._strangers(group.table)
         if not (node.groups or node.kind in ("role", "roles", "markers")):
             for child in node.children:
                 yield _Link(child)
+
+    def _strangers(self, table: Keys) -> Iterator[Widget]:
+        """Yield a row for each key of a hand-written file that is no option, so that it can be taken out."""
+        written, known = self._draft.get(*table) if table else self._draft.tables, table_model(table).model_fields
+        for name in written if isinstance(written, dict) else ():
+            if name not in known:
+                yield TextRow(
+                    Option(self._draft, (*table, name)), _STRANGER.model_copy(update={"name": name}), self._around
+                )
 
     def _buttons(self) -> Iterator[Widget]:
         node = self.node
@@ -129,6 +158,8 @@ class NodeForm(VerticalScroll, can_focus=False):
 
     def reload(self, problems: Sequence[Problem]) -> None:
         """Show what is written and what is wrong with it."""
+        if not self.is_ready:
+            return
         first = True
         for row in self.query(Row):
             row.reload()
@@ -153,13 +184,13 @@ class NodeForm(VerticalScroll, can_focus=False):
         return text
 
     def show(self, keys: Keys) -> None:
-        """Bring one option into view and to the keyboard."""
-        for row in self.query(Row):
-            if row.place.keys == keys[: len(row.place.keys)]:
-                entry = next((w for w in row.query("*") if w.focusable), None)
-                if entry is not None:
-                    entry.focus()
-                    return
+        """Bring one option into view and to the keyboard: the row that is most about it."""
+        rows = [row for row in self.query(Row) if _meets(row.place.keys, keys)]
+        for row in sorted(rows, key=lambda row: -len(row.place.keys) if len(row.place.keys) <= len(keys) else 0):
+            entry = next((w for w in row.query("*").results(Widget) if w.focusable), None)
+            if entry is not None:
+                entry.focus()
+                return
 
     def enter(self) -> None:
         """Give the keyboard to the first entry."""
@@ -193,6 +224,12 @@ class NodeForm(VerticalScroll, can_focus=False):
         if event.input.id == "marker-name" and event.value.strip():
             event.stop()
             self.post_message(self.Opened(f"add-marker {event.value.strip()}"))
+
+
+def _meets(one: Keys, other: Keys) -> bool:
+    """Tell whether one place lies in the other."""
+    shared = min(len(one), len(other))
+    return one[:shared] == other[:shared]
 
 
 class _Link(Button):

@@ -99,13 +99,13 @@ class LawRow(Branch):
         """Return the model."""
         return self._model()
 
-    def reload(self) -> None:
+    def show(self) -> None:
         """Show the choice."""
         choice = self.query_one(Choice)
         choice.forget()
         choice.value = text_of(self.place.get())
         choice.refresh()
-        super().reload()
+        super().show()
 
     def twigs(self) -> Iterator[Widget]:
         """Yield what the model is, and a row for each of its parameters."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 from pydantic import BaseModel
 from textual.widget import Widget
@@ -18,6 +17,8 @@ from lambda_gui.entry import text_of
 from lambda_gui.places import Option
 from lambda_gui.rows import Left, Surroundings, row_for
 from lambda_gui.signals import SignalRow
+
+_EMPTY = {"youngs_modulus": ""}  # begins a table of one's own where nothing is known
 
 
 class FreedomRow(Branch):
@@ -50,10 +51,10 @@ class FreedomRow(Branch):
         """Return the mode."""
         return self._mode()
 
-    def reload(self) -> None:
+    def show(self) -> None:
         """Show the mode."""
         self.query_one(Choice).value = self._mode()
-        super().reload()
+        super().show()
 
     def twigs(self) -> Iterator[Widget]:
         """Yield the support's options, or the motion."""
@@ -107,13 +108,13 @@ class MaterialRow(Branch):
         """Return whether the properties are written here."""
         return self._chosen() == self._OWN
 
-    def reload(self) -> None:
+    def show(self) -> None:
         """Show the name."""
         choice = self.query_one(Choice)
         choice.forget()
         choice.value = self._chosen()
         choice.refresh()
-        super().reload()
+        super().show()
 
     def twigs(self) -> Iterator[Widget]:
         """Yield the properties."""
@@ -125,15 +126,10 @@ class MaterialRow(Branch):
         """Write the name, or begin a table with the values of the material so far."""
         event.stop()
         if event.value == self._OWN:
-            names = list(InlineMaterial.model_fields)
-            known = {name: self.around.resolved((*self.place.keys, name)) for name in names}
-            self.write({name: _plain(name, text) for name, text in known.items() if text} or {"youngs_modulus": ""})
+            known = {name: self.around.value((*self.place.keys, name)) for name in InlineMaterial.model_fields}
+            texts = {name: value.text for name, value in known.items() if value is not None}
+            self.write({n: float(text) if n == "poisson_ratio" else text for n, text in texts.items()} or _EMPTY)
         else:
             self.write(event.value or None)
         self.post_message(Left())
         self.reload()
-
-
-def _plain(name: str, text: str) -> Any:
-    """Return a shown value as a case would write it."""
-    return float(text) if name == "poisson_ratio" else text

@@ -21,6 +21,9 @@ from lambda_gui.outline import Keys
 from lambda_gui.places import Place
 
 if TYPE_CHECKING:
+    from lambda_core.physics.describe import ValueReport
+
+if TYPE_CHECKING:
     pass
 
 
@@ -42,6 +45,10 @@ class Surroundings:
     def resolved(self, keys: Keys) -> str:
         """Return the value an option has when it is not written, "" when that is not known."""
         return ""
+
+    def value(self, keys: Keys) -> ValueReport | None:
+        """Return the value an option has when it is not written, with its origin."""
+        return None
 
     def origin(self, keys: Keys) -> str:
         """Return the value an option has when it is not written, with where it comes from."""
@@ -77,6 +84,8 @@ class Row(Vertical):
         super().__init__(classes="-deep" if deep else "")
         self.place, self.card, self.around = place, card, around
         self.label = label or card.name.replace("_", " ")
+        self.stands = False  # whether the parts are there
+        self._width = 23
 
     def control(self) -> Widget:
         """Return the widget that shows and takes the value."""
@@ -92,14 +101,24 @@ class Row(Vertical):
 
     def on_mount(self) -> None:
         """Show what is written."""
-        self.reload()
+        self.stands = True
+        self.fit(self._width)
+        self.show()
 
     def reload(self) -> None:
         """Show what is written now."""
+        if self.stands:
+            self.show()
+
+    def show(self) -> None:
+        """Bring control, placeholder and mark to what is written."""
+        raise NotImplementedError
 
     def fit(self, width: int) -> None:
         """Give the label as much room as those of the whole form take."""
-        self.query_one(".label").styles.width = width
+        self._width = width
+        if self.stands:
+            self.query_one(".label").styles.width = width
 
     def write(self, value: Any) -> None:
         """Write a value that the person gave."""
@@ -113,6 +132,8 @@ class Row(Vertical):
 
     def say(self, mistakes: Sequence[str]) -> None:
         """Show what is wrong with the option, nothing when it is fine."""
+        if not self.stands:
+            return
         self.set_class(bool(mistakes), "-wrong")
         self.query_one(".mistake", Static).update("\n".join(f"▲ {text}" for text in mistakes))
 
@@ -160,7 +181,7 @@ class TextRow(Row):
         names = (lambda: self.around.names(self._kind)) if self._kind else None
         return Entry(self.card, names)
 
-    def reload(self) -> None:
+    def show(self) -> None:
         """Show what is written, and in grey what holds otherwise."""
         entry = self.query_one(Entry)
         value = self.place.get()
@@ -226,7 +247,7 @@ class ChoiceRow(Row):
         known = self.around.resolved(self.place.keys) or self.card.default
         return f"default ({known})" if known else "default"
 
-    def reload(self) -> None:
+    def show(self) -> None:
         """Show what is written."""
         choice = self.query_one(Choice)
         choice.forget()
@@ -248,7 +269,7 @@ class FlagRow(Row):
         """Return a tick box."""
         return Checkbox("", compact=True)
 
-    def reload(self) -> None:
+    def show(self) -> None:
         """Show what is written, else the default."""
         value = self.place.get()
         with self.prevent(Checkbox.Changed):
@@ -282,18 +303,18 @@ class LinesRow(Row):
         yield self.control()
         yield Static(classes="mistake", markup=False)
 
-    def reload(self) -> None:
+    def show(self) -> None:
         """Show the lines that are written."""
         area = self.query_one(TextArea)
         if self.parse(area.text) != (self.place.get() or None):
             with self.prevent(TextArea.Changed):
-                area.text = self.show(self.place.get())
+                area.text = self.lines(self.place.get())
         self.mark()
 
     def fit(self, width: int) -> None:
         """Keep the label over the whole width."""
 
-    def show(self, value: Any) -> str:
+    def lines(self, value: Any) -> str:
         """Return the lines of a value."""
         return "\n".join(str(line) for line in value or ())
 

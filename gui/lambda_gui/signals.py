@@ -70,7 +70,7 @@ class SignalRow(Branch):
         terms = value.get("terms") if isinstance(value, dict) else None
         return self._kind(), [isinstance(term, dict) for term in terms] if isinstance(terms, list) else None
 
-    def reload(self) -> None:
+    def show(self) -> None:
         """Show kind and value."""
         kind = self._kind()
         self.query_one(Choice).value = kind
@@ -82,7 +82,7 @@ class SignalRow(Branch):
                 with self.prevent(Input.Changed):
                     entry.value = text_of(value)
             entry.placeholder = "required" if self.card.required else self.card.default or "none"
-        super().reload()
+        super().show()
 
     def twigs(self) -> Iterator[Widget]:
         """Yield the options of the kind, or the terms of a sum."""
@@ -108,9 +108,11 @@ class SignalRow(Branch):
         for number, _ in enumerate(terms):
             card = self.card.model_copy(update={"description": "one term of the sum", "required": True})
             yield SignalRow(Part(whole, number), card, self.around, inner, deep=True, label=f"term {number + 1}")
-        with Horizontal(classes="buttons"):
-            yield Button("add a term", id="add-term", compact=True)
-            yield Button("remove the last", id="drop-term", compact=True, disabled=len(terms) < 2)
+        yield Horizontal(
+            Button("add a term", id="add-term", compact=True),
+            Button("remove the last", id="drop-term", compact=True, disabled=len(terms) < 2),
+            classes="buttons",
+        )
 
     def on_choice_changed(self, event: Choice.Changed) -> None:
         """Write the new kind with what the old one has for it."""
@@ -173,7 +175,7 @@ def _as_kind(kind: str, value: Any) -> Any:
 class PointsRow(LinesRow):
     """The points of a table over time, one "time, value" per line."""
 
-    def show(self, value: Any) -> str:
+    def lines(self, value: Any) -> str:
         """Return one line per point."""
         return "\n".join(", ".join(str(cell) for cell in point) for point in value or ())
 

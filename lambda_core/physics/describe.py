@@ -73,17 +73,22 @@ def describe(model: BearingModel) -> CaseReport:
             element: {role: law.model.name for role, law in roles.items()} for element, roles in model.laws.items()
         },
         assumptions=list(model.assumptions),
-        values=[
-            ValueReport(
-                path=value.path,
-                text=_value_text(value.value, value.quantity),
-                source=value.source,
-                grade=value.grade,
-                status=value.status,
-            )
-            for value in model.values
-        ],
+        values=value_reports(model),
     )
+
+
+def value_reports(model: BearingModel) -> list[ValueReport]:
+    """Return every value with its unit and origin."""
+    return [
+        ValueReport(
+            path=value.path,
+            text=_value_text(value.value, value.quantity),
+            source=value.source,
+            grade=value.grade,
+            status=value.status,
+        )
+        for value in model.values
+    ]
 
 
 def headline(model: BearingModel) -> list[str]:

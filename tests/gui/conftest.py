@@ -1,0 +1,58 @@
+"""What the tests of the builder share: folders of their own, and no helper process unless a test is about it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from lambda_gui.helper import Estimator
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from driving import HAND_WRITTEN
+
+
+@pytest.fixture(autouse=True)
+def work_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Work in an empty folder, with own data."""
+    monkeypatch.setenv("LAMBDA_BEARING_DATA", str(tmp_path / "data"))
+    work = tmp_path / "work"
+    work.mkdir()
+    monkeypatch.chdir(work)
+    return work
+
+
+@pytest.fixture(autouse=True)
+def quiet_estimator(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave the estimator out: it loads compiled code for seconds."""
+    if "estimates" in request.fixturenames:
+        return
+
+    async def ask(self: Estimator, tables: dict[str, Any], folder: Path | None) -> None:
+        return
+
+    monkeypatch.setattr(Estimator, "ask", ask)
+
+
+@pytest.fixture
+def shared_compiled_code() -> Iterator[None]:
+    """Use the user's compiled code: its folders are named by content."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delenv("LAMBDA_BEARING_CACHE", raising=False)
+        yield
+
+
+@pytest.fixture
+def estimates(shared_compiled_code: None) -> None:
+    """Let the estimator work in this test."""
+
+
+@pytest.fixture
+def hand_written(work_folder: Path) -> Path:
+    """Write a case by hand."""
+    path = work_folder / "drive-end.toml"
+    path.write_text(HAND_WRITTEN, encoding="utf-8")
+    return path

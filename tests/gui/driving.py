@@ -1,0 +1,90 @@
+"""Driving the builder by keyboard."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from lambda_gui.app import BuilderApp
+from lambda_gui.builder import BuilderScreen
+from lambda_gui.rows import Row
+
+if TYPE_CHECKING:
+    from textual.pilot import Pilot
+
+HAND_WRITTEN = """\
+# Drive end of the fan.
+name = "drive-end"
+
+[bearing]
+designation = "6208"   # from the parts list
+maker = "SKF"
+
+[lubricant]
+name = "FVA3"
+temperature = "62.5 degC"
+
+[loads]
+radial = "1.5 kN"      # belt
+axial = "200 N"
+
+[operation]
+speed = "1500 rpm"
+"""
+
+SMALL, LARGE = (80, 24), (160, 48)
+
+
+async def wait_for(pilot: Pilot[None], what: Callable[[], object], seconds: float = 20.0) -> None:
+    """Let the builder work until something is so."""
+    end = time.monotonic() + seconds
+    while not what():
+        if time.monotonic() > end:
+            raise AssertionError(f"waited {seconds} s in vain; on screen:\n{screen_text(pilot.app)}")  # type: ignore[arg-type]
+        await pilot.pause(0.03)
+
+
+def screen_text(app: BuilderApp) -> str:
+    """Return what stands on the screen."""
+    width, height = app.size
+    strips = app.screen._compositor.render_strips(app.size)
+    return "\n".join("".join(segment.text for segment in strip)[:width] for strip in strips[:height])
+
+
+def builder(pilot: Pilot[None]) -> BuilderScreen:
+    """Return the builder's screen."""
+    assert isinstance(pilot.app, BuilderApp)
+    return pilot.app.builder
+
+
+async def checked(pilot: Pilot[None]) -> None:
+    """Wait until the case, as it stands, has been checked."""
+    screen = builder(pilot)
+    before = screen.check
+    screen.edited()
+    await wait_for(pilot, lambda: screen.check is not before)
+    await pilot.pause(0.05)
+
+
+async def write(pilot: Pilot[None], text: str) -> None:
+    """Type a text."""
+    await pilot.press(*text)
+
+
+async def go_to(pilot: Pilot[None], path: str) -> None:
+    """Go to an option by its name, through the command palette."""
+    await pilot.press("ctrl+p")
+    await pilot.pause(0.1)
+    await write(pilot, path)
+    await pilot.pause(0.4)
+    await pilot.press("enter")
+    keys = tuple(path.split("."))
+    await wait_for(pilot, lambda: focused_place(pilot) == keys)
+
+
+def focused_place(pilot: Pilot[None]) -> tuple[str, ...]:
+    """Return the place in the case of the row that has the keyboard."""
+    focused = pilot.app.focused
+    rows = [w for w in focused.ancestors_with_self if isinstance(w, Row)] if focused else []
+    return tuple(rows[0].place.keys) if rows else ()

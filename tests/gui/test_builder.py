@@ -1,0 +1,344 @@
+"""The builder's screen by keyboard: editing, mistakes, undo, saving, recovery."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import time
+from pathlib import Path
+
+import pytest
+from driving import HAND_WRITTEN, LARGE, SMALL, builder, checked, focused_place, go_to, screen_text, wait_for, write
+from lambda_gui import recovery
+from lambda_gui.app import BuilderApp
+from lambda_gui.checking import Checker
+from lambda_gui.derived import Derived
+from lambda_gui.dialogs import Ask
+from lambda_gui.help import HelpScreen
+from lambda_gui.tree import ModelTree
+from textual.widgets import Input, Static
+
+from lambda_core import api
+
+
+def changed_lines(before: str, after: str) -> list[str]:
+    lines = difflib.unified_diff(before.splitlines(), after.splitlines(), lineterm="", n=0)
+    return [line for line in lines if line[0] in "+-" and not line.startswith(("+++", "---"))]
+
+
+async def test_a_load_of_a_hand_written_case_is_changed_in_one_line(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        await go_to(pilot, "loads.radial")
+        await pilot.press("tab", "ctrl+a", "ctrl+k")
+        await write(pilot, "1800")
+        await pilot.press("enter")
+        assert builder(pilot).draft.get("loads", "radial") == "1800 N"
+        await checked(pilot)
+        assert "● unsaved" in screen_text(pilot.app)
+        await pilot.press("ctrl+s")
+        await wait_for(pilot, lambda: not builder(pilot).draft.is_changed())
+    after = hand_written.read_text(encoding="utf-8")
+    assert changed_lines(HAND_WRITTEN, after) == ['-radial = "1.5 kN"      # belt', '+radial = "1800 N"      # belt']
+    assert api.case(hand_written).loads.radial == 1800.0
+
+
+async def test_a_mistake_stands_at_its_field_and_in_the_tree(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        assert "ready" in screen_text(pilot.app)
+        await go_to(pilot, "lubricant.temperature")
+        await pilot.press("ctrl+a", "ctrl+k")
+        await write(pilot, "62,5 degC")
+        await checked(pilot)
+        shown = screen_text(pilot.app)
+        assert "decimal point" in shown
+        assert "▲ 1 mistake" in shown
+        tree = pilot.app.screen.query_one(ModelTree)
+        assert tree.wrong_nodes() == ["lubricant"]
+        await pilot.press("escape", "home")
+        await pilot.press("f8")
+        await wait_for(pilot, lambda: focused_place(pilot) == ("lubricant", "temperature"))
+        await pilot.press("ctrl+z")
+        await checked(pilot)
+        assert builder(pilot).draft.get("lubricant", "temperature") == "62.5 degC"
+        assert not builder(pilot).check.problems
+
+
+async def test_undo_and_redo_go_through_every_kind_of_row(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        await go_to(pilot, "bearing.clearance_pick")
+        await pilot.press("enter", "down", "enter")
+        await go_to(pilot, "depth.cage")
+        await pilot.press("space")
+        await go_to(pilot, "depth.strips")
+        await write(pilot, "21")
+        draft = builder(pilot).draft
+        assert draft.get("bearing", "clearance_pick") == "minimum"
+        assert draft.get("depth") == {"cage": False, "strips": 21}
+        for _ in range(3):
+            await pilot.press("ctrl+z")
+            await pilot.pause(0.2)
+        assert not draft.is_changed()
+        await pilot.press("ctrl+y", "ctrl+y")
+        await pilot.pause(0.2)
+        assert draft.get("depth") == {"cage": False}
+
+
+async def test_a_load_over_time(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        await go_to(pilot, "loads.radial")
+        await pilot.press("enter", "down", "down", "enter")  # value, constant, ramp
+        await pilot.pause(0.3)
+        draft = builder(pilot).draft
+        assert draft.get("loads", "radial") == {"kind": "ramp", "start": "1.5 kN", "end": "1.5 kN"}
+        await checked(pilot)
+        assert [p.where for p in builder(pilot).check.problems] == ["loads.radial.end_time"]
+        assert "is required" in screen_text(pilot.app)
+        await pilot.press("f8")
+        await wait_for(pilot, lambda: focused_place(pilot) == ("loads", "radial", "end_time"))
+        await write(pilot, "20 m")
+        await pilot.press("enter")
+        await checked(pilot)
+        assert draft.get("loads", "radial", "end_time") == "20 ms"
+        assert not builder(pilot).check.problems
+
+
+async def test_a_sum_of_loads_and_a_table_of_points(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        await go_to(pilot, "loads.axial")
+        await pilot.press("enter", "end", "enter")
+        await pilot.pause(0.3)
+        draft = builder(pilot).draft
+        assert draft.get("loads", "axial") == {"kind": "sum", "terms": ["200 N"]}
+        await pilot.click("#add-term")
+        await pilot.pause(0.3)
+        assert draft.get("loads", "axial", "terms") == ["200 N", "0 N"]
+        await go_to(pilot, "loads.radial")
+        await pilot.press("enter", *["down"] * 4, "enter")
+        await pilot.pause(0.3)
+        assert draft.get("loads", "radial") == {"kind": "table", "points": [["0 s", "1.5 kN"]]}
+        await pilot.press("tab", "end", "enter")
+        await write(pilot, "1 s, 2 kN")
+        await checked(pilot)
+        assert draft.get("loads", "radial", "points") == [["0 s", "1.5 kN"], ["1 s", "2 kN"]]
+        assert not builder(pilot).check.problems
+
+
+async def test_a_ring_is_moved_and_supported(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        draft = builder(pilot).draft
+        builder(pilot).go_to(("bodies", "inner_ring", "x"))
+        await wait_for(pilot, lambda: focused_place(pilot) == ("bodies", "inner_ring", "x"))
+        await pilot.press("enter", "down", "enter")  # free, free on a support
+        await pilot.pause(0.3)
+        await pilot.press("down")
+        await write(pilot, "10 N/um")
+        assert draft.get("bodies", "inner_ring", "x") == {"mode": "free", "stiffness": "10 N/um"}
+        builder(pilot).go_to(("bodies", "outer_ring", "x"))
+        await wait_for(pilot, lambda: focused_place(pilot) == ("bodies", "outer_ring", "x"))
+        await pilot.press("enter", "end", "enter")
+        await checked(pilot)
+        assert draft.get("bodies", "outer_ring", "x") == "prescribed"
+        assert "needs a motion" in screen_text(pilot.app)
+        await pilot.press("enter", "up", "enter")  # locked, which is its default
+        assert draft.get("bodies", "outer_ring") is None
+
+
+async def test_a_material_of_ones_own_begins_with_the_values_so_far(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        builder(pilot).go_to(("materials", "balls"))
+        await wait_for(pilot, lambda: focused_place(pilot) == ("materials", "balls"))
+        await pilot.press("enter", "end", "enter")
+        await checked(pilot)
+        own = builder(pilot).draft.get("materials", "balls")
+        assert own["youngs_modulus"] == "210 GPa"
+        assert own["poisson_ratio"] == 0.3
+        assert not builder(pilot).check.problems
+
+
+async def test_a_model_of_one_contact_and_its_parameter(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        await go_to(pilot, "forces.ball_inner.models.traction")
+        await pilot.press("enter", "down", "down", "enter")
+        await checked(pilot)
+        chosen = builder(pilot).draft.get("forces", "ball_inner", "models", "traction")
+        assert chosen in [item.name for item in api.plugins().items if item.role == "traction"]
+        shown = screen_text(pilot.app)
+        card = api.plugin_model(f"traction/{chosen}")
+        assert card.reference.split(",")[0] in shown.replace("\n", " ")
+        await pilot.press("down")
+        place = focused_place(pilot)
+        assert place[:4] == ("forces", "ball_inner", "parameters", "traction")
+        assert place[4] == card.parameters[0].name
+
+
+async def test_markers_come_and_go(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        tree = pilot.app.screen.query_one(ModelTree)
+        tree.go_to("markers")
+        await wait_for(pilot, lambda: pilot.app.screen.query("#marker-name"))
+        pilot.app.screen.query_one("#marker-name", Input).focus()
+        await write(pilot, "rim")
+        await pilot.press("enter")
+        await wait_for(pilot, lambda: focused_place(pilot) == ("markers", "rim", "body"))
+        draft = builder(pilot).draft
+        assert draft.get("markers", "rim") == {"body": "inner_ring"}
+        await checked(pilot)
+        assert not builder(pilot).check.problems
+        await pilot.click("#remove-marker")
+        await checked(pilot)
+        assert draft.get("markers") is None
+        assert not draft.is_changed()
+
+
+async def test_an_unknown_option_of_a_file_can_be_taken_out(hand_written: Path) -> None:
+    hand_written.write_text(HAND_WRITTEN.replace('axial = "200 N"', 'axail = "200 N"'), encoding="utf-8")
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        assert "nearest: axial" in screen_text(pilot.app)
+        await pilot.press("f8")
+        await wait_for(pilot, lambda: focused_place(pilot) == ("loads", "axail"))
+        await pilot.press("ctrl+a", "ctrl+k")
+        await checked(pilot)
+        assert not builder(pilot).check.problems
+
+
+@pytest.mark.parametrize("size", [SMALL, LARGE])
+async def test_every_form_opens_and_nothing_changes_by_looking(hand_written: Path, size: tuple[int, int]) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=size) as pilot:
+        await checked(pilot)
+        screen = builder(pilot)
+        nodes = pilot.app.screen.query_one(ModelTree).all_nodes()
+        for node in (node for node in nodes if not (node.kind == "role" and node.element)):
+            screen.show_node(node)
+            await pilot.pause()
+            form = screen.form
+            assert form is not None
+            assert form.node is node
+            form.reload(screen.check.problems)
+            assert str(form.query_one(".title", Static).visual) == node.title
+        await pilot.pause(0.1)
+        assert not screen.draft.is_changed()
+
+
+async def test_checking_takes_less_than_30_ms_and_typing_does_not_wait_for_it(hand_written: Path) -> None:
+    draft, checker = api.draft(hand_written), Checker()
+    checker.check(draft.tables, draft.folder)
+    taken = []
+    for _ in range(10):
+        begin = time.process_time()  # other programs of the machine do not count
+        assert checker.check(draft.tables, draft.folder).model is not None
+        taken.append(time.process_time() - begin)
+    assert min(taken) < 0.030
+    checker.close()
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        begin = time.process_time()
+        builder(pilot).edited()
+        assert time.process_time() - begin < 0.030
+
+
+async def test_unsaved_work_survives_a_crash(hand_written: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        screen = builder(pilot)
+        screen.draft.set("loads", "radial", value="9 kN")
+        screen._keep()
+    # The builder is gone without saving; its process, too, as far as the next one can tell.
+    (kept,) = (recovery.state_folder() / "unsaved").glob("*.json")
+    content = json.loads(kept.read_text(encoding="utf-8"))
+    content["process"]["start"] = "long ago"
+    kept.write_text(json.dumps(content), encoding="utf-8")
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, Ask))
+        assert "unsaved work on drive-end.toml" in screen_text(pilot.app)
+        await pilot.press("enter")
+        await wait_for(pilot, lambda: builder(pilot).draft.get("loads", "radial") == "9 kN")
+        assert builder(pilot).draft.is_changed()
+        await pilot.press("ctrl+s")
+        await wait_for(pilot, lambda: not builder(pilot).draft.is_changed())
+    assert 'radial = "9 kN"      # belt' in hand_written.read_text(encoding="utf-8")
+    assert not list((recovery.state_folder() / "unsaved").glob("*.json"))
+
+
+async def test_leaving_asks_for_unsaved_work(hand_written: Path) -> None:
+    app = BuilderApp(str(hand_written))
+    async with app.run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        builder(pilot).draft.set("loads", "radial", value="9 kN")
+        await pilot.press("ctrl+q")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, Ask))
+        await pilot.press("escape")
+        assert app.is_running
+        await pilot.press("ctrl+q")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, Ask))
+        await pilot.press("enter")  # save
+        await wait_for(pilot, lambda: not app.is_running)
+    assert api.case(hand_written).loads.radial == 9000.0
+
+
+async def test_a_file_changed_elsewhere_is_not_overwritten_silently(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        hand_written.write_text(HAND_WRITTEN + "# theirs\n", encoding="utf-8")
+        builder(pilot).draft.set("loads", "radial", value="9 kN")
+        await pilot.press("ctrl+s")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, Ask))
+        await pilot.press("enter")  # save under another name
+        await pilot.pause(0.2)
+        await pilot.press("ctrl+a", "ctrl+k")
+        await write(pilot, "mine")
+        await pilot.press("enter")
+        await wait_for(pilot, lambda: Path("mine.toml").exists())
+    assert hand_written.read_text(encoding="utf-8").endswith("# theirs\n")
+    assert api.case("mine.toml").loads.radial == 9000.0
+
+
+async def test_help_stands_on_every_screen(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        for way in ((), ("f2",), ("f7",), ("f6",)):
+            await pilot.press(*way)
+            await pilot.pause(0.3)
+            await pilot.press("f1")
+            await wait_for(pilot, lambda: isinstance(pilot.app.screen, HelpScreen))
+            assert "Axes and signs" in screen_text(pilot.app)
+            await pilot.press("escape")
+            if way:
+                await pilot.press("escape")
+            await pilot.pause(0.1)
+
+
+async def test_themes_and_resizing(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        dark = pilot.app.theme
+        await pilot.press("f9")
+        assert pilot.app.theme != dark
+        for size in (SMALL, (60, 16), LARGE, (200, 60)):
+            await pilot.resize_terminal(*size)
+            await pilot.pause(0.1)
+            assert "drive-end.toml" in screen_text(pilot.app)
+
+
+async def test_numbers_that_follow_are_shown(hand_written: Path, estimates: None) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        shown = ""
+
+        def done() -> bool:
+            nonlocal shown
+            shown = str(pilot.app.screen.query_one(Derived).visual)
+            return "friction torque" in shown
+
+        await wait_for(pilot, done, 240.0)
+        for word in ("pitch diameter", "radial clearance", "largest pressure", "Lambda", "rating life", "run takes"):
+            assert word in shown

@@ -1,0 +1,106 @@
+"""The model tree: complete, in order, and mistakes find their node."""
+
+from __future__ import annotations
+
+import pytest
+from lambda_gui.checking import Checker, for_place, node_of, spread
+from lambda_gui.outline import Node, outline
+
+from lambda_core import api
+from lambda_core.errors import Problem
+from lambda_core.registry.roles import ROLES
+from lambda_core.schema.case import Case
+from lambda_core.schema.problems import option_paths
+
+
+def nodes(markers: tuple[str, ...] = ()) -> list[Node]:
+    return [node for top in outline(markers) for node in top.walk()]
+
+
+def has_role(path: str) -> bool:
+    """Tell whether a role stands on its force element at all."""
+    _, element, _, *role = path.split(".")
+    return not role or element in ROLES[role[0]].elements
+
+
+def test_every_option_has_exactly_one_place() -> None:
+    places = [".".join(place) for node in nodes() for place in node.places]
+    assert len(places) == len(set(places))
+    for path in option_paths(Case):
+        if path.endswith("parameters") or (path.startswith("forces.") and not has_role(path)):
+            continue  # parameters stand under their role
+        owners = [place for place in places if f"{path}.".startswith(f"{place}.")]
+        assert len(owners) == 1, (path, owners)
+
+
+def test_the_tree_mirrors_the_set_up() -> None:
+    titles = [node.title for node in outline(())]
+    assert titles == [
+        "Case",
+        "Bearing",
+        "Bodies",
+        "Markers",
+        "Force elements",
+        "Loads and motion",
+        "Lubricant",
+        "Modelling depth",
+        "Solver",
+        "Outputs",
+    ]
+    keys = [node.key for node in nodes()]
+    assert len(keys) == len(set(keys))
+    for element in ("ball_inner", "ball_outer", "ball_cage", "cage_inner", "cage_outer", "fluid_drag"):
+        roles = [node.role for node in nodes() if node.element == element and node.kind == "role"]
+        assert roles == [role.name for role in ROLES.values() if element in role.elements]
+
+
+@pytest.mark.parametrize(
+    ("where", "key"),
+    [
+        ("loads.radial", "loads"),
+        ("loads.radial.end_time", "loads"),
+        ("loads.outer_ring.force_x", "boundary.outer_ring"),
+        ("bodies.inner_ring.x", "boundary.inner_ring"),
+        ("bodies.inner_ring.mass", "bodies.inner_ring"),
+        ("materials.balls.density", "bodies.balls"),
+        ("bearing", "bearing"),
+        ("bearing.geometry.ball_count", "bearing.geometry"),
+        ("models.traction", "models.traction"),
+        ("parameters.traction.tau_eyring", "models.traction"),
+        ("forces.ball_outer.parameters.damping.coefficient", "forces.ball_outer.damping"),
+        ("markers.tip.body", "markers.tip"),
+        ("operation.sped", "operation"),
+        ("solver.duration", "solver"),
+    ],
+)
+def test_a_mistake_finds_its_node(where: str, key: str) -> None:
+    found = node_of(Problem(where, "wrong"), nodes(("tip",)))
+    assert found is not None
+    assert found.key == key
+
+
+def test_a_missing_table_is_asked_for_option_by_option() -> None:
+    found = spread([Problem("lubricant", "is required: the oil"), Problem("loads.radial", "is required")])
+    assert [problem.where for problem in found] == ["lubricant.name", "lubricant.temperature", "loads.radial"]
+
+
+def test_an_empty_model_says_what_it_needs() -> None:
+    found = Checker().check(api.draft().tables, None)
+    assert found.model is None
+    assert {problem.where for problem in found.problems} == {
+        "bearing",
+        "lubricant.name",
+        "lubricant.temperature",
+        "operation.speed",
+    }
+    assert for_place(found.problems, ("bearing", "designation"), first=True)
+    assert not for_place(found.problems, ("bearing", "maker"))
+
+
+def test_a_good_case_resolves() -> None:
+    draft = api.draft("6208-axial-1300")
+    found = Checker().check(draft.tables, draft.folder)
+    assert not found.problems
+    assert found.model is not None
+    assert found.values
+    assert draft.tables == api.draft("6208-axial-1300").tables  # checking changes nothing
