@@ -8,6 +8,9 @@ import tempfile
 import time
 from pathlib import Path
 
+from benchmarks.tables import Cell, Section, Table
+from benchmarks.timing import Effort
+
 QUERIES = ("6", "62", "620", "6208", "6208 s", "40", "62 40", "d=40 C>30", "skf series=618", "width 18", "x")
 USER_ROWS = 2000
 
@@ -73,6 +76,13 @@ def search_benchmark(repeats: int = 20) -> dict[str, float]:
     }
 
 
-if __name__ == "__main__":
-    for name, value in search_benchmark().items():
-        print(f"{name:<26} {value:.4g}")
+def measure(effort: Effort) -> Section:
+    """Time searches in the catalogue."""
+    found = search_benchmark(effort.pick(5, 20))
+    rows: tuple[tuple[Cell, ...], ...] = (
+        ("opening the built catalogue", 1e3 * found["open_s"]),
+        ("a search, median", found["search_ms_median"]),
+        ("a search, slowest", found["search_ms_worst"]),
+        (f"a search, slowest, with {USER_ROWS} rows of one's own", found["search_ms_worst_own_rows"]),
+    )
+    return Section("catalogue", (Table("Catalogue", ("what", "ms"), rows),))

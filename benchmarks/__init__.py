@@ -1,0 +1,11 @@
+"""How fast the program is, measured against itself and against other integrators: ``python -m benchmarks``.
+
+Every module measures one thing and returns a :class:`~benchmarks.tables.Section`. Times are minima over repeats of
+the same work, ratios are taken within one process, and the load of the machine stands beside them.
+"""
+
+import os
+
+# Everything is measured on one core; libraries read these when they are loaded.
+for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
+    os.environ.setdefault(_name, "1")

@@ -1,0 +1,74 @@
+"""``python -m benchmarks``: measure, print, and on request write the table of docs/performance.md."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import importlib
+import json
+import sys
+import time
+from collections.abc import Sequence
+
+from benchmarks import machine, performance, timing
+from benchmarks.performance import Report
+from benchmarks.tables import Section
+from benchmarks.timing import Effort
+from lambda_core.errors import LambdaError, UsageError, unknown_name
+
+NAMES = {
+    "parts": "right-hand side by grid, Jacobian, factorisation, solve; where a simulated second goes",
+    "speed": "wall time per simulated second and per revolution at measured accuracy",
+    "integrators": "CVODE and SciPy on the same right-hand side",
+    "scaling": "number of balls, cells of a contact",
+    "operating_point": "quasi-static points",
+    "foreign_law": "a traction law from another distribution",
+    "startup": "cold and warm start of the command line",
+    "memory": "memory over a long run",
+    "parallel": "several processes at once",
+    "peer": "Exudyn's ball bearing",
+    "catalogue": "search in the catalogue while one types",
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the benchmarks; returns the exit code: 0, 1 when one of them failed, 2 for a wrong name."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"what to measure, default all: {', '.join(NAMES)}")
+    parser.add_argument("--quick", action="store_true", help="fewer points, shorter runs, no cold start")
+    parser.add_argument("--json", action="store_true", help="one JSON object on stdout instead of tables")
+    parser.add_argument("--write", action="store_true", help="write the tables into docs/performance.md")
+    parser.add_argument("--clock", choices=tuple(timing.CLOCKS), default="wall", help="cpu: time of the thread only")
+    options = parser.parse_args(arguments)
+    for name in options.names:
+        if name not in NAMES:
+            print(UsageError(unknown_name("benchmark", name, NAMES)), file=sys.stderr)
+            return 2
+    timing.use_clock(options.clock)
+    report = Report(machine.describe(), options.clock, options.quick, machine.load())
+    for name in options.names or NAMES:
+        report.sections.append(_measure(name, Effort(options.quick)))
+        if not options.json:
+            print(performance.section_text(report.sections[-1]), flush=True)
+    if options.json:
+        print(json.dumps(report.data(), indent=2))
+    else:
+        print(performance.report_text(report))
+    if options.write:
+        performance.write(report)
+    return 1 if any(section.failed for section in report.sections) else 0
+
+
+def _measure(name: str, effort: Effort) -> Section:
+    """Run one benchmark; what goes wrong in it is told and does not stop the others."""
+    print(f"{name}: {NAMES[name]}", file=sys.stderr, flush=True)
+    began = time.perf_counter()
+    try:
+        section: Section = importlib.import_module(f"benchmarks.{name}").measure(effort)
+    except (LambdaError, RuntimeError) as error:
+        section = Section(name, missing=str(error), failed=True)
+    return dataclasses.replace(section, name=name, seconds=time.perf_counter() - began, load=machine.load())
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,212 @@
+"""The nearest open peer: Exudyn's rigid ball bearing, planar, without lubricant, beside our full model.
+
+Needs the package exudyn (extra "peers"). Both compute the 6208 at 2 kN radial and 2750 1/min. Exudyn's bearing has nine
+balls as rigid bodies, Hertz's exponent, dry friction and springs for a cage; ours everything that the default has.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from benchmarks.accuracy import FloatArray
+from benchmarks.cases import Point, with_tolerance
+from benchmarks.passage import Horizon, passage
+from benchmarks.speed import LADDER, REFERENCE, Run, runs_of
+from benchmarks.tables import Cell, Section, Table, Target
+from benchmarks.timing import Effort, now
+from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.equilibrium import Equilibrium, solve
+from lambda_core.physics.hertz import stiffness_constant
+from lambda_core.physics.model import BearingModel
+
+LOAD = 2000.0  # [N]
+POINT = Point("6208 radial 2 kN, 2750 1/min", "6208-axial-1300", ("loads.axial=0 N", "loads.radial=2 kN"))
+STEPS = (1e-4, 5e-5, 2e-5)  # [s] of Exudyn's implicit integrator
+REFERENCE_STEP = 5e-6
+_SAME = 1e-3  # how close displacement and cage speed have to come to those of the reference step
+FRICTION = 0.1  # dry, above 10 mm/s of slip
+SLIP_ZONE = 1e-2  # [m/s]
+DAMPING = 200.0  # [N s/m] of each contact
+CAGE_STIFFNESS, CAGE_DAMPING = 1e5, 1e2  # of the springs that stand for the cage, as in Exudyn's own example
+
+
+@dataclass(frozen=True)
+class PeerRun:
+    """One integration with Exudyn."""
+
+    per_second: float  # wall time per simulated second
+    per_turn: float  # wall time per revolution of the inner ring [s]
+    displacement: float  # of the inner ring along the load, mean of the second half [m]
+    cage_ratio: float  # mean orbital speed of the balls over the inner ring's
+
+
+def stiffness(start: Equilibrium) -> float:
+    """Return K of Q = K delta^1.5 [N/m^1.5], the mean of inner and outer contact: Exudyn takes one for both."""
+    system = start.assembly.bundle.system[0]
+    rings = zip(system["radius_x"], system["radius_y"], system["e_eff"], strict=True)
+    return float(np.mean([stiffness_constant(float(x), float(y), float(e)) for x, y, e in rings]))
+
+
+def exudyn_run(start: Equilibrium, step: float, duration: float, *, modified_newton: bool = True) -> PeerRun:
+    """Build Exudyn's bearing with the geometry of our model and integrate it."""
+    import exudyn as exu
+    from exudyn.machines import CreateBallBearing, GetBallBearingData
+    from exudyn.utilities import InertiaCylinder, MarkerBodyRigid, SensorBody
+
+    model = start.assembly.model
+    g = model.geometry
+    speed = model.inner_ring.dofs["spin"].motion.terms[0].values[0]
+    orbit = 0.5 * speed * (1.0 - g.ball_diameter / g.pitch_diameter)
+    spin = -0.5 * speed * (g.pitch_diameter / g.ball_diameter - 1.0)  # rolling on both rings
+    axis = [0, 0, 1]
+    data: dict[str, Any] = GetBallBearingData(
+        axis,
+        g.outside_diameter,
+        g.bore_diameter,
+        g.width,
+        g.ball_count,
+        radiusBalls=0.5 * g.ball_diameter,
+        radiusCage=0.5 * g.pitch_diameter,
+        innerGrooveRadius=g.groove_radius_inner,
+        outerGrooveRadius=g.groove_radius_outer,
+    )
+    data["radiusBalls"] -= 0.25 * g.clearance
+    balls = start.state[: L.NB * g.ball_count].reshape(-1, L.NB)
+    data["ballPositions"] = [np.array([b[L.BR] * np.cos(b[L.BPSI]), b[L.BR] * np.sin(b[L.BPSI]), 0.0]) for b in balls]
+    system = exu.SystemContainer().AddSystem()
+    ground = system.CreateGround()
+    density, gravity = model.ball_material.density, [0, -9.81, 0]
+    shaft = system.CreateRigidBody(
+        referencePosition=[0, 0, 0],
+        nodeType=exu.NodeType.RotationRxyz,
+        inertia=InertiaCylinder(density, g.width, 0.5 * g.pitch_diameter - 0.5 * g.ball_diameter, axis=2),
+        initialDisplacement=[start.displacement[1], start.displacement[2], 0.0],
+        initialAngularVelocity=[0, 0, speed],
+        gravity=gravity,
+    )
+    for coordinate in (2, 3, 4):  # planar: no axial motion, no tilt
+        system.CreateCoordinateConstraint(bodyNumbers=[shaft, None], coordinates=[coordinate, None], show=False)
+    system.CreateCoordinateConstraint(  # ground minus shaft is the offset
+        bodyNumbers=[shaft, None], coordinates=[5, None], velocityLevel=True, offset=-speed, show=False
+    )
+    system.CreateForce(bodyNumber=shaft, loadVector=[0, -LOAD, 0])
+    markers = [system.AddMarker(MarkerBodyRigid(bodyNumber=body, localPosition=[0, 0, 0])) for body in (shaft, ground)]
+    items = CreateBallBearing(
+        system,
+        data,
+        *markers,
+        density,
+        density,
+        cageInitialAngularVelocity=[0, 0, orbit],
+        ballsInitialAngularVelocity=[0, 0, spin],
+        gravity=gravity,
+        springStiffnessCage=CAGE_STIFFNESS,
+        springDampingCage=CAGE_DAMPING,
+        contactParametersRingBalls={
+            "contactStiffness": stiffness(start),
+            "contactStiffnessExponent": 1.5,
+            "contactDamping": DAMPING,
+            "dynamicFriction": FRICTION,
+            "frictionProportionalZone": SLIP_ZONE,
+        },
+    )
+    place, turn = (
+        system.AddSensor(SensorBody(bodyNumber=body, storeInternal=True, outputVariableType=kind))
+        for body, kind in (
+            (shaft, exu.OutputVariableType.Displacement),
+            (items["objectCage"], exu.OutputVariableType.AngularVelocity),
+        )
+    )
+    system.Assemble()
+    settings = _settings(exu, step, duration, modified_newton)
+    began = now()
+    system.SolveDynamic(settings)
+    seconds = now() - began
+    displacement: FloatArray = np.asarray(system.GetSensorStoredData(place), dtype=np.float64)
+    cage: FloatArray = np.asarray(system.GetSensorStoredData(turn), dtype=np.float64)
+    half = len(displacement) // 2
+    return PeerRun(
+        seconds / duration,
+        seconds / (duration * speed / (2.0 * math.pi)),
+        -float(np.mean(displacement[half:, 2])),
+        float(np.mean(cage[half:, 3])) / speed,
+    )
+
+
+def _settings(exu: Any, step: float, duration: float, modified_newton: bool) -> Any:
+    settings = exu.SimulationSettings()
+    settings.solutionSettings.writeSolutionToFile = False
+    settings.solutionSettings.sensorsWritePeriod = 1e-4
+    settings.timeIntegration.numberOfSteps = round(duration / step)
+    settings.timeIntegration.endTime = duration
+    settings.timeIntegration.newton.useModifiedNewton = modified_newton
+    # Steps that its contacts recommend shrink to nothing here; steps are still halved where Newton fails.
+    settings.timeIntegration.discontinuous.useRecommendedStepSize = False
+    settings.timeIntegration.verboseMode = 0
+    settings.linearSolverType = exu.LinearSolverType.EigenDense  # the fastest of its solvers here
+    settings.parallel.numberOfThreads = 1
+    return settings
+
+
+def measure(effort: Effort) -> Section:
+    """Integrate the same operating point with both programs."""
+    if importlib.util.find_spec("exudyn") is None:
+        return Section("peer", missing='exudyn is not installed: pip install "lambda-bearing[peers]"')
+    model = POINT.model()
+    start = solve(model)
+    duration = effort.pick(1, 3) * 0.02
+    reference = exudyn_run(start, REFERENCE_STEP, duration)
+    rows: list[tuple[Cell, ...]] = []
+    fastest = math.inf
+    for modified in (True, False):
+        for step in STEPS:
+            runs = [exudyn_run(start, step, duration, modified_newton=modified) for _ in range(2)]
+            one = min(runs, key=lambda run: run.per_second)
+            same = max(
+                abs(one.displacement / reference.displacement - 1), abs(one.cage_ratio / reference.cage_ratio - 1)
+            )
+            name = f"Exudyn, step {1e6 * step:g} us, {'modified' if modified else 'full'} Newton"
+            rows.append(_row(name, one, "yes" if same <= _SAME else "no"))
+            if same <= _SAME:
+                fastest = min(fastest, one.per_turn)
+    rows.append(_row(f"Exudyn, step {1e6 * REFERENCE_STEP:g} us: reference", reference, ""))
+    ours = _ours(model, start, effort)
+    rows += [_row(f"ours, tolerance {run.tolerance:.0e}", told, good) for run, told, good in ours]
+    per_turn = min((told.per_turn for _, told, good in ours if good == "yes"), default=math.inf)
+    table = Table(
+        f"Nearest open peer, {POINT.name}",
+        ("program", "wall s/s", "wall ms/rev", "inner ring displaced um", "cage over inner ring", "accurate"),
+        tuple(rows),
+        (
+            f"Exudyn's bearing: planar, {model.geometry.ball_count} balls, Hertz exponent 1.5, dry friction "
+            f"{FRICTION:g}, no lubricant, springs for a cage; started from our equilibrium, one thread, its default "
+            "build. Accurate: displacement and cage speed as with the reference step to 0.1 %; ours: as in the tables "
+            "above. The target compares the fastest accurate settings.",
+        ),
+    )
+    target = Target(
+        "less wall time per revolution than Exudyn", "times", fastest / per_turn, 40.0, 100.0, at_least=True
+    )
+    return Section("peer", (table,), (target,))
+
+
+def _row(name: str, run: PeerRun, good: str) -> tuple[Cell, ...]:
+    return (name, run.per_second, 1e3 * run.per_turn, 1e6 * run.displacement, run.cage_ratio, good)
+
+
+def _ours(model: BearingModel, start: Equilibrium, effort: Effort) -> list[tuple[Run, PeerRun, str]]:
+    """Return our runs, each in the peer's words, and whether it is accurate."""
+    horizon = Horizon(0.0, 1.0)
+    tolerances = [factor * model.solver.tolerance for factor in LADDER]
+    reference = passage(with_tolerance(model, REFERENCE), start, horizon)
+    found = []
+    for run in runs_of(model, start, tolerances, horizon, effort.repeats):
+        per_turn = run.per_second * run.one.simulated / run.one.turns
+        told = PeerRun(run.per_second, per_turn, run.one.displacement, run.one.outcome.cage_ratio)
+        found.append((run, told, "yes" if run.one.outcome.good(reference.outcome) else "no"))
+    return found
