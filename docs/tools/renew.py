@@ -20,6 +20,7 @@ from reference_case import case_page
 from reference_cli import cli_page
 from reference_models import models_page
 
+from lambda_core import api
 from lambda_core.registry.reference import roles_markdown
 
 DOCS = Path(__file__).parents[1]
@@ -63,6 +64,7 @@ def main(arguments: list[str]) -> int:
     for path in stale:
         print(f"{'stale' if '--check' in arguments else 'written'}: {path.relative_to(DOCS.parent)}")
     if "--examples" in arguments:
+        api.warmup()  # no page shows the sentence that announces a compilation
         for path in examples.pages():
             with tempfile.TemporaryDirectory() as folder:
                 path.write_text(examples.renewed(path, Path(folder)), encoding="utf-8")
