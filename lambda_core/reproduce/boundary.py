@@ -49,7 +49,7 @@ class Setting:
     def changes(self, frequency: float = 0.0, acceleration: float = 0.0) -> tuple[str, ...]:
         """Return the changes to the case for an axial motion of this amplitude [m/s2]; still when 0.
 
-        The motion starts at its turning point, where the rings' equilibrium has no axial speed.
+        The motion X (cos(2 pi f t) - 1) starts from rest where the rings' equilibrium is.
         """
         turn = 1.0 / self.cage_frequency
         motion, duration = "locked", (TURNS + DISCARDED) * turn
@@ -57,8 +57,9 @@ class Setting:
             amplitude = acceleration / (2.0 * math.pi * frequency) ** 2
             duration = DISCARDED * turn + math.ceil(TURNS * turn * frequency - 1e-9) / frequency
             motion = (
-                f'{{ mode = "prescribed", motion = {{ kind = "harmonic", amplitude = "{1e3 * amplitude:.9g} mm", '
-                f'frequency = "{frequency:.9g} Hz", phase = "90 deg" }} }}'
+                f'{{ mode = "prescribed", motion = {{ kind = "sum", terms = ["{-1e3 * amplitude:.9g} mm", '
+                f'{{ kind = "harmonic", amplitude = "{1e3 * amplitude:.9g} mm", frequency = "{frequency:.9g} Hz", '
+                'phase = "90 deg" }] } }'
             )
         inner = motion if self.variant == "B" else "free"
         return (

@@ -248,6 +248,7 @@ def _notes(quick: bool, ratio: float) -> list[str]:
         f"T: share of time in which the inner ring presses a ball outside the static load zone; altered where it has "
         f"grown by more than {LIMITS['T']:g} and {STANDARD_ERRORS:g} standard errors (the limit is an assumption)",
         f"bisection along each ray until the bracket's ends differ by less than a factor {ratio:g}",
-        "15 strips per contact, the motion starts at its turning point, one cage turn is discarded",
+        "the inner ring does not tilt: a shaft on two bearings does not rock about the loaded balls of one",
+        "15 strips per contact, the motion starts from rest at its turning point, one cage turn is discarded",
     ]
     return [*notes, "quick: variant A, two frequencies, no variations"] if quick else notes

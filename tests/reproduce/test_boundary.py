@@ -1,0 +1,86 @@
+"""Bisection and criteria of the stability map, on answers that are known in closed form."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from lambda_core.reproduce.boundary import LIMITS, Ray, Setting, excess, search
+from lambda_core.reproduce.stability import Zone, jackknife
+from lambda_core.reproduce.workshop import Answer, Job
+
+
+def answer(s: float, t: float, error: float = 1e-6) -> Answer:
+    return Answer("done", "", "", {"S": s, "S_error": error, "T": t, "T_error": error})
+
+
+class Known:
+    """A workshop whose bearing changes at given accelerations."""
+
+    def __init__(self, critical: dict[str, float]) -> None:
+        self.critical, self.runs = critical, 0
+
+    def all(self, jobs: list[Job]) -> list[Answer]:
+        return [self.one(job) for job in jobs]
+
+    def one(self, job: Job) -> Answer:
+        self.runs += 1
+        text = next(change for change in job.changes if change.startswith("bodies.outer_ring.x="))
+        if text.endswith("locked"):
+            return answer(0.01, 0.0)
+        amplitude, frequency = (float(text.split(f'{key} = "')[1].split()[0]) for key in ("amplitude", "frequency"))
+        a = 1e-3 * amplitude * (2.0 * math.pi * frequency) ** 2
+        return answer(0.01 * (1.0 - LIMITS["S"] * a / self.critical["S"]), LIMITS["T"] * a / self.critical["T"])
+
+
+@pytest.mark.parametrize("critical", [{"S": 6.0, "T": 20.0}, {"S": 0.4, "T": 300.0}])
+@pytest.mark.parametrize("frequency", [15.0, 44.0])
+def test_bisection_finds_both_boundaries(critical: dict[str, float], frequency: float) -> None:
+    ray, known = Ray(Setting("A", 5.0), frequency), Known(critical)
+    still = search(known, [ray], 1.2)  # type: ignore[arg-type]
+    for criterion, value in critical.items():
+        low, high = ray.bracket(criterion, still[ray.setting])
+        assert low is not None
+        assert high is not None
+        assert low <= value <= high <= 1.2 * low
+        # The excess is linear in the amplitude here, not in its logarithm: half a per cent within such a bracket.
+        assert ray.boundary(criterion, still[ray.setting]) == pytest.approx(value, rel=0.01)
+    assert known.runs < 25
+
+
+def test_a_change_within_three_standard_errors_alters_nothing() -> None:
+    assert excess("S", answer(0.007, 0.0, error=0.002), answer(0.010, 0.0, error=0.0)) < 0.0
+    assert excess("S", answer(0.007, 0.0, error=0.0005), answer(0.010, 0.0, error=0.0)) > 0.0
+    assert excess("T", answer(0.01, 0.03), answer(0.01, 0.0)) < 0.0
+
+
+def test_jackknife_of_a_mean_is_its_standard_error() -> None:
+    """For a mean the jackknife is exact: s/sqrt(n) (Efron and Tibshirani 1993, eq. 11.5)."""
+    values = np.random.default_rng(1).normal(5.0, 1.0, 10)
+    mean, error = jackknife(values[:, None], np.ones((10, 1)))
+    assert mean == pytest.approx(values.mean())
+    assert error == pytest.approx(values.std(ddof=1) / math.sqrt(10.0), rel=1e-6)
+
+
+def test_the_load_zone_wraps_around() -> None:
+    zone = Zone(math.radians(-90.0), math.radians(60.0))
+    inside = np.radians([270.0, 210.0, 330.0, -30.0, 328.0 + 720.0])
+    outside = np.radians([90.0, 190.0, 350.0, 0.0])
+    assert not zone.outside(inside).any()
+    assert zone.outside(outside).all()
+
+
+def test_the_motion_has_the_acceleration_that_was_asked_for() -> None:
+    from lambda_core import api
+    from lambda_core.reproduce.boundary import CASE
+
+    model = api.check(CASE, Setting("B", 2.0).changes(26.0, 9.0))
+    for body in (model.inner_ring, model.outer_ring):
+        rest, harmonic = body.dofs["x"].motion.terms
+        amplitude, frequency, phase = harmonic.values
+        assert rest.values == pytest.approx((-amplitude,))  # it starts where the rings' equilibrium is
+        assert amplitude * (2.0 * math.pi * frequency) ** 2 == pytest.approx(9.0, rel=1e-6)
+        assert phase == pytest.approx(math.pi / 2.0)
+    assert model.solver.duration * 26.0 > 10.0 / Setting("B", 2.0).cage_frequency * 26.0

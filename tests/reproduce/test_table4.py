@@ -1,0 +1,73 @@
+"""Friction torque of the 6319: quasi-static trends, the fit of tau_e, and what the command prints."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from lambda_core import api
+from lambda_core.reproduce import parameters as P
+from lambda_core.reproduce.published import POINTS
+from lambda_core.reproduce.readings import friction
+from lambda_core.reproduce.table4 import _TAU_GRID, OperatingPoint, fitted
+
+
+@pytest.fixture(scope="module")
+def torque() -> np.ndarray:
+    return np.array([friction(api.check(point.case, P.changes()))["torque"] for point in POINTS]).reshape(2, 3)
+
+
+def test_torque_rises_with_speed_and_load(torque: np.ndarray) -> None:
+    assert np.all(np.diff(torque, axis=1) > 0.0)
+    assert np.all(np.diff(torque, axis=0) > 0.0)
+
+
+def test_quasi_static_torque_meets_a_run() -> None:
+    """Issue of the dynamics' own: without the cage both are the same physics, 3 % is the bar."""
+    case = "6319-cp10-3000"
+    still = friction(api.check(case, P.changes()))["torque"]
+    assert still is not None
+    from lambda_core.simulate.dynamics import BearingEngine
+
+    model = api.check(case, (*P.changes(), "depth.strips=15"))
+    engine = BearingEngine(model)
+    turn = 0.0502  # of the cage [s], 3000 1/min times 0.3983
+    assert engine.advance(turn).ok
+    first = engine.integrals()
+    assert engine.advance(2.0 * turn).ok
+    last = engine.integrals()
+    loss = sum(
+        last[name] - first[name]
+        for name in last
+        if name.startswith("loss.") and name not in ("loss.pocket", "loss.land")
+    )
+    run = 1e3 * loss / (last["relative_angle"] - first["relative_angle"])
+    assert run == pytest.approx(still, rel=0.03)
+
+
+@pytest.mark.parametrize("true", [4.6, 6.0, 7.7])
+def test_the_fit_finds_the_tau_that_made_the_measurement(true: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    from lambda_core.reproduce import table4
+
+    curve = np.array([[100.0 * i + 10.0 * tau + tau**2 for i in range(6)] for tau in (*_TAU_GRID, true)])
+    points = tuple(type(point)(point.load, point.speed, float(curve[-1, i])) for i, point in enumerate(POINTS))
+    monkeypatch.setattr(table4, "POINTS", points)
+    tau, at_limit, free = fitted(curve[:-1], "cp10")
+    assert tau == pytest.approx(true, abs=0.01)
+    assert free == pytest.approx(true, abs=0.01)
+    assert not at_limit
+
+
+def test_the_fit_stays_inside_the_published_range(monkeypatch: pytest.MonkeyPatch) -> None:
+    from lambda_core.reproduce import table4
+
+    points = tuple(type(point)(point.load, point.speed, 1e4) for point in POINTS)
+    monkeypatch.setattr(table4, "POINTS", points)
+    tau, at_limit, free = fitted(np.array([[100.0 * tau] * 6 for tau in _TAU_GRID]), "cp6.5")
+    assert (tau, at_limit) == (8.0, True)
+    assert free > 11.9
+
+
+def test_the_machine_interface_of_a_point() -> None:
+    names = ("load_N", "speed_rpm", "measured_Nmm", "simulated_Nmm", "calibrated_Nmm")
+    assert tuple(OperatingPoint.model_fields) == names
