@@ -1,0 +1,76 @@
+"""Benchmarks measure what they say: the handle is the solver, integrators agree, the command runs."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+
+import numpy as np
+import pytest
+
+from benchmarks.__main__ import main
+from benchmarks.accuracy import Outcome, trajectory_totals
+from benchmarks.cases import BALLS, MIDDLE, with_balls, without_samples
+from benchmarks.handle import Handle
+from benchmarks.integrators import Problem, cvode
+from benchmarks.passage import Horizon, passage
+from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.compiled.entry import core
+from lambda_core.physics.equilibrium import Equilibrium, solve
+from lambda_core.simulate.dynamics import initial_state
+
+
+@cache
+def start() -> Equilibrium:
+    return solve(without_samples(MIDDLE.model()))
+
+
+def test_the_handle_computes_what_the_solver_computes() -> None:
+    assembly, y = start().assembly, initial_state(start())
+    expected, got = np.zeros(y.size), np.zeros(y.size)
+    assert core().evaluate(0.0, y, assembly.bundle, expected, np.zeros(L.NI), 0) == 1
+    assert Handle(assembly).slope(0.0, y, got) == 1
+    np.testing.assert_array_equal(got, expected)
+
+
+def test_the_dense_jacobian_is_the_slope_of_the_right_hand_side() -> None:
+    handle, y = Handle(start().assembly), initial_state(start())
+    jacobian, up, down = np.zeros((y.size, y.size)), np.zeros(y.size), np.zeros(y.size)
+    assert handle.jacobian(0.0, y, jacobian) == 1
+    direction = start().assembly.scale * np.random.default_rng(1).uniform(-1.0, 1.0, y.size) * 1e-5
+    handle.slope(0.0, y + direction, up)
+    handle.slope(0.0, y - direction, down)
+    change, predicted = 0.5 * (up - down), jacobian @ direction
+    assert np.linalg.norm(change - predicted) <= 0.02 * np.linalg.norm(change)
+
+
+def test_integrators_agree_on_the_losses() -> None:
+    """Two integrators, two ways to sum up losses: the same power, the same cage speed."""
+    pytest.importorskip("sksundae")
+    ours = passage(start().assembly.model, start(), Horizon(0.0, 1.0), samples=False)
+    problem = Problem(start().assembly.model, start(), ours.simulated)
+    other = cvode(problem, 1e-3, "dense", own_jacobian=False)
+    first, last = trajectory_totals(problem.handle, other.times, other.states, (0.0, problem.end))
+    theirs = Outcome.of(first, first, last)
+    assert theirs.raceway_power == pytest.approx(ours.outcome.raceway_power, rel=5e-3)
+    assert theirs.cage_ratio == pytest.approx(ours.outcome.cage_ratio, rel=2e-3)
+    assert abs(theirs.energy_residual) < 5e-3
+
+
+def test_nine_balls_are_the_bearing_itself() -> None:
+    same, more = with_balls(BALLS), with_balls(2 * BALLS)
+    original = MIDDLE.model()
+    for name in ("ball_diameter", "pitch_diameter", "race_diameter_inner", "clearance", "groove_radius_outer"):
+        assert getattr(same.geometry, name) == pytest.approx(getattr(original.geometry, name), rel=1e-9)
+    assert more.geometry.ball_diameter == pytest.approx(original.geometry.ball_diameter)
+    assert more.geometry.pitch_diameter == pytest.approx(2.0 * original.geometry.pitch_diameter)
+
+
+def test_the_command_answers_in_json(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--quick", "--json", "operating_point"]) == 0
+    data = json.loads(capsys.readouterr().out)
+    (section,) = data["sections"]
+    assert section["name"] == "operating_point"
+    assert all(milliseconds > 0.0 for row in section["tables"][0]["rows"] for milliseconds in row[1:])
+    assert data["targets"][0]["unit"] == "ms"
+    assert data["machine"]["versions"]
