@@ -65,6 +65,7 @@ class CatalogueScreen(Screen[Taken | None]):
     CatalogueScreen #count { width: 12; background: $panel; color: $text-muted; text-align: right; padding: 0 1 0 0; }
     CatalogueScreen DataTable { height: 9; background: $background; scrollbar-size-vertical: 1; }
     CatalogueScreen #details { height: 1fr; border-top: hkey $border-blurred; }
+    CatalogueScreen #details > Horizontal { height: auto; }
     CatalogueScreen #drawing { width: 34; height: auto; padding: 0 1; }
     CatalogueScreen #about { width: 1fr; height: auto; padding: 0 1; }
     CatalogueScreen.-wide DataTable { height: 16; }

@@ -83,7 +83,8 @@ class RunScreen(Screen[None]):
 
     def follow(self) -> None:
         """Show what is new."""
-        table = self.query_one(DataTable)
+        if not self.query(DataTable) or not (table := self.query_one(DataTable)).columns:
+            return  # the screen is still being laid out
         if table.row_count != len(self._queue.runs):
             at = table.cursor_row
             table.clear()

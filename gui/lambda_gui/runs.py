@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 State = Literal["waiting", "running", "done", "stopped", "failed"]
 
 _KEPT = 4000  # points of the live traces; older ones are thinned out
+_PROGRAM = (sys.executable, "-m", "lambda_cli")
 _CONVERGED, _PARTIAL, _INTERRUPTED = 0, 5, 130
 
 
@@ -61,7 +62,7 @@ class Run:
     def start(self) -> None:
         """Start the process; UsageError when that cannot be done."""
         work = ["resume", str(self.result)] if self.resumes else ["run", "case.toml", "--out", str(self.result)]
-        command = [sys.executable, "-m", "lambda_cli", *work, "--progress=json", "--json"]
+        command = [*_PROGRAM, *work, "--progress=json", "--json"]
         try:
             with (self.folder / "said").open("wb") as said, (self.folder / "summary").open("wb") as summary:
                 self._child = subprocess.Popen(

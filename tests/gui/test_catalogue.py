@@ -1,0 +1,95 @@
+"""The catalogue in the builder: filter, details, take, rows of one's own."""
+
+from __future__ import annotations
+
+from contextlib import closing
+from pathlib import Path
+
+from driving import LARGE, SMALL, builder, checked, screen_text, wait_for, write
+from lambda_gui.app import BuilderApp
+from lambda_gui.catalogue import CatalogueScreen
+from lambda_gui.own_row import OwnRow
+from lambda_gui.rows import Row
+from textual.widgets import DataTable
+
+from lambda_core import api
+
+
+async def test_a_bearing_is_found_and_taken(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        await pilot.press("f2")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, CatalogueScreen))
+        await write(pilot, "6208 syla")
+        table = pilot.app.screen.query_one(DataTable)
+        await wait_for(pilot, lambda: table.row_count == 1)
+        shown = screen_text(pilot.app)
+        for words in ("Syla2026", "A published", "pitch diameter", "D 80 mm"):
+            assert words in shown
+        await pilot.press("enter")
+        await checked(pilot)
+        draft = builder(pilot).draft
+        assert draft.get("bearing") == {"designation": "6208", "maker": "Syla2026"}
+
+
+async def test_estimated_geometry_is_marked(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        await pilot.press("f2")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, CatalogueScreen))
+        await write(pilot, "6208 skf")
+        await wait_for(pilot, lambda: pilot.app.screen.query_one(DataTable).row_count == 1)
+        shown = screen_text(pilot.app)
+        assert "≈ 9 x 12.303" in shown
+        assert "B derived" in shown
+        assert "designs that fit the ratings" in shown
+        await pilot.press("pagedown")
+        await wait_for(pilot, lambda: "estimated from C0" in screen_text(pilot.app))
+
+
+async def test_an_oil_is_taken_in_place_of_own_properties(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        draft = builder(pilot).draft
+        draft.set("lubricant", "properties", "density_15", value="880 kg/m3")
+        await pilot.press("f2")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, CatalogueScreen))
+        await pilot.press("f2")
+        await write(pilot, "bode")
+        await wait_for(pilot, lambda: pilot.app.screen.query_one(DataTable).row_count == 1)
+        await pilot.press("enter")
+        await checked(pilot)
+        assert draft.get("lubricant", "name") == "bode-mineral"
+        assert draft.get("lubricant", "properties") is None
+        await pilot.press("ctrl+z")
+        assert draft.get("lubricant", "properties") == {"density_15": "880 kg/m3"}
+
+
+async def test_a_row_of_ones_own_begins_as_a_copy(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        await pilot.press("f2")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, CatalogueScreen))
+        await write(pilot, "6208 syla")
+        await wait_for(pilot, lambda: pilot.app.screen.query_one(DataTable).row_count == 1)
+        await pilot.press("f4")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, OwnRow))
+        await pilot.pause(0.3)
+        rows = {row.place.keys: row for row in pilot.app.screen.query(Row)}
+        rows[("value", "groove_radius_inner")].write("6.25 mm")
+        await pilot.press("ctrl+s")  # refused: nobody knows where the value comes from
+        assert isinstance(pilot.app.screen, OwnRow)
+        rows[("source",)].write("measured by us")
+        await pilot.press("ctrl+s")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, CatalogueScreen))
+        await wait_for(pilot, lambda: "own" in screen_text(pilot.app))
+        await pilot.press("enter")
+        await checked(pilot)
+        assert builder(pilot).draft.get("bearing", "maker") == "own"
+        assert not builder(pilot).check.problems
+    with closing(api.catalogue()) as catalogue:
+        row = catalogue.bearing("6208", "own")
+        assert row.groove_radius_inner is not None
+        assert row.ball_diameter is not None
+        assert (row.groove_radius_inner.value, row.groove_radius_inner.source) == (0.00625, "measured by us")
+        assert row.ball_diameter.source != "measured by us"  # what was not changed keeps its own source
