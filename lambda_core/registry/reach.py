@@ -167,8 +167,13 @@ class _Walk:
                 f"{name} is compiled with cache=True, which hides edits in other files: "
                 "write it as a plain Python function"
             )
-        self.add("dispatcher", sorted((key, repr(item)) for key, item in dispatcher.targetoptions.items()))
+        self.add("dispatcher", sorted((key, _ordered(item)) for key, item in dispatcher.targetoptions.items()))
         self.function(dispatcher.py_func, where)
+
+
+def _ordered(value: Any) -> str:
+    """Write an option; sets in order, which otherwise differs from process to process."""
+    return repr(sorted(value)) if isinstance(value, set | frozenset) else repr(value)
 
 
 def _name(value: Any) -> str:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+import os
 import random
+import subprocess
+import sys
 from types import ModuleType
 from typing import Any
 
@@ -14,6 +17,7 @@ from lambda_core.registry.reach import UnreachableError, reach
 
 HELPERS = """
 import math
+import os
 import numpy as np
 SCALE = 2.0
 TABLE = np.array([1.0, 2.0])
@@ -99,3 +103,23 @@ def test_what_cannot_be_followed_is_refused_by_name(body: str, words: str) -> No
     exec("def loop(x):\n    return x if x < 1.0 else loop(x / 2.0)", scope)
     with pytest.raises(UnreachableError, match=words.replace("(", r"\(").replace(")", r"\)")):
         reach(function(module(), body, **scope))
+
+
+def test_keys_of_the_core_are_equal_in_every_process() -> None:
+    """Sets (the flags of fast mathematics) have another order under another hash seed."""
+    code = (
+        "from lambda_core.physics.compiled import entry\n"
+        "from lambda_core.registry.kernels import host_key\n"
+        "print([host_key(function, entry._FOLDER) for function, _ in entry.UNITS.values()])"
+    )
+    found = {
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONHASHSEED": str(seed)},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for seed in (1, 2, 3)
+    }
+    assert len(found) == 1
