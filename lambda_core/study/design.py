@@ -192,7 +192,7 @@ def _coordinate(parameter: Parameter, kind: str) -> Coordinate:
     scale, (first, last) = found
     if not (math.isfinite(first) and math.isfinite(last)):
         raise ValueError("the ends of a range have to be finite")
-    if first == last:
+    if math.isclose(first, last, rel_tol=1e-12, abs_tol=0.0):
         raise ValueError(f"the range is empty: it begins and ends at {values[0]!r}")
     if parameter.spacing == "log" and min(first, last) <= 0.0:
         raise ValueError("a logarithmic range needs positive ends")

@@ -61,8 +61,8 @@ def scale_of(values: Sequence[Value]) -> tuple[Scale, tuple[float, ...]] | None:
     if not any(known) and not any(isinstance(value, str) and _COMMA.fullmatch(value) for value in values):
         return None  # names
     for value, found, match in zip(values, known, matches, strict=True):
-        if not found and (match is None or not match[2]):
-            comma = isinstance(value, str) and _COMMA.fullmatch(value)
+        comma = isinstance(value, str) and _COMMA.fullmatch(value)
+        if not found and (comma or match is None or not match[2]):
             hint = f': write a decimal point: "{comma[1]}.{comma[2]}"' if comma else " has no unit, others have"
             raise ValueError(f'"{value}"{hint}')
     common = set.intersection(*known)

@@ -87,9 +87,9 @@ CYCLE: tuple[Look, ...] = (
     Look("#74b9a5", (0, (1.4, 1.4)), "D", True, ".."),
     Look("#3c3c3c", (0, (9, 2)), "v", True, "xx"),
     Look("#c9c34a", (0, (3, 1, 1, 1, 1, 1)), "P", True, "++"),
-    Look("#8ea9e8", (0, (2, 2)), "X", True, "--"),
     Look("#b5533c", (0, (7, 1)), "<", True, "oo"),
-    Look("#bdbdbd", "-", ">", True, "||"),
+    Look("#8ea9e8", (0, (2, 2)), "X", True, "--"),
+    Look("#dcdcdc", "-", ">", True, "||"),
 )
 
 COLOUR_MAP = "viridis"  # lightness rises evenly: readable in greyscale

@@ -1,0 +1,238 @@
+"""Workers in processes of their own: equal numbers everywhere, killed workers and killed studies lose nothing."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from concurrent.futures import Executor
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import pytest
+from studies import MAP, RUNS
+
+from lambda_core import api
+from lambda_core.errors import UsageError
+from lambda_core.study.director import Director
+from lambda_core.study.executors import Processes
+from lambda_core.study.manifest import Manifest
+
+Write = Callable[..., Path]
+
+
+def numbers(folder: Path) -> list[dict[str, Any]]:
+    """Return everything of a study's table that must not depend on how it was computed."""
+    return api.study_table(folder).rows()
+
+
+@pytest.fixture(scope="module")
+def reference(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[dict[str, Any]]]:
+    """Tables of a small map and of a few runs, computed one after the other in this process."""
+    from studies import Inline
+
+    found = {}
+    for name, text in (("map", MAP), ("runs", RUNS.format(duration="0.02 s", speeds=2, loads=3))):
+        folder = tmp_path_factory.mktemp("reference") / name
+        path = folder.with_suffix(".toml")
+        path.write_text(text, encoding="utf-8")
+        api.study_run(path, folder, executor=Inline())
+        found[name] = numbers(folder)
+    return found
+
+
+def test_processes_give_the_same_table(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
+    reports = []
+    status = api.study_run(write(MAP), tmp_path / "map", workers=2, progress=reports.append)
+    assert status.done == 6
+    assert numbers(tmp_path / "map") == reference["map"]
+    assert status.parallel_efficiency is not None
+    assert 0.0 < status.parallel_efficiency <= 1.05
+    assert reports[-1].done == 6
+
+
+def test_a_dask_cluster_gives_the_same_table(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
+    pytest.importorskip("distributed")
+    status = api.study_run(write(MAP), tmp_path / "map", executor="dask", workers=2)
+    assert status.done == 6
+    assert numbers(tmp_path / "map") == reference["map"]
+
+
+def test_a_scheduler_that_does_not_answer_is_named(write: Write, tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    path = write(MAP.replace("points = 3", "points = 2"))
+    with pytest.raises(UsageError, match="no dask scheduler answers at"):
+        api.study_run(path, tmp_path / "map", executor="tcp://127.0.0.1:9")
+    with pytest.raises(UsageError, match='"slurm" is not a place to work; there are: processes, dask'):
+        api.study_run(path, tmp_path / "other", executor="slurm")
+
+
+def started(path: Path, folder: Path, *options: str) -> subprocess.Popen[bytes]:
+    """Start a study in a session of its own, so that it can be killed with everything that it started."""
+    command = [sys.executable, "-m", "lambda_cli", "study", "run", str(path), "--out", str(folder), "--quiet", *options]
+    return subprocess.Popen(command, start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def wait_for(condition: Callable[[], bool], seconds: float = 120.0) -> None:
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "it did not happen"
+        time.sleep(0.05)
+
+
+def files(folder: Path) -> int:
+    return len(list((folder / "runs").glob("[!.]*.h5"))) if (folder / "runs").is_dir() else 0
+
+
+def _further(folder: Path, runs: int, study: subprocess.Popen[bytes]) -> bool:
+    return files(folder) > runs or study.poll() is not None
+
+
+def killed_and_resumed(path: Path, folder: Path, kills: int, seed: int) -> None:
+    """Kill a study at random moments, everything that belongs to it at once, and go on each time."""
+    chance = random.Random(seed)
+    study = started(path, folder, "--workers", "2")
+    for kill in range(kills):
+        wait_for(partial(_further, folder, kill, study))
+        time.sleep(chance.uniform(0.0, 0.4))
+        os.killpg(study.pid, signal.SIGKILL)
+        study.wait()
+        if kill < kills - 1:
+            command = [sys.executable, "-m", "lambda_cli", "study", "resume", str(folder), "--quiet", "--workers", "2"]
+            study = subprocess.Popen(
+                command, start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+            )
+    api.study_resume(folder, workers=2)
+
+
+def test_a_killed_study_goes_on_to_the_same_table(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
+    folder = tmp_path / "killed"
+    killed_and_resumed(write(RUNS.format(duration="0.02 s", speeds=2, loads=3)), folder, 1, seed=1)
+    assert numbers(folder) == reference["runs"]
+
+
+@pytest.mark.slow
+def test_24_runs_killed_three_times_end_with_the_same_table(write: Write, tmp_path: Path, inline: Executor) -> None:
+    path = write(RUNS.format(duration="0.05 s", speeds=4, loads=6))
+    api.study_run(path, tmp_path / "undisturbed", executor=inline)
+    killed_and_resumed(path, tmp_path / "killed", 3, seed=24)
+    assert numbers(tmp_path / "killed") == numbers(tmp_path / "undisturbed")
+    assert len(numbers(tmp_path / "killed")) == 24
+
+
+def children(pid: int) -> list[int]:
+    """Return the workers of a process that directs a study."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            status = (entry / "stat").read_text().rpartition(")")[2].split()
+            command = (entry / "cmdline").read_bytes()
+        except OSError:
+            continue
+        if int(status[1]) == pid and b"spawn_main" in command:
+            found.append(int(entry.name))
+    return found
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks for workers in /proc")
+def test_a_lost_worker_loses_no_point(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
+    folder = tmp_path / "lost"
+    study = started(write(RUNS.format(duration="0.02 s", speeds=2, loads=3)), folder, "--workers", "2")
+    try:
+        wait_for(lambda: files(folder) > 0 or study.poll() is not None)
+        workers = children(study.pid)
+        assert workers
+        os.kill(workers[0], signal.SIGKILL)
+        study.wait(timeout=200)
+    finally:
+        if study.poll() is None:
+            os.killpg(study.pid, signal.SIGKILL)
+    assert numbers(folder) == reference["runs"]
+    assert study.returncode == 5  # runs of 20 ms have not converged, and the exit code says so
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks for workers in /proc")
+def test_workers_do_not_outlive_their_director(write: Write, tmp_path: Path) -> None:
+    folder = tmp_path / "orphans"
+    study = started(write(RUNS.format(duration="5 s", speeds=2, loads=1).replace("points = 1", "points = 2")), folder)
+    wait_for(lambda: files(folder) > 0 or study.poll() is not None)
+    workers = children(study.pid)
+    assert workers
+    os.kill(study.pid, signal.SIGKILL)  # the director alone
+    study.wait()
+    wait_for(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers), 20.0)
+    assert api.study_status(folder).pending == 4
+
+
+@pytest.mark.slow
+def test_a_lost_dask_worker_loses_no_point(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
+    distributed: Any = pytest.importorskip("distributed")
+    path = write(RUNS.format(duration="0.02 s", speeds=2, loads=3))
+    folder = tmp_path / "dask"
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        import threading
+
+        def murder() -> None:
+            wait_for(lambda: files(folder) > 0)
+            pids = client.run(os.getpid)
+            os.kill(next(iter(pids.values())), signal.SIGKILL)
+
+        thread = threading.Thread(target=murder)
+        thread.start()
+        api.study_run(path, folder, executor=cluster.scheduler_address, workers=2)
+        thread.join()
+    assert numbers(folder) == reference["runs"]
+
+
+def deadly(task: Any) -> Any:
+    """Stand in for a point whose worker dies, whatever one does."""
+    from lambda_core.study.task import Outcome
+
+    if task.number == 2:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return Outcome(task.number, "done", "", "", {"friction_torque_Nmm": float(task.number)}, "", 0.0)
+
+
+def test_a_point_that_kills_its_worker_fails_alone(
+    write: Write, tmp_path: Path, inline: Executor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from lambda_core.study import director
+    from lambda_core.study.task import Task
+
+    folder = tmp_path / "deadly"
+    api.study_run(write(MAP), folder, executor=inline)
+    monkeypatch.setattr(director, "work", deadly)
+    manifest = Manifest(folder, write=True)
+    staff = Processes(2)
+    tasks = [Task(number, "", (), "quasi-static", (), "") for number in range(6)]
+    try:
+        assert Director(manifest, staff).run(tasks)
+    finally:
+        staff.close(stop=True)
+        manifest.close()
+    table = api.study_table(folder)
+    assert table.states == ("done", "done", "failed", "done", "done", "done")
+    assert "the worker process died on this point" in table.reasons[2]
+    torque = table.response("friction_torque_Nmm").values
+    assert [torque[i] for i in (0, 1, 3, 4, 5)] == [0.0, 1.0, 3.0, 4.0, 5.0]
+
+
+@pytest.mark.slow
+def test_a_map_of_500_points_within_30_seconds_on_two_cores(write: Write, tmp_path: Path) -> None:
+    text = MAP.replace("points = 3", "points = 25").replace(
+        'values = ["16 kN", "24600 N"]', 'range = ["3 kN", "30 kN"]\npoints = 20'
+    )
+    path = write(text)
+    api.study_check(path)  # compiled beforehand, as by `lambda-bearing warmup`
+    begin = time.perf_counter()
+    status = api.study_run(path, tmp_path / "map", workers=2)
+    assert time.perf_counter() - begin < 30.0
+    assert status.done == 500
