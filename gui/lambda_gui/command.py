@@ -1,4 +1,4 @@
-"""The command gui: the model builder in the terminal, or served to a browser."""
+"""The command gui of the command line: the model builder in the terminal, or served to a browser."""
 
 from __future__ import annotations
 
@@ -11,8 +11,26 @@ def gui(
     case: Annotated[
         str | None, typer.Argument(metavar="[CASE]", help="Case file (TOML) or built-in case; asks without one.")
     ] = None,
+    serve: Annotated[bool, typer.Option("--serve", help="Serve it to a browser instead.")] = False,
+    host: Annotated[
+        str, typer.Option("--host", metavar="ADDRESS", help="With --serve: address; others than this machine's warn.")
+    ] = "localhost",
+    port: Annotated[int, typer.Option("--port", min=1, max=65535, help="With --serve: port.")] = 8000,
 ) -> None:
-    """Build cases, run them and look at results in the terminal."""
-    from lambda_gui.app import main
+    """Build cases, run them and look at results in the terminal.
 
-    main(case)
+    Without CASE it offers an empty model, the case files of this folder and the built-in cases. With --serve open
+    http://localhost:8000 in a browser; end it with Ctrl+C.
+    """
+    if not serve:
+        from lambda_gui.app import main
+
+        main(case)
+        return
+    from lambda_gui.serve import serve as start
+    from lambda_gui.serve import warning
+
+    if text := warning(host):
+        typer.echo(f"warning: {text}", err=True)
+    typer.echo(f"serving the builder at http://{host}:{port}; end it with Ctrl+C", err=True)
+    start(case, host, port)
