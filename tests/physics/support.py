@@ -144,6 +144,16 @@ class Machine:
         return self.assembly.bundle.scratch[L.SHARED, : 3 * L.NS].reshape(3, L.NS).copy()
 
 
+CHANNELS = {"motion": (L.CH_MOTION, 6), "force": (L.CH_FORCE, 3), "moment": (L.CH_MOMENT, 3)}
+
+
+def time_function(m: Machine, kind: str, body: int, component: int, t: float) -> FloatArray:
+    """Return value and two derivatives of a load or motion at time t, as compiled code sees them."""
+    m.evaluate(m.vector(m.at_rest()), t, want=0)
+    start, per_body = CHANNELS[kind]
+    return np.array(m.assembly.bundle.channels[start + per_body * body + component].copy())
+
+
 @dataclass(frozen=True)
 class Motion:
     """What the integrator wrote."""

@@ -1,0 +1,96 @@
+"""An edit in the compiled core is seen by the next process: in what is looked up on disk, and in the result."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import lambda_core
+
+# One small function of the core, compiled as the solver's parts are, and the names under which those are looked up.
+ONE_FUNCTION = """
+import json
+from pathlib import Path
+from numba import types
+from lambda_core.physics.compiled import kinematics
+from lambda_core.physics.compiled.entry import UNITS
+from lambda_core.registry.kernels import compile_host, host_key
+
+folder = Path(kinematics.__file__).parent
+host = compile_host(kinematics.axis_x.py_func, types.float64(types.float64, types.float64), folder)
+keys = {name: host_key(function, folder) for name, (function, _) in UNITS.items()}
+print(json.dumps(dict(folder=str(folder), keys=keys, value=host.dispatcher(1.0, 0.0), cached=host.cached)))
+"""
+# The whole solver.
+SOLVE = """
+import json
+from pathlib import Path
+from lambda_core import api
+from lambda_core.physics.compiled import kinematics
+from lambda_core.physics.equilibrium import solve
+
+print(json.dumps(dict(folder=str(Path(kinematics.__file__).parent), value=solve(api.check("6319-cp10-1500")).orbit)))
+"""
+
+
+class Copy:
+    """The package copied to a folder of its own, where it is edited."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+        shutil.copytree(
+            Path(lambda_core.__file__).parent, root / "lambda_core", ignore=shutil.ignore_patterns("__pyc*")
+        )
+        self.file = root / "lambda_core" / "physics" / "compiled" / "kinematics.py"
+
+    def edit(self, old: str, new: str) -> None:
+        text = self.file.read_text()
+        assert text.count(old) == 1
+        self.file.write_text(text.replace(old, new))
+
+    def ask(self, code: str) -> dict[str, Any]:
+        """Run in a new process with a cache of its own."""
+        own = {"LAMBDA_BEARING_CACHE": str(self.root / "cache"), "PYTHONDONTWRITEBYTECODE": "1"}
+        done = subprocess.run(
+            [sys.executable, "-W", "ignore", "-c", code],
+            cwd=self.root,
+            env=os.environ | own | {"PYTHONPATH": str(self.root)},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        answer: dict[str, Any] = json.loads(done.stdout)
+        assert Path(answer["folder"]) == self.file.parent  # the copy answered, not the installed package
+        return answer
+
+
+def test_an_edited_constant_of_the_core(tmp_path: Path) -> None:
+    copy = Copy(tmp_path)
+    before, again = copy.ask(ONE_FUNCTION), copy.ask(ONE_FUNCTION)
+    copy.edit("1e-12", "0.25")
+    after = copy.ask(ONE_FUNCTION)
+    assert (before["cached"], again["cached"], after["cached"]) == (False, True, False)
+    assert before["value"] == again["value"] == pytest.approx(1e-6)
+    assert after["value"] == pytest.approx(0.5)
+    assert before["keys"] == again["keys"]
+    assert all(after["keys"][name] != key for name, key in before["keys"].items())  # every part of the solver
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1800)
+def test_an_edited_solver_finds_another_equilibrium(tmp_path: Path) -> None:
+    """Contacts moved from the middle of the penetration to the ball's own surface: the balls orbit at another speed."""
+    copy = Copy(tmp_path)
+    before = copy.ask(SOLVE)["value"]
+    copy.edit("dist = system.ball_radius - 0.5 * delta", "dist = system.ball_radius - 0.0 * delta")
+    after = copy.ask(SOLVE)["value"]
+    assert after != before
+    assert after == pytest.approx(before, rel=1e-2)

@@ -1,0 +1,81 @@
+"""The core without a compiler: the same sources run as plain Python give the same numbers."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from .test_power import MODELS, machine, random_state
+
+# Runs in a process without Numba's compiler. Everything that only data decides comes from the file; the functions are
+# the plain ones of the core and of the laws.
+PLAIN = """
+import sys
+import numpy as np
+from lambda_core import api
+from lambda_core.physics.compiled import forces, layout as L, raceway
+
+given = np.load(sys.argv[1])
+model = api.check(str(given["case"]), [str(text) for text in given["overrides"]])
+
+def law(element, role):
+    return model.laws[element][role].model.kernel
+
+def raceway_laws(element):
+    return L.RacewayLaws(*(law(element, role) for role in L.RacewayLaws._fields))
+
+laws = L.Laws(
+    raceway_laws("ball_inner"), raceway_laws("ball_outer"), law("ball_cage", "cage_contact"),
+    law("cage_inner", "cage_contact"), law("cage_outer", "cage_contact"), law("fluid_drag", "fluid_drag"),
+)
+system = np.frombuffer(given["system"].tobytes(), dtype=L.SYSTEM).copy().view(np.recarray)
+arrays = {name: given[name] for name in given["arrays"]}
+bundle = L.Bundle(system=system, laws=laws, wrench=raceway.raceway_wrench, tangent=None, **arrays)
+rows, powers = [], []
+for y in given["states"]:
+    dydt, rates = np.zeros(y.size), np.zeros(L.NI)
+    assert forces.evaluate(float(given["time"]), y, bundle, dydt, rates, 1) == 1
+    rows.append(dydt)
+    powers.append(rates)
+np.savez(sys.argv[2], dydt=rows, rates=powers)
+"""
+
+
+@pytest.mark.parametrize("name", ["every body free", "no cage", "ring-guided cage", "other laws", "cells"])
+def test_right_hand_side(name: str, tmp_path: Path) -> None:
+    """Rounding only: sums over cells are taken in another order when they are compiled."""
+    m, time = machine(*MODELS[name]), 2e-3
+    states = np.array([random_state(m, seed, mode) for seed, mode in enumerate(("rolling", "sliding"))])
+    bundle = m.assembly.bundle
+    arrays = [name for name in bundle._fields if name not in ("system", "laws", "wrench", "tangent")]
+    np.savez(
+        tmp_path / "given.npz",
+        case="6319-cp10-1500",
+        overrides=np.array(MODELS[name]),
+        time=time,
+        states=states,
+        arrays=arrays,
+        system=np.frombuffer(bundle.system.tobytes(), dtype=np.uint8),
+        **{array: getattr(bundle, array) for array in arrays},
+    )
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", PLAIN, "given.npz", "plain.npz"],
+        cwd=tmp_path,
+        env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    plain = np.load(tmp_path / "plain.npz")
+    for y, dydt, rates in zip(states, plain["dydt"], plain["rates"], strict=True):
+        ours = m.evaluate(y, time)
+        # per kind of state: accelerations of balls and of bodies differ by orders of magnitude
+        scale = np.abs(ours.dydt) + 1e-6 * m.assembly.scale * np.abs(ours.dydt / m.assembly.scale).max()
+        assert np.all(np.abs(dydt - ours.dydt) <= 1e-9 * scale)
+        assert rates[: len(ours.losses)] == pytest.approx(list(ours.losses.values()), rel=1e-9, abs=1e-12)
