@@ -133,7 +133,7 @@ class Bar(Silence):
         if text.startswith("compiling"):
             self._bar.update(self._task, description=text, total=None)
         else:
-            self._console.print(text)
+            self._console.print(text, soft_wrap=True)
 
     def update(self, progress: Progress | StudyProgress) -> None:
         """Move the bar."""

@@ -100,6 +100,36 @@ def test_progress_as_json_is_one_object_per_line(capsys: pytest.CaptureFixture[s
     assert sum(last["inner_loads_N"]) > 0.0
 
 
+@pytest.mark.parametrize("colour", [True, False])
+def test_a_terminal_shows_a_bar_with_the_time_left(colour: bool, in_folder: Path) -> None:
+    """Through a pseudo-terminal; NO_COLOR leaves the movement and takes the colours."""
+    pty = pytest.importorskip("pty")
+    terminal, end = pty.openpty()
+    environment = {**os.environ, "TERM": "xterm", "COLUMNS": "100"} | ({} if colour else {"NO_COLOR": "1"})
+    command = [sys.executable, "-m", "lambda_cli", "run", CASE, "--duration", "30 ms"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=end, env=environment)
+    os.close(end)
+    seen = b""
+    while True:
+        try:
+            part = os.read(terminal, 65536)
+        except OSError:  # the other end is closed
+            break
+        if not part:
+            break
+        seen += part
+    os.close(terminal)
+    out, _ = process.communicate()
+    text = seen.decode()
+    assert process.returncode == 5
+    assert "running" in text
+    assert "left" in text
+    assert "cage rev" in text
+    assert ("\x1b[38;5;" in text or "\x1b[38;2;" in text or "\x1b[3" in text) is colour
+    assert "6208 (Syla2026)" in text
+    assert b"\x1b" not in out
+
+
 def test_results_are_numbered_and_never_overwritten(capsys: pytest.CaptureFixture[str], in_folder: Path) -> None:
     for _ in range(2):
         main(["run", CASE, *SHORT, "--quiet"])
