@@ -257,7 +257,7 @@ def advance(evaluate, jacobian, until, max_steps, bundle, bl, fa, mem):
     Returns
     -------
     int
-        OK, FULL (drain the samples or go on), STEP_TOO_SMALL, or FAULT (see work.fault).
+        OK, FULL (drain the samples or go on), STEP_TOO_SMALL, or FAULT (see scratch[FAULT]).
     """
     control, count = mem.control, mem.count
     for _ in range(max_steps):

@@ -6,7 +6,6 @@ import math
 
 from lambda_core.physics.compiled.layout import (
     CH_MOTION,
-    LOCKED,
     NB,
     NS,
     PRESCRIBED,
@@ -110,10 +109,3 @@ def fill_shared(t, y, bundle):
     base = NB * system.balls
     for i in range(active.size):
         shared[active[i]] = y[base + i]
-
-
-@helper
-def is_driven(system, body, dof):
-    """Say whether a degree of freedom is held or moved from outside."""
-    mode = system.mode[6 * body + dof]
-    return mode in (LOCKED, PRESCRIBED)
