@@ -1,0 +1,139 @@
+"""Reports: one page that needs nothing else, says where every number comes from, and names exactly the laws used."""
+
+from __future__ import annotations
+
+import re
+from concurrent.futures import Executor, Future
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from lambda_core import api
+from lambda_core.errors import UsageError
+
+if TYPE_CHECKING:
+    from lambda_core.simulate.results import Result
+
+_VOID = {"meta", "link", "br", "hr", "img", "input"}
+
+
+class Page(HTMLParser):
+    """Text, tags and addresses of a page; fails on tags that do not close."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(convert_charrefs=True)
+        self.open: list[str] = []
+        self.words: list[str] = []
+        self.addresses: list[str] = []
+        self.tags: list[str] = []
+        self.feed(text)
+        assert self.open == []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.addresses += [value for name, value in attrs if name in ("src", "href", "xlink:href") and value]
+        if tag not in _VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.addresses += [value for name, value in attrs if name in ("src", "href", "xlink:href") and value]
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if self.open and self.open[-1] not in ("style", "script"):
+            self.words.append(data)
+
+    @property
+    def text(self) -> str:
+        return " ".join(" ".join(self.words).split())
+
+
+@pytest.fixture(scope="module")
+def page(radial_run: Result, tmp_path_factory: pytest.TempPathFactory) -> Page:
+    path = api.report(radial_run.path, tmp_path_factory.mktemp("report") / "page.html")
+    return Page(path.read_text(encoding="utf-8"))
+
+
+def test_the_page_needs_nothing_from_outside(page: Page) -> None:
+    assert all(address.startswith(("#", "data:")) for address in page.addresses)
+    assert "script" not in page.tags
+    assert "link" not in page.tags
+    targets = {address[1:] for address in page.addresses if address.startswith("#")}
+    assert {"results", "views", "inputs", "assumptions", "laws", "references", "origin"} <= targets
+
+
+def test_the_page_says_what_was_found(page: Page, radial_run: Result) -> None:
+    summary = radial_run.summary()
+    assert f"{summary.friction_torque_Nmm:.5g} ± {summary.friction_torque_ci_Nmm:.2g}" in page.text
+    assert "not converged" not in page.text
+    for contact in summary.contacts:
+        assert f"{contact.load_N:.1f}" in page.text
+
+
+def test_every_view_is_on_the_page(page: Page) -> None:
+    assert page.tags.count("svg") == len(api.views("result"))
+    assert "Not shown" not in page.text
+
+
+def test_every_input_has_its_source_and_every_assumption_is_there(page: Page, radial_run: Result) -> None:
+    for assumption in radial_run.assumptions:
+        assert " ".join(assumption.split()) in page.text
+    for value in radial_run.values:
+        assert value.path.partition(".")[2] in page.text
+        assert " ".join(value.source.split()) in page.text
+
+
+def test_exactly_the_laws_used_are_cited(page: Page, radial_run: Result) -> None:
+    cited = api.cite(radial_run.path)
+    for law in cited.laws:
+        assert " ".join(law.reference.split()) in page.text
+    used = {row["model"] for row in radial_run.laws}
+    assert "newtonian" not in used
+    assert "newtonian" not in page.text
+
+
+def test_a_page_is_not_overwritten_unasked(radial_run: Result, tmp_path: Path) -> None:
+    path = tmp_path / "page.html"
+    path.write_text("mine")
+    with pytest.raises(UsageError, match="exists"):
+        api.report(radial_run.path, path)
+    assert path.read_text() == "mine"
+    with pytest.raises(UsageError, match="does not exist"):
+        api.report(tmp_path / "nothing.h5", tmp_path / "other.html")
+    with pytest.raises(UsageError, match="cannot write"):
+        api.report(radial_run.path, tmp_path / "no" / "folder.html")
+
+
+class Inline(Executor):
+    """Does every task at once, in this process."""
+
+    def submit(self, function: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+        future: Future[Any] = Future()
+        future.set_result(function(*args, **kwargs))
+        return future
+
+
+def test_a_study_has_a_page_too(tmp_path: Path) -> None:
+    study = {
+        "name": "two-by-two",
+        "title": "Torque <over> speed & load",
+        "case": "6319-cp10-1500",
+        "parameters": [
+            {"path": "operation.speed", "values": ["500 rpm", "3000 rpm"]},
+            {"path": "loads.radial", "values": ["16 kN", "24.6 kN"]},
+        ],
+    }
+    api.study_run(study, tmp_path / "study", executor=Inline())
+    text = api.report(tmp_path / "study", tmp_path / "study.html").read_text(encoding="utf-8")
+    found = Page(text)
+    assert "Torque <over> speed & load" in found.text  # escaped in the file
+    assert "complete" in found.text
+    for row in api.study_table(tmp_path / "study").rows():
+        assert f"{row['friction_torque_Nmm']:.5g}" in found.text
+    assert re.search(r"kind|operation\.speed", found.text)
+    assert found.tags.count("svg") >= 3
