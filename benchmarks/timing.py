@@ -34,7 +34,7 @@ class Effort:
     @property
     def repeats(self) -> int:
         """Return how often the same work is timed."""
-        return 3 if self.quick else 5
+        return 2 if self.quick else 3
 
     def pick(self, quick: int, full: int) -> int:
         """Return one of two amounts."""
