@@ -259,7 +259,7 @@ async def test_unsaved_work_survives_a_crash(hand_written: Path, monkeypatch: py
     kept.write_text(json.dumps(content), encoding="utf-8")
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, Ask))
-        assert "unsaved work on drive-end.toml" in screen_text(pilot.app)
+        await wait_for(pilot, lambda: "unsaved work on drive-end.toml" in screen_text(pilot.app))
         await pilot.press("enter")
         await wait_for(pilot, lambda: builder(pilot).draft.get("loads", "radial") == "9 kN")
         assert builder(pilot).draft.is_changed()

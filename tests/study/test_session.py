@@ -149,7 +149,8 @@ def test_points_that_cannot_work_are_warned_of(write: Write) -> None:
 def test_the_cost_of_runs_is_said_beforehand(write: Write) -> None:
     short = api.study_check(write(RUNS.format(duration="0.01 s", speeds=2, loads=2)), workers=1)
     long = api.study_check(write(RUNS.format(duration="1 s", speeds=2, loads=2)), workers=1)
-    assert long.seconds_per_point > 10.0 * short.seconds_per_point
+    # A point has a fixed cost too, measured on a machine that may be busy.
+    assert long.seconds_per_point > 2.0 * short.seconds_per_point
     assert long.disk_bytes == pytest.approx(100.0 * short.disk_bytes, rel=1e-6)
 
 

@@ -224,7 +224,7 @@ def test_a_contact_map_is_the_contact_of_the_run(radial_run: Result, ring: str) 
     assert np.count_nonzero(np.diff(signs)) == 2
     film = found.panels[3].field
     assert film is not None
-    assert film.values.min() == pytest.approx(1e6 * radial_run["film_central"][-1, ball, index], rel=1e-9)
+    assert film.values.min() == pytest.approx(1e6 * radial_run["film_central"][-1, ball, index], rel=1e-5)
     assert film.values.max() > 3.0 * film.values.min()
 
 
@@ -240,9 +240,10 @@ def test_the_contact_field_carries_the_load_and_the_loss(radial_run: Result) -> 
     for index, ring in enumerate(("inner", "outer")):
         state = contact_state(sample, ball, ring)
         same = contact_field(assembly, *state, ring, depth["strips"], depth["rows"])
-        assert same.load == pytest.approx(sample["load"][ball, index], rel=1e-9)
-        assert same.film == pytest.approx(sample["film_central"][ball, index], rel=1e-9)
-        assert same.loss == pytest.approx(sample["contact_loss"][ball, index], rel=1e-6)
+        # The contact angles at which the radii are frozen are found again, to 1e-4 rad.
+        assert same.load == pytest.approx(sample["load"][ball, index], rel=1e-6)
+        assert same.film == pytest.approx(sample["film_central"][ball, index], rel=1e-5)
+        assert same.loss == pytest.approx(sample["contact_loss"][ball, index], rel=1e-4)
         fine = contact_field(assembly, *state, ring, 81, 41)
         assert fine.loss == pytest.approx(same.loss, rel=0.03)
         # The pressure carries the elastic load; the recorded load has the small damping force in it too.

@@ -10,7 +10,6 @@ from pydantic import Field as Declared
 
 from lambda_core.errors import CaseError, SolverError, UsageError
 from lambda_core.plugins import Arrows, Axis, Field, NotApplicable, Options, Panel, RunData, Series, View, ViewData
-from lambda_plugins.capacitance import gap_scale
 from lambda_plugins.views.common import FloatArray, source
 
 if TYPE_CHECKING:
@@ -150,6 +149,8 @@ def _film(found: ContactField) -> Field:
     """
     a, b = found.semi_axis_a, found.semi_axis_b
     major, minor = max(a, b), min(a, b)
+    from lambda_plugins.capacitance import gap_scale  # a law: not imported until this view is drawn
+
     scale = gap_scale(major, minor, found.radius_x, found.radius_y)
     phi = np.linspace(0.0, 2.0 * math.pi, 121)
     w = np.linspace(0.0, math.asinh(_REACH), 400)
