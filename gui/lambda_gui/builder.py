@@ -245,7 +245,8 @@ class BuilderScreen(Screen[None]):
         self.app.call_from_thread(self._checked, found, took)
 
     def _checked(self, found: Check, took: float) -> None:
-        if not self.is_attached:
+        # The check may come back while the screen is taken down.
+        if not self.is_attached or not self.query(ModelTree):
             return
         self.check, self.checked_in = found, took
         self.around.learn(found.values)
