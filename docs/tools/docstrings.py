@@ -12,6 +12,7 @@ import textwrap
 import tokenize
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel
@@ -72,9 +73,8 @@ def constants(module: Any) -> Iterator[tuple[str, Any]]:
 
 def returned() -> list[type]:
     """Return the classes that the functions of the API name in their signatures, in alphabetical order."""
-    api = importlib.import_module(MODULES[0])
     found: dict[str, type] = {}
-    for node in ast.walk(ast.parse(inspect.getsource(api))):
+    for node in (node for source in _sources(MODULES[0]) for node in ast.walk(ast.parse(source))):
         if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
             for line in node.body:
                 if isinstance(line, ast.ImportFrom) and (line.module or "").startswith("lambda_core."):
@@ -83,6 +83,13 @@ def returned() -> list[type]:
                     found |= {name: item for name, item in named.items() if isinstance(item, type)}
     elsewhere = {name for key in MODULES for name in importlib.import_module(key).__all__}
     return [found[name] for name in sorted(found) if name not in elsewhere]
+
+
+def _sources(package: str) -> Iterator[str]:
+    """Yield the source text of each module of a package."""
+    for path in importlib.import_module(package).__path__:
+        for file in sorted(Path(path).glob("*.py")):
+            yield file.read_text(encoding="utf-8")
 
 
 def methods(cls: type) -> Iterator[tuple[str, Any]]:

@@ -1,0 +1,77 @@
+"""The one door: everything that a face, a script or a plugin may ask of the program.
+
+Heavy libraries are loaded inside the functions that need them.
+"""
+
+from __future__ import annotations
+
+from lambda_core.api.cases import (
+    builtin_cases,
+    case,
+    catalogue,
+    check,
+    describe,
+    draft,
+    init_case,
+    problems,
+    resolve,
+    save,
+    schema,
+)
+from lambda_core.api.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins
+from lambda_core.api.pictures import draw, report, view, view_all, view_stem, views
+from lambda_core.api.runs import cite, compare, estimate, quasistatic, result, resume, run, summary, warmup
+from lambda_core.api.studies import (
+    reproduce,
+    study_check,
+    study_resume,
+    study_run,
+    study_schema,
+    study_status,
+    study_table,
+)
+from lambda_core.errors import CaseError, LambdaError, UsageError
+
+__all__ = [
+    "CaseError",
+    "LambdaError",
+    "UsageError",
+    "builtin_cases",
+    "case",
+    "catalogue",
+    "check",
+    "check_plugins",
+    "cite",
+    "compare",
+    "describe",
+    "draft",
+    "draw",
+    "estimate",
+    "init_case",
+    "new_plugin",
+    "plugin_faults",
+    "plugin_model",
+    "plugins",
+    "problems",
+    "quasistatic",
+    "report",
+    "reproduce",
+    "resolve",
+    "result",
+    "resume",
+    "run",
+    "save",
+    "schema",
+    "study_check",
+    "study_resume",
+    "study_run",
+    "study_schema",
+    "study_status",
+    "study_table",
+    "summary",
+    "view",
+    "view_all",
+    "view_stem",
+    "views",
+    "warmup",
+]

@@ -1,0 +1,295 @@
+"""One bearing: its equilibrium, its simulation into a result file, and what other methods say of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.api.cases import model_of, resolve
+from lambda_core.errors import UsageError, unknown_name
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping, Sequence
+
+    from lambda_core.physics.model import BearingModel
+    from lambda_core.schema.case import Case
+    from lambda_core.simulate.citation import Citation
+    from lambda_core.simulate.comparison import Comparison
+    from lambda_core.simulate.estimate import Estimate
+    from lambda_core.simulate.progress import Progress
+    from lambda_core.simulate.quasistatic import QuasiStatic
+    from lambda_core.simulate.results import Result
+    from lambda_core.simulate.summary import Summary
+    from lambda_core.simulate.warmup import Warmup
+
+
+def quasistatic(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    announce: Callable[[str], None] | None = None,
+) -> QuasiStatic:
+    """Solve the quasi-static equilibrium of a case at t = 0: loads, angles, films, friction; no time, no cage.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    QuasiStatic
+        Numbers in the units of their names.
+
+    Raises
+    ------
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.physics.equilibrium import solve
+    from lambda_core.simulate.quasistatic import quasistatic_of
+
+    return quasistatic_of(solve(model_of(source, overrides), announce=announce))
+
+
+def estimate(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel, *, announce: Callable[[str], None] | None = None
+) -> Estimate:
+    """Say what can be said of a case before it is run: equilibrium, rating life, wall time.
+
+    Parameters
+    ----------
+    source
+        As for :func:`check`, or a resolved model.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Estimate
+        Numbers that there are none of are None.
+
+    Raises
+    ------
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.registry.manager import registry
+    from lambda_core.simulate.estimate import estimate as ask
+
+    return ask(model_of(source), registry().methods, announce)
+
+
+def run(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    out: str | Path | None = None,
+    force: bool = False,
+    progress: Callable[[Progress], None] | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Result:
+    """Simulate a case into a result file.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    out : path-like, optional
+        The result file; by default the case's name with ``.h5``, numbered where that is taken.
+    force : bool
+        Overwrite `out`.
+    progress : callable, optional
+        Called some ten times a second.
+    announce : callable, optional
+        Called with a sentence before something is compiled, and with the equilibrium found.
+
+    Returns
+    -------
+    Result
+        Also of a run that ended early or is not converged: its summary says so and why.
+
+    Raises
+    ------
+    CaseError, SolverError, PartialResultError
+        With a sentence about the case, the solver (the file keeps what there is) or the disk.
+    """
+    from lambda_core.simulate.launch import launch
+
+    path = None if out is None else Path(out)
+    return launch(model_of(source, overrides), path, force=force, report=progress, announce=announce)
+
+
+def resume(
+    path: str | Path,
+    overrides: Iterable[str] = (),
+    *,
+    progress: Callable[[Progress], None] | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Result:
+    """Go on with an interrupted run, bit for bit as if it had not been.
+
+    Parameters
+    ----------
+    path : path-like
+        Result file of a run that was interrupted, killed, or is to be longer.
+    overrides : iterable of str
+        ``solver.duration=...``, ``solver.max_duration=...`` or ``solver.max_wall=...``; anything else
+        would be another run.
+    progress, announce
+        As for :func:`run`.
+
+    Returns
+    -------
+    Result
+        As from :func:`run`.
+
+    Raises
+    ------
+    UsageError
+        When the file is no result, nothing is left to do, or the case or the code has changed.
+    """
+    from lambda_core.schema.case_io import apply_overrides, parse_case
+    from lambda_core.simulate.launch import relaunch
+
+    text = result(path).case_toml
+    model = resolve(apply_overrides(parse_case(text, str(path)), overrides))
+    return relaunch(Path(path), model, report=progress, announce=announce)
+
+
+def result(path: str | Path) -> Result:
+    """Open a result file: finished, still growing, or left behind by a killed process.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+
+    Returns
+    -------
+    Result
+        Reads from the file what it is asked for.
+
+    Raises
+    ------
+    UsageError
+        When the file does not exist, is not a result, or is damaged.
+    """
+    from lambda_core.simulate.results import Result
+
+    return Result(path)
+
+
+def summary(path: str | Path) -> Summary:
+    """Return the averages and the end state of a result (the machine interface).
+
+    Parameters
+    ----------
+    path : path-like
+        Result file.
+
+    Returns
+    -------
+    Summary
+        Numbers in the units of their names.
+
+    Raises
+    ------
+    UsageError
+        When the file is no result or holds no samples yet.
+    """
+    return result(path).summary()
+
+
+def cite(path: str | Path) -> Citation:
+    """Return the references of exactly the laws and data that a result used, and of the program.
+
+    Parameters
+    ----------
+    path : path-like
+        Result file.
+
+    Returns
+    -------
+    Citation
+        Read from the file: it does not need the plugins that were used.
+
+    Raises
+    ------
+    UsageError
+        When the file does not exist, is not a result, or is damaged.
+    """
+    from lambda_core.simulate.citation import citation
+
+    return citation(result(path))
+
+
+def compare(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    methods: Sequence[str] = (),
+    result: str | Path | None = None,
+    contamination: float | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Comparison:
+    """Put every comparison method beside the others on one case, at its start.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    methods : sequence of str
+        Names of methods; every installed one when empty.
+    result : path-like, optional
+        Result file of the same case: its simulation becomes the first column.
+    contamination : float, optional
+        e_C of ISO 281, for modified lives.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Comparison
+        One column per method, rows with units; methods that do not apply with the reason.
+
+    Raises
+    ------
+    UsageError
+        For an unknown method, or a result of another case.
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.physics.comparison import compare as ask
+    from lambda_core.registry.manager import registry
+    from lambda_core.simulate.comparison import comparison_of
+    from lambda_core.simulate.results import Result
+
+    model, known = model_of(source, overrides), registry().methods
+    unknown = next((name for name in methods if name not in known), None)
+    if unknown is not None:
+        raise UsageError(unknown_name("comparison method", unknown, known))
+    simulated = None if result is None else Result(result)
+    chosen = [known[name] for name in methods or known]
+    return comparison_of(model, ask(model, chosen, contamination=contamination, announce=announce), simulated)
+
+
+def warmup(*, announce: Callable[[str], None] | None = None) -> Warmup:
+    """Compile the solver and every installed law ahead of the first run.
+
+    Parameters
+    ----------
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Warmup
+        What was compiled now, what was there, and the laws that cannot be compiled.
+    """
+    from lambda_core.registry.manager import registry
+    from lambda_core.simulate.warmup import warmup as compile_all
+
+    return compile_all(registry(), announce)
