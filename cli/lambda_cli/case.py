@@ -18,8 +18,17 @@ FileOption = Annotated[
 def init(
     name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the new case.")],
     start: Annotated[
-        str, typer.Option("--from", metavar="CASE", help="Built-in case or case file to start from.")
-    ] = "6319-cp10-1500",
+        str | None,
+        typer.Option(
+            "--from", metavar="CASE", help="Built-in case or case file to start from; default: 6319-cp10-1500."
+        ),
+    ] = None,
+    bearing: Annotated[
+        str | None,
+        typer.Option(
+            "--bearing", metavar="DESIGNATION", help='Start from a bearing of the catalogue: "6208" or "SKF 6208".'
+        ),
+    ] = None,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE", help="File to write; default: NAME.toml.")
     ] = None,
@@ -28,7 +37,7 @@ def init(
     """Write a commented case file to start from."""
     from lambda_core import api
 
-    target = api.init_case(name, start, out, overwrite=force)
+    target = api.init_case(name, start, out, overwrite=force, bearing=bearing)
     typer.echo(f"wrote {target}; next: lambda-bearing check {target}", err=True)
 
 

@@ -78,20 +78,27 @@ def save(case: Case, path: str | Path) -> None:
 
 
 def init_case(
-    name: str, start: str = "6319-cp10-1500", path: str | Path | None = None, overwrite: bool = False
+    name: str,
+    start: str | None = None,
+    path: str | Path | None = None,
+    overwrite: bool = False,
+    *,
+    bearing: str | None = None,
 ) -> Path:
-    """Write a commented case called `name` that starts from another.
+    """Write a commented case called `name` that starts from another, or from a bearing of the catalogue.
 
     Parameters
     ----------
     name : str
         Letters, digits, dot, dash and underscore.
-    start : str
-        Built-in case or case file to start from.
+    start : str, optional
+        Built-in case or case file to start from; default: 6319-cp10-1500.
     path : path-like, optional
         Default: NAME.toml in the working directory.
     overwrite : bool
         Replace a file that stands there.
+    bearing : str, optional
+        Instead of `start`: a bearing of the catalogue, "6208" or "SKF 6208".
 
     Returns
     -------
@@ -101,13 +108,28 @@ def init_case(
     Raises
     ------
     UsageError
-        When the file exists, cannot be written, or there is no such case to start from.
+        When the file exists, cannot be written, there is no such case to start from, or both a case and a
+        bearing are given.
+    CatalogueError
+        When the bearing is unknown, or several makers have one of that name.
     CaseError
         When `name` cannot be a case's name.
     """
-    from lambda_core.schema.case_writer import new_case
+    from contextlib import closing
 
-    return new_case(name, start, Path(path) if path is not None else Path(f"{name}.toml"), overwrite)
+    from lambda_core.schema.case_writer import new_case, write_new
+
+    target = Path(path) if path is not None else Path(f"{name}.toml")
+    if bearing is None:
+        return new_case(name, start or "6319-cp10-1500", target, overwrite)
+    if start is not None:
+        raise UsageError("a new case starts from a case or from a bearing, not from both")
+    from lambda_core.physics.fresh_case import bearing_named, fresh_case
+    from lambda_core.schema.case_io import parse_case
+
+    with closing(catalogue()) as opened:
+        text = fresh_case(name, bearing_named(bearing, opened))
+    return write_new(parse_case(text, f"case {name}"), text, target, overwrite)
 
 
 def schema() -> dict[str, Any]:

@@ -148,7 +148,9 @@ def _loads(body: Body) -> list[str]:
     if _constant(y) and _constant(z):
         radial = math.hypot(_level(y), _level(z))
         if radial:
-            found.append(f"radial {_value_text(radial, 'force')}")
+            # down is the direction of gravity and of a positive radial load
+            direction = " upwards" if _level(z) > 0.0 and not _level(y) else ""
+            found.append(f"radial {_value_text(radial, 'force')}{direction}")
     else:
         found += [f"force {axis} {function_text(f, 'force')}" for axis, f in (("y", y), ("z", z)) if f.terms]
     if x.terms:

@@ -53,12 +53,15 @@ class Ledger:
             self.problems.append(entry)
 
     def ask(self, where: str, question: Callable[[], T]) -> T | None:
-        """Ask the catalogue or registry; its error becomes a problem at `where`, the answer None."""
+        """Ask the catalogue or registry; its error becomes a problem at `where`, the answer None.
+
+        A `where` that ends in a dot is a section: the option in it is the one that the error names.
+        """
         try:
             return question()
         except CaseError as error:
             for problem in error.problems:
-                self.problem(where, problem.message)
+                self.problem(f"{where}{problem.where}" if where.endswith(".") else where, problem.message)
         except LambdaError as error:
             self.problem(where, str(error))
         return None

@@ -77,8 +77,7 @@ def bearing_row(bearing: Bearing, catalogue: Catalogue, ledger: Ledger) -> Beari
             ledger.problem("bearing.designation", "is required, or write the geometry in [bearing.geometry]")
         return None
     designation, maker = bearing.designation, bearing.maker
-    where = "bearing.maker" if maker else "bearing.designation"
-    known = ledger.ask(where, lambda: catalogue.bearing(designation, maker))
+    known = ledger.ask("bearing.", lambda: catalogue.bearing(designation, maker))
     if known is not None:
         ledger.given("bearing.designation", known.designation)
         ledger.record("bearing.maker", known.maker, "", "case" if maker else "only maker", "given")

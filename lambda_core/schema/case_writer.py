@@ -106,10 +106,20 @@ def new_case(name: str, start: str, path: Path, overwrite: bool) -> Path:
     source = load_case(start)
     if original is None:
         original = Path(start).read_text(encoding="utf-8-sig")
+    return write_new(source.with_(name=name), original, path, overwrite)
+
+
+def write_new(case: Case, original: str, path: Path, overwrite: bool) -> Path:
+    """Write a case with the comments of `original` to a file that does not exist yet.
+
+    Raises
+    ------
+    UsageError
+        When the file exists and may not be overwritten, or cannot be written.
+    """
     if path.exists() and not overwrite:
         raise UsageError(f'"{path}" exists: choose another name, or --force to overwrite it')
-    renamed = source.with_(name=name)
-    save_case(renamed, path, original)
+    save_case(case, path, original)
     return path
 
 

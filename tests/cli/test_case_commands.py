@@ -125,6 +125,12 @@ def test_set_changes_the_case(call: Call) -> None:
         (("--no-plugin", "nothing", "check", "6319-cp10-1500"), 2, "nothing"),
         (("init", "a b"), 3, "letters, digits"),
         (("init", "x", "--from", "nowhere"), 2, "neither a file nor a built-in case"),
+        (("init", "x", "--bearing", "62099"), 3, "nearest: 6209"),
+        (("init", "x", "--bearing", "6208"), 3, "several makers, choose one: NSK, SKF"),
+        (("init", "x", "--bearing", "XX 6208"), 3, '"XX" is not a maker of 6208'),
+        (("init", "x", "--bearing", "SKF 6208", "--from", "6319-cp10-1500"), 2, "not from both"),
+        (("check", "6319-cp10-1500", "--set", "bearing.designation=6391"), 3, 'bearing.designation    "6391" is not'),
+        (("check", "6319-cp10-1500", "--set", "bearing.maker=XX"), 3, 'bearing.maker          "XX" is not a maker'),
     ],
 )
 def test_mistakes_on_the_command_line(
@@ -151,6 +157,25 @@ def test_init_writes_a_commented_case_that_checks(call: Call, tmp_path: Path, mo
     assert (code, "exists" in err) == (2, True)
     assert call("init", "drive-end", "--force")[0] == 0
     assert call("init", "other", "--out", "sub/x.toml")[0] == 2
+
+
+@pytest.mark.parametrize("bearing", ["SKF 6208", "6208 skf"])
+def test_init_starts_from_a_bearing_of_the_catalogue(
+    call: Call, bearing: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert call("init", "drive-end", "--bearing", bearing)[0] == 0
+    text = (tmp_path / "drive-end.toml").read_text()
+    assert text.count("#") >= 5
+    assert 'radial = "3.25 kN"        # a tenth of C = 32.5 kN' in text
+    code, out, _ = call("check", "drive-end.toml")
+    assert code == 0
+    assert out.startswith("6208 (SKF)")
+
+
+def test_a_load_that_points_up_is_said_to(call: Call) -> None:
+    assert "radial 3 kN upwards" in call("check", "6319-cp10-1500", "--set", "loads.radial=-3 kN")[1]
+    assert "radial 3 kN  " in call("check", "6319-cp10-1500", "--set", "loads.radial=3 kN")[1]
 
 
 def test_schema_describes_case_files(call: Call, tmp_path: Path) -> None:

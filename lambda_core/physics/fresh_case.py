@@ -1,0 +1,63 @@
+"""A commented case to start from, for any bearing of the catalogue."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from lambda_core.registry.catalogue import BearingRow, Catalogue
+
+_TEXT = """\
+# Deep-groove ball bearing {designation} of {maker}: change what differs on your machine.
+name = "{name}"
+description = "{designation} ({maker}), radial {load}, 1500 rpm"
+
+[bearing]
+designation = "{designation}"
+maker = "{maker}"
+clearance = "CN"          # class of ISO 5753-1, or a measured value such as "14 um"
+clearance_pick = "middle"
+
+[lubricant]
+name = "FVA3A"            # lambda-bearing db search --lubricants
+temperature = "60 degC"
+
+[loads]
+radial = "{load}"{pad}# {why}; acts downwards on the inner ring
+axial = "0 N"             # along the shaft
+
+[operation]
+speed = "1500 rpm"        # inner ring; the outer ring stands still
+"""
+_NO_RATING = 1000.0  # [N], where the catalogue has no rating to take a tenth of
+
+
+def bearing_named(text: str, catalogue: Catalogue) -> BearingRow:
+    """Find a bearing by "6208", "SKF 6208" or "6208 SKF".
+
+    Raises
+    ------
+    CatalogueError
+        When it is unknown, or stands in the catalogue from several makers.
+    """
+    words = text.split()
+    known = set(catalogue.names("bearing"))
+    for word in words if len(words) > 1 else ():
+        if word in known:
+            return catalogue.bearing(word, " ".join(other for other in words if other is not word))
+    return catalogue.bearing(text.strip())
+
+
+def fresh_case(name: str, bearing: BearingRow) -> str:
+    """Write the text of a case for a bearing: a tenth of its dynamic rating as radial load, everything else default."""
+    rating = bearing.dynamic_rating
+    load = f"{(0.1 * rating.value if rating else _NO_RATING) / 1e3:.4g} kN"
+    why = f"a tenth of C = {rating.value / 1e3:.4g} kN" if rating else "the catalogue has no load rating"
+    return _TEXT.format(
+        name=name,
+        designation=bearing.designation,
+        maker=bearing.maker,
+        load=load,
+        why=why,
+        pad=" " * max(1, 15 - len(load)),
+    )
