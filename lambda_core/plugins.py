@@ -5,6 +5,7 @@ from lambda_core.registry.hookspecs import hookimpl
 from lambda_core.registry.method import METHOD_API, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
 from lambda_core.registry.model import Context, LazyModel, Material, Model, NoParameters, Oil, default_par, model
 from lambda_core.registry.roles import ROLE_API
+from lambda_core.registry.scene import Scene
 from lambda_core.registry.table import Column, StudyTable
 from lambda_core.registry.view import VIEW_API, Options, RunData, View
 from lambda_core.schema.units import Quantity
@@ -33,6 +34,7 @@ __all__ = [
     "Panel",
     "Quantity",
     "RunData",
+    "Scene",
     "Series",
     "StudyTable",
     "View",

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import CaseArgument, JsonOption, SetOption
+from lambda_cli.options import CaseArgument, ForceOption, JsonOption, SetOption
 
 FileOption = Annotated[
     Path | None, typer.Option("--out", metavar="FILE", help="Where to write; default: standard output.")
@@ -32,7 +32,7 @@ def init(
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE", help="File to write; default: NAME.toml.")
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
+    force: ForceOption = False,
 ) -> None:
     """Write a commented case file to start from."""
     from lambda_core import api

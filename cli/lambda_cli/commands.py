@@ -48,6 +48,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "quasistatic": ("lambda_cli.quasistatic:quasistatic", "Equilibrium of a case without running it."),
     "show": ("lambda_cli.show:show", "Show the summary of a result."),
     "view": ("lambda_cli.view:view", "Draw a view of one or more results."),
+    "animate": ("lambda_cli.animate:animate", "Show a run in motion: GIF, MP4 or glTF."),
     "compare": ("lambda_cli.compare:compare", "Put comparison methods beside the simulation."),
     "study": ("lambda_cli.study:app", "Many runs: sweeps, samples, maps."),
     "reproduce": ("lambda_cli.reproduce:reproduce", "Repeat the published experiments."),

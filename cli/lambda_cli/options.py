@@ -12,3 +12,4 @@ SetOption = Annotated[
     typer.Option("--set", metavar="PATH=VALUE", help='Change an option, for example --set loads.radial="20 kN".'),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
+ForceOption = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")]

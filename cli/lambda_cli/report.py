@@ -7,13 +7,15 @@ from typing import Annotated
 
 import typer
 
+from lambda_cli.options import ForceOption
+
 
 def report(
     source: Annotated[Path, typer.Argument(metavar="RESULT|STUDY", help="Result file, or the folder of a study.")],
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE", help="The page; default: name of the source with .html.")
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
+    force: ForceOption = False,
 ) -> None:
     """Write a report: results, views, convergence, inputs with sources, assumptions, references.
 

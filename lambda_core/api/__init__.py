@@ -19,7 +19,7 @@ from lambda_core.api.cases import (
     schema,
 )
 from lambda_core.api.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins
-from lambda_core.api.pictures import draw, report, view, view_all, view_stem, views
+from lambda_core.api.pictures import animate, draw, report, view, view_all, view_stem, views
 from lambda_core.api.runs import cite, compare, estimate, quasistatic, result, resume, run, summary, warmup
 from lambda_core.api.studies import (
     reproduce,
@@ -36,6 +36,7 @@ __all__ = [
     "CaseError",
     "LambdaError",
     "UsageError",
+    "animate",
     "builtin_cases",
     "case",
     "catalogue",

@@ -11,7 +11,7 @@ from lambda_core.api.studies import study_status
 from lambda_core.errors import LambdaError, UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from lambda_core.registry.chart import ViewData
     from lambda_core.registry.view import Subject
@@ -140,6 +140,62 @@ def view_stem(source: Sequence[str | Path]) -> str:
     return stem_of([Path(path) for path in source])
 
 
+def animate(
+    source: str | Path,
+    out: str | Path | None = None,
+    *,
+    turns: float = 1.0,
+    start: float | None = None,
+    frames: int = 120,
+    fps: float = 25.0,
+    overwrite: bool = False,
+    progress: Callable[[int, int], None] | None = None,
+) -> Path:
+    """Show a run in motion: balls, cage and load vectors as GIF, MP4 or binary glTF.
+
+    Parameters
+    ----------
+    source : path-like
+        A result file.
+    out : path-like, optional
+        File whose ending says the format: ``.gif``, ``.mp4`` (with the extra ``animation``) or ``.glb``; default: the
+        name of the source with ``.gif`` in the working directory.
+    turns : float
+        Revolutions of the cage to show.
+    start : float, optional
+        First moment [s]; default: the last `turns` of the run.
+    frames : int
+        Number of frames, evenly spaced in time.
+    fps : float
+        Frames per second when played.
+    overwrite : bool
+        Replace a file that stands there.
+    progress : callable, optional
+        Called with the number of frames drawn and of all.
+
+    Returns
+    -------
+    pathlib.Path
+        The file.
+
+    Raises
+    ------
+    UsageError
+        When the source is no result or has no such moment, the format is unknown or has no encoder, or the file exists
+        or cannot be written.
+    """
+    from lambda_core.registry.manager import registry
+    from lambda_core.report.animation import check_format, check_pace, write_animation
+    from lambda_core.report.scene import scene_of
+
+    path = Path(out) if out is not None else Path(f"{view_stem([source])}.gif")
+    check_format(path)
+    check_pace(turns, frames, fps)
+    _refuse_existing(path, overwrite)
+    scene = scene_of(result(source), start=start, turns=turns, frames=frames)
+    return write_animation(registry(), scene, path, fps, progress)
+
+
 def report(source: str | Path, out: str | Path | None = None, *, overwrite: bool = False) -> Path:
     """Write one self-contained, printable HTML page about a run or a study.
 
@@ -166,8 +222,7 @@ def report(source: str | Path, out: str | Path | None = None, *, overwrite: bool
     from lambda_core.report.page import case_inputs, run_report, study_report, write_page
 
     path = Path(out) if out is not None else Path(f"{view_stem([source])}.html")
-    if path.exists() and not overwrite:
-        raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
+    _refuse_existing(path, overwrite)
     subject, kind = subject_of(source)
     if kind == "study":
         from lambda_core.schema.case_io import parse_case
@@ -179,6 +234,11 @@ def report(source: str | Path, out: str | Path | None = None, *, overwrite: bool
     else:
         text = run_report(registry(), subject)
     return write_page(text, path)
+
+
+def _refuse_existing(path: Path, overwrite: bool) -> None:
+    if path.exists() and not overwrite:
+        raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
 
 
 def subject_of(source: str | Path | Sequence[str | Path]) -> tuple[Any, Subject]:

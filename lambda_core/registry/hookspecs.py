@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import pluggy
@@ -11,8 +11,12 @@ from lambda_core.registry.method import Method
 from lambda_core.registry.model import LazyModel, Model
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from lambda_core.registry.catalogue import Catalogue
     from lambda_core.registry.chart import ViewData
+    from lambda_core.registry.scene import Scene
     from lambda_core.registry.view import Figure, View
 
 PROJECT = "lambda_core"
@@ -42,6 +46,11 @@ def lambda_views(register: Callable[[View], None]) -> None:
 @hookspec(firstresult=True)
 def lambda_figure(data: ViewData) -> Figure | None:
     """Draw the data of a view that brings no drawing of its own."""
+
+
+@hookspec(firstresult=True)
+def lambda_frames(scene: Scene) -> Iterator[NDArray[np.uint8]] | None:
+    """Draw the frames of an animation, one after the other: RGB, shape (height, width, 3), all of one even size."""
 
 
 @hookspec

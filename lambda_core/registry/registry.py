@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
@@ -20,8 +20,12 @@ from lambda_core.registry.roles import ROLES
 from lambda_core.registry.view import Figure, View
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from lambda_core.registry.catalogue import Catalogue
     from lambda_core.registry.chart import ViewData
+    from lambda_core.registry.scene import Scene
 
 
 class Registry:
@@ -112,6 +116,19 @@ class Registry:
         found: Figure | None = self._hooks.hook.lambda_figure(data=data)
         if found is None:
             raise PluginError(f"no plugin draws figures{self._not_loaded()}")
+        return found
+
+    def frames(self, scene: Scene) -> Iterator[NDArray[np.uint8]]:
+        """Draw the frames of an animation.
+
+        Raises
+        ------
+        PluginError
+            When no plugin does.
+        """
+        found: Iterator[NDArray[np.uint8]] | None = self._hooks.hook.lambda_frames(scene=scene)
+        if found is None:
+            raise PluginError(f"no plugin draws animations{self._not_loaded()}")
         return found
 
     def catalogue(self) -> Catalogue:

@@ -49,8 +49,9 @@ class Processes(Pool):
         context = multiprocessing.get_context("spawn")
         self._executor = ProcessPoolExecutor(self.workers, context, _begin)
         with _one_thread():
-            # Processes start at the first task and read the variables then.
-            self._executor.submit(_nothing).result()
+            # A process starts when a task finds no idle one, and reads the variables then: as many tasks as processes.
+            for _ in range(self.workers):
+                self._executor.submit(_nothing)
         return self._executor
 
     def close(self, *, stop: bool = False) -> None:
@@ -68,7 +69,7 @@ class Processes(Pool):
 
 
 def _nothing() -> None:
-    """First task of a process."""
+    """First task of a process: it is only started for it."""
 
 
 def _begin() -> None:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from lambda_core.plugins import LazyModel, Model, hookimpl
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from lambda_core.registry.chart import ViewData
     from lambda_core.registry.method import Method
+    from lambda_core.registry.scene import Scene
     from lambda_core.registry.view import Figure, View
 
 # role -> name -> module:attribute; the first of a role is its default.
@@ -111,3 +115,11 @@ def lambda_figure(data: ViewData) -> Figure | None:
     from lambda_plugins.views.drawing import draw
 
     return draw(data)
+
+
+@hookimpl
+def lambda_frames(scene: Scene) -> Iterator[NDArray[np.uint8]]:
+    """Draw the frames of an animation with matplotlib."""
+    from lambda_plugins.views.animation import frames
+
+    return frames(scene)

@@ -1,0 +1,46 @@
+"""The command animate: a run in motion."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lambda_cli.options import ForceOption
+from lambda_cli.talk import QuietOption
+
+
+def animate(
+    source: Annotated[Path, typer.Argument(metavar="RESULT", help="Result file.")],
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="FILE", help="Its ending says the format: gif, mp4, glb; default: RESULT.gif."),
+    ] = None,
+    turns: Annotated[float, typer.Option("--turns", metavar="N", help="Revolutions of the cage to show.")] = 1.0,
+    start: Annotated[
+        float | None, typer.Option("--start", metavar="S", help="First moment [s]; default: the last turns of the run.")
+    ] = None,
+    frames: Annotated[int, typer.Option("--frames", metavar="N", help="Number of frames.")] = 120,
+    fps: Annotated[float, typer.Option("--fps", metavar="N", help="Frames per second when played.")] = 25.0,
+    force: ForceOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Show balls, cage and load vectors in motion.
+
+    MP4 needs the extra lambda-bearing[animation], which brings an encoder; GIF and glTF (for viewers of three
+    dimensions) need nothing. Writes the file and prints its name.
+    """
+    from lambda_core import api
+
+    shown = not quiet and sys.stderr.isatty()
+
+    def progress(done: int, total: int) -> None:
+        typer.echo(f"\r{done} of {total} frames", err=True, nl=done == total)
+
+    path = api.animate(
+        source, out, turns=turns, start=start, frames=frames, fps=fps, overwrite=force,
+        progress=progress if shown else None,
+    )  # fmt: skip
+    typer.echo(str(path))
