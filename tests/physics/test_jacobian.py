@@ -42,7 +42,7 @@ def neighbours(m: Machine) -> np.ndarray:
 @pytest.mark.parametrize(("mode", "seed"), [("rolling", 0), ("sliding", 1)])
 @pytest.mark.parametrize("name", MODELS)
 def test_jacobian(name: str, mode: str, seed: int) -> None:
-    """Left out by design (compiled/tangent.py): how slip changes the thermal film factor, entrainment across rolling.
+    """Left out by design: how slip changes the thermal film factor, the smaller component of entrainment (tangent.py).
 
     Both reach the columns of the axial velocity and of spins and cost below 1 % of the largest entry of a row (in
     mixed friction 5 %); the matrix as a whole is within 0.03 % (0.2 %). Newton needs two to three steps.

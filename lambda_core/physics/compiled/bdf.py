@@ -16,7 +16,11 @@ from numba import types
 from lambda_core.physics.compiled.arrow import arrow_factor, arrow_solve, factors_t
 from lambda_core.physics.compiled.jacobian import blocks_t
 from lambda_core.physics.compiled.layout import (
+    BVX,
+    NB,
     NI,
+    NS,
+    SVX,
     array1,
     array2,
     bundle_t,
@@ -47,7 +51,8 @@ N_CONTROL = 16
     SAMPLES,
     AGE,
     FAILED,
-) = range(11)
+    CAREFUL,
+) = range(12)
 N_COUNT = 16
 
 OK, FULL, STEP_TOO_SMALL, FAULT = 0, 1, 2, 3
@@ -58,6 +63,8 @@ _REFACTOR = 0.41  # relative change of gamma beyond which M is factored anew; no
 _SLOW = 0.3  # convergence rate beyond which the Jacobian is renewed
 _SAFETY = 0.8  # of the step that the error would just allow
 _GROWTH = 1.4  # of the step, at most; BDF2 is stable up to 2.4
+_SWING = 0.04  # share of its square by which a correction turns round before the secant is taken
+_STAY_CAREFUL = 4  # steps for which the iteration keeps beginning at the last speeds once that was needed
 _MAX_AGE = 60  # steps after which the Jacobian is renewed in any case
 
 
@@ -77,6 +84,8 @@ class Memory(NamedTuple):
     new: Any  # (n,)
     slope: Any  # (n,)
     change: Any  # (n,)
+    last_change: Any  # (n,) Newton correction of the iteration before
+    last_move: Any  # (n,) and the move that was made of it
     new_rates: Any  # (NI,)
     sample_y: Any  # (capacity, n)
     sample_t: Any  # (capacity,)
@@ -105,6 +114,8 @@ def make_memory(y0: np.ndarray, scale: np.ndarray, tolerance: float, capacity: i
         np.zeros(NI),
         np.zeros(N_CONTROL),
         np.zeros(N_COUNT, dtype=np.int64),
+        new(),
+        new(),
         new(),
         new(),
         new(),
@@ -154,6 +165,44 @@ def _predict(mem, h):
 
 
 @helper
+def _start(bundle, mem):
+    """Write where the Newton iteration begins: the extrapolation, or where care is needed the last step's speeds.
+
+    Friction in a contact at rest is almost a sign function: from a speed on the wrong side of it the iteration
+    does not come back, from the last speeds it does.
+    """
+    new, base, careful = mem.new, NB * bundle.system[0].balls, mem.count[CAREFUL] > 0
+    for i in range(new.size):
+        new[i] = mem.predicted[i]
+        if careful and ((i < base and i % NB >= BVX) or (i >= base and bundle.active[i - base] % NS >= SVX)):
+            new[i] = mem.y[i]
+
+
+@helper
+def _move(mem, first, last, relax, again):
+    """Move the states first..last by their correction; where corrections swing to and fro, by the secant.
+
+    The correction c(x) is to vanish. Where it turned round, the root along the last move m is at
+    c - theta (m + c - c_0), theta = c.(c - c_0)/|c - c_0|^2: Anderson 1965, J. ACM 12, 547, with one difference.
+    """
+    change, before, moved = mem.change, mem.last_change, mem.last_move
+    swing, size, difference, along = 0.0, 0.0, 0.0, 0.0
+    for i in range(first, last):
+        change[i] *= relax
+        w2 = mem.weight[i] * mem.weight[i]
+        d = change[i] - before[i]
+        swing += w2 * change[i] * before[i]
+        size += w2 * before[i] * before[i]
+        difference += w2 * d * d
+        along += w2 * change[i] * d
+    theta = along / difference if again and swing < -_SWING * size else 0.0
+    for i in range(first, last):
+        move = change[i] - theta * (moved[i] + change[i] - before[i])
+        before[i], moved[i] = change[i], move
+        mem.new[i] += move
+
+
+@helper
 def _newton(evaluate, jacobian, t, gamma, bundle, bl, fa, mem):
     """Solve new = base + gamma f(new); returns 1 converged, 0 not, -1 a kernel refused.
 
@@ -168,8 +217,7 @@ def _newton(evaluate, jacobian, t, gamma, bundle, bl, fa, mem):
         mem.control,
     )
     n = new.size
-    for i in range(n):
-        new[i] = mem.predicted[i]
+    _start(bundle, mem)
     before = 0.0
     for iteration in range(_MAX_NEWTON):
         count[RHS] += 1
@@ -194,9 +242,10 @@ def _newton(evaluate, jacobian, t, gamma, bundle, bl, fa, mem):
         arrow_solve(fa, change)
         # A matrix factored for another gamma over- or undershoots by a known amount.
         relax = 2.0 / (1.0 + gamma / control[G_FACTORED])
-        for i in range(n):
-            change[i] *= relax
-            new[i] += change[i]
+        again = iteration > 0 and count[CAREFUL] > 0
+        for j in range(bundle.system[0].balls):
+            _move(mem, NB * j, NB * j + NB, relax, again)
+        _move(mem, NB * bundle.system[0].balls, n, relax, again)
         size = _norm(change, weight)
         if not size < 1e12:
             return 0
@@ -204,7 +253,9 @@ def _newton(evaluate, jacobian, t, gamma, bundle, bl, fa, mem):
             control[RATE] = max(0.2 * control[RATE], size / (before + 1e-300))
             if size > 2.0 * before and size > _NEWTON_TOLERANCE:
                 return 0
-        if size * min(1.0, control[RATE]) <= _NEWTON_TOLERANCE:
+        # Secants hide the rate of convergence.
+        rate = control[RATE] if count[CAREFUL] == 0 else 1.0
+        if size * min(1.0, rate) <= _NEWTON_TOLERANCE:
             return 1
         before = size
     return 0
@@ -249,6 +300,7 @@ def _accept(mem, h):
         count[HISTORY] += 1
     count[STEPS] += 1
     count[AGE] += 1
+    count[CAREFUL] = max(count[CAREFUL] - 1, 0)
 
 
 def advance(evaluate, jacobian, until, max_steps, bundle, bl, fa, mem):
@@ -289,6 +341,8 @@ def advance(evaluate, jacobian, until, max_steps, bundle, bl, fa, mem):
                 count[STALE] = 1
                 if ok == -1 or renewed:
                     control[H] = 0.3 * h
+                if renewed:
+                    count[CAREFUL] = _STAY_CAREFUL
                 renewed = True
             if control[H] < control[H_MIN]:
                 return FAULT if ok == -1 else STEP_TOO_SMALL

@@ -131,7 +131,7 @@ def contact_tangent(which, q, laws, par, systems, grid, blocks, scratch, slope):
 
     Runs the pipeline at q into scratch[SCALARS], scratch[WRENCH] and blocks[0], then at neighbours of q.
 
-    Left out: the effect of slip on the thermal film factor and of cross entrainment, both
+    Left out: the effect of slip on the thermal film factor and of the smaller component of entrainment, both
     small; the integrator's Newton iteration only needs the slope, not its last digit.
     """
     system, out, fault = systems[0], scratch[OUT], scratch[FAULT]
@@ -163,10 +163,11 @@ def contact_tangent(which, q, laws, par, systems, grid, blocks, scratch, slope):
         slope[i, Q_DELTA] = (wrench2[i] - wrench[i]) / step
     if system.friction_on == 0:
         return 1
-    # Entrainment along rolling.
-    ut = q[Q_UT]
-    step = (_RELATIVE * abs(ut) + 1e-8) * (1.0 if ut >= 0.0 else -1.0)
-    q[Q_UT] = ut + step
+    # Entrainment: along rolling, or across it where a ball at rest is pushed sideways.
+    column = Q_UT if abs(q[Q_UT]) >= abs(q[Q_UT + 1]) else Q_UT + 1
+    entrainment = q[column]
+    step = (_RELATIVE * abs(entrainment) + 1e-8) * (1.0 if entrainment >= 0.0 else -1.0)
+    q[column] = entrainment + step
     for i in range(NC):
         scalars2[i] = scalars[i]
     ok = film_stage(which, q, laws, par, system, scalars2, out, fault)
@@ -175,11 +176,11 @@ def contact_tangent(which, q, laws, par, systems, grid, blocks, scratch, slope):
         ok = shear_stage(which, laws, par, system, grid, scalars2, cells2, fault)
     if ok == 1:
         sum_wrench(which, q, system, grid, scalars2, cells2, wrench2)
-    q[Q_UT] = ut
+    q[column] = entrainment
     if ok != 1:
         return 0
     for i in range(NW):
-        slope[i, Q_UT] = (wrench2[i] - wrench[i]) / step
+        slope[i, column] = (wrench2[i] - wrench[i]) / step
     # Slip: the same cells at slightly larger slip.
     for i in range(grid.shape[1]):
         cells2[X_SLIP, i] = cells[X_SLIP, i] * (1.0 + _RELATIVE)
