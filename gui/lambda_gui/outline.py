@@ -26,6 +26,7 @@ ELEMENTS = {
     "ball_inner": "Ball - inner",
     "ball_outer": "Ball - outer",
     "ball_cage": "Ball - cage",
+    "ball_ball": "Ball - ball",
     "cage_inner": "Cage - inner",
     "cage_outer": "Cage - outer",
     "fluid_drag": "Oil on the balls",

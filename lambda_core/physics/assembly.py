@@ -6,7 +6,7 @@ import dataclasses
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -171,6 +171,7 @@ def build_system(model: BearingModel, frame: ContactFrame, oil: Oil) -> Any:
     s["pocket_circle"] = 0.5 * g.pitch_diameter
     s["land_offset"] = 0.5 * model.cage.width
     s["land_on"] = [int(model.laws[e]["cage_contact"].model.name != "none") for e in ("cage_inner", "cage_outer")]
+    s["surface_on"] = [int(model.laws[e]["surface"].model.name != "none") for e in ("ball_inner", "ball_outer")]
     s["drag_on"] = int(model.laws["fluid_drag"]["fluid_drag"].model.name != "none")
     s["roll_floor"], s["slip_floor"] = ROLL_FLOOR, SLIP_FLOOR
     s["friction_on"], s["guides_on"] = 1, 1
@@ -181,7 +182,8 @@ def build_context(model: BearingModel, element: str, frame: ContactFrame, oil: O
     """Return what the `prepare` of this force element's laws may look at."""
     g = model.geometry
     speed = max_speed(model)
-    partner = {"ball_inner": model.inner_material, "ball_outer": model.outer_material}.get(element, model.cage_material)
+    raceways = {"ball_inner": model.inner_material, "ball_outer": model.outer_material}
+    partner = (raceways | {"ball_ball": model.ball_material}).get(element, model.cage_material)
     common = Context(
         element=element,
         ball_count=g.ball_count,
@@ -226,11 +228,17 @@ def max_speed(model: BearingModel) -> float:
     return max(peak(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
 
 
+def guides(model: BearingModel) -> tuple[str, str, str]:
+    """Return the force elements that take the solver's places of pocket, inner and outer land."""
+    return ("ball_cage" if model.depth.cage else "ball_ball", "cage_inner", "cage_outer")
+
+
 class Kernels:
     """Compiled kernels of a model's laws; pointers and code stay alive with this object."""
 
     def __init__(self, model: BearingModel, announce: Announce = None) -> None:
         self._laws = model.laws
+        self._guides = guides(model)
         # one model in several force elements is compiled once
         known: dict[tuple[str, str], Any] = {}
         self.compiled: dict[tuple[str, str], Any] = {}
@@ -246,23 +254,18 @@ class Kernels:
         """Return "element/role/model" -> hash of everything the kernel reaches."""
         return {f"{e}/{r}/{self._laws[e][r].model.name}": k.key for (e, r), k in sorted(self.compiled.items())}
 
-    def pointers(self) -> L.Laws:
-        """Return the pointers in the solver's order."""
+    def in_order(self, form: Literal["pointer", "dispatcher"]) -> L.Laws:
+        """Return the laws in the solver's order: pointers for compiled code, dispatchers for Python."""
+
+        def law(element: str, role: str) -> Any:
+            return getattr(self.compiled[element, role], form)
 
         def raceway(element: str) -> L.RacewayLaws:
-            return L.RacewayLaws(*(self.compiled[element, role].pointer for role in L.RacewayLaws._fields))
+            return L.RacewayLaws(*(law(element, role) for role in L.RacewayLaws._fields))
 
-        def guide(element: str) -> Any:
-            return self.compiled[element, "cage_contact"].pointer
-
-        return L.Laws(
-            raceway("ball_inner"),
-            raceway("ball_outer"),
-            guide("ball_cage"),
-            guide("cage_inner"),
-            guide("cage_outer"),
-            self.compiled["fluid_drag", "fluid_drag"].pointer,
-        )
+        pocket, land_inner, land_outer = (law(element, "cage_contact") for element in self._guides)
+        drag = law("fluid_drag", "fluid_drag")
+        return L.Laws(raceway("ball_inner"), raceway("ball_outer"), pocket, land_inner, land_outer, drag)
 
 
 def prepare(law: Law, context: Context) -> FloatArray:
@@ -296,7 +299,7 @@ def prepare_all(model: BearingModel, frame: ContactFrame, oil: Oil) -> list[Floa
     for element in ("ball_inner", "ball_outer"):
         context = build_context(model, element, frame, oil)
         pars += [prepare(model.laws[element][role], context) for role in L.RacewayLaws._fields]
-    for element in ("ball_cage", "cage_inner", "cage_outer"):
+    for element in guides(model):
         pars.append(prepare(model.laws[element]["cage_contact"], build_context(model, element, frame, oil)))
     pars.append(prepare(model.laws["fluid_drag"]["fluid_drag"], build_context(model, "fluid_drag", frame, oil)))
     return pars
@@ -350,6 +353,13 @@ class Assembly:
     blocks: Any
     scale: FloatArray
 
+    def parameters(self, element: str, role: str) -> FloatArray:
+        """Return the parameters of a raceway's law, a view of what compiled code reads."""
+        system = self.bundle.system[0]
+        k = L.RACEWAY_KERNELS * ("ball_inner", "ball_outer").index(element) + L.RACEWAY_ROLES.index(role)
+        found: FloatArray = self.bundle.par[system["par_start"][k] : system["par_start"][k + 1]]
+        return found
+
     @property
     def size(self) -> int:
         """Number of states."""
@@ -367,7 +377,7 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oil: Oi
     compiled = core()
     bundle = L.Bundle(
         system,
-        kernels.pointers(),
+        kernels.in_order("pointer"),
         compiled.wrench_pointer,
         compiled.tangent_pointer,
         np.concatenate(pars),

@@ -117,7 +117,8 @@ def contact_field(
     index, bundle, kernels = RINGS.index(which), assembly.bundle, assembly.kernels
     system: Any = bundle.system.view(np.recarray)[0]
     kin = np.zeros(L.NKIN)
-    if kinematics.contact_kinematics.py_func(ball, ring, index, system, kin) <= 0.0:
+    in_python = bundle._replace(system=bundle.system.view(np.recarray), laws=kernels.in_order("dispatcher"))
+    if kinematics.contact_kinematics.py_func(ball, ring, index, in_python, kin) <= 0.0:
         raise SolverError(f"the ball does not touch the {which} ring at this moment")
     grid, laws = unit_grid(strips, rows), getattr(bundle.laws, which)
     cells, scratch = np.zeros((12, grid.shape[1])), np.zeros((L.N_SCRATCH, 64))
@@ -134,10 +135,7 @@ def contact_field(
         return values[: strips * rows].reshape(strips, rows).copy()
 
     element = f"ball_{which}"
-    pars = {
-        name: L.par_of.py_func(bundle.par, system, L.RACEWAY_KERNELS * index + L.RACEWAY_ROLES.index(name))
-        for name in ("rheology", "permittivity")
-    }
+    pars = {name: assembly.parameters(element, name) for name in ("rheology", "permittivity")}
     ln_eta, density, permittivity = np.zeros((3, grid.shape[1]))
     inlet = np.full(grid.shape[1], float(system.oil_temperature))
     pressure = cells[L.X_P].copy()

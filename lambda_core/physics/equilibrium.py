@@ -262,7 +262,7 @@ def fault_sentence(assembly: A.Assembly, time: float | None = None) -> str:
     if role == "fluid_drag":
         element = "fluid_drag"
     elif role == "cage_contact":
-        element = {0: "cage_inner", 1: "cage_outer"}.get(which, "ball_cage")
+        element = {0: "cage_inner", 1: "cage_outer"}.get(which, A.guides(assembly.model)[0])
     else:
         element = ("ball_inner", "ball_outer")[max(which, 0)]
     model = assembly.model.laws[element][role].model

@@ -17,7 +17,7 @@ from lambda_core.registry.model import Material, Model, Oil
 
 DOFS = ("x", "y", "z", "tilt_y", "tilt_z", "spin")
 BODIES = ("inner_ring", "outer_ring", "cage")
-ELEMENTS = ("ball_inner", "ball_outer", "ball_cage", "cage_inner", "cage_outer", "fluid_drag")
+ELEMENTS = ("ball_inner", "ball_outer", "ball_cage", "ball_ball", "cage_inner", "cage_outer", "fluid_drag")
 
 
 @dataclass(frozen=True)

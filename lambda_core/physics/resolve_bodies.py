@@ -216,7 +216,11 @@ def check_bodies(case: Case, ledger: Ledger) -> None:
             *((f"markers.{name}", marker.body == "cage") for name, marker in case.markers.items()),
         ):
             if there:
-                ledger.problem(where, "contradicts depth.cage = false: there is no cage")
+                ledger.problem(
+                    where, "contradicts depth.cage = false: there is no cage (forces.ball_ball is between the balls)"
+                )
+    elif "ball_ball" in case.written().get("forces", {}):
+        ledger.problem("forces.ball_ball", "balls touch each other only without a cage: it needs depth.cage = false")
     _check_locked_loads(case, ledger)
     if outer.spin.mode == "prescribed" and not time_function(outer.spin.motion).terms and not speed.terms:
         ledger.assume("nothing turns: both rings stand still")

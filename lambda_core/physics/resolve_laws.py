@@ -48,7 +48,7 @@ class LawResolver:
         """Return element -> role -> law, complete unless the ledger holds problems."""
         self._check_names()
         laws: dict[str, dict[str, Law]] = {}
-        for element in ELEMENTS:
+        for element in self._elements():
             laws[element] = {}
             for role in (role for role in ROLES.values() if element in role.elements):
                 law = self._law(element, role.name)
@@ -57,6 +57,11 @@ class LawResolver:
         self._check_unused()
         self._explain(laws)
         return laws
+
+    def _elements(self) -> tuple[str, ...]:
+        """Return the force elements that there are: balls have pockets or, without a cage, each other."""
+        absent = "ball_ball" if self.case.depth.cage else "ball_cage"
+        return tuple(element for element in ELEMENTS if element != absent)
 
     def _check_names(self) -> None:
         """Note roles that an element does not have, in [forces.ELEMENT] and [parameters]."""
@@ -117,7 +122,9 @@ class LawResolver:
         general = getattr(self.case.models, role)
         where = f"forces.{element}.models.{role}" if own else f"models.{role}"
         if not self.case.depth.cage and element in CAGE:
-            return (BALL_BALL if element == "ball_cage" else NONE), where
+            return NONE, where
+        if element == "ball_ball":
+            return own or BALL_BALL, f"forces.{element}.models.{role}"
         if own is None and element in LANDS:
             # A general choice of the pocket's model says nothing about the lands.
             guided = self.guidance == LANDS[element]
@@ -199,7 +206,7 @@ class LawResolver:
 
     def _chosen(self, role: str) -> list[Model]:
         found = []
-        for element in ROLES[role].elements:
+        for element in (each for each in self._elements() if each in ROLES[role].elements):
             name, _ = self._choice(element, role)
             if name in self.registry.names(role):
                 found.append(self.registry.model(role, name))

@@ -60,7 +60,7 @@ class Context:
     Lengths that a force element does not have are NaN (a cage contact has no groove).
     """
 
-    element: str  # "ball_inner", "ball_outer", "ball_cage", "cage_inner", "cage_outer", "fluid_drag"
+    element: str  # "ball_inner", "ball_outer", "ball_cage", "ball_ball", "cage_inner", "cage_outer", "fluid_drag"
     ball_count: int  # Z
     ball_diameter: float  # [m]
     pitch_diameter: float  # [m]

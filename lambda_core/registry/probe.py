@@ -75,6 +75,7 @@ RANGES: dict[str, Range] = {
     "G": Range(1e3, 1e4),
     "W": Range(1e-9, 1e-4, log=True),
     "eps_r0": Range(1.8, 8.0),
+    "contact_angle": Range(-0.9, 0.9),
 }
 
 # Bounds that a valid output must keep; the host relies on them (a dissipator never drives).

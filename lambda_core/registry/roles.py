@@ -36,6 +36,7 @@ class Role:
 
 RACEWAYS = ("ball_inner", "ball_outer")
 CAGE = ("ball_cage", "cage_inner", "cage_outer")
+GUIDES = (*CAGE, "ball_ball")
 
 
 def _arguments(spec: str) -> tuple[Argument, ...]:
@@ -169,7 +170,7 @@ ROLES: dict[str, Role] = {
         ),
         Role(
             "cage_contact",
-            "force between the cage and a ball (pocket) or a ring (land)",
+            "force between the cage and a ball (pocket) or a ring (land), or of two balls where there is no cage",
             _arguments(
                 "r a position of the guided body's centre from the pocket's (ball) or the cage's centre from the "
                 "land's (cage), (axial, radial or y, tangential or z) [m]; v_rel a its velocity in that frame [m/s]; "
@@ -178,7 +179,7 @@ ROLES: dict[str, Role] = {
                 "out A force on the moving body [N] (3), point of action from the frame's origin [m] (3)"
             ),
             ("force[3] [N]", "point[3] [m]"),
-            CAGE,
+            GUIDES,
         ),
         Role(
             "fluid_drag",
@@ -215,6 +216,21 @@ ROLES: dict[str, Role] = {
             ("capacitance of the contact [F]",),
             RACEWAYS,
         ),
+        Role(
+            "surface",
+            "deviation of a raceway from its nominal surface: waviness, defects",
+            _arguments(
+                "azimuth f place on the raceway, turning with the ring, -pi..pi from +y towards +z [rad]; "
+                "contact_angle f place across the groove, positive where thrust on the inner ring presses [rad]; "
+                "par a parameters; out A results"
+            ),
+            (
+                "height along the normal, towards the ball [m]",
+                "its derivative by azimuth [m/rad]",
+                "its derivative by contact angle [m/rad]",
+            ),
+            RACEWAYS,
+        ),
     )
 }
 
@@ -235,4 +251,5 @@ DEFAULT_MODELS: dict[str, str] = {
     "fluid_drag": "skf-catalogue",
     "permittivity": "bode",
     "capacitance": "schneider",
+    "surface": "none",
 }

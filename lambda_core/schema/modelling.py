@@ -28,6 +28,7 @@ class Models(Section):
     fluid_drag: str | None = option(None, "drag and churning of the oil on each ball")
     permittivity: str | None = option(None, "relative permittivity of the oil")
     capacitance: str | None = option(None, "whole capacitance of a contact from its Hertzian area")
+    surface: str | None = option(None, "waviness or a defect of a raceway")
 
 
 class ForceElement(Section):
@@ -43,6 +44,7 @@ class Forces(Section):
     ball_inner: ForceElement = option({}, "balls and inner raceway")
     ball_outer: ForceElement = option({}, "balls and outer raceway")
     ball_cage: ForceElement = option({}, "balls and cage pockets")
+    ball_ball: ForceElement = option({}, "neighbouring balls, where there is no cage")
     cage_inner: ForceElement = option({}, "cage and inner ring's land")
     cage_outer: ForceElement = option({}, "cage and outer ring's land")
     fluid_drag: ForceElement = option({}, "oil on the balls")

@@ -18,6 +18,7 @@ from lambda_core.physics.compiled.entry import Core, core
 from lambda_core.physics.compiled.observe import CONTACT_CHANNELS
 from lambda_core.physics.equilibrium import Equilibrium, fault_sentence, solve
 from lambda_core.physics.model import BearingModel
+from lambda_core.physics.surface import longest_step
 from lambda_core.simulate.engine import SAMPLES_PER_REVOLUTION, Advance
 
 FloatArray = NDArray[np.float64]
@@ -67,7 +68,7 @@ class BearingEngine:
         self.sample_interval = model.output.interval or 2.0 * math.pi / orbit / SAMPLES_PER_REVOLUTION
         control, count = self._memory.control, self._memory.count
         control[bdf.H], control[bdf.H_MIN] = _FIRST_STEP, _SMALLEST_STEP
-        control[bdf.H_MAX] = model.solver.max_step
+        control[bdf.H_MAX] = min(model.solver.max_step, longest_step(self._assembly))
         control[bdf.SAMPLE_STEP] = self.sample_interval
         count[bdf.STALE] = 1
         self._start_angles = self._angles()

@@ -82,6 +82,7 @@ _LAWS: dict[str, dict[str, str]] = {
         "constant-factor": "capacitance:CONSTANT_FACTOR",
         "gap-integral": "capacitance:GAP_INTEGRAL",
     },
+    "surface": {"none": "surface:NONE", "waviness": "surface:WAVINESS", "defect": "surface:DEFECT"},
 }
 
 

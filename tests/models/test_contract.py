@@ -35,6 +35,7 @@ NAMES = {
     "fluid_drag": {"skf-catalogue", "schaeffler-catalogue", "sphere-drag", "none"},
     "permittivity": {"bode", "constant"},
     "capacitance": {"schneider", "constant-factor", "gap-integral"},
+    "surface": {"none", "waviness", "defect"},
 }
 LABELS = [f"{role}/{name}" for role in ROLES for name in sorted(NAMES[role])]
 
@@ -112,6 +113,7 @@ STATE = {
     "fluid_drag": ("v_orbit", "omega_spin"),
     "permittivity": (),
     "capacitance": ("C_hertz",),
+    "surface": ("azimuth",),
 }
 LAWS = [label for label in LABELS if not label.endswith("/none")]
 

@@ -45,7 +45,8 @@ def test_jacobian(name: str, mode: str, seed: int) -> None:
     """Left out by design: how slip changes the thermal film factor, the smaller component of entrainment (tangent.py).
 
     Both reach the columns of the axial velocity and of spins and cost below 1 % of the largest entry of a row (in
-    mixed friction 5 %); the matrix as a whole is within 0.03 % (0.2 %). Newton needs two to three steps.
+    mixed friction 5 %, on steep waves 2 %); the matrix as a whole is within 0.03 % (0.2 %). Newton needs two to three
+    steps.
     """
     m = machine(*MODELS[name])
     y = random_state(m, seed, mode)
@@ -54,7 +55,7 @@ def test_jacobian(name: str, mode: str, seed: int) -> None:
     if m.model.depth.cage:
         assert np.all(exact[pairs] == 0.0)
     exact[pairs] = 0.0
-    whole, row = (2e-3, 0.05) if name == "thin film" else (3e-4, 0.01)
+    whole, row = {"thin film": (2e-3, 0.05), "wavy raceways": (3e-4, 0.02)}.get(name, (3e-4, 0.01))
     assert np.linalg.norm(ours - exact) < whole * np.linalg.norm(exact)
     largest = np.abs(exact).max(axis=1, keepdims=True)
     assert np.all(np.abs(ours - exact) < row * largest + 1e-3)

@@ -30,7 +30,8 @@ def raceway_laws(element):
     return L.RacewayLaws(*(law(element, role) for role in L.RacewayLaws._fields))
 
 laws = L.Laws(
-    raceway_laws("ball_inner"), raceway_laws("ball_outer"), law("ball_cage", "cage_contact"),
+    raceway_laws("ball_inner"), raceway_laws("ball_outer"),
+    law("ball_cage" if model.depth.cage else "ball_ball", "cage_contact"),
     law("cage_inner", "cage_contact"), law("cage_outer", "cage_contact"), law("fluid_drag", "fluid_drag"),
 )
 system = np.frombuffer(given["system"].tobytes(), dtype=L.SYSTEM).copy().view(np.recarray)
@@ -46,7 +47,9 @@ np.savez(sys.argv[2], dydt=rows, rates=powers)
 """
 
 
-@pytest.mark.parametrize("name", ["every body free", "no cage", "ring-guided cage", "other laws", "cells"])
+@pytest.mark.parametrize(
+    "name", ["every body free", "no cage", "ring-guided cage", "other laws", "cells", "wavy raceways"]
+)
 def test_right_hand_side(name: str, tmp_path: Path) -> None:
     """Rounding only: sums over cells are taken in another order when they are compiled."""
     m, time = machine(*MODELS[name]), 2e-3

@@ -58,6 +58,16 @@ MODELS: dict[str, tuple[str, ...]] = {
         "models.elastic_hysteresis=houpert", "models.boundary_friction=coulomb-regularised",
         "models.fluid_drag=sphere-drag", "models.contact_temperature=isothermal", "models.damping=none",
     ),
+    "wavy raceways": (
+        TIGHT, *ALL_FREE, "bodies.inner_ring.spin=free", "models.surface=waviness",
+        "parameters.surface.axial_share=0.6", "forces.ball_inner.parameters.surface.waves=41",
+        "forces.ball_inner.parameters.surface.amplitude=3 um", "forces.ball_outer.parameters.surface.waves=17",
+    ),
+    "pitted inner raceway": (
+        TIGHT, "forces.ball_inner.models.surface=defect", "forces.ball_inner.parameters.surface.width=48 mm",
+        "forces.ball_inner.parameters.surface.extent=20 mm", "forces.ball_inner.parameters.surface.azimuth=10 deg",
+        "forces.ball_inner.parameters.surface.depth=8 um",
+    ),
     "thin film": (TIGHT, "surface.roughness=2 um", "operation.speed=20 rpm"),
 }  # fmt: skip
 MODES = ("rolling", "sliding", "standing")

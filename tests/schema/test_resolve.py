@@ -204,8 +204,26 @@ def test_sections_name_every_role_and_element() -> None:
 def test_without_a_cage_neighbouring_balls_touch() -> None:
     model = model_of("6319-cp10-1500", depth={"cage": False})
     assert not model.depth.cage
-    chosen = [model.laws[e]["cage_contact"].model.name for e in ("ball_cage", "cage_inner", "cage_outer")]
+    chosen = [model.laws[e]["cage_contact"].model.name for e in ("ball_ball", "cage_inner", "cage_outer")]
     assert chosen == ["ball-ball", "none", "none"]
+    assert "ball_cage" not in model.laws
+
+
+def test_the_contact_of_two_balls_has_parameters_of_its_own() -> None:
+    own = {"ball_ball": {"parameters": {"cage_contact": {"stiffness": "50 N/um", "mu_d": 0.02}}}}
+    model = model_of("6319-cp10-1500", depth={"cage": False}, forces=own)
+    law = model.laws["ball_ball"]["cage_contact"]
+    assert law.parameters.stiffness == 5e7  # type: ignore[attr-defined]
+    assert (law.origins["mu_d"], law.origins["mu_s"]) == ("case", "default")
+    assert "ball_ball" not in model_of("6319-cp10-1500").laws
+
+
+def test_neighbouring_balls_or_pockets_never_both() -> None:
+    own = {"parameters": {"cage_contact": {"mu_d": 0.02}}}
+    with pytest.raises(CaseError, match=r"forces.ball_ball +balls touch each other only without a cage"):
+        model_of("6319-cp10-1500", forces={"ball_ball": own})
+    with pytest.raises(CaseError, match=r"forces.ball_cage +contradicts depth.cage = false.*forces.ball_ball"):
+        model_of("6319-cp10-1500", depth={"cage": False}, forces={"ball_cage": own})
 
 
 def test_the_contact_of_two_balls_needs_a_bearing_without_a_cage() -> None:

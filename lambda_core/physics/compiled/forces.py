@@ -91,9 +91,12 @@ def raceway_forces(y, j, bundle, rates, want):
     for which in range(2):
         ring = scratch[SHARED][NS * which : NS * which + NS]
         kin = scratch[KIN]
-        delta = contact_kinematics(ball, ring, which, system, kin)
+        delta = contact_kinematics(ball, ring, which, bundle, kin)
         if delta <= 0.0:
             continue
+        if not delta < np.inf:
+            scratch[FAULT][2] = j
+            return 0
         laws = bundle.laws.inner if which == INNER else bundle.laws.outer
         ok = bundle.wrench(
             which, kin, laws, bundle.par, bundle.system, bundle.grid, bundle.cells[0], scratch,

@@ -60,6 +60,7 @@ from lambda_core.physics.compiled.layout import (
     SAZ,
     SHARED,
     SSIGMA,
+    STHETA,
     SVX,
     SWY,
     SWZ,
@@ -178,7 +179,7 @@ def _contact_columns(ball, ring, which, bundle, bl):
         for i in range(NB):
             bl.ball[i] = ball[i]
         bl.ball[c] += step
-        if contact_kinematics(bl.ball, ring, which, system, scratch[KIN2]) <= 0.0:
+        if contact_kinematics(bl.ball, ring, which, bundle, scratch[KIN2]) <= 0.0:
             continue
         wrench_at(scratch[KIN2], scratch[KIN], scratch[WRENCH], bl.slope, scratch[WRENCH2])
         fm[2, :] = 0.0
@@ -188,13 +189,13 @@ def _contact_columns(ball, ring, which, bundle, bl):
             bl.from_ball[which, i, c] += (fm[3, i] - fm[1, i]) / step
     for c in range(NS):
         column = NS * which + c
-        if bl.index[column] < 0 or c == 5:
+        if bl.index[column] < 0 or (c == STHETA and system.surface_on[which] == 0):
             continue
         step = _body_step(c, False)
         for i in range(NS):
             bl.body[i] = ring[i]
         bl.body[c] += step
-        if contact_kinematics(ball, bl.body, which, system, scratch[KIN2]) <= 0.0:
+        if contact_kinematics(ball, bl.body, which, bundle, scratch[KIN2]) <= 0.0:
             continue
         wrench_at(scratch[KIN2], scratch[KIN], scratch[WRENCH], bl.slope, scratch[WRENCH2])
         fm[2, :] = 0.0
@@ -207,12 +208,15 @@ def _contact_columns(ball, ring, which, bundle, bl):
 @helper
 def _raceway_columns(y, j, bundle, bl):
     scratch = bundle.scratch
-    system = bundle.system[0]
     ball = y[NB * j : NB * j + NB]
     for which in range(2):
         ring = scratch[SHARED][NS * which : NS * which + NS]
-        if contact_kinematics(ball, ring, which, system, scratch[KIN]) <= 0.0:
+        delta = contact_kinematics(ball, ring, which, bundle, scratch[KIN])
+        if delta <= 0.0:
             continue
+        if not delta < np.inf:
+            scratch[FAULT][2] = j
+            return 0
         laws = bundle.laws.inner if which == INNER else bundle.laws.outer
         ok = bundle.tangent(
             which, scratch[KIN], laws, bundle.par, bundle.system, bundle.grid, bundle.cells,

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from lambda_core.physics.compiled.layout import (
     BPSI,
     BR,
@@ -18,6 +20,7 @@ from lambda_core.physics.compiled.layout import (
     BWT,
     BWX,
     BX,
+    FAULT,
     INNER,
     K_ARM,
     K_AXIAL,
@@ -25,6 +28,7 @@ from lambda_core.physics.compiled.layout import (
     K_D,
     K_N,
     K_RADIAL,
+    K_RISE,
     K_S,
     K_SIN,
     K_T,
@@ -36,9 +40,13 @@ from lambda_core.physics.compiled.layout import (
     Q_WN,
     Q_WS,
     Q_WT,
+    R_SURFACE,
+    RACEWAY_KERNELS,
     SAY,
     SAZ,
     SSIGMA,
+    STHETA,
+    SURFACE,
     SVX,
     SVY,
     SVZ,
@@ -49,6 +57,7 @@ from lambda_core.physics.compiled.layout import (
     SZ,
     helper,
 )
+from lambda_core.physics.compiled.raceway import report
 
 
 @helper
@@ -58,7 +67,7 @@ def axis_x(ay, az):
 
 
 @helper
-def contact_kinematics(ball, ring, which, system, kin):
+def contact_kinematics(ball, ring, which, bundle, kin):
     """Identify the contact of one ball with one ring.
 
     Parameters
@@ -68,14 +77,16 @@ def contact_kinematics(ball, ring, which, system, kin):
         Shared state of the ring.
     which : int
         INNER or OUTER.
+    bundle : Bundle
     kin : float64[:], shape (NKIN,)
         Result: q (penetration, velocities), frame, arms, contact angle.
 
     Returns
     -------
     float
-        Penetration [m]; velocities are written only where it is positive.
+        Penetration [m]; velocities are written only where it is positive. NaN when the surface law refused.
     """
+    system = bundle.system[0]
     c, s = math.cos(ball[BPSI]), math.sin(ball[BPSI])
     ay, az = ring[SAY], ring[SAZ]
     ax = axis_x(ay, az)
@@ -91,12 +102,32 @@ def contact_kinematics(ball, ring, which, system, kin):
     radial = rho - system.groove_circle[which]
     length = math.sqrt(axial * axial + radial * radial)
     delta = length + system.ball_radius - system.groove_radius[which]
+    na, nr = axial / length, radial / length
+    rise_t, rise_s = 0.0, 0.0
+    if system.surface_on[which] == 1 and system.guides_on == 1:
+        # Azimuth in the frame of least rotation of the tilted ring, less its spin: fixed to the raceway.
+        q1, q2 = p1 * c - p2 * s, p1 * s + p2 * c
+        lean = p0 + (ay * q1 + az * q2) / (1.0 + ax)
+        azimuth = math.atan2(q2 - az * lean, q1 - ay * lean) - ring[STHETA]
+        azimuth -= 2.0 * math.pi * math.floor(azimuth / (2.0 * math.pi) + 0.5)
+        sign = -1.0 if which == INNER else 1.0
+        angle, k = math.atan2(sign * na, sign * nr), RACEWAY_KERNELS * which + R_SURFACE
+        out, par = bundle.scratch[SURFACE], bundle.par[system.par_start[k] : system.par_start[k + 1]]
+        out[:3] = np.nan
+        if which == INNER:
+            status = bundle.laws.inner.surface(azimuth, angle, par, out)
+        else:
+            status = bundle.laws.outer.surface(azimuth, angle, par, out)
+        if status != 1 or not abs(out[0]) + abs(out[1]) + abs(out[2]) < np.inf:
+            report(bundle.scratch[FAULT], R_SURFACE, status, which, azimuth, angle, 0.0, 0.0)
+            return np.nan
+        delta += out[0]
+        rise_t, rise_s = out[1] / rho, out[2] / length
     kin[Q_DELTA] = delta
     kin[K_AXIAL], kin[K_RADIAL] = axial, radial
     kin[K_COS], kin[K_SIN] = c, s
     if delta <= 0.0:
         return delta
-    na, nr = axial / length, radial / length
     n0, n1, n2 = na * a0 + nr * p0, na * a1 + nr * p1, na * a2 + nr * p2
     # t = axis x radial, s = n x t
     t0, t1, t2 = a1 * p2 - a2 * p1, a2 * p0 - a0 * p2, a0 * p1 - a1 * p0
@@ -143,6 +174,9 @@ def contact_kinematics(ball, ring, which, system, kin):
     cs += dist * (along + x0 * s0 + x1 * s1 + x2 * s2)
     kin[Q_UT] = 0.5 * ((e0 + g0) * t0 + (e1 + g1) * t1 + (e2 + g2) * t2) - ct
     kin[Q_UT + 1] = 0.5 * ((e0 + g0) * s0 + (e1 + g1) * s1 + (e2 + g2) * s2) - cs
+    # A raceway that rises under the ball: the penetration's own rate, and the direction of its force.
+    kin[Q_VN] += rise_t * (u0 * t0 + u1 * t1 + u2 * t2 - sigma * rho) + rise_s * (u0 * s0 + u1 * s1 + u2 * s2)
+    kin[K_RISE], kin[K_RISE + 1] = rise_t, rise_s
     kin[K_T], kin[K_T + 1], kin[K_T + 2] = t0, t1, t2
     kin[K_S], kin[K_S + 1], kin[K_S + 2] = s0, s1, s2
     kin[K_N], kin[K_N + 1], kin[K_N + 2] = n0, n1, n2
@@ -166,19 +200,23 @@ def apply_wrench(kin, wrench, ball_fm, ring_fm):
     Parameters
     ----------
     wrench : float64[:], shape (6,)
-        Force and couple on the ball at the contact's centre, axes t, s, n.
+        Force and couple on the ball at the contact's centre, axes t, s, n. On a raceway that rises along t and s the
+        normal force leans by the slopes; it keeps passing through the ball's centre, on which alone the penetration
+        depends.
     ball_fm : float64[:], shape (6,)
         Added to: force and moment about the ball's centre, axes x, r, t [N, N m].
     ring_fm : float64[:], shape (6,)
         Set: force and moment about the ring's centre, inertial axes x, y, z [N, N m].
     """
-    f0 = wrench[0] * kin[K_T] + wrench[1] * kin[K_S] + wrench[2] * kin[K_N]
-    f1 = wrench[0] * kin[K_T + 1] + wrench[1] * kin[K_S + 1] + wrench[2] * kin[K_N + 1]
-    f2 = wrench[0] * kin[K_T + 2] + wrench[1] * kin[K_S + 2] + wrench[2] * kin[K_N + 2]
-    m0 = wrench[3] * kin[K_T] + wrench[4] * kin[K_S] + wrench[5] * kin[K_N]
-    m1 = wrench[3] * kin[K_T + 1] + wrench[4] * kin[K_S + 1] + wrench[5] * kin[K_N + 1]
-    m2 = wrench[3] * kin[K_T + 2] + wrench[4] * kin[K_S + 2] + wrench[5] * kin[K_N + 2]
     d = kin[K_D]
+    lean_t, lean_s = wrench[2] * kin[K_RISE], wrench[2] * kin[K_RISE + 1]
+    ft, fs, mt, ms = wrench[0] + lean_t, wrench[1] + lean_s, wrench[3] + d * lean_s, wrench[4] - d * lean_t
+    f0 = ft * kin[K_T] + fs * kin[K_S] + wrench[2] * kin[K_N]
+    f1 = ft * kin[K_T + 1] + fs * kin[K_S + 1] + wrench[2] * kin[K_N + 1]
+    f2 = ft * kin[K_T + 2] + fs * kin[K_S + 2] + wrench[2] * kin[K_N + 2]
+    m0 = mt * kin[K_T] + ms * kin[K_S] + wrench[5] * kin[K_N]
+    m1 = mt * kin[K_T + 1] + ms * kin[K_S + 1] + wrench[5] * kin[K_N + 1]
+    m2 = mt * kin[K_T + 2] + ms * kin[K_S + 2] + wrench[5] * kin[K_N + 2]
     n0, n1, n2 = kin[K_N], kin[K_N + 1], kin[K_N + 2]
     ball_fm[0] += f0
     ball_fm[1] += f1

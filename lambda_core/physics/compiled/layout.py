@@ -88,6 +88,7 @@ RACEWAY_ROLES = (
     "boundary_friction",
     "permittivity",
     "capacitance",
+    "surface",
     "cage_contact",
     "fluid_drag",
 )
@@ -105,9 +106,10 @@ RACEWAY_ROLES = (
     R_BOUNDARY,
     R_PERMITTIVITY,
     R_CAPACITANCE,
+    R_SURFACE,
     R_CAGE,
     R_DRAG,
-) = range(15)
+) = range(16)
 
 # Constants of the system, one record. [2]: inner, outer. [3]: inner ring, outer ring, cage.
 SYSTEM = np.dtype(
@@ -148,6 +150,7 @@ SYSTEM = np.dtype(
         ("land_offset", np.float64),  # half the distance of the two land stations [m]
         ("land_on", np.int64, (2,)),
         ("drag_on", np.int64),
+        ("surface_on", np.int64, (2,)),  # 0: nominal raceway
         (
             "roll_floor",
             np.float64,
@@ -159,10 +162,10 @@ SYSTEM = np.dtype(
         (
             "par_start",
             np.int64,
-            (32,),
+            (40,),
         ),  # where each kernel's parameters begin in Bundle.par
         ("friction_on", np.int64),  # 0: normal forces only (static equilibrium)
-        ("guides_on", np.int64),  # 0: no cage forces (quasi-static equilibrium)
+        ("guides_on", np.int64),  # 0: no cage forces, nominal raceways (quasi-static equilibrium)
     ],
     align=True,
 )
@@ -199,6 +202,7 @@ class RacewayLaws(NamedTuple):
     boundary_friction: Any
     permittivity: Any
     capacitance: Any
+    surface: Any
 
 
 class Laws(NamedTuple):
@@ -212,10 +216,10 @@ class Laws(NamedTuple):
     drag: Any
 
 
-# Index of a kernel's parameters: 13 per raceway (order of RACEWAY_ROLES), then these.
-RACEWAY_KERNELS = 13
-P_POCKET, P_LAND, P_DRAG = 26, 27, 29
-N_PAR = 30
+# Index of a kernel's parameters: 14 per raceway (order of RACEWAY_ROLES), then these.
+RACEWAY_KERNELS = 14
+P_POCKET, P_LAND, P_DRAG = 28, 29, 31
+N_PAR = 32
 
 # Rows of Bundle.grid, cells on the unit ellipse: position across rolling over a, along rolling over b, mean
 # pressure over p_max, area over a b, width across over a, width along over b.
@@ -236,14 +240,18 @@ GRID_S, GRID_T, GRID_P, GRID_AREA, GRID_DS, GRID_DT = range(6)
     RING_FM,  # 6: force and moment of one contact on its ring, inertial
     RATE,  # 12: time derivative of one shared body
     FAULT,  # 8: role, status, ball, ring, inputs
+    SURFACE,  # 3: height of a raceway and its slopes
     BODY_FM,  # 3 rows of 6: force and moment of all contacts on each shared body, inertial
-) = range(14)
-N_SCRATCH = 16
+) = range(15)
+N_SCRATCH = 17
 
 # Kinematics of one contact beyond q: frame and arms (components x, r, t).
-# K_AXIAL, K_RADIAL: ball centre from the groove's centre; K_COS, K_SIN: of the ball's azimuth.
-K_T, K_S, K_N, K_D, K_ARM, K_AXIAL, K_RADIAL, K_COS, K_SIN = (NQ + i for i in (0, 3, 6, 9, 10, 13, 14, 15, 16))
-NKIN = NQ + 17
+# K_AXIAL, K_RADIAL: ball centre from the groove's centre; K_COS, K_SIN: of the ball's azimuth; K_RISE: slope of the
+# penetration with the ball centre's place along t and s.
+K_T, K_S, K_N, K_D, K_ARM, K_AXIAL, K_RADIAL, K_COS, K_SIN, K_RISE = (
+    NQ + i for i in (0, 3, 6, 9, 10, 13, 14, 15, 16, 17)
+)
+NKIN = NQ + 19
 
 # Rows of one block of Bundle.cells.
 (X_SLIP, X_P, X_T, X_LN, X_RHO, X_TAU, X_MU, X_VT, X_VS, X_TAU0, X_T1) = range(11)
@@ -264,6 +272,7 @@ _raceway_sigs = [
         "aaaa",
         "aaaaa",
         "ffffffffffaa",
+        "ffaa",
     )
 ]
 CAGE_SIG = _sig("aaafaa")
@@ -303,7 +312,7 @@ class Bundle(NamedTuple):
     active: Any  # int64 (n_active,): free entries of the shared state
     channels: Any  # (36, 3) value and two derivatives of every time function
     cells: Any  # (2, 12, cells)
-    scratch: Any  # (16, 64)
+    scratch: Any  # (N_SCRATCH, 64)
     ball_fm: Any  # (Z, 6) force and moment on each ball, axes x, r, t
 
 

@@ -210,7 +210,9 @@ def _raceway_channels(y, j, which, bundle, shorted, channels, losses):
     ring = scratch[SHARED][NS * which : NS * which + NS]
     channels[:] = 0.0
     kin = scratch[KIN]
-    delta = contact_kinematics(ball, ring, which, system, kin)
+    delta = contact_kinematics(ball, ring, which, bundle, kin)
+    if not delta < np.inf:
+        return 0
     channels[1] = contact_angle(kin, which)
     channels[9] = system.oil_temperature
     if delta <= 0.0:
@@ -306,7 +308,7 @@ def stored_energy(t, y, bundle):
         total += 0.5 * system.ball_mass * v2 + 0.5 * system.ball_inertia * w2
         for which in range(2):
             ring = scratch[SHARED][NS * which : NS * which + NS]
-            if contact_kinematics(ball, ring, which, system, scratch[KIN]) > 0.0:
+            if contact_kinematics(ball, ring, which, bundle, scratch[KIN]) > 0.0:
                 total += _contact_energy(which, scratch[KIN][Q_DELTA], bundle)
         if system.guides_on == 1:
             g, law, par = (

@@ -1,0 +1,175 @@
+"""Deviations of a raceway from its nominal surface: waviness and a local defect.
+
+Heights count along the surface's normal, towards the ball; azimuth and contact angle are places on the raceway, which
+turns with its ring. The penetration of ball and raceway grows by the height, so a rigid surface does work on the
+balls, and its reaction on the ring: what a wavy ring puts into the balls comes out of its drive.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+import numpy as np
+
+from lambda_core.plugins import Context, NoParameters, Quantity, model
+from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_plugins.shapes import at_least, smooth_min
+
+Angle = Annotated[float, Quantity("angle")]
+Length = Annotated[float, Quantity("length")]
+SmallLength = Annotated[float, Quantity("small_length")]
+
+_MEASURED = "no value of its own: measured on the ring"
+
+
+def none(azimuth: float, contact_angle: float, par: FloatArray, out: FloatArray) -> int:
+    """Nominal raceway."""
+    out[0] = 0.0
+    out[1] = 0.0
+    out[2] = 0.0
+    return 1
+
+
+class Waviness(Parameters):
+    """Parameters of one harmonic of waviness."""
+
+    amplitude: SmallLength = parameter(
+        "1 um", "amplitude of the wave, half its peak to valley", source=_MEASURED, status="assumed", ge=0.0
+    )
+    waves: int = parameter(8, "waves per circumference", source=_MEASURED, status="assumed", ge=1, le=2000)
+    phase: Angle = parameter("0 deg", "azimuth of a crest on the ring at the start", status="numerical")
+    axial_share: float = parameter(
+        0.0,
+        "direction in which the groove is displaced: 0 radially, towards the balls; 1 and -1 along the axis",
+        source="Wardle 1988 has radial and axial waviness as the two components of the groove's path",
+        status="numerical",
+        ge=-1.0,
+        le=1.0,
+    )
+
+
+def prepare_waviness(parameters: Waviness, context: Context) -> FloatArray:
+    """Return [radial amplitude, axial amplitude, waves, phase]."""
+    share, amplitude = parameters.axial_share, parameters.amplitude
+    radial = amplitude * math.sqrt(1.0 - share * share)
+    return np.array([radial, amplitude * share, float(parameters.waves), parameters.phase])
+
+
+def waviness(azimuth: float, contact_angle: float, par: FloatArray, out: FloatArray) -> int:
+    """One harmonic of waviness, w = (A_r cos alpha + A_x sin alpha) cos k (psi - phase).
+
+    A groove whose section is displaced by A_r towards the balls and by A_x along the axis rises at contact angle alpha
+    by the component along the normal: Wardle 1988, Proc. Instn Mech. Engrs 202 C5, 305 (which also gives the orders
+    k = i Z and i Z +- 1 that move a ring); Harsha, Sandeep and Prakash 2004, J. Sound Vib. 272, 557. The contact
+    ellipse is short against the wave.
+    """
+    wave = par[2] * (azimuth - par[3])
+    c = math.cos(wave)
+    cos_a = math.cos(contact_angle)
+    sin_a = math.sin(contact_angle)
+    lift = par[0] * cos_a + par[1] * sin_a
+    out[0] = lift * c
+    out[1] = -lift * par[2] * math.sin(wave)
+    out[2] = (par[1] * cos_a - par[0] * sin_a) * c
+    return 1
+
+
+class Defect(Parameters):
+    """Parameters of a pit or spall."""
+
+    width: Length = parameter(
+        "1 mm", "length of the gap along rolling, edge to edge", source=_MEASURED, status="assumed", gt=0.0, le=0.05
+    )
+    depth: SmallLength = parameter("20 um", "depth of its floor", source=_MEASURED, status="assumed", ge=0.0)
+    azimuth: Angle = parameter("-90 deg", "azimuth of its middle on the ring at the start", status="numerical")
+    extent: Length | None = parameter(
+        None,
+        "length across rolling, to which it fades from its middle; absent: across the whole groove",
+        source=_MEASURED,
+        status="numerical",
+        gt=0.0,
+    )
+    contact_angle: Angle = parameter("0 deg", "contact angle at which its middle lies", status="numerical")
+    rounding: float = parameter(
+        0.05,
+        "length over which the ball turns from one edge to the other, and rounds the floor's corner, over the size",
+        status="numerical",
+        gt=0.0,
+        le=0.5,
+    )
+
+
+def prepare_defect(parameters: Defect, context: Context) -> FloatArray:
+    """Return [half width, depth, azimuth, 1/half extent or 0, angle, R_x, radius of the raceway, r_g, rounding]."""
+    half, extent = 0.5 * parameters.width, parameters.extent
+    return np.array(
+        [
+            half,
+            parameters.depth,
+            parameters.azimuth,
+            0.0 if extent is None else 2.0 / extent,
+            parameters.contact_angle,
+            context.radius_x,
+            0.5 * context.race_diameter,
+            context.groove_radius,
+            parameters.rounding,
+        ]
+    )
+
+
+def defect(azimuth: float, contact_angle: float, par: FloatArray, out: FloatArray) -> int:
+    """Gap in the raceway that a rigid ball crosses: it turns about the edge behind, then about the edge ahead.
+
+    At the distance e from the nearer edge the ball's centre has dropped by e^2/(2 R_x), at most by the depth: geometry
+    of a circle on an edge, entry and exit of Sawalha and Randall 2008, Mech. Syst. Signal Process. 22, 1842. Floor,
+    and change of edge in the middle, where the ball is struck, are rounded. Across the groove the drop fades to the
+    ends of the defect as (1 - s^2)^2.
+    """
+    turn = azimuth - par[2]
+    turn -= 2.0 * math.pi * math.floor(turn / (2.0 * math.pi) + 0.5)
+    x = par[6] * turn
+    out[0] = 0.0
+    out[1] = 0.0
+    out[2] = 0.0
+    if abs(x) >= par[0]:
+        return 1
+    s = par[7] * (contact_angle - par[4]) * par[3]
+    if abs(s) >= 1.0:
+        return 1
+    fade = (1.0 - s * s) * (1.0 - s * s)
+    bend = par[8] * par[0]
+    away = math.sqrt(x * x + bend * bend)
+    edge = math.sqrt(par[0] * par[0] + bend * bend) - away
+    free = 0.5 * edge * edge / par[5]
+    corner = par[8] * par[1]
+    drop = smooth_min(free, par[1], corner)
+    # d(smooth_min)/d(free): 1 before the corner, 0 behind it
+    share = at_least(1.0 - at_least(free - par[1] + corner, 0.0) / (2.0 * corner + 1e-300), 0.0)
+    out[0] = -fade * drop
+    out[1] = fade * share * edge / par[5] * x / away * par[6]
+    out[2] = 4.0 * (1.0 - s * s) * s * par[3] * par[7] * drop
+    return 1
+
+
+NONE = model("surface", "none", none, NoParameters, reference="-")
+
+WAVINESS = model(
+    "surface",
+    "waviness",
+    waviness,
+    Waviness,
+    reference="Wardle 1988, Proc. Instn Mech. Engrs 202 C5, 305; Harsha et al. 2004, J. Sound Vib. 272, 557",
+    validity="waves long against the contact ellipse; slopes small against 1",
+    prepare=prepare_waviness,
+)
+
+DEFECT = model(
+    "surface",
+    "defect",
+    defect,
+    Defect,
+    reference="geometry of a circle on an edge; Sawalha and Randall 2008, Mech. Syst. Signal Process. 22, 1842",
+    validity="gap longer along rolling than the contact ellipse; rigid edges",
+    prepare=prepare_defect,
+)
