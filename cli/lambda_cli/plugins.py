@@ -65,7 +65,13 @@ def list_plugins(
 
 @app.command()
 def show(
-    model: Annotated[str, typer.Argument(metavar="ROLE/NAME", help="For example traction/ree-eyring.")],
+    model: Annotated[
+        str,
+        typer.Argument(
+            metavar="ROLE/NAME",
+            help="For example traction/ree-eyring; ree-eyring is enough where one role alone has it.",
+        ),
+    ],
     as_json: JsonOption = False,
 ) -> None:
     """Show one model: parameters with units, limits, defaults and sources; validity and reference."""

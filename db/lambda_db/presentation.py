@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from lambda_core.errors import CatalogueError, Problem, UsageError, unknown_name
-from lambda_core.registry.catalogue import BearingRow, CageRow, LubricantRow, MaterialRow, Value
+from lambda_core.registry.catalogue import BearingRow, CageRow, LubricantRow, MaterialRow, Value, bearing_named
 from lambda_core.schema.units import from_si, parse
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.units import PROPERTIES
@@ -179,9 +179,11 @@ def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> BearingRow | 
     CatalogueError
         With the nearest names of all kinds, or with the makers to choose from.
     """
-    bearings = catalogue.names("bearing")
-    if maker is not None or " ".join(name.split()).casefold() in {known.casefold() for known in bearings}:
+    if maker is not None:
         return catalogue.bearing(name, maker)
+    bearings = catalogue.names("bearing")
+    if {word.casefold() for word in name.split()} & {known.casefold() for known in bearings}:
+        return bearing_named(catalogue, name)
     others: tuple[Callable[[str], LubricantRow | MaterialRow | CageRow], ...]
     others = (catalogue.lubricant, catalogue.material, catalogue.cage)
     for look_up in others:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from typing import Annotated
 
 import typer
@@ -23,6 +25,11 @@ def gui(
     http://localhost:8000 in a browser; end it with Ctrl+C.
     """
     if not serve:
+        # a server gives the builder a screen of its own kind (TEXTUAL_DRIVER)
+        if not (sys.stdin.isatty() and sys.stderr.isatty()) and "TEXTUAL_DRIVER" not in os.environ:
+            from lambda_core.errors import UsageError
+
+            raise UsageError("the builder needs a terminal; lambda-bearing gui --serve shows it in a browser")
         from lambda_gui.app import main
 
         main(case)

@@ -124,11 +124,12 @@ def init_case(
         return new_case(name, start or "6319-cp10-1500", target, overwrite)
     if start is not None:
         raise UsageError("a new case starts from a case or from a bearing, not from both")
-    from lambda_core.physics.fresh_case import bearing_named, fresh_case
+    from lambda_core.physics.fresh_case import fresh_case
+    from lambda_core.registry.catalogue import bearing_named
     from lambda_core.schema.case_io import parse_case
 
     with closing(catalogue()) as opened:
-        text = fresh_case(name, bearing_named(bearing, opened))
+        text = fresh_case(name, bearing_named(opened, bearing))
     return write_new(parse_case(text, f"case {name}"), text, target, overwrite)
 
 

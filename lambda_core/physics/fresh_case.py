@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from lambda_core.registry.catalogue import BearingRow, Catalogue
+    from lambda_core.registry.catalogue import BearingRow
 
 _TEXT = """\
 # Deep-groove ball bearing {designation} of {maker}: change what differs on your machine.
@@ -30,22 +30,6 @@ axial = "0 N"             # along the shaft
 speed = "1500 rpm"        # inner ring; the outer ring stands still
 """
 _NO_RATING = 1000.0  # [N], where the catalogue has no rating to take a tenth of
-
-
-def bearing_named(text: str, catalogue: Catalogue) -> BearingRow:
-    """Find a bearing by "6208", "SKF 6208" or "6208 SKF".
-
-    Raises
-    ------
-    CatalogueError
-        When it is unknown, or stands in the catalogue from several makers.
-    """
-    words = text.split()
-    known = set(catalogue.names("bearing"))
-    for word in words if len(words) > 1 else ():
-        if word in known:
-            return catalogue.bearing(word, " ".join(other for other in words if other is not word))
-    return catalogue.bearing(text.strip())
 
 
 def fresh_case(name: str, bearing: BearingRow) -> str:

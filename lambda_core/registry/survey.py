@@ -11,7 +11,7 @@ from typing import Any, Literal
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from lambda_core.errors import UsageError, unknown_name
+from lambda_core.errors import UsageError, nearest, unknown_name
 from lambda_core.registry.check import ModelReport, check_model
 from lambda_core.registry.faults import PluginError
 from lambda_core.registry.model import Model
@@ -120,16 +120,16 @@ def inventory(registry: Registry) -> Inventory:
 
 
 def model_card(registry: Registry, label: str) -> ModelCard:
-    """Return everything about one model, named "role/name".
+    """Return everything about one model, named "role/name", or by its name where one role alone has it.
 
     Raises
     ------
     UsageError
-        When `label` is not of that form or the role does not exist.
+        When there is no such role, no such model, or models of several roles have the name.
     PluginError
         When the role has no such model, or it cannot be imported.
     """
-    role, name = split_label(label)
+    role, name = split_label(label if "/" in label else _label_of(registry, label))
     found = registry.model(role, name)
     return ModelCard(
         role=role,
@@ -144,6 +144,22 @@ def model_card(registry: Registry, label: str) -> ModelCard:
         errors=dict(found.errors),
         parameters=[_parameter(found, field, info) for field, info in found.parameters.model_fields.items()],
     )
+
+
+def _label_of(registry: Registry, name: str) -> str:
+    """Return "role/name" of the one model that has a name; UsageError when none or several have it."""
+    labels = [f"{role}/{known}" for role in ROLES for known in registry.names(role)]
+    found = [label for label in labels if label.partition("/")[2] == name]
+    if len(found) > 1:
+        raise UsageError(f'models of several roles are called "{name}", choose one: {", ".join(found)}')
+    if not found:
+        near = nearest(name, {label.partition("/")[2] for label in labels})
+        close = [label for label in labels if label.partition("/")[2] in near]
+        raise UsageError(
+            f'"{name}" is not a known model; '
+            + (f"nearest: {', '.join(close)}" if close else "write ROLE/NAME, for example traction/ree-eyring")
+        )
+    return found[0]
 
 
 def split_label(label: str) -> tuple[str, str]:

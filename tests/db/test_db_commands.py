@@ -34,6 +34,7 @@ def data(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, Any]:
 
 def test_show_table_6(capsys: pytest.CaptureFixture[str]) -> None:
     shown = data(capsys, "db", "show", "6208", "--maker", "Syla2026")
+    assert data(capsys, "db", "show", "syla2026 6208") == shown
     printed = {
         "outside_diameter": 80.0,
         "bore_diameter": 40.0,
@@ -80,6 +81,7 @@ def test_show_marks_estimates_and_lists_candidates(capsys: pytest.CaptureFixture
     ("arguments", "code", "message"),
     [
         (["show", "6208"], 3, "several makers, choose one: NSK, SKF, Syla2026"),
+        (["show", "XX 6208"], 3, '"XX" is not a maker of 6208'),
         (["show", "fva4"], 3, "nearest: FVA3"),
         (["show", "FVA3", "--temperature", "40"], 2, 'has no unit: write "40 degC"'),
         (["show", "FVA3", "--rheology", "bode"], 3, "is not a known law with data"),

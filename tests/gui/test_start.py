@@ -171,3 +171,16 @@ speed = "2750 rpm"
 [solver]
 duration = "5 ms"
 """
+
+
+def test_without_a_terminal_it_says_what_to_do_instead() -> None:
+    """Its screen would go into a file or a pipe, and no key would ever come."""
+    answer = subprocess.run(
+        [sys.executable, "-m", "lambda_cli", "gui"],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert (answer.returncode, answer.stdout) == (2, "")
+    assert answer.stderr == "the builder needs a terminal; lambda-bearing gui --serve shows it in a browser\n"

@@ -160,7 +160,8 @@ def test_switching_off_what_is_not_installed_is_a_usage_error(site: Installation
 @pytest.mark.parametrize(
     ("arguments", "code", "words"),
     [
-        (["show", "harbour"], 2, "is not of the form ROLE/NAME"),
+        (["show", "harbor"], 2, '"harbor" is not a known model; nearest: traction/harbour'),
+        (["show", "none"], 2, 'models of several roles are called "none", choose one: '),
         (["show", "tracton/harbour"], 2, '"tracton" is not a known role; nearest: traction'),
         (["show", "traction/harbor"], 3, '"harbor" is not a traction model; nearest: harbour'),
         (
