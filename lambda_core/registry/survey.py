@@ -154,7 +154,7 @@ def _label_of(registry: Registry, name: str) -> str:
         raise UsageError(f'models of several roles are called "{name}", choose one: {", ".join(found)}')
     if not found:
         near = nearest(name, {label.partition("/")[2] for label in labels})
-        close = [label for label in labels if label.partition("/")[2] in near]
+        close = [label for known in near for label in labels if label.partition("/")[2] == known]
         raise UsageError(
             f'"{name}" is not a known model; '
             + (f"nearest: {', '.join(close)}" if close else "write ROLE/NAME, for example traction/ree-eyring")
