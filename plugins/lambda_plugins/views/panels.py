@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.colors import LogNorm, TwoSlopeNorm
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from lambda_plugins.views.style import COLOUR_MAP, INK, SIGNED_MAP, SOFT, Look, look_of
 
@@ -18,9 +18,13 @@ _BAND = 0.18  # opacity of a band
 _ARROW_SHARE = 0.11  # length of the longest arrow over the width of the panel
 _LABELLED_BARS = 14
 _HEADROOM = 1.06  # above the data, on axes that begin at a given value
+_BELOW = 0.14  # margin that leaves room for numbers below bars
+_OPEN = 9.0  # size of open markers [pt]
 _DASHED = 130  # points up to which lines are dashed
+_RESTLESS = 3.0  # way up and down over the range of values, from which longer lines are solid
 _SMOOTH = 6  # places along each side from which a mesh is drawn smoothly
 _LABEL = 32  # characters of a line of a label
+_TITLE = 42  # the same of a title
 _OUTSIDE = 4  # a longer legend stands beside the axes
 
 
@@ -38,7 +42,7 @@ def draw_panel(axes: Any, panel: Panel, *, legend: bool = True) -> None:
             if series.kind == "bars":
                 _bars(axes, series, look, bars.index(series), len(bars))
             else:
-                _curve(axes, series, look, polar=panel.shape == "polar")
+                _curve(axes, series, look, polar=panel.shape == "polar", framed=panel.field is not None)
     if panel.arrows is not None:
         _arrows(axes, panel.arrows)
     for mark in panel.marks:
@@ -47,7 +51,7 @@ def draw_panel(axes: Any, panel: Panel, *, legend: bool = True) -> None:
     for mark in panel.marks:
         _label(axes, mark)
     if panel.title:
-        axes.set_title(panel.title)
+        axes.set_title("\n".join(textwrap.fill(line, _TITLE) for line in panel.title.splitlines()))
     if legend:
         _legend(axes, panel)
 
@@ -68,7 +72,7 @@ def _looks(series: tuple[Series, ...]) -> list[Look]:
     return found
 
 
-def _curve(axes: Any, series: Series, look: Look, *, polar: bool) -> None:
+def _curve(axes: Any, series: Series, look: Look, *, polar: bool = False, framed: bool = False) -> None:
     x, y, low, high = series.x, series.y, series.low, series.high
     if polar:
         x = np.radians(x)
@@ -77,11 +81,13 @@ def _curve(axes: Any, series: Series, look: Look, *, polar: bool) -> None:
             low, high = (None if a is None else np.append(a, a[0]) for a in (low, high))
     name = _name(series)
     if series.kind == "points":
-        face = look.colour if look.filled else "white"
-        axes.plot(x, y, look.marker, color=look.colour, markerfacecolor=face, markeredgewidth=1.4, label=name, zorder=4)
+        # An open marker goes round the filled one of another series at the same place.
+        style: dict[str, Any] = {"markerfacecolor": "none", "markersize": _OPEN, "zorder": 4.5}
+        if look.filled:
+            style = {"markeredgecolor": "white"} if framed else {}
+        axes.plot(x, y, look.marker, color=look.colour, label=name, **{"markeredgewidth": 1.6, "zorder": 4} | style)
     else:
-        # Dashes of a long record would be noise of their own.
-        dash, width = (look.dash, look.width) if x.size <= _DASHED else ("-", min(look.width, 1.4))
+        dash, width = (look.dash, look.width) if _is_calm(y) else ("-", min(look.width, 1.4))
         axes.plot(x, y, color=look.colour, linestyle=dash, linewidth=width, label=name, zorder=3)
     if low is None or high is None:
         return
@@ -91,12 +97,20 @@ def _curve(axes: Any, series: Series, look: Look, *, polar: bool) -> None:
         axes.fill_between(x, low, high, color=look.colour, alpha=_BAND, linewidth=0.0, zorder=2)
 
 
+def _is_calm(values: Any) -> bool:
+    """Tell whether a line can be dashed: dashes of a long record that goes up and down would be noise of their own."""
+    known = values[np.isfinite(values)]
+    return bool(known.size <= _DASHED or np.abs(np.diff(known)).sum() <= _RESTLESS * np.ptp(known))
+
+
 def _bars(axes: Any, series: Series, look: Look, index: int, count: int) -> None:
     width = 0.8 / count
     places = series.x + (index - 0.5 * (count - 1)) * width
     axes.bar(places, series.y, width, label=_name(series), **_fill(look))
     if count * series.x.size <= _LABELLED_BARS:
-        _values(axes, places, np.maximum(series.y, 0.0), series.y)
+        _values(axes, places, series.y, series.y)
+        if np.nanmin(series.y, initial=0.0) < 0.0:
+            axes.margins(y=_BELOW)
 
 
 def _fill(look: Look) -> dict[str, Any]:
@@ -104,7 +118,7 @@ def _fill(look: Look) -> dict[str, Any]:
 
 
 def _values(axes: Any, places: Any, tops: Any, values: Any) -> None:
-    """Write numbers above bars, all to the digits that the largest one has."""
+    """Write numbers at the ends of bars, all to the digits that the largest one has."""
     largest = np.nanmax(np.abs(values)) if np.isfinite(values).any() else 0.0
     digits = max(0, 2 - int(np.floor(np.log10(largest)))) if largest > 0.0 else 0
     for place, top, value in zip(places, tops, values, strict=True):
@@ -112,9 +126,10 @@ def _values(axes: Any, places: Any, tops: Any, values: Any) -> None:
             axes.annotate(
                 f"{value:.{digits}f}",
                 (place, top),
-                (0, 3),
+                (0, 3 if value >= 0.0 else -3),
                 textcoords="offset points",
                 ha="center",
+                va="bottom" if value >= 0.0 else "top",
                 fontsize=9.5,
                 color=INK,
             )
@@ -125,7 +140,7 @@ def _stacks(axes: Any, series: tuple[Series, ...], looks: list[Look]) -> None:
     base: Any = None
     for item, look in zip(series, looks, strict=True):
         if item.kind not in ("bars", "area"):
-            _curve(axes, item, look, polar=False)
+            _curve(axes, item, look)
             continue
         base = np.zeros_like(item.y) if base is None else base
         height = np.nan_to_num(item.y)
@@ -161,7 +176,11 @@ def _field(axes: Any, field: Field) -> None:
         rasterized=True,
         zorder=1,
     )
-    axes.figure.colorbar(mesh, ax=axes, label=textwrap.fill(field.text, _LABEL), pad=0.02, fraction=0.06)
+    bar = axes.figure.colorbar(mesh, ax=axes, label=textwrap.fill(field.text, _LABEL), pad=0.02, fraction=0.06)
+    if field.log:
+        bar.ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        bar.ax.yaxis.set_minor_formatter(NullFormatter())
     levels = [level for level in field.levels if values.min() < level < values.max()]
     if levels:
         lines = axes.contour(field.x, field.y, values, levels, colors="white", linewidths=1.0, zorder=2)
@@ -260,7 +279,8 @@ def _label(axes: Any, mark: Mark) -> None:
     low, high = axes.get_xlim() if mark.axis == "x" else axes.get_ylim()
     if not mark.label or not low <= mark.value <= high:
         return
-    style = {"fontsize": 9.5, "color": SOFT, "zorder": 6, "textcoords": "offset points"}
+    paper = {"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.8}
+    style = {"fontsize": 9.5, "color": SOFT, "zorder": 6, "textcoords": "offset points", "bbox": paper}
     if mark.axis == "x":
         place, coordinates = (mark.value, 0.985), ("data", "axes fraction")
         axes.annotate(mark.label, place, (2, 0), coordinates, rotation=90, va="top", ha="left", **style)
@@ -278,8 +298,10 @@ def _legend(axes: Any, panel: Panel) -> None:
         axes.legend(handles[order], labels[order], loc="center left", bbox_to_anchor=(1.01, 0.5))
     elif panel.shape == "polar":
         axes.legend(handles, labels, loc="upper left", bbox_to_anchor=(-0.3, 1.08))
-    elif panel.field is not None:
-        axes.legend(handles, labels, loc="upper left", bbox_to_anchor=(0.0, 1.13), borderaxespad=0.0)
+    elif panel.field is not None or panel.shape == "plane":
+        # What is drawn may be anywhere: the legend stands below.
+        columns = 1 if max(map(len, labels)) > _TITLE // 2 else 2
+        axes.legend(handles, labels, loc="upper left", bbox_to_anchor=(-0.05, -0.2), borderaxespad=0.0, ncols=columns)
     else:
         legend = axes.legend(handles, labels, loc="best")
         legend.set_zorder(7)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field as Declared
 
 from lambda_core.plugins import (
@@ -24,8 +27,6 @@ from lambda_plugins.views.friction import PER_RING, REST
 
 _CURVES = 9  # curves in a panel
 _BREAKDOWN = "friction_breakdown_Nmm."
-
-
 _STEADINESS = "cage_speed_deviation"  # the response that the stability map judges unless told otherwise
 _MECHANISMS = (*PER_RING, *REST)
 
@@ -200,7 +201,7 @@ def friction_stack(table: StudyTable, options: Choice) -> ViewData:
     """Friction torque by mechanism, stacked over one parameter."""
     parts = [c for c in table.responses if c.name.startswith(_BREAKDOWN) and np.isfinite(c.numbers()).any()]
     if not parts:
-        raise NotApplicable('the study has no responses "friction_breakdown.*": ask for "friction_breakdown"')
+        raise NotApplicable('the study has no responses "friction_breakdown_Nmm": ask for them')
     numeric = _numeric(table)
     if not numeric:
         raise NotApplicable("no numeric parameter varies in this study")
@@ -210,7 +211,11 @@ def friction_stack(table: StudyTable, options: Choice) -> ViewData:
         raise NotApplicable("the points are scattered: a stack needs values along one parameter")
     panels = []
     shown = list(groups.items())
-    for label, rows in shown if len(shown) <= 4 else [shown[0], shown[len(shown) // 2], shown[-1]]:
+    left_out = sum(not _has_result(parts, row) for row in range(len(table)))
+    for label, group in shown if len(shown) <= 4 else [shown[0], shown[len(shown) // 2], shown[-1]]:
+        rows = [row for row in group if _has_result(parts, row)]
+        if len(rows) < 2:
+            continue
         places = x.numbers()[rows]
         order = np.argsort(places)
         merged: dict[str, FloatArray] = {}
@@ -233,7 +238,20 @@ def friction_stack(table: StudyTable, options: Choice) -> ViewData:
                 stacked=True,
             )
         )
-    return ViewData("friction-stack", "Friction torque by mechanism", _source(table), tuple(panels), 2)
+    if not panels:
+        raise NotApplicable("fewer than two points along the parameter have a result")
+    notes = (f"{left_out} points without a result are left out",) if left_out else ()
+    return ViewData("friction-stack", "Friction torque by mechanism", _source(table), _levelled(panels), 2, notes)
+
+
+def _has_result(parts: list[Column], row: int) -> bool:
+    return any(part.values[row] is not None for part in parts)
+
+
+def _levelled(panels: list[Panel]) -> tuple[Panel, ...]:
+    """Give stacked panels one height, so that they can be compared."""
+    top = 1.05 * max(float(np.sum([s.y for s in panel.series], axis=0).max()) for panel in panels)
+    return tuple(replace(panel, y=replace(panel.y, high=top)) for panel in panels)
 
 
 def sensitivity(table: StudyTable, options: Choice) -> ViewData:
@@ -261,7 +279,7 @@ def _tornado(response: Column, found: Sensitivity) -> Panel:
         Series(first, places, np.array(found.first), "bars", "inner"),
         Series(second, places, np.array(found.second), "bars", "outer"),
     )
-    title = response.label + (f", linear part {100.0 * found.fit:.3g} %" if found.fit is not None else "")
+    title = response.label + (f"\nlinear part {100.0 * found.fit:.3g} %" if found.fit is not None else "")
     return Panel(title, Axis("", categories=found.labels), Axis("sensitivity"), series, (Mark("", 0.0),))
 
 
@@ -274,10 +292,9 @@ def stability_map(table: StudyTable, options: Threshold) -> ViewData:
     if not np.isfinite(mesh).any():
         raise NotApplicable("no point of this study has a result yet")
     px, py, values = x.numbers(), y.numbers(), response.numbers()
-    stable = values <= options.limit
     series = (
-        Series("stable", px[stable], py[stable], "points", "inner"),
-        Series("unstable", px[values > options.limit], py[values > options.limit], "points", "outer"),
+        *_judged("stable", px, py, values <= options.limit, "inner"),
+        *_judged("unstable", px, py, values > options.limit, "outer"),
         *_failed(table, x, y),
     )
     field = Field(
@@ -293,6 +310,10 @@ def stability_map(table: StudyTable, options: Threshold) -> ViewData:
     return ViewData(
         "stability-map", "Stability", _source(table), (panel,), 1, (f"stable: {response.label} <= {options.limit:g}",)
     )
+
+
+def _judged(name: str, x: FloatArray, y: FloatArray, chosen: NDArray[np.bool_], role: str) -> tuple[Series, ...]:
+    return (Series(name, x[chosen], y[chosen], "points", role),) if chosen.any() else ()
 
 
 VIEWS = (

@@ -1,0 +1,8 @@
+"""Tests of views share helpers that are modules of their own."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))

@@ -1,0 +1,39 @@
+"""Nothing that people read lies on something else that they read: titles, legends, labels of axes and of marks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from collisions import collisions, no_collision
+
+from lambda_core.registry.manager import registry
+from lambda_core.report.gallery import data_of
+
+if TYPE_CHECKING:
+    from lambda_core.simulate.results import Result
+
+OF_A_RESULT = [name for name, view in registry().views.items() if view.subject == "result"]
+
+
+@pytest.mark.parametrize("name", OF_A_RESULT)
+def test_texts_of_a_view_keep_apart(radial_run: Result, combined_run: Result, name: str) -> None:
+    for run in (radial_run, combined_run):
+        no_collision(data_of(registry().view(name), run, {}))
+
+
+def test_texts_of_a_comparison_keep_apart(radial_run: Result, combined_run: Result) -> None:
+    no_collision(data_of(registry().view("comparison"), [radial_run, combined_run], {}))
+
+
+def test_a_collision_is_found() -> None:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure: Any = Figure()
+    FigureCanvasAgg(figure)
+    axes = figure.add_subplot()
+    axes.set_title("slip", loc="left")
+    axes.plot([0, 1], label="no slip along rolling")
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.0)
+    assert collisions(figure) == ["title of panel 0 and legend of panel 0"]
