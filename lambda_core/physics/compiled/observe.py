@@ -188,15 +188,18 @@ def contact_capacitance(which, q, laws, bundle, shorted, channels):
 
 @helper
 def gap_capacitance(system, which, gap):
-    """Return the capacitance of a ball and a raceway that do not touch, gap [m] apart [F].
+    """Return the capacitance [F] of a ball and a raceway that stand `gap` [m] apart, in vacuum.
 
-    Paraboloid gap h + x^2/(2 R_x) + y^2/(2 R_y) integrated over an ellipse that reaches
-    a tenth of the ball's radius along rolling, permittivity of a typical oil left out: see caller.
+    Plates in each element (Derjaguin 1934): dA/(h + x^2/(2 R_x) + y^2/(2 R_y)) over the ball's projection, in closed
+    form 4 pi sqrt(R_x R_y) ln{[sqrt(h_x/R_y) + sqrt(h_y/R_x)]/[sqrt(h/R_y) + sqrt(h/R_x)]}, h_x = h + R_b^2/(2 R_x).
+    The edge is that of the law `gap-integral`, which this meets at vanishing load. Surfaces are no closer than their
+    roughness.
     """
-    reach = 0.1 * system.ball_radius
-    rise = reach * reach / (2.0 * system.radius_x[which])
-    area = 2.0 * math.pi * math.sqrt(system.radius_x[which] * system.radius_y[which])
-    return VACUUM_PERMITTIVITY * area * math.log(1.0 + rise / max(gap, 1e-9))
+    h, s = max(gap, system.roughness), system.ball_radius * system.ball_radius
+    rx, ry = system.radius_x[which], system.radius_y[which]
+    edge = math.sqrt((h + 0.5 * s / rx) / ry) + math.sqrt((h + 0.5 * s / ry) / rx)
+    middle = math.sqrt(h / ry) + math.sqrt(h / rx)
+    return VACUUM_PERMITTIVITY * 4.0 * math.pi * math.sqrt(rx * ry) * math.log(edge / middle)
 
 
 @helper
