@@ -1,0 +1,108 @@
+"""Which test of this folder holds each built-in law against a published or an exact value: no law is left out."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from lambda_core.registry.collect import OWN
+from lambda_core.registry.manager import registry
+from lambda_core.registry.roles import ROLES
+
+FOLDER = Path(__file__).parent
+CONTACT, LUBRICANT, FRICTION = "test_models_contact", "test_models_lubricant", "test_models_friction"
+LOSSES, CAPACITANCE, SURFACE = "test_models_losses", "test_models_capacitance", "test_models_surface"
+CLOSED = "test_models_closed_form"
+BLOW, NOTHING = (CLOSED, "test_a_blow_against_a_guide_lasts_half_a_period"), (CLOSED, "test_none_is_nothing")
+
+# role/name of every law: (module, test) that calls it.
+CHECKED: dict[str, tuple[str, str]] = {
+    "normal_contact/hamrock-brewe": (CONTACT, "test_error_of_the_hamrock_brewe_fit_is_the_stated_one"),
+    "normal_contact/hertz-exact": (CONTACT, "test_exact_hertz_meets_the_table_of_dimensionless_numbers"),
+    "damping/cubic": (CLOSED, "test_cubic_damping"),
+    "damping/none": NOTHING,
+    "rheology/vogel-dicke": (LUBRICANT, "test_fva3_viscosity"),
+    "rheology/bode": (LUBRICANT, "test_bode_viscosity"),
+    "rheology/roelands": (LUBRICANT, "test_roelands_meets_its_pole_pressure_and_viscosity"),
+    "rheology/barus-limited": (LUBRICANT, "test_generic_oil_passes_its_two_points"),
+    "film_thickness/chittenden": (CONTACT, "test_film_of_the_6208"),
+    "film_thickness/hamrock-dowson": (CONTACT, "test_film_of_the_6208"),
+    "thermal_correction/murch-wilson": (CONTACT, "test_murch_wilson_closed_form"),
+    "thermal_correction/zhu-cheng": (CLOSED, "test_zhu_and_chengs_factor"),
+    "thermal_correction/none": (CLOSED, "test_no_thermal_correction_leaves_the_film"),
+    "contact_temperature/shear-heating": (FRICTION, "test_flash_temperature_of_a_band_source"),
+    "contact_temperature/isothermal": (CLOSED, "test_isothermal_film_has_the_inlets_temperature"),
+    "traction/ree-eyring": (FRICTION, "test_mean_shear_stress_of_a_typical_traction_curve"),
+    "traction/bair-winer": (CLOSED, "test_bair_and_winers_flow_curve"),
+    "traction/newtonian": (CLOSED, "test_newtonian_film_is_couette_flow"),
+    "rolling_resistance/biboulet-houpert": (FRICTION, "test_rolling_torque_of_the_6319"),
+    "rolling_resistance/goksem-hargreaves": (FRICTION, "test_rolling_torque_of_the_6319"),
+    "rolling_resistance/none": NOTHING,
+    "elastic_hysteresis/loss-factor": (FRICTION, "test_loss_factor_is_the_work_on_the_front_half_of_the_contact"),
+    "elastic_hysteresis/houpert": (FRICTION, "test_houpert_corresponds_to_published_loss_factors"),
+    "elastic_hysteresis/scheuermann": (CLOSED, "test_scheuermanns_power"),
+    "elastic_hysteresis/none": NOTHING,
+    "asperity_load/zhou-hoeprich": (FRICTION, "test_load_share_of_the_sister_model"),
+    "asperity_load/none": NOTHING,
+    "boundary_friction/cubic": (CLOSED, "test_teutschs_cubic_coefficient"),
+    "boundary_friction/coulomb-regularised": (CLOSED, "test_regularised_coulomb_friction"),
+    "cage_contact/spherical-pocket": BLOW,
+    "cage_contact/cylindrical-pocket": BLOW,
+    "cage_contact/land-guidance": BLOW,
+    "cage_contact/ball-ball": BLOW,
+    "cage_contact/none": NOTHING,
+    "fluid_drag/skf-catalogue": (LOSSES, "test_skf_drag_of_the_6319"),
+    "fluid_drag/schaeffler-catalogue": (LOSSES, "test_schaeffler_idle_torque_of_the_6319"),
+    "fluid_drag/sphere-drag": (LOSSES, "test_standard_drag_curve"),
+    "fluid_drag/none": NOTHING,
+    "permittivity/bode": (LUBRICANT, "test_bode_permittivity"),
+    "permittivity/constant": (CLOSED, "test_constant_permittivity_is_what_was_given"),
+    "capacitance/schneider": (CAPACITANCE, "test_schneider_factor"),
+    "capacitance/constant-factor": (CAPACITANCE, "test_constant_factor"),
+    "capacitance/gap-integral": (CAPACITANCE, "test_capacitance_of_two_spheres_without_contact_pressure"),
+    "surface/none": NOTHING,
+    "surface/waviness": (SURFACE, "test_waves_as_many_as_balls_move_the_ring_along_its_axis"),
+    "surface/defect": (SURFACE, "test_a_ball_drops_into_a_gap_as_far_as_a_circle_on_two_edges"),
+}
+
+
+def test_every_built_in_law_is_on_the_list() -> None:
+    laws = {
+        f"{role}/{name}"
+        for role in ROLES
+        for name in registry().names(role)
+        if registry().origin(role, name).split(" ")[0] == OWN
+    }
+    assert set(CHECKED) == laws
+
+
+@pytest.mark.parametrize("label", CHECKED)
+def test_the_test_exists_and_names_the_law(label: str) -> None:
+    """The test, with the tables and helpers that it uses in its module, says the law's role and its name."""
+    module, test = CHECKED[label]
+    text = (FOLDER / f"{module}.py").read_text(encoding="utf-8")
+    defined = {name: node for node in ast.parse(text).body for name in _names(node)}
+    assert test in defined, f"{module} has no {test}"
+    used, said = [test], ""
+    for name in used:
+        node = defined[name]
+        said += ast.get_source_segment(text, node) or ""
+        said += "".join(ast.get_source_segment(text, each) or "" for each in getattr(node, "decorator_list", []))
+        used += [
+            each.id
+            for each in ast.walk(node)
+            if isinstance(each, ast.Name) and each.id in defined and each.id not in used
+        ]
+    role, name = label.split("/")
+    assert role in said
+    assert name in said
+
+
+def _names(node: ast.stmt) -> list[str]:
+    """Return the names that a statement of a module defines."""
+    if isinstance(node, ast.FunctionDef | ast.ClassDef):
+        return [node.name]
+    targets = node.targets if isinstance(node, ast.Assign) else [node.target] if isinstance(node, ast.AnnAssign) else []
+    return [target.id for target in targets if isinstance(target, ast.Name)]
