@@ -27,6 +27,8 @@ TEMPLATE = "page.html.jinja"
 _ROWS = 1000  # of a study's table
 # Views that stand in a chapter of their own.
 _TRUST = ("convergence", "energy-balance")
+# Sections of a case whose entries are parts: materials.inner, forces.ball_inner ...
+_IN_PARTS = ("materials", "forces", "bodies")
 _CONTACT = "contacts at the end state"
 
 
@@ -175,7 +177,15 @@ def _render(**context: Any) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["breakable"] = _breakable
     return environment.get_template(TEMPLATE).render({"definition": "", **context})
+
+
+def _breakable(path: str) -> Any:
+    """Let a long path of an option break after its dots and underscores."""
+    from markupsafe import Markup
+
+    return Markup(re.sub(r"([._])", r"\1<wbr>", escape(path)))
 
 
 def _pictures(registry: Registry, subject: Any, kind: Any) -> list[Picture]:
@@ -271,18 +281,33 @@ def _study_points(table: StudyTable) -> Table:
 
 
 def _value_tables(values: Iterable[ResolvedValue]) -> tuple[Table, ...]:
-    """Return the resolved values with their sources, a table for each section of the case."""
-    sections: dict[str, list[tuple[str, ...]]] = {}
+    """Return the resolved values with their sources, a table for each section of the case.
+
+    What parts of a section share (the material of rings and balls, the laws of both raceways) stands there once.
+    """
+    sections: dict[str, dict[tuple[str, ...], list[str]]] = {}
     for value in values:
         section, _, name = value.path.partition(".")
-        number = (
-            show(value.value, value.quantity, 6)
-            if value.quantity and isinstance(value.value, float)
-            else _text(value.value)
-        )
-        sections.setdefault(section, []).append((name or section, number, value.status, value.source, value.grade))
+        part = ""
+        if section in _IN_PARTS:
+            part, _, name = name.partition(".")
+        row = (name or section.removesuffix("s"), _shown(value), value.status, value.source, value.grade)
+        sections.setdefault(section, {}).setdefault(row, []).append(part.replace("_", " "))
     head = ("", "value", "status", "source", "grade")
-    return tuple(Table(section, head, tuple(rows)) for section, rows in sections.items())
+    return tuple(
+        Table(
+            section, ("", "of", *head[1:]), tuple((row[0], ", ".join(parts), *row[1:]) for row, parts in rows.items())
+        )
+        if section in _IN_PARTS
+        else Table(section, head, tuple(rows))
+        for section, rows in sections.items()
+    )
+
+
+def _shown(value: ResolvedValue) -> str:
+    if value.quantity and isinstance(value.value, float):
+        return show(value.value, value.quantity, 6)
+    return _text(value.value)
 
 
 def _law_table(laws: Sequence[Mapping[str, str]]) -> Table:

@@ -28,7 +28,7 @@ class Page(HTMLParser):
         self.words: list[str] = []
         self.addresses: list[str] = []
         self.tags: list[str] = []
-        self.feed(text)
+        self.feed(text.replace("<wbr>", ""))
         assert self.open == []
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
@@ -84,7 +84,9 @@ def test_every_input_has_its_source_and_every_assumption_is_there(page: Page, ra
     for assumption in radial_run.assumptions:
         assert " ".join(assumption.split()) in page.text
     for value in radial_run.values:
-        assert value.path.partition(".")[2] in page.text
+        section, _, name = value.path.partition(".")
+        name = name.partition(".")[2] if section in ("materials", "forces", "bodies") else name
+        assert name in page.text
         assert " ".join(value.source.split()) in page.text
 
 

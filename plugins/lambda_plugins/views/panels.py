@@ -181,7 +181,7 @@ def _field(axes: Any, field: Field) -> None:
         bar.ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         bar.ax.yaxis.set_minor_formatter(NullFormatter())
-    levels = [level for level in field.levels if values.min() < level < values.max()]
+    levels = [] if coarse else [level for level in field.levels if values.min() < level < values.max()]
     if levels:
         lines = axes.contour(field.x, field.y, values, levels, colors="white", linewidths=1.0, zorder=2)
         axes.clabel(lines, fontsize=9, fmt="%g")
