@@ -180,7 +180,11 @@ def _contact_columns(ball, ring, which, bundle, bl):
             bl.ball[i] = ball[i]
         bl.ball[c] += step
         if contact_kinematics(bl.ball, ring, which, bundle, scratch[KIN2]) <= 0.0:
-            continue
+            # The step leaves a lightly loaded contact, which deserves its stiffness all the same: step back instead.
+            step = -step
+            bl.ball[c] = ball[c] + step
+            if contact_kinematics(bl.ball, ring, which, bundle, scratch[KIN2]) <= 0.0:
+                continue
         wrench_at(scratch[KIN2], scratch[KIN], scratch[WRENCH], bl.slope, scratch[WRENCH2])
         fm[2, :] = 0.0
         apply_wrench(scratch[KIN2], scratch[WRENCH2], fm[2], fm[3])
@@ -196,7 +200,10 @@ def _contact_columns(ball, ring, which, bundle, bl):
             bl.body[i] = ring[i]
         bl.body[c] += step
         if contact_kinematics(ball, bl.body, which, bundle, scratch[KIN2]) <= 0.0:
-            continue
+            step = -step
+            bl.body[c] = ring[c] + step
+            if contact_kinematics(ball, bl.body, which, bundle, scratch[KIN2]) <= 0.0:
+                continue
         wrench_at(scratch[KIN2], scratch[KIN], scratch[WRENCH], bl.slope, scratch[WRENCH2])
         fm[2, :] = 0.0
         apply_wrench(scratch[KIN2], scratch[WRENCH2], fm[2], fm[3])
