@@ -20,7 +20,7 @@ from lambda_core.api.cases import (
 )
 from lambda_core.api.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins
 from lambda_core.api.pictures import animate, draw, report, view, view_all, view_stem, views
-from lambda_core.api.runs import cite, compare, estimate, quasistatic, result, resume, run, summary, warmup
+from lambda_core.api.runs import cite, compare, cross_check, estimate, quasistatic, result, resume, run, summary, warmup
 from lambda_core.api.studies import (
     reproduce,
     study_check,
@@ -44,6 +44,7 @@ __all__ = [
     "check_plugins",
     "cite",
     "compare",
+    "cross_check",
     "describe",
     "draft",
     "draw",

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from lambda_core.schema.case import Case
     from lambda_core.simulate.citation import Citation
     from lambda_core.simulate.comparison import Comparison
+    from lambda_core.simulate.crosscheck import CrossCheck
     from lambda_core.simulate.estimate import Estimate
     from lambda_core.simulate.progress import Progress
     from lambda_core.simulate.quasistatic import QuasiStatic
@@ -274,6 +275,44 @@ def compare(
     simulated = None if result is None else Result(result)
     chosen = [known[name] for name in methods or known]
     return comparison_of(model, ask(model, chosen, contamination=contamination, announce=announce), simulated)
+
+
+def cross_check(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    free_cage: bool = False,
+    announce: Callable[[str], None] | None = None,
+) -> CrossCheck:
+    """Integrate a case with the program's integrator and with SUNDIALS CVODE, and compare.
+
+    Needs the extra ``sundials``.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    free_cage : bool
+        Leave the cage free and compare mean powers; otherwise it is led along its kinematic path, where single
+        trajectories can be compared.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    CrossCheck
+        Dissipated powers, how far the states are apart, and whether the two agree.
+
+    Raises
+    ------
+    UsageError
+        When scikit-sundae is not installed.
+    CaseError, SolverError
+        With a sentence about the case, or about which integrator could not go on.
+    """
+    from lambda_core.simulate.crosscheck import cross_check as ask
+
+    return ask(model_of(source, overrides), free_cage=free_cage, announce=announce)
 
 
 def warmup(*, announce: Callable[[str], None] | None = None) -> Warmup:

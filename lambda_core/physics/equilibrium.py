@@ -273,6 +273,8 @@ def fault_sentence(assembly: A.Assembly, time: float | None = None) -> str:
         what = "raised an exception"
     else:
         what = f"returned status {status}: {model.errors.get(status, 'not declared')}"
-    place = f"ball {ball}, {element.replace('_', ' - ')}" + (f", t = {time:.6g} s" if time is not None else "")
+    place = element.replace("_", " - ") + (f", t = {time:.6g} s" if time is not None else "")
+    if element not in ("cage_inner", "cage_outer"):
+        place = f"ball {ball + 1}, {place}"
     inputs = ", ".join(f"{v:.6g}" for v in fault[4:8])
     return f"{model.label} {what} ({place}; inputs {inputs})"

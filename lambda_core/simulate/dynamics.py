@@ -117,6 +117,11 @@ class BearingEngine:
             blocks = [self._observe(np.zeros(0), self._memory.sample_y)]
         return {c.name: np.concatenate([block[c.name] for block in blocks]) for c in CHANNELS}
 
+    def buffered(self) -> tuple[FloatArray, FloatArray]:
+        """Return times and states of the samples that no one has taken yet, shapes (n,) [s] and (n, size)."""
+        n = int(self._memory.count[bdf.SAMPLES])
+        return self._memory.sample_t[:n].copy(), self._memory.sample_y[:n].copy()
+
     def _drain(self) -> None:
         """Turn buffered states into channels."""
         n = int(self._memory.count[bdf.SAMPLES])
