@@ -1,0 +1,73 @@
+"""The page of exchanged laws: no law left out, and the numbers are those of today's program."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from benchmarks.exchange import EXCHANGES, PAGE, main, overrides, quasistatic_torque
+from lambda_core import api
+from lambda_core.registry.collect import OWN
+from lambda_core.registry.manager import registry
+from lambda_core.registry.roles import ROLES
+
+
+def of_role(role: str) -> list[str]:
+    return [name for name in registry().names(role) if registry().origin(role, name).split(" ")[0] == OWN]
+
+
+def test_every_built_in_law_of_every_role_is_exchanged() -> None:
+    assert [exchange.role for exchange in EXCHANGES] == list(ROLES)
+    for exchange in EXCHANGES:
+        assert sorted(law.name for law in exchange.laws) == sorted(of_role(exchange.role))
+
+
+def sections() -> dict[str, dict[str, list[str]]]:
+    """Role -> law -> the cells of its line on the page."""
+    found: dict[str, dict[str, list[str]]] = {}
+    for part in PAGE.read_text(encoding="utf-8").split("\n## ")[1:]:
+        role, _, rest = part.partition("\n")
+        rows = [line.strip("| ").split(" | ") for line in rest.splitlines() if line.startswith("| ")][1:]
+        found[role] = {cells[0].strip("*"): cells[1:] for cells in rows}
+    return found
+
+
+def test_every_law_is_on_the_page() -> None:
+    found = sections()
+    for exchange in EXCHANGES:
+        assert list(found[exchange.role]) == [law.name for law in exchange.laws]
+        assert all(len(cells) == 7 for cells in found[exchange.role].values())
+
+
+@pytest.mark.parametrize("exchange", EXCHANGES, ids=lambda exchange: exchange.role)
+def test_the_choice_reaches_the_force_elements(exchange: object) -> None:
+    for law in exchange.laws:  # type: ignore[attr-defined]
+        model = api.check("6319-cp10-1500", overrides(exchange, law))  # type: ignore[arg-type]
+        names = [roles[exchange.role].model.name for roles in model.laws.values() if exchange.role in roles]  # type: ignore[attr-defined]
+        assert law.name in names
+
+
+@pytest.mark.parametrize("role", ["film_thickness", "elastic_hysteresis", "traction", "asperity_load", "fluid_drag"])
+def test_the_page_is_of_today(role: str) -> None:
+    """Quasi-static torque of every law of some roles, against the page: python -m benchmarks.exchange --write."""
+    exchange = next(each for each in EXCHANGES if each.role == role)
+    rows = sections()[role]
+    base = quasistatic_torque(overrides(exchange, exchange.laws[0]))
+    assert base == pytest.approx(float(rows[exchange.laws[0].name][0]), rel=1e-3)
+    for law in exchange.laws[1:]:
+        text = rows[law.name][0]
+        printed = 0.0 if text == "=" else float(re.sub("[ %]", "", text))
+        change = 100.0 * (quasistatic_torque(overrides(exchange, law)) / base - 1.0)
+        assert change == pytest.approx(printed, abs=0.1 + 0.01 * abs(change))
+
+
+def test_one_role_alone_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["contact_temperature"]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("## contact_temperature\n")
+    assert "| **shear-heating** |" in out
+    assert "| isothermal |" in out
+    with pytest.raises(SystemExit):
+        main(["tracton"])
+    assert "there is no role tracton" in capsys.readouterr().err
