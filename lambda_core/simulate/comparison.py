@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from lambda_core.simulate.results import Result
 
 SIMULATION = "simulation"
+_ROUNDING, _NOTHING = 1e-8, 1e-12  # of numbers for people; JSON has them all
 _COLUMN, _NAME, _PARTS = 14, 34, ("rolling", "sliding", "drag")
 # Mechanisms of the simulation under the names that catalogues print.
 _SUMS = {"rolling": ("rolling", "hysteresis"), "sliding": ("sliding", "spin", "boundary"), "drag": ("drag",)}
@@ -159,11 +160,19 @@ def _group_lines(group: str, methods: Sequence[ComparedMethod]) -> list[str]:
     keys = dict.fromkeys(key for _, numbers in columns for key in numbers)
     width = max(_COLUMN, *(len(name) + 2 for name, _ in columns))
     lines = ["", f"{group:<{_NAME}}" + "".join(f"{name:>{width}}" for name, _ in columns)]
+    largest = dict.fromkeys((unit for _, unit in keys), 0.0)
+    for (_, unit), value in (item for _, numbers in columns for item in numbers.items()):
+        largest[unit] = max(largest[unit], abs(value or 0.0))
     for name, unit in keys:
-        cells = "".join(f"{_cell(numbers.get((name, unit))):>{width}}" for _, numbers in columns)
+        cells = "".join(f"{_cell(numbers.get((name, unit)), largest[unit]):>{width}}" for _, numbers in columns)
         lines.append(f"  {f'{name} [{unit}]' if unit != '-' else name:<{_NAME - 2}}{cells}")
     return lines
 
 
-def _cell(value: float | None) -> str:
-    return "" if value is None else f"{value:.4g}" if abs(value) < 1e4 else f"{value:.5g}"
+def _cell(value: float | None, largest: float) -> str:
+    """Write one number; what is nothing beside the largest of its unit, or at all, is rounding and written as 0."""
+    if value is None:
+        return ""
+    if abs(value) < max(_ROUNDING * largest, _NOTHING):
+        return "0"
+    return f"{value:.4g}" if abs(value) < 1e4 else f"{value:.5g}"
