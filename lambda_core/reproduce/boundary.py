@@ -12,11 +12,13 @@ CRITERIA = ("S", "T")
 # S: share by which the rms speed deviation changes; T: growth of the share of time under load outside the zone.
 LIMITS = {"S": 0.2, "T": 0.05}
 STANDARD_ERRORS = 3.0
-FIRST = (4.0, 16.0)  # acceleration amplitudes tried first [m/s2]
-STEP = 4.0  # factor to the next amplitude while a ray has no bracket
-ENDS = (0.05, 2000.0)  # amplitudes between which a boundary is looked for [m/s2]
+FIRST = (20.0, 40.0)  # acceleration amplitudes tried first [m/s2]
+STEP = 2.0  # factor to the next amplitude while a ray has no bracket
+ENDS = (0.5, 500.0)  # amplitudes between which a boundary is looked for [m/s2]
 CASE = "6220-excited"
-TURNS, DISCARDED = 10.0, 1.0  # cage turns averaged and before
+# Cage turns averaged, those of the run without excitation that every ray is compared with, and those before.
+TURNS, STILL_TURNS, DISCARDED = 10.0, 40.0, 1.0
+CAGE = "steel-ribbon"  # what the designation 6220 without a suffix stands for (SKF); others have one, as M for brass
 _GAMMA = 25.4 / 140.0  # of the 6220, for the nominal cage speed
 
 
@@ -52,7 +54,7 @@ class Setting:
         The motion X (cos(2 pi f t) - 1) starts from rest where the rings' equilibrium is.
         """
         turn = 1.0 / self.cage_frequency
-        motion, duration = "locked", (TURNS + DISCARDED) * turn
+        motion, duration = "locked", (STILL_TURNS + DISCARDED) * turn
         if acceleration > 0.0:
             amplitude = acceleration / (2.0 * math.pi * frequency) ** 2
             duration = DISCARDED * turn + math.ceil(TURNS * turn * frequency - 1e-9) / frequency
@@ -69,6 +71,7 @@ class Setting:
             "depth.strips=15",
             f"bodies.outer_ring.x={motion}",
             f"bodies.inner_ring.x={inner}",
+            f"bodies.cage.type={CAGE}",
             # A shaft on two bearings does not rock about the loaded balls of one.
             "bodies.inner_ring.tilt_y=locked",
             "bodies.inner_ring.tilt_z=locked",

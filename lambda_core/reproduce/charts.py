@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.registry.chart import Axis, Panel, Series, ViewData
-from lambda_core.reproduce.fig5 import Fig5
+from lambda_core.reproduce.fig5 import BoundaryPoint, Fig5
 from lambda_core.reproduce.fig7 import Fig7
 from lambda_core.reproduce.published import METHODS, PAPER, POINTS, SPEEDS, TABLE_4
 from lambda_core.reproduce.table4 import Table4
@@ -75,14 +77,29 @@ def fig5_chart(found: Fig5) -> ViewData:
                 )
             )
             series.append(Series(f"{load / 1e3:g} kN", frequency, mid, "line", "", low, high, "bracket"))
+        series.append(_slope_of_one(mine))
         title = f"variant {variant}, {_CRITERIA[criterion]}"
         axes = Axis("frequency", "Hz", log=True), Axis("excitation velocity", "m/s", log=True)
         panels.append(Panel(title, *axes, tuple(series)))
-    lowest = min(r.frequency_Hz for r in found.resonances)
-    notes = (f"bands: the bisection's brackets; lowest axial resonance {lowest:.0f} Hz", *found.notes[:1])
+    rings, cage = (min(values) for values in zip(*((r.frequency_Hz, r.cage_Hz) for r in found.resonances), strict=True))
+    low_end, high_end = found.frequency_range_Hz
+    notes = (
+        f"bands: the bisection's brackets; slopes are those from {low_end:g} to {high_end:g} Hz",
+        f"lowest axial resonance of the cage on the unloaded balls {cage:.0f} Hz, of the rings {rings:.0f} Hz",
+        *found.notes[:1],
+    )
     return ViewData(
         "fig5", "Boundary of altered running of the 6220", f"after {PAPER}, Fig. 5", tuple(panels), 2, notes
     )
+
+
+def _slope_of_one(points: Sequence[BoundaryPoint]) -> Series:
+    """A line of constant acceleration through the middle of the declared points, to compare slopes with."""
+    found = [p.acceleration_m_per_s2 for p in points if p.declared and p.acceleration_m_per_s2 is not None]
+    acceleration = float(np.exp(np.mean(np.log(found)))) if found else 1.0
+    frequency = _array(sorted({p.frequency_Hz for p in points}))
+    velocity = acceleration / (2.0 * np.pi * frequency)
+    return Series(f"slope -1: {acceleration:.0f} m/s2", frequency, velocity, "line", "reference")
 
 
 def fig7_chart(found: Fig7) -> ViewData:

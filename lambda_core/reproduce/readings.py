@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,10 +12,13 @@ from numpy.typing import NDArray
 from lambda_core.physics.channels import LOSSES, RINGS
 from lambda_core.physics.model import BearingModel, Solver
 from lambda_core.physics.time_functions import initial
-from lambda_core.reproduce.stability import stability
+from lambda_core.reproduce.stability import half_zone, stability
 from lambda_core.simulate.convergence import window
 from lambda_core.simulate.results import Result
 from lambda_core.simulate.summary import CARRYING
+
+if TYPE_CHECKING:
+    from lambda_core.physics.equilibrium import Equilibrium
 
 FloatArray = NDArray[np.float64]
 Numbers = dict[str, float | None]
@@ -114,7 +118,8 @@ def axial_resonance(model: BearingModel) -> Numbers:
     """Axial stiffness about the equilibrium and the natural frequency of the inner ring with its shaft on it [Hz].
 
     Of the bearing under its static load; where the rings share their axial motion it is the frequency that the
-    inner ring would have.
+    inner ring would have. Beside it what only centrifugal force holds axially, in the outer groove: a ball that
+    rolls across it (mass 7/5 m, as for any solid sphere), and the cage on all unloaded balls, without play.
     """
     from lambda_core.physics.equilibrium import solve
     from lambda_core.physics.stiffness import stiffness_matrix
@@ -123,13 +128,30 @@ def axial_resonance(model: BearingModel) -> Numbers:
     found = solve(model, kernels_of(model))
     stiffness = stiffness_matrix(found)[0][0]
     speed = initial(model.inner_ring.dofs["spin"].motion)
+    ball, cage = _held_by_centrifugal_force(found)
     return {
+        "ball_Hz": ball,
+        "cage_Hz": cage,
         "stiffness_N_per_um": 1e-6 * stiffness,
         "resonance_Hz": math.sqrt(stiffness / model.inner_ring.mass) / (2.0 * math.pi),
         "mass_kg": model.inner_ring.mass,
         "orbit_Hz": abs(found.orbit) / (2.0 * math.pi),
         "speed_rpm": speed * 30.0 / math.pi,
     }
+
+
+def _held_by_centrifugal_force(found: Equilibrium) -> tuple[float, float]:
+    """Return the axial natural frequencies of an unloaded ball and of the cage on all unloaded balls [Hz]."""
+    model = found.assembly.model
+    geometry, cage = model.geometry, model.cage_body
+    mass = model.ball_material.density * math.pi / 6.0 * geometry.ball_diameter**3
+    force = mass * 0.5 * geometry.pitch_diameter * found.orbit**2
+    stiffness = force / (geometry.groove_radius_outer - 0.5 * geometry.ball_diameter)
+    shift = math.hypot(found.displacement[1], found.displacement[2])
+    unloaded = geometry.ball_count * (1.0 - half_zone(shift, geometry.clearance) / math.pi)
+    rolling = 1.4 * mass
+    of_cage = unloaded * stiffness / (cage.mass + unloaded * rolling)
+    return math.sqrt(stiffness / rolling) / (2.0 * math.pi), math.sqrt(of_cage) / (2.0 * math.pi)
 
 
 def torque(result: Result) -> Numbers:

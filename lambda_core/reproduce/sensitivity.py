@@ -132,17 +132,18 @@ def _of_cage(workshop: Workshop, runs: Sequence[Answer]) -> list[Sensitivity]:
     mine = next(i for i, point in enumerate(POINTS) if point.case == _CAGE_CASE)
     varied = [entry for entry in P.blind_set() if entry.cage]
     answers = workshop.all(
-        [Job(_CAGE_CASE, P.changes({entry.path: end}), "torque") for entry in varied for end in entry.range]
+        [Job(_CAGE_CASE, P.changes({entry.path: end}), "torque") for entry in varied for end in ends_of(entry)]
     )
     blind, found = runs[mine]["torque"], []
     for i, entry in enumerate(varied):
+        first, last = ends_of(entry)
         low, high = (100.0 * (answer["torque"] / blind - 1.0) for answer in answers[2 * i : 2 * i + 2])
         found.append(
             Sensitivity(
                 name=entry.label,
                 value=entry.value,
-                low=entry.range[0],
-                high=entry.range[1],
+                low=first,
+                high=last,
                 low_change_pct=low,
                 high_change_pct=high,
                 low_error_pct=None,

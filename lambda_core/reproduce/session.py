@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Literal, get_args
 
@@ -30,7 +30,9 @@ class Reproduction(Record):
     fig5: Fig5 | None = None
     fig7: Fig7 | None = None
     files: list[str] = Field(description="figures and the page")
-    unconverged: list[str] = Field(description="runs whose torque or energy balance has not converged, with reasons")
+    unconverged: dict[str, list[str]] = Field(
+        description="by experiment: runs whose torque or energy balance has not converged, with reasons"
+    )
 
     def text(self) -> str:
         """Return bars, tables and notes for people."""
@@ -59,12 +61,15 @@ def reproduce(
         raise UsageError(unknown_name("experiment", what, get_args(What)))
     say = announce or (lambda sentence: None)
     found: dict[str, Table4 | Fig5 | Fig7] = {}
+    unconverged: dict[str, list[str]] = {}
     with Workshop(folder, workers or min(usable_cores(), MOST_WORKERS), progress) as workshop:
         for name, run in (("table4", table4), ("fig7", fig7), ("fig5", fig5)):
             if what in (name, "all"):
                 say(f"repeating {name}")
+                before = len(workshop.failures)
                 found[name] = run(workshop, quick=quick)
-        result = Reproduction.model_validate({**found, "files": [], "unconverged": workshop.failures})
+                unconverged[name] = workshop.failures[before:]
+        result = Reproduction.model_validate({**found, "files": [], "unconverged": unconverged})
     files = [str(path) for path in write(registry, chapters(result), folder)]
     return result.model_copy(update={"files": files})
 
@@ -76,17 +81,32 @@ def chapters(found: Reproduction) -> list[Chapter]:
         t = found.table4
         pictures = (charts.table4_chart(t), charts.sensitivity_chart(t))
         tables = (*text.table4_tables(t), text.blind_table())
-        notes = (f"90 % band: {t.band}", *t.notes)
+        notes = _notes(found, "table4", (f"90 % band: {t.band}", *t.notes))
         result.append(Chapter("table4", "Table 4: friction torque of the 6319", tuple(t.bars), pictures, tables, notes))
     if found.fig5 is not None:
         f = found.fig5
         title = "Fig. 5: altered running of the 6220"
         tables = text.fig5_tables(f)
-        result.append(Chapter("fig5", title, tuple(f.bars), (charts.fig5_chart(f),), tables, tuple(f.notes)))
+        result.append(
+            Chapter("fig5", title, tuple(f.bars), (charts.fig5_chart(f),), tables, _notes(found, "fig5", f.notes))
+        )
     if found.fig7 is not None:
         c = found.fig7
         title = "Fig. 7: capacitance of the 6208"
         result.append(
-            Chapter("fig7", title, tuple(c.bars), (charts.fig7_chart(c),), text.fig7_tables(c), tuple(c.notes))
+            Chapter(
+                "fig7",
+                title,
+                tuple(c.bars),
+                (charts.fig7_chart(c),),
+                text.fig7_tables(c),
+                _notes(found, "fig7", c.notes),
+            )
         )
     return result
+
+
+def _notes(found: Reproduction, name: str, notes: Sequence[str]) -> tuple[str, ...]:
+    """Return the notes of an experiment and, where runs have not converged, how many and why the first."""
+    wrong = found.unconverged.get(name, [])
+    return (*notes, *([f"{len(wrong)} runs have not converged, as {wrong[0]}"] if wrong else []))

@@ -1,7 +1,7 @@
 """How the balls outside the static load zone run: the two criteria of Fig. 5, read from a run.
 
 S: rms over azimuth of the mean of (orbital speed over kinematic speed - 1). T: share of time in which the
-inner ring presses a ball there. Both with a standard error by leaving out one cage turn after the other.
+inner ring presses a ball there. Both with a standard error by leaving out one tenth of the window after the other.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from lambda_core.simulate.results import Result
 FloatArray = NDArray[np.float64]
 
 BINS = 72  # over azimuth, 5 degrees each
-BLOCKS = 10  # of the window, about a cage turn each
+BLOCKS = 10  # of the window, whole cage turns or nearly so
 MARGIN = math.radians(5.0)  # beyond the edge of the load zone: the ring moves a little while balls pass
 _INNER = RINGS.index("inner")
 
@@ -38,18 +38,22 @@ class Zone:
         return np.asarray(away > self.half + MARGIN)
 
 
-def static_zone(result: Result) -> Zone:
-    """Return the load zone of the equilibrium that the run started from.
+def half_zone(shift: float, clearance: float) -> float:
+    """Return half the angle of the load zone [rad].
 
     cos(psi_l) = P_d/(2 delta_r), P_d the clearance and delta_r the radial displacement of the rings against each
     other: Harris and Kotzalas, Essential Concepts of Bearing Technology, 5th ed., eq. 7.12.
     """
+    if shift == 0.0:
+        return math.pi if clearance < 0.0 else 0.0
+    return math.acos(max(-1.0, min(1.0, 0.5 * clearance / shift)))
+
+
+def static_zone(result: Result) -> Zone:
+    """Return the load zone of the equilibrium that the run started from."""
     start = result.sample(0, ("body_position",))["body_position"]
     y, z = (float(start[0, i] - start[1, i]) for i in (1, 2))
-    shift, clearance = math.hypot(y, z), float(result.model["geometry"]["clearance"])
-    if shift == 0.0:
-        return Zone(0.0, math.pi if clearance < 0.0 else 0.0)
-    return Zone(math.atan2(z, y), math.acos(max(-1.0, min(1.0, 0.5 * clearance / shift))))
+    return Zone(math.atan2(z, y), half_zone(math.hypot(y, z), float(result.model["geometry"]["clearance"])))
 
 
 def excitation_frequency(result: Result) -> float:
@@ -77,10 +81,12 @@ def jackknife(sums: NDArray[Any], counts: NDArray[Any]) -> tuple[float, float]:
 
 
 def stability(result: Result) -> dict[str, float | None]:
-    """Return S, T and their standard errors over the last whole excitation periods of at least ten cage turns."""
+    """Return S, T and their standard errors over the whole excitation periods after the first cage turn."""
     zone, frequency = static_zone(result), excitation_frequency(result)
-    time, turn = result["time"], float(result.model["solver"]["duration"]) / (BLOCKS + 1)
-    window = math.ceil(BLOCKS * turn * frequency - 1e-6) / frequency if frequency > 0.0 else BLOCKS * turn
+    time, turn = result["time"], _cage_turn(result)
+    window = float(result.model["solver"]["duration"]) - turn
+    if frequency > 0.0:
+        window = math.floor(window * frequency + 1e-3) / frequency
     rows = time > time[-1] - window - 1e-12
     azimuth, load = result["ball_azimuth"][rows], result["load"][rows][:, :, _INNER]
     block = np.minimum(((time[rows] - time[rows][0]) / window * BLOCKS).astype(int), BLOCKS - 1)
@@ -103,6 +109,13 @@ def stability(result: Result) -> dict[str, float | None]:
         "cage_turns": window / turn,
         "wall_s": result.summary().wall_s,
     }
+
+
+def _cage_turn(result: Result) -> float:
+    """Return the time of one nominal cage turn [s]."""
+    geometry, spin = result.model["geometry"], result.sample(0, ("body_spin",))["body_spin"]
+    gamma = geometry["ball_diameter"] / geometry["pitch_diameter"]
+    return 2.0 * math.pi / abs(cage_speed(float(spin[0]), float(spin[1]), gamma))
 
 
 def _over_kinematic(result: Result, rows: NDArray[np.bool_]) -> FloatArray:

@@ -79,26 +79,34 @@ def blind_table() -> Table:
 def fig5_tables(found: Fig5) -> tuple[Table, ...]:
     """Resonances, boundaries with brackets, slopes, variations."""
     resonances = tuple(
-        (f"{r.load_N / 1e3:g}", number(r.stiffness_N_per_um, 2), number(r.mass_kg, 2), number(r.frequency_Hz))
+        (f"{r.load_N / 1e3:g}", number(r.stiffness_N_per_um, 2), number(r.mass_kg, 2), number(r.frequency_Hz),
+         number(r.cage_Hz), number(r.ball_Hz))
         for r in found.resonances
-    )
+    )  # fmt: skip
     points = tuple(
         (p.variant, f"{p.load_N / 1e3:g}", p.criterion, f"{p.frequency_Hz:g}", number(p.velocity_m_per_s, 4),
          f"{number(p.low_m_per_s, 4)} to {number(p.high_m_per_s, 4)}", number(p.acceleration_m_per_s2, 2), str(p.runs))
         for p in found.points
     )  # fmt: skip
     lines = tuple(
-        (line.variant, f"{line.load_N / 1e3:g}", line.criterion, number(line.slope, 2), "yes" if line.falls else "no")
+        (line.variant, f"{line.load_N / 1e3:g}", line.criterion, number(line.slope, 2), number(line.slope_beyond, 2),
+         "yes" if line.falls else "no")
         for line in found.lines
-    )
+    )  # fmt: skip
     tables = [
-        Table("axial resonance", ("F_stat kN", "stiffness N/um", "mass kg", "Hz"), resonances),
+        Table(
+            "axial resonance", ("F_stat kN", "stiffness N/um", "mass kg", "rings Hz", "cage Hz", "ball Hz"), resonances
+        ),
         Table(
             "boundary of altered running",
             ("variant", "F_stat kN", "criterion", "f Hz", "v_exc m/s", "bracket m/s", "acceleration m/s2", "runs"),
             points,
         ),
-        Table("slope of log v_exc over log f", ("variant", "F_stat kN", "criterion", "slope", "falls"), lines),
+        Table(
+            f"slope of log v_exc over log f, {found.frequency_range_Hz[0]:g} to {found.frequency_range_Hz[1]:g} Hz",
+            ("variant", "F_stat kN", "criterion", "slope", "above the range", "falls"),
+            lines,
+        ),
     ]
     if found.variations:
         rows = tuple((v.what, v.criterion, *(number(r, 2) for r in v.ratios)) for v in found.variations)

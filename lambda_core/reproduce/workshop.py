@@ -12,7 +12,7 @@ import os
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, as_completed
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 from types import TracebackType
@@ -25,7 +25,8 @@ from lambda_core.study.executors import Pool, pool
 from lambda_core.study.task import Task, point_hash, resolve_point, work
 
 _DIGITS = 20  # of the hash in names of files
-_FORMAT = 1  # of the kept numbers; raised when a reading changes its meaning
+READ_ONCE = {"stability"}  # hundreds of runs: their files go once their numbers are kept
+_FORMAT = 2  # of the kept numbers; raised when a reading changes its meaning
 Report = Callable[[StudyProgress], None]
 
 
@@ -74,8 +75,12 @@ def do(job: Job, folder: str) -> Answer:
     except LambdaError as error:
         return Answer("failed", str(error), "", {})
     answer = Answer(**{**asdict(answer), "seconds": time.perf_counter() - started})
-    if answer.state != "failed":
-        _keep(kept, answer)
+    if answer.state == "failed":
+        return answer
+    read = job.kind in READ_ONCE
+    _keep(kept, replace(answer, file="") if read else answer)
+    if read:
+        (Path(folder) / answer.file).unlink()
     return answer
 
 

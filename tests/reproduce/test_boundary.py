@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from lambda_core.reproduce.boundary import LIMITS, Ray, Setting, excess, search
-from lambda_core.reproduce.stability import Zone, jackknife
+from lambda_core.reproduce.boundary import CAGE, LIMITS, TURNS, Ray, Setting, excess, search
+from lambda_core.reproduce.stability import Zone, half_zone, jackknife
 from lambda_core.reproduce.workshop import Answer, Job
 
 
@@ -35,7 +35,7 @@ class Known:
         return answer(0.01 * (1.0 - LIMITS["S"] * a / self.critical["S"]), LIMITS["T"] * a / self.critical["T"])
 
 
-@pytest.mark.parametrize("critical", [{"S": 6.0, "T": 20.0}, {"S": 0.4, "T": 300.0}])
+@pytest.mark.parametrize("critical", [{"S": 26.0, "T": 31.0}, {"S": 1.4, "T": 300.0}])
 @pytest.mark.parametrize("frequency", [15.0, 44.0])
 def test_bisection_finds_both_boundaries(critical: dict[str, float], frequency: float) -> None:
     ray, known = Ray(Setting("A", 5.0), frequency), Known(critical)
@@ -83,4 +83,28 @@ def test_the_motion_has_the_acceleration_that_was_asked_for() -> None:
         assert rest.values == pytest.approx((-amplitude,))  # it starts where the rings' equilibrium is
         assert amplitude * (2.0 * math.pi * frequency) ** 2 == pytest.approx(9.0, rel=1e-6)
         assert phase == pytest.approx(math.pi / 2.0)
-    assert model.solver.duration * 26.0 > 10.0 / Setting("B", 2.0).cage_frequency * 26.0
+    assert model.solver.duration > TURNS / Setting("B", 2.0).cage_frequency
+    assert model.cage.type == CAGE
+
+
+def test_natural_frequencies_of_what_centrifugal_force_holds() -> None:
+    """By hand for the 6220: cage at 0.5 (1 - 25.4/140) 1500/60 = 10.23 Hz, groove 13.462 - 12.7 = 0.762 mm.
+
+    A sphere that rolls in the groove: 10.23 sqrt(5/7 x 70/0.762) = 82.9 Hz. Steel ball 67.4 g (7850 kg/m3), so
+    k = 25.6 N/mm; with a load zone of +-73.2 degrees 5.93 of ten balls are unloaded, cage 0.263 kg:
+    sqrt(5.93 x 25600/(0.263 + 5.93 x 0.0943))/(2 pi) = 68.1 Hz.
+    """
+    from lambda_core import api
+    from lambda_core.reproduce.boundary import CASE
+    from lambda_core.reproduce.readings import axial_resonance
+
+    found = axial_resonance(api.check(CASE, Setting("A", 5.0).changes()))
+    assert found["ball_Hz"] == pytest.approx(82.9, rel=0.01)
+    assert found["cage_Hz"] == pytest.approx(68.1, rel=0.02)
+
+
+def test_half_the_load_zone() -> None:
+    """cos(psi) = P_d/(2 delta): 60 degrees at delta = P_d, all of the ring without clearance and load."""
+    assert half_zone(20e-6, 20e-6) == pytest.approx(math.pi / 3.0)
+    assert half_zone(5e-6, 20e-6) == 0.0
+    assert half_zone(0.0, -1e-6) == math.pi

@@ -1,0 +1,62 @@
+"""What was found is kept: an interrupted reproduction goes on where it ended and finds the same."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from lambda_core.errors import SolverError
+from lambda_core.reproduce.workshop import Answer, Job, Workshop
+from lambda_core.study.director import StudyProgress
+
+LOADS = (2.0, 3.0, 4.0, 5.0)
+JOBS = [Job("6220-excited", (f"loads.radial={load:g} kN",), "axial resonance") for load in LOADS]
+
+
+def kept(folder: Path) -> dict[Path, int]:
+    return {path: path.stat().st_mtime_ns for path in folder.rglob("points/*.json")}
+
+
+def test_an_interrupted_plan_is_resumed(tmp_path: Path) -> None:
+    def interrupt(progress: StudyProgress) -> None:
+        if progress.done == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt), Workshop(tmp_path, 1, interrupt) as workshop:
+        workshop.all(JOBS)
+    before = kept(tmp_path)
+    assert 2 <= len(before) < len(JOBS)
+
+    said: list[StudyProgress] = []
+    with Workshop(tmp_path, 1, said.append) as workshop:
+        found = workshop.all(JOBS)
+    after = kept(tmp_path)
+    assert {path: after[path] for path in before} == before
+    assert len(after) == len(JOBS)
+    assert said[-1].done == said[-1].points == len(JOBS)
+    # A stiffer bearing under more load, and the same numbers as in one go.
+    stiffness = [answer["stiffness_N_per_um"] for answer in found]
+    assert stiffness == sorted(stiffness)
+    with Workshop(tmp_path / "other", 1) as workshop:
+        assert [answer.numbers for answer in workshop.all(JOBS)] == [answer.numbers for answer in found]
+
+
+def test_equal_jobs_are_done_once(tmp_path: Path) -> None:
+    with Workshop(tmp_path, 1) as workshop:
+        first, again = workshop.all([JOBS[0], JOBS[0]])
+    assert first == again
+    assert len(kept(tmp_path)) == 1
+
+
+def test_a_case_that_is_wrong_fails_alone(tmp_path: Path) -> None:
+    """Nothing of it is kept, the others go on, and its number is asked for in vain with the reason."""
+    with Workshop(tmp_path, 1) as workshop:
+        good, bad = workshop.all([JOBS[0], Job("6220-excited", ("loads.radial=5 furlong",), "axial resonance")])
+        assert len(workshop.failures) == 1
+    assert good.state == "done"
+    assert bad.state == "failed"
+    assert isinstance(bad, Answer)
+    with pytest.raises(SolverError, match=r"loads\.radial"):
+        bad["resonance_Hz"]
+    assert len(kept(tmp_path)) == 1
