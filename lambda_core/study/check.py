@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from lambda_core.physics.model import BearingModel
 
 Announce = Callable[[str], None] | None
-_TRIED_VALUES = 50  # values of a list of names that are tried out beforehand
+_TRIED_VALUES = 50  # values of a list that are tried out beforehand
+_BETWEEN = 0.3819660113  # share of a range at which samples are tried out: the golden section, no round number
 _STARTUP = 4.0  # until the first process works [s]
 
 
@@ -146,7 +147,7 @@ def _corner(plan: Plan, chosen_: dict[int, tuple[str, float | str]]) -> Point:
 
 
 def _try_ends(study: Study, plan: Plan, case_toml: str) -> list[str]:
-    """Try the last value of every parameter, and every name; returns warnings about points that cannot work.
+    """Try values of every parameter, alone; returns warnings about points that cannot work.
 
     Raises
     ------
@@ -177,11 +178,21 @@ def _trials(study: Study, plan: Plan) -> Iterator[tuple[str, tuple[str, ...], bo
         yield f"point {plan.count}", last.changes, False
         return
     for place, c in enumerate(plan.coordinates):
-        named = c.scale is None
-        count = min(c.count, _TRIED_VALUES) if named else 1
-        for index in range(1, count) if named else (None,):
-            pair = c.at(1.0) if index is None else c.value(index)
-            yield f"{c.parameter.path} = {pair[0]}", _corner(plan, {place: pair}).changes, named
+        for pair in _tried(c):
+            yield f"{c.parameter.path} = {pair[0]}", _corner(plan, {place: pair}).changes, c.scale is None
+
+
+def _tried(c: Coordinate) -> Iterator[tuple[str, float | str]]:
+    """Yield values of a parameter beside its first: of a list all of them, of a range the last and one between.
+
+    The one between shows options that take whole numbers only.
+    """
+    if not c.is_range:
+        yield from (c.value(index) for index in range(1, min(c.count, _TRIED_VALUES)))
+        return
+    if c.count != 2:
+        yield c.value(1) if c.count else c.at(_BETWEEN)
+    yield c.at(1.0)
 
 
 def _refused_by_schema(case_toml: str, changes: tuple[str, ...]) -> bool:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import ValidationError, model_validator
+from pydantic import ValidationError, field_validator, model_validator
 
 from lambda_core.errors import CaseError, Problem, UsageError
 from lambda_core.schema.case import NAME_PATTERN
@@ -16,7 +17,7 @@ from lambda_core.schema.problems import problems
 
 Mode = Literal["quasi-static", "dynamic"]
 Kind = Literal["crossed", "zipped", "latin-hypercube", "sobol", "saltelli", "optimise"]
-MAX_POINTS = 100_000
+MAX_POINTS, MOST_POINTS = 100_000, 1_000_000  # unless told otherwise; whatever one is told
 SAMPLED = ("latin-hypercube", "sobol", "saltelli", "optimise")
 
 
@@ -31,6 +32,19 @@ class Parameter(Section):
     points: int | None = option(None, "number of values in the range, for crossed and zipped designs", ge=1)
     spacing: Literal["linear", "log"] = option("linear", "even steps, or even factors")
     label: str = option("", "what people read; default: the path")
+
+    @field_validator("path", mode="before")
+    @classmethod
+    def _without_blanks(cls, path: Any) -> Any:
+        return path.strip() if isinstance(path, str) else path
+
+    @field_validator("values", "range", mode="before")
+    @classmethod
+    def _finite(cls, values: Any) -> Any:
+        odd = [v for v in values if isinstance(v, float) and not math.isfinite(v)] if isinstance(values, list) else []
+        if odd:
+            raise ValueError(f"{odd[0]} is not a finite number")
+        return values
 
     @model_validator(mode="after")
     def _one_of(self) -> Parameter:
@@ -73,6 +87,8 @@ class Constraint(Section):
     def _has_limit(self) -> Constraint:
         if self.at_least is None and self.at_most is None:
             raise ValueError("give at_least or at_most")
+        if self.at_least is not None and self.at_most is not None and self.at_least > self.at_most:
+            raise ValueError(f"no value is at least {self.at_least:g} and at most {self.at_most:g}")
         return self
 
 
@@ -114,7 +130,7 @@ class Study(Section):
     parameters: list[Parameter] = option(description="what varies", min_length=1)
     design: Design = option({}, "how points are chosen")
     optimise: Goal | None = option(None, "what an optimisation is after")
-    max_points: int = option(MAX_POINTS, "refuse more points than this", ge=1)
+    max_points: int = option(MAX_POINTS, "refuse more points than this", ge=1, le=MOST_POINTS)
 
     @model_validator(mode="after")
     def _fits(self) -> Study:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from lambda_core.errors import CaseError, Problem
 from lambda_core.study.definition import SAMPLED, Parameter, Study
-from lambda_core.study.values import Scale, scale_of, written
+from lambda_core.study.values import Scale, Value, scale_of, written
 
 FloatArray = NDArray[np.float64]
 FIRST_SAMPLES = 4  # per parameter, before an optimisation searches from the best
@@ -185,7 +185,9 @@ def _coordinate(parameter: Parameter, kind: str) -> Coordinate:
     found = scale_of(values)
     if parameter.range is None:
         if kind in ("saltelli", "optimise"):
-            raise ValueError(f"a {kind} design needs ranges, not lists of values")
+            raise ValueError(f"{_a(kind)} design needs ranges, not lists of values")
+        if kind == "crossed":
+            _refuse_twins(values, found[1] if found is not None else [written(value) for value in values])
         return Coordinate(parameter, *(found or (None, ())))
     if found is None:
         raise ValueError(f"the ends {values[0]!r} and {values[1]!r} are not numbers")
@@ -199,7 +201,20 @@ def _coordinate(parameter: Parameter, kind: str) -> Coordinate:
     if kind not in SAMPLED and parameter.points is None:
         raise ValueError("say into how many points the range is divided: points = 10")
     if kind in SAMPLED and parameter.points is not None:
-        raise ValueError(f"points do not belong to a {kind} design: its samples spread over the range")
+        raise ValueError(f"points do not belong to {_a(kind)} design: its samples spread over the range")
     if parameter.points == 1:
         raise ValueError("one point is no range: write values = [...]")
     return Coordinate(parameter, scale, (first, last))
+
+
+def _a(kind: str) -> str:
+    return f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}"
+
+
+def _refuse_twins(values: Sequence[Value], same: Sequence[float | str]) -> None:
+    """Refuse a value that stands twice, also in another unit: both would be the same points."""
+    for index, entry in enumerate(same):
+        if entry in same[:index]:
+            one, other = values[same.index(entry)], values[index]
+            text = f"{written(one)} stands twice" if one == other else f"{written(one)} and {written(other)} are equal"
+            raise ValueError(f"{text}: every value once")

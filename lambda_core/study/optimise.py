@@ -19,7 +19,7 @@ from lambda_core.study.definition import Goal
 
 FloatArray = NDArray[np.float64]
 Responses = Mapping[str, float | None]
-_FEASIBLE = 1e-3  # of a constraint's own size: how far outside a point may lie and count as kept
+_INSIDE = 2e-4  # of a limit's own size: how far inside it the search stays, so that its best point keeps the limit
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def merit(goal: Goal, responses: Responses) -> float:
     if value is None or inside is None:
         return math.inf
     short = -min([0.0, *inside])
-    return goal.sign * value if short <= _FEASIBLE else 1e100 * (1.0 + short)
+    return goal.sign * value if short == 0.0 else 1e100 * (1.0 + short)
 
 
 def search(
@@ -109,7 +109,7 @@ def search(
         answer = margins(goal, responses(x))
         return np.array(answer if answer is not None else np.full(_limits(goal), -1e10))
 
-    limits = [NonlinearConstraint(inside, 0.0, np.inf)] if goal.constraints else []
+    limits = [NonlinearConstraint(inside, _INSIDE, np.inf)] if goal.constraints else []
     dimensions = starts.shape[1]
     try:
         end = minimize(

@@ -61,10 +61,9 @@ def scale_of(values: Sequence[Value]) -> tuple[Scale, tuple[float, ...]] | None:
     if not any(known) and not any(isinstance(value, str) and _COMMA.fullmatch(value) for value in values):
         return None  # names
     for value, found, match in zip(values, known, matches, strict=True):
-        comma = isinstance(value, str) and _COMMA.fullmatch(value)
+        comma = _COMMA.fullmatch(value) if isinstance(value, str) else None
         if not found and (comma or match is None or not match[2]):
-            hint = f': write a decimal point: "{comma[1]}.{comma[2]}"' if comma else " has no unit, others have"
-            raise ValueError(f'"{value}"{hint}')
+            raise ValueError(f'"{value}"{_mistake(str(value), comma)}')
     common = set.intersection(*known)
     if not common:
         odd = next(value for value, found in zip(values, known, strict=True) if not found & known[0] or not known[0])
@@ -80,6 +79,15 @@ def scale_of(values: Sequence[Value]) -> tuple[Scale, tuple[float, ...]] | None:
         else:
             numbers.append(from_si(parse(value, quantity), quantity, _known_unit(unit, quantity)))
     return Scale(unit), tuple(numbers)
+
+
+def _mistake(text: str, comma: re.Match[str] | None) -> str:
+    """Say why a value is no number with a unit, although others are."""
+    if comma:
+        return f': write a decimal point: "{comma[1]}.{comma[2]}"'
+    if text.strip().lower().lstrip("+-").startswith(("nan", "inf")):
+        return " is not a finite number"
+    return " has no unit, others have" if _NUMBER.fullmatch(text) else " is not a number with a unit, others are"
 
 
 def _known_unit(unit: str, quantity: str) -> str:

@@ -120,6 +120,12 @@ def test_values_share_one_unit() -> None:
         (['path = "a"\nvalues = [1]\nrange = [1, 2]'], "either values or a range"),
         (['path = "a"\nvalues = [1, 2]', 'path = "a"\nvalues = [3, 4]'], "a varies twice"),
         (['path = "a"\nvalues = [1]\nstep = 3'], "step is not a known option"),
+        (['path = "a"\nvalues = ["1 kN", "2 kN", "1000 N"]'], "1 kN and 1000 N are equal: every value once"),
+        (['path = "a"\nvalues = ["b", "c", "b"]'], "b stands twice: every value once"),
+        (['path = "a"\nvalues = ["1 kN", "nan kN"]'], '"nan kN" is not a finite number'),
+        (['path = "a"\nvalues = [1.0, nan]'], "nan is not a finite number"),
+        (['path = "a"\nrange = [1.0, inf]\npoints = 3'], "inf is not a finite number"),
+        (['path = "a"\nvalues = ["1 kN", "low"]'], '"low" is not a number with a unit, others are'),
     ],
 )
 def test_parameters_without_sense_are_refused(parameters: list[str], words: str) -> None:
@@ -137,6 +143,11 @@ def test_parameters_without_sense_are_refused(parameters: list[str], words: str)
         ("[design]\nsamples = 8", "samples do not belong to a crossed design"),
         ('[design]\nkind = "latin-hypercube"\nsamples = 8', "points do not belong to a latin-hypercube design"),
         ('[design]\nkind = "optimise"', "needs both"),
+        (
+            '[design]\nkind = "optimise"\n[optimise]\nminimise = "x"\n'
+            'constraints = [{ response = "y", at_least = 5.0, at_most = 3.0 }]',
+            "no value is at least 5 and at most 3",
+        ),
         ('[design]\nkind = "random"', "random"),
     ],
 )
@@ -149,6 +160,17 @@ def test_designs_without_sense_are_refused(tail: str, words: str) -> None:
 def test_zipped_parameters_of_different_length_are_refused() -> None:
     with pytest.raises(CaseError, match=r"operation\.speed 6, loads\.radial 2"):
         plan(SPEED, 'path = "loads.radial"\nvalues = ["1 kN", "2 kN"]', tail='[design]\nkind = "zipped"')
+
+
+def test_no_study_has_more_than_a_million_points() -> None:
+    with pytest.raises(CaseError, match=r"max_points\s+2000000: must be at most"):
+        plan(SPEED, head=HEAD + "max_points = 2000000\n")
+
+
+def test_a_value_may_stand_twice_in_step() -> None:
+    """Zipped parameters go together: a value of one may come again with another of the other."""
+    found = plan('path = "a"\nvalues = [1, 1, 2]', 'path = "b"\nvalues = [3, 4, 3]', tail='[design]\nkind = "zipped"')
+    assert [point.coordinates for point in found.points()] == [(1.0, 3.0), (1.0, 4.0), (2.0, 3.0)]
 
 
 def test_a_billion_points_are_counted_without_being_made() -> None:

@@ -123,13 +123,15 @@ def _values(axes: Any, places: Any, tops: Any, values: Any) -> None:
     digits = max(0, 2 - int(np.floor(np.log10(largest)))) if largest > 0.0 else 0
     for place, top, value in zip(places, tops, values, strict=True):
         if np.isfinite(value):
+            text = f"{value:.{digits}f}"
+            above = value >= 0.0 or float(text) == 0.0
             axes.annotate(
-                f"{value:.{digits}f}",
-                (place, top),
-                (0, 3 if value >= 0.0 else -3),
+                text.lstrip("-") if above else text,
+                (place, max(top, 0.0) if above else top),
+                (0, 3 if above else -3),
                 textcoords="offset points",
                 ha="center",
-                va="bottom" if value >= 0.0 else "top",
+                va="bottom" if above else "top",
                 fontsize=9.5,
                 color=INK,
             )
@@ -165,7 +167,8 @@ def _field(axes: Any, field: Field) -> None:
         top = float(np.abs(values).max()) or 1.0
         norm = TwoSlopeNorm(0.0, -top, top)
     # A coarse or incomplete mesh is shown as it is, a cell per value.
-    coarse = min(values.shape) < _SMOOTH or bool(np.ma.getmaskarray(values).any())
+    few = min(values.shape) < _SMOOTH
+    coarse = few or bool(np.ma.getmaskarray(values).any())
     mesh = axes.pcolormesh(
         field.x,
         field.y,
@@ -181,7 +184,7 @@ def _field(axes: Any, field: Field) -> None:
         bar.ax.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         bar.ax.yaxis.set_minor_formatter(NullFormatter())
-    levels = [] if coarse else [level for level in field.levels if values.min() < level < values.max()]
+    levels = [] if few else [level for level in field.levels if values.min() < level < values.max()]
     if levels:
         lines = axes.contour(field.x, field.y, values, levels, colors="white", linewidths=1.0, zorder=2)
         axes.clabel(lines, fontsize=9, fmt="%g")
