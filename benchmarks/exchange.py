@@ -242,10 +242,10 @@ def page() -> str:
         "",
         f"The built-in case `{CASE}` (6319, 16 kN radial, 1500 rpm, FVA3A at 62.5 degC), run once for every law",
         "of every role while all other roles keep theirs. The first line of a table has the numbers, the others what",
-        f"changes; `=` is below the last digit. Runs are averaged from {BEGIN:g} to {END:g} s, four turns of the cage; the",
-        "torque of such a run is known to about 0.3 %. `film` is the smallest central film, `film degC` the highest",
-        "mean temperature of a film, capacitance that of the bearing, cage slip the speed of the cage (without one, of",
-        "the balls) over the epicyclic speed, less 1. Written by `python -m benchmarks.exchange --write`.",
+        f"changes; `=` is below the last digit. Runs are averaged from {BEGIN:g} to {END:g} s, four turns of the cage;",
+        "the torque of such a run is known to about 0.3 %. `film` is the smallest central film, `film degC` the",
+        "highest mean temperature of a film, capacitance that of the bearing, cage slip the speed of the cage (without",
+        "one, of the balls) over the epicyclic speed, less 1. Written by `python -m benchmarks.exchange --write`.",
         "",
     ]
     for exchange in EXCHANGES:

@@ -1,4 +1,4 @@
-"""`lambda-bearing db`: search, show, add, import, export and check the catalogue."""
+"""`lambda-bearing db`: search, show, add, remove, import, export and check the catalogue."""
 
 from __future__ import annotations
 
@@ -113,6 +113,13 @@ def add(
     """Add one row to your own catalogue; inner geometry that is left open is estimated."""
     from lambda_db.transfer import add_row
 
+    cells = _cells(values)
+    with _opened() as (catalogue, _):
+        _report(add_row(catalogue, table, cells, replace=replace), json)
+
+
+def _cells(values: list[str]) -> dict[str, object]:
+    """Split NAME=VALUE."""
     from lambda_core.errors import UsageError
 
     cells: dict[str, object] = {}
@@ -123,8 +130,31 @@ def add(
         if name.strip() in cells:
             raise UsageError(f'"{name.strip()}" is given twice')
         cells[name.strip()] = text
+    return cells
+
+
+@app.command()
+def remove(
+    table: Annotated[str, typer.Argument(metavar="TABLE", help=f"One of {_TABLES}.")],
+    values: Annotated[
+        list[str],
+        typer.Argument(metavar="NAME=VALUE...", help="The row's key, for example designation=6208 maker=FAG."),
+    ],
+    json: JsonOption = False,
+) -> None:
+    """Remove one row of your own, and what belongs to it; built-in rows stay."""
+    from lambda_db.removal import remove_row
+
+    cells = _cells(values)
     with _opened() as (catalogue, _):
-        _report(add_row(catalogue, table, cells, replace=replace), json)
+        done = remove_row(catalogue, table, cells)
+    if json:
+        print_json(kind="remove", path=str(done.path), row=done.row, removed=done.removed, uncovered=done.uncovered)
+        return
+    for name, count in done.removed.items():
+        typer.echo(f"removed {count} {name} row{'s' if count != 1 else ''} from {done.path}")
+    if done.uncovered:
+        typer.echo(f"{done.row}: the built-in row is in use again")
 
 
 def _report(report: ImportReport, json: bool) -> None:

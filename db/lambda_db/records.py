@@ -109,6 +109,24 @@ def parse_row(name: str, cells: Mapping[str, object]) -> tuple[Row, list[str]]:
     return row, problems
 
 
+def parse_key(name: str, cells: Mapping[str, object]) -> tuple[Row, list[str]]:
+    """Turn cells into columns of the key of table `name`, or a part of them; the second value says what is wrong."""
+    table, keys = table_of(name), key_columns(name)
+    found, problems = _by_column(name, cells)
+    row: Row = {}
+    for column, cell in found.items():
+        if column not in keys:
+            problems.append(f"{column} is not of the key of {name}: {', '.join(keys)}")
+            continue
+        try:
+            row[column] = _cell(table.c[column], cell)
+        except ValueError as error:
+            problems.append(f"{column}: {error}")
+    if not row and not problems:
+        problems.append(f"name the {name}: {'=... '.join(keys)}=...")
+    return row, problems
+
+
 def _by_column(name: str, cells: Mapping[str, object]) -> tuple[dict[str, object], list[str]]:
     """Match keys to columns; ``bore_diameter = "40 mm"`` stands for ``bore_diameter_mm = 40.0``."""
     known = columns_of(name)
