@@ -13,9 +13,16 @@ from lambda_cli.options import JsonOption
 def cite(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="Result file.")],
     as_json: JsonOption = False,
+    bibtex: Annotated[bool, typer.Option("--bibtex", help="Print BibTeX entries instead of text.")] = False,
 ) -> None:
     """Print the references of exactly the laws and data that a result used, and of the program."""
     from lambda_core import api
+    from lambda_core.errors import UsageError
 
+    if as_json and bibtex:
+        raise UsageError("--json and --bibtex exclude each other")
     found = api.cite(file)
-    typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
+    if bibtex:
+        typer.echo(found.bibtex())
+    else:
+        typer.echo(found.model_dump_json(indent=2) if as_json else found.text())

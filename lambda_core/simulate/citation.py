@@ -61,6 +61,12 @@ class Citation(Record):
             lines.append(f"without a reference: {', '.join(self.without_reference)}")
         return "\n".join(lines)
 
+    def bibtex(self) -> str:
+        """Return the same as BibTeX, one entry per publication."""
+        from lambda_core.simulate.bibtex import bibtex
+
+        return bibtex(self)
+
 
 def citation(result: Result) -> Citation:
     """Return what to cite beside a result.

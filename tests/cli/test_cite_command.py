@@ -88,3 +88,13 @@ def test_a_file_that_is_no_result_is_said_so(tmp_path: Path, capsys: pytest.Capt
     path.write_text("no")
     assert main(["cite", str(path)]) == 2
     assert "is not a result file" in capsys.readouterr().err
+
+
+def test_bibtex_has_the_publications_of_the_run_and_no_other(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["cite", str(file), "--bibtex"]) == 0
+    text = capsys.readouterr().out
+    for key in ("@software{lambda-bearing,", "@article{syla2026,", "@article{hamrock1977,", "@article{bair1979,"):
+        assert key in text
+    assert "chittenden" not in text
+    assert main(["cite", str(file), "--bibtex", "--json"]) == 2
+    assert "exclude each other" in capsys.readouterr().err
