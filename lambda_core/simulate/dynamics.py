@@ -29,6 +29,7 @@ _CAPACITY = 512
 _FIRST_STEP = 1e-7  # [s]
 _SMALLEST_STEP = 1e-14  # [s]
 _STEPS_PER_CALL = 2000
+_MUCH_FASTER = 1.5  # a planned cage speed over that at the start, from which on it counts
 _SPIN_FOR_SAMPLES = 1.0  # [rad/s] slowest cage speed that the default sampling interval is made for
 
 
@@ -64,8 +65,7 @@ class BearingEngine:
         active = self._assembly.bundle.active
         self._factors = make_factors(self._balls, active.size)
         self._memory = bdf.make_memory(start, self._assembly.scale, model.solver.tolerance, _CAPACITY)
-        orbit = max(abs(self._equilibrium.orbit), _SPIN_FOR_SAMPLES)
-        self.sample_interval = model.output.interval or 2.0 * math.pi / orbit / SAMPLES_PER_REVOLUTION
+        self.sample_interval = model.output.interval or 2.0 * math.pi / self._cage_speed() / SAMPLES_PER_REVOLUTION
         control, count = self._memory.control, self._memory.count
         control[bdf.H], control[bdf.H_MIN] = _FIRST_STEP, _SMALLEST_STEP
         control[bdf.H_MAX] = min(model.solver.max_step, longest_step(self._assembly))
@@ -74,6 +74,12 @@ class BearingEngine:
         self._start_angles = self._angles()
         self._start_energy = self._stored(0.0, start)
         self._drained: list[dict[str, FloatArray]] = []
+
+    def _cage_speed(self) -> float:
+        """Return the cage speed that samples are spaced for [rad/s]: the start's, or a much faster planned one."""
+        start, g = abs(self._equilibrium.orbit), self.model.geometry
+        planned = 0.5 * (1.0 - g.ball_diameter / g.pitch_diameter) * A.max_speed(self.model)
+        return max(start if planned < _MUCH_FASTER * start else planned, _SPIN_FOR_SAMPLES)
 
     @property
     def time(self) -> float:

@@ -1,0 +1,72 @@
+"""Hard regimes: the run goes through, what it is named after happens, and the energy balance closes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from benchmarks.regimes import AXIAL, BOUND, RADIAL, REFUSED, REGIMES, Regime, refusal, run
+from lambda_core import api
+from lambda_core.errors import SolverError
+from lambda_core.simulate.dynamics import BearingEngine
+
+
+@pytest.mark.parametrize("regime", REGIMES, ids=lambda regime: regime.name)
+def test_regime(regime: Regime) -> None:
+    """Specification: kinetic, elastic, dissipated and external energy close within 1e-3; each dissipator dissipates."""
+    found = run(regime)
+    assert found.reached, found.message
+    assert regime.seen(found.samples)
+    assert all(np.all(np.isfinite(values)) for name, values in found.samples.items() if "capacitance" not in name)
+    assert found.least_loss >= 0.0
+    assert abs(found.residual) < BOUND
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_has_no_answer_is_refused_with_the_reason(name: str) -> None:
+    changes, words = REFUSED[name]
+    assert words in refusal(changes)
+
+
+def test_rest_costs_no_more_steps_than_running() -> None:
+    """Friction at rest is nearly a sign function: a Newton iteration lost there takes 100 000 steps a second."""
+    engine = BearingEngine(api.check(RADIAL, ["operation.speed=0 rpm", "solver.duration=1 s", "solver.tolerance=1e-4"]))
+    assert engine.advance(0.01).ok
+    assert engine.statistics()["steps"] < 1000.0
+
+
+@pytest.mark.parametrize("case", [RADIAL, AXIAL])
+def test_equilibrium_down_to_one_rpm(case: str) -> None:
+    """Friction rises with speed here, all contacts in full film, and the balls' orbit hardly changes.
+
+    These speeds have no solution from rolling balls; where the continuation is wrong, neighbours do not fit together.
+    """
+    found = [api.quasistatic(case, [f"operation.speed={speed} rpm"]) for speed in (1, 3, 5, 10, 20, 40, 60, 100)]
+    torques = [one.friction_torque_Nmm for one in found]
+    ratios = [one.orbit_speed_ratio for one in found]
+    assert torques == sorted(torques)  # type: ignore[type-var]
+    assert np.ptp(np.array(ratios, dtype=float)) < 5e-4
+
+
+def test_a_ball_that_is_barely_gripped_is_the_reason() -> None:
+    with pytest.raises(SolverError, match="barely grips has no steady motion"):
+        api.quasistatic(RADIAL, ["loads.radial=200 N"])
+    assert not BearingEngine(api.check(RADIAL, ["loads.radial=200 N"])).equilibrium()["converged"]
+
+
+def test_a_free_ring_starts_at_its_speed() -> None:
+    changes = ("bodies.inner_ring.spin=free", "operation.speed=500 rpm", "operation.torque=1 N m")
+    engine = BearingEngine(api.check(RADIAL, changes))
+    assert engine.advance(1e-4).ok
+    assert engine.samples()["body_spin"][0, 0] == pytest.approx(500.0 * np.pi / 30.0)
+
+
+def test_samples_are_spaced_for_the_speed_to_come() -> None:
+    ramp = [
+        "operation.speed.kind=ramp",
+        "operation.speed.start=0 rpm",
+        "operation.speed.end=1500 rpm",
+        "operation.speed.end_time=20 ms",
+    ]
+    rising, running = (BearingEngine(api.check(RADIAL, changes)) for changes in (ramp, []))
+    assert rising.sample_interval == pytest.approx(running.sample_interval, rel=0.02)
