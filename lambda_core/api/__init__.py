@@ -20,7 +20,19 @@ from lambda_core.api.cases import (
 )
 from lambda_core.api.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins
 from lambda_core.api.pictures import animate, draw, report, view, view_all, view_stem, views
-from lambda_core.api.runs import cite, compare, cross_check, estimate, quasistatic, result, resume, run, summary, warmup
+from lambda_core.api.runs import (
+    cite,
+    compare,
+    cross_check,
+    estimate,
+    iterate,
+    quasistatic,
+    result,
+    resume,
+    run,
+    summary,
+    warmup,
+)
 from lambda_core.api.studies import (
     reproduce,
     study_check,
@@ -50,6 +62,7 @@ __all__ = [
     "draw",
     "estimate",
     "init_case",
+    "iterate",
     "new_plugin",
     "plugin_faults",
     "plugin_model",

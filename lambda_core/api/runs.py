@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from lambda_core.simulate.progress import Progress
     from lambda_core.simulate.quasistatic import QuasiStatic
     from lambda_core.simulate.results import Result
+    from lambda_core.simulate.stepping import Stepping
     from lambda_core.simulate.summary import Summary
     from lambda_core.simulate.warmup import Warmup
 
@@ -121,6 +122,41 @@ def run(
 
     path = None if out is None else Path(out)
     return launch(model_of(source, overrides), path, force=force, report=progress, announce=announce)
+
+
+def iterate(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    interval: float | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Stepping:
+    """Simulate a case step by step, without a result file: ``for step in iterate(case)``.
+
+    For programs that look at every step, or that push the inner ring with what another program says: co-simulation.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    interval : float, optional
+        Time between steps [s]; default: that of the samples of a run. No step of the integrator is longer.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Stepping
+        An iterator of steps; ends at ``solver.duration``, or at ``solver.max_duration``.
+
+    Raises
+    ------
+    CaseError, SolverError, UsageError
+        With a sentence about the case, the solver or `interval`.
+    """
+    from lambda_core.simulate.stepping import Stepping
+
+    return Stepping(model_of(source, overrides), interval, announce)
 
 
 def resume(

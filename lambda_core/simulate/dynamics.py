@@ -123,6 +123,30 @@ class BearingEngine:
             blocks = [self._observe(np.zeros(0), self._memory.sample_y)]
         return {c.name: np.concatenate([block[c.name] for block in blocks]) for c in CHANNELS}
 
+    def now(self) -> dict[str, FloatArray]:
+        """Return every channel at `time`."""
+        found = self._observe(np.array([self.time]), self._memory.y.reshape(1, -1))
+        return {name: values[0] for name, values in found.items()}
+
+    def forget_samples(self) -> None:
+        """Empty the buffer of samples without looking at them."""
+        self._memory.count[bdf.SAMPLES] = 0
+        self._drained.clear()
+
+    def external_load(self) -> FloatArray:
+        """Return a load on the inner ring that may be written to between two calls of :meth:`advance`; zero at first.
+
+        It adds to the loads of the case: force x, y, z [N], moment about y, z [N m], shape (5,). To be asked for before
+        the first advance.
+        """
+        channels = [L.CH_FORCE, L.CH_FORCE + 1, L.CH_FORCE + 2, L.CH_MOMENT + 1, L.CH_MOMENT + 2]
+        rows = np.zeros((len(channels), 8))
+        rows[:, 0], rows[:, 1] = channels, L.TF_CONSTANT
+        bundle = self._assembly.bundle
+        self._assembly.bundle = bundle._replace(terms=np.concatenate([bundle.terms, rows]))
+        load: FloatArray = self._assembly.bundle.terms[-len(channels) :, 2]
+        return load
+
     def buffered(self) -> tuple[FloatArray, FloatArray]:
         """Return times and states of the samples that no one has taken yet, shapes (n,) [s] and (n, size)."""
         n = int(self._memory.count[bdf.SAMPLES])

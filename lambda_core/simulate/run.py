@@ -201,7 +201,7 @@ class _Session:
         """Take the engine past the next record and keep what it brings."""
         engine = self._engine
         before = engine.time
-        target = _next(before, self._interval)
+        target = next_multiple(before, self._interval)
         advance = engine.advance(min(target, self._end))
         if advance.ok and engine.time <= before:
             advance = Advance(False, f"the engine does not get past t = {before:.9g} s")
@@ -309,7 +309,7 @@ class _Session:
         return float(wanted), max(min(wanted * per_turn, self._end), now)
 
 
-def _next(now: float, interval: float) -> float:
+def next_multiple(now: float, interval: float) -> float:
     """Return the first multiple of `interval` after `now`, whatever the rounding."""
     number = math.floor(now / interval) + 1
     while number * interval <= now:

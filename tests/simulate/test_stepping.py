@@ -1,0 +1,98 @@
+"""Runs step by step: the same dynamics as a run, and loads from outside that act like those of the case."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+from lambda_core import api
+from lambda_core.errors import UsageError
+from lambda_core.simulate.averages import COLUMNS
+
+if TYPE_CHECKING:
+    from lambda_core.simulate.results import Result
+
+CASE = "6319-cp10-1500"
+
+
+def test_stepping_is_the_run_bit_for_bit(tmp_path: Path) -> None:
+    changes = ["solver.duration=4 ms"]
+    run = api.run(CASE, changes, out=tmp_path / "run.h5").integrals()[-1]
+    for interval in (None, 0.6e-3):
+        steps = list(api.iterate(CASE, changes, interval=interval))
+        last = steps[-1]
+        assert last.time_s == run[COLUMNS.index("time")]
+        angle = last["body_spin_angle"][0] - steps[0]["body_spin_angle"][0]
+        assert angle == pytest.approx(1500.0 * math.pi / 30.0 * (last.time_s - steps[0].time_s), rel=1e-9)
+        times = np.array([step.time_s for step in steps])
+        assert np.all(np.diff(times) > 0.0)
+        # The mean over all steps is the mean of the run.
+        weights = np.diff(np.append(0.0, times))
+        mean = np.average([step.friction_torque_Nmm for step in steps], weights=weights)
+        columns = [COLUMNS.index(name) for name in COLUMNS if name.startswith("loss.")]
+        assert mean == pytest.approx(1e3 * run[columns].sum() / run[COLUMNS.index("relative_angle")], rel=1e-9)
+
+
+def test_a_step_has_every_channel_of_a_result(radial_run: Result) -> None:
+    step = next(api.iterate(CASE, ["solver.duration=1 ms"]))
+    for channel in radial_run.channels:
+        assert step[channel.name].shape == radial_run[channel.name].shape[1:]
+    with pytest.raises(UsageError, match='"loads" is not a known channel; nearest: load'):
+        step["loads"]
+
+
+def test_a_load_from_outside_acts_like_one_of_the_case() -> None:
+    """14 kN in the case and 2 kN from outside hold the ring where 16 kN of the case do."""
+    stepping = api.iterate(CASE, ["solver.duration=30 ms", "loads.radial=14 kN"], interval=0.2e-3)
+    place = []
+    for step in stepping:
+        stepping.push((0.0, 0.0, -2000.0 * min(step.time_s / 10e-3, 1.0)))  # slowly: no blow
+        place.append(1e6 * step["body_position"][0, 2])
+    at = {load: api.quasistatic(CASE, [f"loads.radial={load} kN"]).inner_ring_displacement_um[2] for load in (14, 16)}
+    assert place[0] == pytest.approx(at[14], abs=0.3)
+    assert np.mean(place[-45:]) == pytest.approx(at[16], abs=0.3)
+    assert abs(at[16] - at[14]) > 3.0
+
+
+def test_a_spring_that_another_program_is_shares_the_load() -> None:
+    """Co-simulation: a support of 100 N/um under the inner ring takes the share that its stiffness gives it."""
+    stiffness = 1e8  # [N/m], explicit coupling: far softer than the bearing
+    stepping = api.iterate(CASE, ["solver.duration=40 ms"], interval=20e-6)
+    start = next(stepping)["body_position"][0, 2]
+    place = start
+    tail = []
+    for step in stepping:
+        place = step["body_position"][0, 2]
+        force = -stiffness * (place - start) - 4000.0 * min(step.time_s / 15e-3, 1.0)
+        stepping.push((0.0, 0.0, force))
+        if step.time_s > 28e-3:
+            tail.append((place - start, force))
+    moved, force = np.mean(tail, axis=0)
+    loads = 16.0 - 1e-3 * force  # what the bearing carries [kN]
+    expected = api.quasistatic(CASE, [f"loads.radial={loads} kN"]).inner_ring_displacement_um[2]
+    assert 1e6 * (start + moved) == pytest.approx(expected, abs=0.4)
+    assert force == pytest.approx(-4000.0 - stiffness * moved, rel=1e-9)
+    assert force > -4000.0  # the spring has taken some
+
+
+@pytest.mark.parametrize(
+    ("interval", "words"), [(0.0, "no time"), (-1e-3, "no time"), (math.nan, "no time"), (math.inf, "no time")]
+)
+def test_intervals_without_sense_are_refused(interval: float, words: str) -> None:
+    with pytest.raises(UsageError, match=words):
+        api.iterate(CASE, interval=interval)
+
+
+def test_loads_without_sense_are_refused() -> None:
+    stepping = api.iterate(CASE, ["solver.duration=1 ms"])
+    with pytest.raises(UsageError, match="3 finite numbers"):
+        stepping.push((1.0, 2.0))
+    with pytest.raises(UsageError, match="2 finite numbers"):
+        stepping.push(moment=(math.nan, 0.0))
+    stepping = api.iterate(CASE, ["solver.duration=1 ms", "bodies.inner_ring.tilt_y.mode=locked"])
+    with pytest.raises(UsageError, match="the inner ring is locked in tilt_y: a moment there does nothing"):
+        stepping.push(moment=(1.0, 0.0))
