@@ -1,20 +1,27 @@
-"""Several runs at once: what a core still yields when its neighbours work too."""
+"""Several runs at once: what a core still yields when its neighbours work too, and what studies make of it."""
 
 from __future__ import annotations
 
 import multiprocessing
 import os
 import queue
+import tempfile
 import time
+import tomllib
+from pathlib import Path
 from typing import Any
 
 from benchmarks.cases import MIDDLE
-from benchmarks.tables import Cell, Section, Table
+from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort
+from lambda_core import api
 
 PROCESSES = (1, 2, 4)
 _TURNS = 1.0  # of the cage
 _PATIENCE = 120.0  # wall time [s]
+_MAP = Path(__file__).parents[1] / "examples" / "studies" / "friction-map.toml"
+_WORKERS = 2  # that the targets are for
+_MUST, _GOAL = 30.0, 0.85  # wall time of the map [s]; parallel efficiency
 
 
 def _worker(barrier: Any, results: Any, rounds: int) -> None:
@@ -49,8 +56,69 @@ def together(count: int, rounds: int) -> float:
     return min(max(seconds for number, seconds in found if number == wanted) for wanted in range(rounds))
 
 
+def friction_map(points: int) -> dict[str, Any]:
+    """Return the shipped friction map with `points` speeds."""
+    study = tomllib.loads(_MAP.read_text(encoding="utf-8"))
+    study["parameters"][0]["points"] = points
+    return study
+
+
+def runs(count: int) -> dict[str, Any]:
+    """Return a study of `count` runs, a cage revolution each."""
+    return {
+        "name": "runs",
+        "case": "6319-cp10-1500",
+        "mode": "dynamic",
+        "set": {"solver.duration": "0.1 s"},
+        "parameters": [{"path": "loads.radial", "range": ["10 kN", "22 kN"], "points": count}],
+    }
+
+
+def study_time(study: dict[str, Any], workers: int) -> tuple[float, float]:
+    """Return wall time [s], start of the workers included, and the share of it that the workers had a point in hand."""
+    with tempfile.TemporaryDirectory() as folder:
+        began = time.perf_counter()
+        status = api.study_run(study, Path(folder) / "study", workers=workers)
+        seconds = time.perf_counter() - began
+    if status.pending or status.failed:
+        raise RuntimeError(f"{status.failed} points failed, {status.pending} are left: {status.reasons}")
+    return seconds, status.parallel_efficiency or 0.0
+
+
+def studies(effort: Effort) -> tuple[Table, tuple[Target, ...]]:
+    """Time whole studies on one and on several workers."""
+    rows: list[tuple[Cell, ...]] = []
+    targets: list[Target] = []
+    for name, study, points in (
+        ("friction map, quasi-static", friction_map(effort.pick(5, 25)), effort.pick(100, 500)),
+        ("runs of one cage revolution", runs(effort.pick(8, 24)), effort.pick(8, 24)),
+    ):
+        api.study_check(study)  # compiles
+        alone = 0.0
+        for count in (1, _WORKERS, 4):
+            if count > (os.cpu_count() or 1):
+                continue
+            seconds, busy = study_time(study, count)
+            alone = alone or seconds
+            rows.append((name, points, count, seconds, points / seconds, alone / count / seconds, busy))
+            if count == _WORKERS:
+                targets.append(Target(f"{name}: efficiency on 2 workers", "", busy, goal=_GOAL, at_least=True))
+                if points == 500:
+                    targets.append(Target("500 points of a friction map on 2 workers", "s", seconds, must=_MUST))
+    table = Table(
+        "Studies",
+        ("study", "points", "workers", "wall s", "points per s", "one worker's time over all", "workers busy"),
+        tuple(rows),
+        (
+            "Wall time with the start of the workers; everything was compiled. Efficiency: time that workers have a "
+            "point in hand over wall time times workers.",
+        ),
+    )
+    return table, tuple(targets)
+
+
 def measure(effort: Effort) -> Section:
-    """Compare one process with several."""
+    """Compare one process with several, then studies on one worker with studies on several."""
     rows: list[tuple[Cell, ...]] = []
     alone = 0.0
     for count in PROCESSES:
@@ -65,4 +133,5 @@ def measure(effort: Effort) -> Section:
         tuple(rows),
         ("Wall time, the best of several rounds; other users of the machine count against it.",),
     )
-    return Section("parallel", (table,))
+    found, targets = studies(effort)
+    return Section("parallel", (table, found), targets)
