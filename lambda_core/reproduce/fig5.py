@@ -21,7 +21,7 @@ from lambda_core.reproduce.boundary import (
     search,
 )
 from lambda_core.reproduce.workshop import Answer, Job, Workshop
-from lambda_core.simulate.summary import Record
+from lambda_core.simulate.record import Record
 
 LOADS = (2.0, 5.0, 10.0)  # F_stat [kN]
 VARIANTS = {

@@ -9,7 +9,7 @@ from pydantic import Field
 from lambda_core.physics.channels import RINGS
 from lambda_core.reproduce.published import AREA_GROWTH, AXIAL_LOADS, FILM_RATIO, GAP_CHANGE, OUTER_BELOW_INNER
 from lambda_core.reproduce.workshop import Answer, Job, Workshop
-from lambda_core.simulate.summary import Record
+from lambda_core.simulate.record import Record
 
 ISOTHERMAL = ("models.thermal_correction=none",)
 _DYNAMIC_LOAD = 1300  # [N] the run of a quick reproduction

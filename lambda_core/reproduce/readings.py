@@ -14,8 +14,8 @@ from lambda_core.physics.model import BearingModel, Solver
 from lambda_core.physics.time_functions import initial
 from lambda_core.reproduce.stability import half_zone, stability
 from lambda_core.simulate.convergence import window
+from lambda_core.simulate.record import CARRYING
 from lambda_core.simulate.results import Result
-from lambda_core.simulate.summary import CARRYING
 
 if TYPE_CHECKING:
     from lambda_core.physics.equilibrium import Equilibrium

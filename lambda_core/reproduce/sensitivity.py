@@ -9,7 +9,7 @@ from pydantic import Field
 from lambda_core.reproduce import parameters as P
 from lambda_core.reproduce.published import POINTS, mean_absolute_error
 from lambda_core.reproduce.workshop import Answer, Job, Workshop
-from lambda_core.simulate.summary import Record
+from lambda_core.simulate.record import Record
 
 # The run that says what the cage's parameters do: the shortest one.
 _CAGE_CASE = "6319-cp10-3000"

@@ -16,7 +16,7 @@ from lambda_core.reproduce.fig7 import Fig7, fig7
 from lambda_core.reproduce.page import Chapter, write
 from lambda_core.reproduce.table4 import Table4, table4
 from lambda_core.reproduce.workshop import Report, Workshop
-from lambda_core.simulate.summary import Record
+from lambda_core.simulate.record import Record
 from lambda_core.study.executors import usable_cores
 
 What = Literal["table4", "fig5", "fig7", "all"]

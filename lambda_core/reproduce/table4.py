@@ -12,7 +12,7 @@ from lambda_core.reproduce.published import LOADS, METHODS, POINTS, TABLE_4, Poi
 from lambda_core.reproduce.readings import MECHANISMS
 from lambda_core.reproduce.sensitivity import Sensitivity, sensitivities
 from lambda_core.reproduce.workshop import Answer, Job, Workshop
-from lambda_core.simulate.summary import Record
+from lambda_core.simulate.record import Record
 
 TAU = "parameters.traction.tau_eyring"
 TEMPERATURES = (55.0, 60.0, 62.5, 65.0, 70.0)  # of the oil [degC]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import Field
 
-from lambda_core.simulate.summary import INTERFACE, Record
+from lambda_core.simulate.record import INTERFACE, Record
 
 if TYPE_CHECKING:
     from lambda_core.simulate.results import Result

@@ -14,7 +14,8 @@ from lambda_core.physics.time_functions import initial
 from lambda_core.registry.method import GROUP_UNITS, MethodAnswer
 from lambda_core.simulate.averages import finite
 from lambda_core.simulate.provenance import differences, model_data
-from lambda_core.simulate.summary import INTERFACE, Record, Summary
+from lambda_core.simulate.record import INTERFACE, Record
+from lambda_core.simulate.summary import Summary
 
 if TYPE_CHECKING:
     from lambda_core.simulate.results import Result

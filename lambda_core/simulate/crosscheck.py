@@ -22,7 +22,7 @@ from lambda_core.physics.model import BearingModel, DofState, TimeFunction
 from lambda_core.simulate.averages import estimate, finite
 from lambda_core.simulate.cvode import integrate
 from lambda_core.simulate.dynamics import BearingEngine
-from lambda_core.simulate.summary import CARRYING, Record
+from lambda_core.simulate.record import CARRYING, Record
 
 FloatArray = NDArray[np.float64]
 

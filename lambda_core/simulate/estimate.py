@@ -16,7 +16,7 @@ from lambda_core.registry.method import Method, evaluate_methods
 from lambda_core.simulate.convergence import AVERAGED_AT_LEAST, DISCARDED_AT_LEAST
 from lambda_core.simulate.dynamics import BearingEngine
 from lambda_core.simulate.quasistatic import QuasiStatic, quasistatic_of
-from lambda_core.simulate.summary import Record
+from lambda_core.simulate.record import Record
 
 # Share of a cage turn that is simulated to see how fast it goes; the first steps are no slower than later ones.
 _TRIAL = 0.05

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 
 from pydantic import Field
@@ -12,7 +13,9 @@ from lambda_core.physics.compiled.observe import CONTACT_CHANNELS
 from lambda_core.physics.equilibrium import Equilibrium
 from lambda_core.physics.time_functions import initial
 from lambda_core.simulate.averages import FloatArray, finite
-from lambda_core.simulate.summary import CARRYING, INTERFACE, Contact, Record, contact_list, merged_cage, span
+from lambda_core.simulate.limits import Grooves, Shoulder, shoulders, warnings
+from lambda_core.simulate.record import CARRYING, INTERFACE, Record
+from lambda_core.simulate.summary import Contact, contact_list, merged_cage, span
 
 
 class QuasiStatic(Record):
@@ -36,6 +39,8 @@ class QuasiStatic(Record):
     inner_ring_tilt_mrad: list[float]
     film_um: list[float] = Field(description="smallest and largest central film under load")
     film_parameter: list[float] = Field(description="smallest and largest Lambda under load")
+    shoulders: list[Shoulder] = Field(description="how near contacts come to the shoulders, the worst on each ring")
+    warnings: list[str] = Field(description="where the state leaves what its laws are made for; empty when nowhere")
     iterations: int
     assumptions: list[str]
 
@@ -57,6 +62,9 @@ def quasistatic_of(found: Equilibrium) -> QuasiStatic:
     losses = dict(zip(LOSSES, found.losses.tolist(), strict=True))
     speed = found.relative_speed
     x, y, z, tilt_y, tilt_z = found.displacement
+    edges = shoulders(
+        Grooves.of(dataclasses.asdict(model.geometry)), load, channels["contact_angle"], channels["semi_axis_a"]
+    )
     per_speed = {name: power / speed if speed > 0.0 else math.nan for name, power in losses.items()}
     return QuasiStatic(
         case=model.name,
@@ -73,6 +81,8 @@ def quasistatic_of(found: Equilibrium) -> QuasiStatic:
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
         film_um=span(1e6 * channels["film_central"][carrying]),
         film_parameter=span(channels["film_parameter"][carrying]),
+        shoulders=edges,
+        warnings=warnings(model.oil.temperature, float(channels["max_pressure"].max()), edges),
         iterations=found.iterations,
         assumptions=list(model.assumptions),
     )

@@ -9,28 +9,20 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from lambda_core.errors import UsageError
 from lambda_core.physics.channels import RINGS
 from lambda_core.physics.model import Solver
 from lambda_core.simulate.averages import Interval, finite
 from lambda_core.simulate.convergence import shortfalls, window
+from lambda_core.simulate.limits import Grooves, Shoulder, shoulders, warnings, worst
+from lambda_core.simulate.record import CARRYING, INTERFACE, Record, Ring
 
 if TYPE_CHECKING:
     from lambda_core.simulate.results import Result
 
-INTERFACE = 1
-Ring = Literal["inner", "outer"]  # in the order of channels.RINGS
 _MECHANISMS_OF_CAGE = ("pocket", "land")
-# A contact below this share of the largest load does not count as carrying it.
-CARRYING = 0.01
-
-
-class Record(BaseModel):
-    """Base of what the machine interface is made of."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
 
 class Contact(Record):
@@ -84,6 +76,8 @@ class Summary(Record):
     film_parameter: list[float] = Field(description="smallest and largest Lambda under load at the end state")
     contact_capacitance_pF: list[float] = Field(description="smallest and largest under load at the end state")
     bearing_capacitance_nF: float | None = Field(description="at the end state")
+    shoulders: list[Shoulder] = Field(description="how near contacts came to the shoulders, the worst on each ring")
+    warnings: list[str] = Field(description="where the run left what its laws are made for; empty when nowhere")
     energy_residual: float | None = Field(description="(input - dissipated - stored) over integral of |input power|")
 
     revolutions_discarded: int = Field(description="whole cage revolutions before averaging")
@@ -119,6 +113,7 @@ def summarise(result: Result) -> Summary:
     epicyclic = _epicyclic(result, extremes.cos_angle)
     ratio = chosen.interval.ratio("cage_angle", "inner_angle")
     end = _sample(result, -1)
+    edges = _edges(result)
     carrying = end["load"] > CARRYING * end["load"].max()
     time = whole.change("time")
     revolutions = whole.change("relative_angle") / (2.0 * math.pi)
@@ -145,6 +140,8 @@ def summarise(result: Result) -> Summary:
         film_parameter=span(end["film_parameter"][carrying]),
         contact_capacitance_pF=span(1e12 * end["capacitance"][carrying]),
         bearing_capacitance_nF=finite(1e9 * float(end["bearing_capacitance"])),
+        shoulders=edges,
+        warnings=warnings(float(result.model["oil"]["temperature"]), _highest_pressure(result), edges),
         energy_residual=finite(residual),
         revolutions_discarded=chosen.discarded,
         revolutions_averaged=chosen.revolutions,
@@ -194,6 +191,19 @@ class _Span:
             weighted += float((load[loaded] * np.cos(block["contact_angle"][loaded])).sum())
             total += float(load[loaded].sum())
         return _Span(pressure, film, weighted / total if total > 0.0 else math.nan)
+
+
+def _edges(result: Result) -> list[Shoulder]:
+    """Return the contacts nearest to the shoulders, over the whole run."""
+    grooves, found = Grooves.of(result.model["geometry"]), list[Shoulder]()
+    for block in result.blocks(("load", "contact_angle", "semi_axis_a")):
+        found += shoulders(grooves, block["load"], block["contact_angle"], block["semi_axis_a"])
+    return worst(found)
+
+
+def _highest_pressure(result: Result) -> float:
+    """Return the largest Hertzian pressure of the whole run [Pa]."""
+    return max(float(block["max_pressure"].max()) for block in result.blocks(("max_pressure",)))
 
 
 def _epicyclic(result: Result, cos_angle: float) -> float:

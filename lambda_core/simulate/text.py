@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from lambda_core.simulate.limits import Shoulder
     from lambda_core.simulate.quasistatic import QuasiStatic
     from lambda_core.simulate.summary import Summary
 
@@ -42,8 +43,10 @@ def summary_text(summary: Summary) -> str:
             f"contacts {interval(summary.contact_capacitance_pF, 0)} pF",
             f"bearing {number(summary.bearing_capacitance_nF, 3)} nF",
         ),
+        line("shoulders", *map(_margin, summary.shoulders)),
         line("energy residual", f"{_small(summary.energy_residual)} of input"),
         line("wall time", *_wall(summary)),
+        *warning_lines(summary.warnings),
         *assumption_lines(summary.assumptions, summary.file),
         line("result", summary.file),
         *(line("not converged" if index == 0 else "", reason) for index, reason in enumerate(summary.reasons)),
@@ -75,7 +78,9 @@ def quasistatic_text(found: QuasiStatic) -> str:
             *breakdown_lines(found.friction_breakdown_Nmm),
             line("ball orbit", f"{number(found.orbit_speed_ratio, 4)} of inner ring"),
             line("film", f"{interval(found.film_um, 2)} um", f"Lambda {interval(found.film_parameter, 1)}"),
+            line("shoulders", *map(_margin, found.shoulders)),
             *table,
+            *warning_lines(found.warnings),
             *assumption_lines(found.assumptions),
         ]
     )
@@ -94,6 +99,20 @@ def breakdown_lines(parts: Mapping[str, float | None]) -> list[str]:
         for ring in ("inner", "outer")
     ]
     return [*rings, f"  {'':<6}" + "".join(f"  {name} {number(parts[name])}" for name in _REST)]
+
+
+def warning_lines(warnings: Sequence[str]) -> list[str]:
+    """Return where the laws were left, a paragraph each."""
+    return [
+        line("WARNING" if i == 0 else "", part)
+        for warning in warnings
+        for i, part in enumerate(textwrap.wrap(warning, _WIDTH, break_on_hyphens=False))
+    ]
+
+
+def _margin(edge: Shoulder) -> str:
+    where = "clear of" if edge.margin_um >= 0.0 else "OVER"
+    return f"{edge.ring} {number(abs(edge.margin_um), 0)} um {where} the edge"
 
 
 def assumption_lines(assumptions: Sequence[str], file: str = "") -> list[str]:

@@ -12,7 +12,7 @@ from lambda_core.registry.faults import PluginError
 from lambda_core.registry.kernels import cache_folder, compile_kernel
 from lambda_core.registry.registry import Registry
 from lambda_core.registry.roles import ROLES
-from lambda_core.simulate.summary import INTERFACE, Record
+from lambda_core.simulate.record import INTERFACE, Record
 
 
 class Warmup(Record):

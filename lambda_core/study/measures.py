@@ -12,7 +12,7 @@ from lambda_core.physics.channels import RINGS
 from lambda_core.physics.kinematics import cage_speed
 from lambda_core.physics.model import Solver
 from lambda_core.simulate.convergence import Window, window
-from lambda_core.simulate.summary import CARRYING
+from lambda_core.simulate.record import CARRYING
 
 if TYPE_CHECKING:
     from lambda_core.simulate.results import Result

@@ -12,7 +12,7 @@ from lambda_core import __version__
 from lambda_core.plugins import METHOD_API, ROLE_API, VIEW_API
 from lambda_core.simulate import citation
 from lambda_core.simulate.layout import LAYOUT
-from lambda_core.simulate.summary import INTERFACE
+from lambda_core.simulate.record import INTERFACE
 
 ROOT = Path(__file__).parents[2]
 

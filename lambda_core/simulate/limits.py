@@ -1,0 +1,121 @@
+"""Where a result leaves what its laws are made for: contacts beyond the shoulder, pressures and oils out of range."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from lambda_core.simulate.record import Record, Ring
+
+FloatArray = NDArray[np.float64]
+
+# Static contact pressure of ball bearings that leaves 1e-4 of the ball diameter behind (ISO 76).
+HIGHEST_PRESSURE = 4.2e9  # [Pa]
+# What laws of viscosity were fitted to, at the most: oils are measured from 0 to 120 degC, charts go a little further.
+OIL_TEMPERATURES = (-40.0, 200.0)  # [degC]
+_ZERO_CELSIUS = 273.15
+
+
+class Shoulder(Record):
+    """How near the contact ellipses on one ring come to the edge of its shoulder, at worst."""
+
+    ring: Ring
+    ball: int = Field(description="number of the ball, from 1")
+    contact_angle_deg: float
+    ellipse_end_deg: float = Field(description="contact angle at the end of the ellipse, towards the shoulder")
+    shoulder_deg: float = Field(description="contact angle of the shoulder's edge")
+    margin_um: float = Field(description="along the groove from the end of the ellipse to the edge; below 0: beyond it")
+
+    def warning(self) -> list[str]:
+        """Return a sentence where the ellipse runs over the edge, else nothing."""
+        if self.margin_um >= 0.0:
+            return []
+        return [
+            f"the contact of ball {self.ball} runs {-self.margin_um:.0f} um over the {self.ring} ring's shoulder "
+            f"(ellipse to {self.ellipse_end_deg:.1f} deg, edge at {self.shoulder_deg:.1f} deg): computed as if the "
+            "groove went on"
+        ]
+
+
+@dataclass(frozen=True)
+class Grooves:
+    """Groove radius and angle of the shoulder's edge, inner then outer."""
+
+    radius: FloatArray  # (2,) [m]
+    edge: FloatArray  # (2,) [rad]
+
+    @staticmethod
+    def of(geometry: Mapping[str, Any]) -> Grooves:
+        """Take them from the geometry: cos(theta) = 1 - |d_shoulder - d_race|/(2 r_groove)."""
+        radius = np.array([float(geometry[f"groove_radius_{ring}"]) for ring in get_args(Ring)])
+        height = np.array(
+            [
+                0.5 * abs(float(geometry[f"shoulder_diameter_{ring}"]) - float(geometry[f"race_diameter_{ring}"]))
+                for ring in get_args(Ring)
+            ]
+        )
+        return Grooves(radius, np.arccos(np.clip(1.0 - height / radius, -1.0, 1.0)))
+
+
+def shoulders(grooves: Grooves, load: FloatArray, angle: FloatArray, semi_axis: FloatArray) -> list[Shoulder]:
+    """Return the worst contact on each ring that carries any.
+
+    Parameters
+    ----------
+    load, angle, semi_axis : float64[..., :, :], shape (..., ball, ring)
+        Load [N], contact angle [rad] and semi-major axis [m] of every contact; the axes before are times.
+    """
+    end = np.abs(angle) + semi_axis / grooves.radius
+    margin = np.where(load > 0.0, (grooves.edge - end) * grooves.radius, np.inf)
+    found = []
+    for i, ring in enumerate(get_args(Ring)):
+        at = np.unravel_index(int(np.argmin(margin[..., i])), margin.shape[:-1])
+        if math.isfinite(margin[..., i][at]):
+            found.append(
+                Shoulder(
+                    ring=ring,
+                    ball=int(at[-1]) + 1,
+                    contact_angle_deg=math.degrees(abs(float(angle[..., i][at]))),
+                    ellipse_end_deg=math.degrees(float(end[..., i][at])),
+                    shoulder_deg=math.degrees(float(grooves.edge[i])),
+                    margin_um=1e6 * float(margin[..., i][at]),
+                )
+            )
+    return found
+
+
+def worst(found: list[Shoulder]) -> list[Shoulder]:
+    """Return the one with the smallest margin for each ring."""
+    rings = (min((e for e in found if e.ring == r), key=lambda e: e.margin_um, default=None) for r in get_args(Ring))
+    return [edge for edge in rings if edge is not None]
+
+
+def warnings(oil_temperature: float, pressure: float, edges: list[Shoulder]) -> list[str]:
+    """Return a sentence for everything that lies beyond what the laws are made for.
+
+    Parameters
+    ----------
+    oil_temperature : float
+        [K].
+    pressure : float
+        Largest Hertzian pressure [Pa]; NaN when nothing touches.
+    """
+    found = [sentence for edge in edges for sentence in edge.warning()]
+    if pressure > HIGHEST_PRESSURE:
+        found.append(
+            f"the contact pressure of {1e-9 * pressure:.3g} GPa is beyond {1e-9 * HIGHEST_PRESSURE:g} GPa, where steel "
+            "yields (ISO 76): the contact laws are elastic"
+        )
+    celsius = oil_temperature - _ZERO_CELSIUS
+    low, high = OIL_TEMPERATURES
+    if not low <= celsius <= high:
+        found.append(
+            f"the oil at {celsius:.6g} degC is outside {low:g} to {high:g} degC, where laws of viscosity hold at best"
+        )
+    return found

@@ -1,0 +1,98 @@
+"""kill -9 at random moments, on the real engine: every file is readable, every continuation the undisturbed run."""
+
+from __future__ import annotations
+
+import random
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from real_run import CASE, CHANGES
+
+from lambda_core import api
+
+HERE = Path(__file__).parent
+KILLS = 5  # of one run and its continuations
+LONGEST = 0.7  # from the moment a process could begin [s]; the whole run takes about as long
+
+Series = dict[str, np.ndarray]
+
+
+def growing(path: Path) -> Series:
+    """Return everything that a run appends to."""
+    result = api.result(path)
+    found = {channel.name: result[channel.name] for channel in result.channels}
+    return found | {"integrals": result.integrals(), "revolutions": result.revolutions()}
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Series:
+    path = tmp_path_factory.mktemp("undisturbed") / "r.h5"
+    api.run(CASE, CHANGES, out=path)
+    return growing(path)
+
+
+def start(verb: str, path: Path) -> subprocess.Popen[str]:
+    """Start a process and wait until it is about to begin."""
+    command = [sys.executable, str(HERE / "real_run.py"), verb, str(path)]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    assert process.stdout.readline() == "ready\n", process.communicate()[1]
+    return process
+
+
+def is_beginning_of(found: Series, whole: Series) -> None:
+    """Check that what a killed run left behind is the beginning of the undisturbed one, bit for bit."""
+    for name in set(found) - {"integrals"}:  # the last record may stand between two of the grid
+        values = found[name]
+        assert values.tobytes() == whole[name][: len(values)].tobytes(), name
+    assert found["integrals"][:-1].tobytes() == whole["integrals"][: len(found["integrals"]) - 1].tobytes()
+
+
+def kill_and_resume(path: Path, chance: random.Random, whole: Series) -> tuple[int, int]:
+    """Kill a run and its continuations, look at what each leaves, let the last one finish.
+
+    Returns the number of kills, and of those that struck between the first sample and the end.
+    """
+    verb, kills, midway = "run", 0, 0
+    for _ in range(KILLS):
+        process = start(verb, path)
+        time.sleep(chance.uniform(0.0, LONGEST))
+        process.kill()
+        process.communicate()
+        kills += 1
+        if path.exists():  # from its first moment on
+            verb = "resume"
+            is_beginning_of(growing(path), whole)
+            status = api.result(path).status()
+            if status.state == "finished":
+                break
+            midway += status.rows.samples > 1
+    if verb == "run" or api.result(path).status().state != "finished":
+        process = start(verb, path)
+        _, errors = process.communicate()
+        assert process.returncode == 0, errors
+    found = growing(path)
+    for name, values in whole.items():
+        assert found[name].tobytes() == values.tobytes(), name
+    assert api.summary(path).state == "finished"
+    return kills, midway
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_twenty_kills(seed: int, tmp_path: Path, undisturbed: Series) -> None:
+    kill_and_resume(tmp_path / "r.h5", random.Random(seed), undisturbed)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1800)
+def test_a_hundred_kills(tmp_path: Path, undisturbed: Series) -> None:
+    counts, seed = np.zeros(2, dtype=int), 1000
+    while counts[0] < 100:
+        counts += kill_and_resume(tmp_path / f"{seed}.h5", random.Random(seed), undisturbed)
+        seed += 1
+    assert counts[1] >= 30, counts  # most of the others struck while the equilibrium was being solved
+    print(f"{counts[0]} kills, {counts[1]} of them between the first sample and the end")
