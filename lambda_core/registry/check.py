@@ -21,7 +21,7 @@ from lambda_core.registry.faults import PluginError
 from lambda_core.registry.kernels import CompiledKernel, compile_kernel, kernel_reach
 from lambda_core.registry.model import Context, FloatArray, Model
 from lambda_core.registry.par import make_par
-from lambda_core.registry.probe import AT_REST, BOUNDS, SIGNS, draw, trial_context
+from lambda_core.registry.probe import AT_REST, BOUNDS, SIGNS, SLOPES, draw, trial_context
 from lambda_core.registry.roles import ROLES, Role
 
 RTOL = 1e-9  # machine code against plain Python: a few roundings of exp and pow
@@ -156,6 +156,8 @@ def _faults(model: Model, par: FloatArray, compiled: CompiledKernel | None, samp
         yield f"{model.label} is valid nowhere in the range of a ball bearing: status {outcomes[0].status} ({sentence})"
     if role.elementwise:
         yield from _cell_faults(model, role, machine, trials)
+    for slope in SLOPES.get(role.name, ()):
+        yield from _slope_faults(model, role, machine, trials, slope)
 
 
 def _fault_of(model: Model, role: Role, arguments: list[Any], expected: Outcome, found: Outcome) -> str:
@@ -236,6 +238,29 @@ def _cell_faults(model: Model, role: Role, machine: CompiledKernel, trials: list
         at_rest = compiled_call(machine.dispatcher, role, still)
         if at_rest.status == 1 and np.any(at_rest.outputs[0] != 0.0):
             yield f"{model.label} returns {role.outputs[0]} = {np.abs(at_rest.outputs[0]).max():g} where {name} is 0"
+
+
+def _slope_faults(
+    model: Model, role: Role, machine: CompiledKernel, trials: list[list[Any]], slope: tuple[int, int, str]
+) -> Iterator[str]:
+    """Compare an output with the central differences of another; where two steps disagree there is a bend: left out."""
+    index, of, name = slope
+    place = [argument.name for argument in role.arguments].index(name)
+
+    def at(arguments: list[Any], shift: float) -> FloatArray:
+        moved = [value + shift if i == place else value for i, value in enumerate(arguments)]
+        return compiled_call(machine.dispatcher, role, moved).outputs[0].copy()
+
+    for arguments in trials:
+        found = float(at(arguments, 0.0)[index])
+        coarse, fine = ((at(arguments, h)[of] - at(arguments, -h)[of]) / (2.0 * h) for h in (2e-4, 1e-4))
+        smooth = abs(coarse - fine) <= 0.01 * abs(fine) + 1e-12
+        if smooth and abs(found - fine) > 0.02 * abs(fine) + 1e-9:
+            yield (
+                f"{model.label} returns {role.outputs[index]} = {found:.4g}, but by differences it is {fine:.4g} "
+                f"{_where(role, arguments)}"
+            )
+            return
 
 
 def _where(role: Role, arguments: list[Any]) -> str:

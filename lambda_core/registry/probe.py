@@ -100,6 +100,10 @@ SIGNS: dict[str, tuple[int, str]] = {"damping": (0, "delta_dot"), "fluid_drag": 
 # Elementwise outputs that must vanish where an argument does.
 AT_REST: dict[str, str] = {"traction": "slip", "boundary_friction": "slip"}
 
+# Outputs that must be the derivative of another by an argument: role -> ((output, of which output, argument), ...). The
+# host takes forces from them, and energy would not close.
+SLOPES: dict[str, tuple[tuple[int, int, str], ...]] = {"surface": ((1, 0, "azimuth"), (2, 0, "contact_angle"))}
+
 VECTORS = ("r", "v_rel", "omega_rel")  # arrays of three components, not of cells
 
 

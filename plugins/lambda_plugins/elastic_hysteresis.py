@@ -23,14 +23,7 @@ class LossFactor(Parameters):
 
 
 def loss_factor(
-    load: float,
-    semi_a: float,
-    semi_b: float,
-    R_x: float,
-    R_y: float,
-    R_ball: float,
-    par: FloatArray,
-    out: FloatArray,
+    load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: FloatArray, out: FloatArray
 ) -> int:
     """Hysteresis couple of an elliptical contact, M = (3/16) alpha_h Q b.
 
@@ -42,14 +35,7 @@ def loss_factor(
 
 
 def houpert(
-    load: float,
-    semi_a: float,
-    semi_b: float,
-    R_x: float,
-    R_y: float,
-    R_ball: float,
-    par: FloatArray,
-    out: FloatArray,
+    load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: FloatArray, out: FloatArray
 ) -> int:
     """Elastic rolling couple of steel ball contacts, after Houpert.
 
@@ -82,14 +68,7 @@ class Scheuermann(Parameters):
 
 
 def scheuermann(
-    load: float,
-    semi_a: float,
-    semi_b: float,
-    R_x: float,
-    R_y: float,
-    R_ball: float,
-    par: FloatArray,
-    out: FloatArray,
+    load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: FloatArray, out: FloatArray
 ) -> int:
     """Solid rolling moment as a power of the load, M = c_r Q^e_r, after Scheuermann.
 
@@ -100,14 +79,7 @@ def scheuermann(
 
 
 def none(
-    load: float,
-    semi_a: float,
-    semi_b: float,
-    R_x: float,
-    R_y: float,
-    R_ball: float,
-    par: FloatArray,
-    out: FloatArray,
+    load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: FloatArray, out: FloatArray
 ) -> int:
     """No losses in the solids."""
     out[0] = 0.0

@@ -109,13 +109,7 @@ def power_factors(parameters: SharedLoss, context: Context) -> tuple[float, floa
 
 
 def skf_catalogue(
-    v_orbit: float,
-    omega_spin: float,
-    azimuth: float,
-    nu: float,
-    rho: float,
-    par: FloatArray,
-    out: FloatArray,
+    v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: FloatArray, out: FloatArray
 ) -> int:
     """SKF's drag torque in an oil bath, on each ball by its immersion.
 
@@ -178,13 +172,7 @@ def viscous_number(nu: float, n: float) -> float:
 
 
 def schaeffler_catalogue(
-    v_orbit: float,
-    omega_spin: float,
-    azimuth: float,
-    nu: float,
-    rho: float,
-    par: FloatArray,
-    out: FloatArray,
+    v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: FloatArray, out: FloatArray
 ) -> int:
     """Fluid share of Schaeffler's torque M0, on each ball by its immersion.
 
@@ -201,13 +189,7 @@ def schaeffler_catalogue(
 
 
 def none(
-    v_orbit: float,
-    omega_spin: float,
-    azimuth: float,
-    nu: float,
-    rho: float,
-    par: FloatArray,
-    out: FloatArray,
+    v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: FloatArray, out: FloatArray
 ) -> int:
     """No fluid losses on the balls."""
     out[0] = 0.0

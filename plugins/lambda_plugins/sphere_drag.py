@@ -33,13 +33,7 @@ def prepare(parameters: SphereDrag, context: Context) -> FloatArray:
 
 
 def sphere_drag(
-    v_orbit: float,
-    omega_spin: float,
-    azimuth: float,
-    nu: float,
-    rho: float,
-    par: FloatArray,
-    out: FloatArray,
+    v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: FloatArray, out: FloatArray
 ) -> int:
     """Drag curve of a sphere and moment of a spinning sphere, times the submerged share of the ball.
 

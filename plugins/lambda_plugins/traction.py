@@ -42,13 +42,7 @@ class ReeEyring(LimitedShear):
 
 
 def ree_eyring(
-    slip: FloatArray,
-    p: FloatArray,
-    T: FloatArray,
-    ln_eta: FloatArray,
-    h: float,
-    par: FloatArray,
-    tau: FloatArray,
+    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: float, par: FloatArray, tau: FloatArray
 ) -> int:
     """Shear stress of an Eyring fluid, limited to a share of the pressure.
 
@@ -71,13 +65,7 @@ class BairWiner(LimitedShear):
 
 
 def bair_winer(
-    slip: FloatArray,
-    p: FloatArray,
-    T: FloatArray,
-    ln_eta: FloatArray,
-    h: float,
-    par: FloatArray,
-    tau: FloatArray,
+    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: float, par: FloatArray, tau: FloatArray
 ) -> int:
     """Shear stress that approaches its limit exponentially, after Bair and Winer.
 
@@ -98,13 +86,7 @@ class Newtonian(LimitedShear):
 
 
 def newtonian(
-    slip: FloatArray,
-    p: FloatArray,
-    T: FloatArray,
-    ln_eta: FloatArray,
-    h: float,
-    par: FloatArray,
-    tau: FloatArray,
+    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: float, par: FloatArray, tau: FloatArray
 ) -> int:
     """Shear stress of a Newtonian fluid, tau = eta v/h_cen, limited to a share of the pressure.
 

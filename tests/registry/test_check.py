@@ -372,3 +372,29 @@ class TestHelpersForTests:
         assert_symmetric(law, "v_orbit", [1.0, 2.0], odd=True, **given)
         with pytest.raises(AssertionError, match="is not even in v_orbit"):
             assert_symmetric(law, "v_orbit", [1.0, 2.0], **given)
+
+
+def wavy(azimuth, contact_angle, par, out):
+    out[0] = 1e-6 * math.cos(9.0 * azimuth) * math.cos(contact_angle)
+    out[1] = -9e-6 * math.sin(9.0 * azimuth) * math.cos(contact_angle)
+    out[2] = -1e-6 * math.cos(9.0 * azimuth) * math.sin(contact_angle)
+    return 1
+
+
+def wavy_with_a_slip_of_the_sign(azimuth, contact_angle, par, out):
+    out[0] = 1e-6 * math.cos(9.0 * azimuth)
+    out[1] = 9e-6 * math.sin(9.0 * azimuth)
+    out[2] = 0.0
+    return 1
+
+
+def test_a_slope_that_is_not_the_derivative_is_told() -> None:
+    """A raceway whose slopes do not belong to its height would make energy from nothing."""
+    good, bad = (
+        replace(model("surface", "trial", kernel, reference="own work"), distribution="trials 0.3")
+        for kernel in (wavy, wavy_with_a_slip_of_the_sign)
+    )
+    assert check_model(good).faults == ()
+    (fault,) = check_model(bad).faults
+    assert "its derivative by azimuth [m/rad] = " in fault
+    assert "but by differences it is" in fault
