@@ -5,6 +5,7 @@ A task is plain data; kernels, catalogue and base case are kept by the process f
 
 from __future__ import annotations
 
+import multiprocessing
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 
 RUNS = "runs"
 State = Literal["done", "partial", "failed", "stopped"]
+# Of a worker process: the request went to the run that it had in hand; tasks that wait behind it are not begun.
+_asked_to_stop = False
 _HASH_DIGITS = 20  # of the hash in the name of a result file
 
 
@@ -58,8 +61,11 @@ class Outcome:
 
 def work(task: Task) -> Outcome:
     """Do one task; never raises for what is wrong with the point."""
+    global _asked_to_stop
     start = time.perf_counter()
     hash_, state, reason, values, file = "", "failed", "", {}, ""
+    if _asked_to_stop:
+        return Outcome(task.number, "stopped", "the worker was asked to stop", "", {}, "", 0.0)
     try:
         model = resolve_point(task.case_toml, task.changes)
         hash_ = point_hash(model)
@@ -72,6 +78,7 @@ def work(task: Task) -> Outcome:
         reason = str(error)
     except Exception as error:  # a bug, or a law that breaks in a way nobody foresaw: the other points go on
         reason = f"unexpected {type(error).__name__}: {' '.join(str(error).split())}"
+    _asked_to_stop = state == "stopped" and multiprocessing.parent_process() is not None
     return Outcome(task.number, state, reason, hash_, values, file, time.perf_counter() - start)  # type: ignore[arg-type]
 
 

@@ -170,6 +170,22 @@ def test_workers_do_not_outlive_their_director(write: Write, tmp_path: Path) -> 
     assert api.study_status(folder).pending == 4
 
 
+def test_ctrl_c_stops_the_runs_in_hand_and_begins_no_other(write: Write, tmp_path: Path) -> None:
+    folder = tmp_path / "stopped"
+    text = RUNS.format(duration="5 s", speeds=2, loads=2)
+    study = started(write(text), folder, "--workers", "1")
+    wait_for(lambda: files(folder) > 0 or study.poll() is not None)
+    time.sleep(1.0)  # the run is under way
+    begin = time.monotonic()
+    os.kill(study.pid, signal.SIGINT)
+    assert study.wait(timeout=100) == 130
+    assert time.monotonic() - begin < 30.0  # a run takes longer than that
+    assert api.study_status(folder).pending == 4
+    assert files(folder) == 1  # tasks that waited behind it were not begun
+    (path,) = (folder / "runs").glob("[!.]*.h5")
+    assert api.result(path).status().state == "interrupted"
+
+
 @pytest.mark.slow
 def test_a_lost_dask_worker_loses_no_point(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
     distributed: Any = pytest.importorskip("distributed")
