@@ -117,6 +117,30 @@ class StudyTable:
         frame.attrs["units"] = self.units()
         return frame
 
+    def to_xarray(self) -> Any:
+        """Return the table as an xarray.Dataset with units and meanings.
+
+        A crossed study has a dimension for each parameter, any other one the dimension ``point``, counted from 1.
+        """
+        import xarray
+
+        if self.design == "crossed":
+            dims = {c.name: list(dict.fromkeys(c.values)) for c in self.parameters}
+            shape = tuple(len(values) for values in dims.values())
+            coords = {c.name: (c.name, dims[c.name], _attributes(c)) for c in self.parameters}
+        else:
+            shape = (len(self),)
+            coords = {c.name: ("point", list(c.values), _attributes(c)) for c in self.parameters}
+            dims = {"point": list(range(1, len(self) + 1))}
+            coords["point"] = ("point", dims["point"], {})
+        found = {c.name: (tuple(dims), c.numbers().reshape(shape), _attributes(c)) for c in self.responses}
+        states = (tuple(dims), np.array(self.states).reshape(shape), {"long_name": "state of the point"})
+        return xarray.Dataset({**found, "state": states}, coords, {"title": self.title, "mode": self.mode})
+
+
+def _attributes(column: Column) -> dict[str, str]:
+    return {"units": column.unit or "1", "long_name": column.label}
+
 
 def _find(kind: str, name: str, columns: Sequence[Column]) -> Column:
     for column in columns:

@@ -45,6 +45,13 @@ def test_each_point_is_what_a_single_solution_gives(write: Write, inline: Execut
     torque = table.response("friction_torque_Nmm")
     assert torque.unit == "N mm"
     assert np.all(np.diff(torque.numbers().reshape(3, 2), axis=1) > 0.0)  # more load, more torque
+    pytest.importorskip("xarray")
+    data = table.to_xarray()
+    assert data["friction_torque_Nmm"].dims == ("operation.speed", "loads.radial")
+    assert data["friction_torque_Nmm"].attrs == {"units": "N mm", "long_name": "friction torque"}
+    assert data["loads.radial"].attrs["units"] == "kN"
+    one = data["friction_torque_Nmm"].sel({"operation.speed": 3000.0, "loads.radial": 16.0})
+    assert float(one) == api.quasistatic("6319-cp10-3000").friction_torque_Nmm
     frame = table.to_pandas()
     assert frame.attrs["units"]["loads.radial"] == "kN"
     assert frame.loc[1, "friction_torque_Nmm"] == torque.values[0]
@@ -212,6 +219,7 @@ def test_a_search_ends_on_its_constraint(write: Write, inline: Executor, tmp_pat
     assert status.best["min_film_parameter"] == pytest.approx(4.0, rel=2e-3)
     table = api.study_table(folder)
     assert status.best["min_film_parameter"] >= 4.0
+    assert table.to_xarray()["min_film_parameter"].sel(point=1).attrs["units"] == "1"
     keeps = table.response("min_film_parameter").numbers() >= 4.0
     assert status.best["friction_torque_Nmm"] == pytest.approx(
         table.response("friction_torque_Nmm").numbers()[keeps].min(), rel=1e-12

@@ -156,6 +156,35 @@ def test_the_cage_stays_in_its_clearance_and_turns_as_the_summary_says(radial_ru
     assert mean == pytest.approx(radial_run.summary().cage_speed_over_epicyclic, rel=1e-3)
 
 
+@pytest.mark.parametrize(("turns", "spin"), [(0.5, 60.0), (1.0, -60.0), (-2.0, 60.0)])
+def test_whirl_is_the_speed_of_the_centre_over_that_of_the_cage(turns: float, spin: float) -> None:
+    """A centre on a circle that it rounds `turns` times while the cage turns once."""
+    from lambda_plugins.views.cage import _whirl
+
+    time = np.linspace(0.0, 0.5, 2001)
+    angle = turns * spin * time
+    away = 80.0 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    (found,) = _whirl(time, away, np.full(time.size, spin))
+    np.testing.assert_allclose(found.y, turns, rtol=1e-4)
+    assert found.x[0] == pytest.approx(1e3 * 0.05 * 2.0 * math.pi / 60.0, rel=1e-3)
+
+
+def test_the_ring_orbits_its_mean_place(radial_run: Result) -> None:
+    orbit, over_time = data(radial_run, "ring-orbit").panels
+    path = series(orbit, "centre of the inner ring")
+    assert (orbit.x.unit, orbit.y.unit, over_time.x.unit) == ("um", "um", "ms")
+    assert path.x.mean() == pytest.approx(0.0, abs=0.05)
+    assert path.y.mean() == pytest.approx(0.0, abs=0.05)
+    end = 1e6 * radial_run["body_position"][-1, 0]
+    traces = {name: series(over_time, name) for name in "xyz"}
+    since = radial_run["time"] >= 1e-3 * traces["z"].x[0] - 1e-12
+    mean = 1e6 * radial_run["body_position"][since, 0].mean(axis=0)
+    for k, name in enumerate("xyz"):
+        assert traces[name].y[-1] == pytest.approx(end[k] - mean[k], abs=1e-6)
+    # Balls that pass one by one and in pairs move the ring across the load more than along it.
+    assert np.ptp(path.x) > 3.0 * np.ptp(path.y)
+
+
 def test_a_spectrum_reads_the_amplitude_of_a_sine() -> None:
     from lambda_plugins.views.common import spectrum
 
