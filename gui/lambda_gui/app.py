@@ -46,6 +46,13 @@ class BuilderApp(App[None]):
     Toast { padding: 0 1; }
     * { scrollbar-size-vertical: 1; }
     """
+    CSS = """
+    DataTable, DataTable:focus, OptionList:focus, ModelTree:focus, Input:focus { background-tint: $foreground 0%; }
+    CommandPalette SearchIcon { display: none; }
+    Button, Button.-primary { background: $panel; color: $foreground; text-style: none; }
+    Button:focus, Button.-primary:focus { background: $block-cursor-background; color: $block-cursor-foreground;
+        text-style: bold; background-tint: $foreground 0%; }
+    """
 
     def __init__(self, case: str | None = None) -> None:
         super().__init__()
@@ -64,6 +71,11 @@ class BuilderApp(App[None]):
             self.call_after_refresh(self.action_open_case)
         else:
             self.open(self._start)
+
+    def on_app_focus(self) -> None:
+        """Give the keyboard to something: a browser's page begins without it, also for screens opened meanwhile."""
+        if self.screen.focused is None:
+            self.screen.focus_next()
 
     # -- the case --
 
@@ -217,9 +229,14 @@ class BuilderApp(App[None]):
 
     def action_help(self) -> None:
         """Explain the screen."""
-        from lambda_gui.help import HelpScreen
+        from lambda_gui.help import ABOUT, HelpScreen
+        from lambda_gui.rows import Row
 
-        self.push_screen(HelpScreen(type(self.screen).__name__))
+        name = type(self.screen).__name__
+        if name not in ABOUT:
+            return  # the help itself, or the command palette, which explains every entry
+        row = next((w for w in self.focused.ancestors_with_self if isinstance(w, Row)), None) if self.focused else None
+        self.push_screen(HelpScreen(name, row.help() if row is not None else None))
 
     # -- runs --
 

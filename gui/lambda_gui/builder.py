@@ -17,10 +17,11 @@ from textual.widgets import Footer, Static, Tree
 
 from lambda_core.errors import LambdaError, Problem
 from lambda_gui.around import CaseAround
-from lambda_gui.checking import Check, Checker, node_of
+from lambda_gui.checking import Check, Checker, belongs, node_of
 from lambda_gui.derived import Derived
 from lambda_gui.forms import NodeForm
 from lambda_gui.helper import Estimator
+from lambda_gui.option_help import OptionHelp
 from lambda_gui.outline import Keys, Node
 from lambda_gui.recovery import Keeper
 from lambda_gui.rows import Edited, Left, Row
@@ -59,10 +60,10 @@ class BuilderScreen(Screen[None]):
     BuilderScreen #tree { width: 37; height: 1fr; border-right: vkey $border-blurred; }
     BuilderScreen #tree:focus { border-right: vkey $border; }
     BuilderScreen #right { width: 1fr; height: 1fr; background: $background; }
-    BuilderScreen #side { height: 9; width: 1fr; border-top: hkey $border-blurred; }
-    BuilderScreen #help { height: 4; width: 1fr; padding: 0 1; color: $text-muted; }
+    BuilderScreen #side { height: 10; width: 1fr; border-top: hkey $border-blurred; }
+    BuilderScreen #help { height: 4; }
     BuilderScreen #sketch { display: none; }
-    BuilderScreen.-wide #tree { width: 42; }
+    BuilderScreen.-wide #tree { width: 44; }
     BuilderScreen.-wide #right { layout: horizontal; }
     BuilderScreen.-wide #side { width: 46; height: 1fr; border-top: none; border-left: vkey $border-blurred; }
     BuilderScreen.-wide #help { height: 10; border-bottom: hkey $border-blurred; }
@@ -91,7 +92,7 @@ class BuilderScreen(Screen[None]):
         with Horizontal(id="body"):
             yield ModelTree(self.draft, self.around)
             with Vertical(id="right"), Vertical(id="side"):
-                yield Static(id="help")
+                yield OptionHelp(id="help")
                 yield Derived()
                 yield Sketch()
         yield Footer()
@@ -99,6 +100,7 @@ class BuilderScreen(Screen[None]):
     def on_mount(self) -> None:
         """Check in the background once the first picture stands."""
         self.set_interval(_KEEP_AFTER, self._keep)
+        self.app.theme_changed_signal.subscribe(self, lambda _: self._recolour())
         self.query_one(ModelTree).focus()
         self._show_head()
         self.call_after_refresh(self._check_now)
@@ -130,6 +132,12 @@ class BuilderScreen(Screen[None]):
         left.pad_right(max(1, self.size.width - 2 - left.cell_len - right.cell_len))
         self.query_one("#head", Static).update(left.append_text(right))
 
+    def _recolour(self) -> None:
+        self._show_head()
+        self.query_one(ModelTree).refresh_marks(self.check.problems)
+        self.query_one(Derived).draw()
+        self.query_one(Sketch).draw()
+
     # -- tree and form --
 
     def on_tree_node_highlighted(self, event: Tree.NodeHighlighted[Node]) -> None:
@@ -149,10 +157,11 @@ class BuilderScreen(Screen[None]):
         form = NodeForm(node, self.draft, self.around)
         right.mount(form, before="#side")
         self._show_node_help(node)
+        self.query_one(Sketch).show_node(node)
 
     def _show_node_help(self, node: Node) -> None:
         words = node.help[:1].upper() + node.help[1:]
-        self.query_one("#help", Static).update(Text.assemble((node.title, "bold"), f"  {words}"))
+        self.query_one(OptionHelp).show(Text.assemble((node.heading, "bold"), f"  {words}"))
 
     def on_node_form_ready(self) -> None:
         """Fill the form once its rows stand."""
@@ -199,7 +208,7 @@ class BuilderScreen(Screen[None]):
         """Say what the option under the keyboard is."""
         row = next((w for w in event.widget.ancestors_with_self if isinstance(w, Row)), None)
         if row is not None:
-            self.query_one("#help", Static).update(row.help())
+            self.query_one(OptionHelp).show(row.help())
         elif isinstance(event.widget, ModelTree) and self.form is not None:
             self._show_node_help(self.form.node)
 
@@ -289,7 +298,7 @@ class BuilderScreen(Screen[None]):
         row = next((w for w in self.focused.ancestors_with_self if isinstance(w, Row)), None) if self.focused else None
         at = -1
         if row is not None:
-            at = next((i for i, p in enumerate(problems) if p.where == ".".join(row.place.keys)), -1)
+            at = next((i for i, p in enumerate(problems) if belongs(p, row.place.keys)), -1)
         problem = problems[(at + 1) % len(problems)]
         self.go_to(tuple(problem.where.split(".")))
 

@@ -25,7 +25,7 @@ Kind = Literal["bearing", "lubricant"]
 _MOST = 200  # rows in the list
 _COLUMNS: dict[Kind, tuple[str, ...]] = {
     "bearing": ("bearing", "maker", "d", "D", "B", "C kN", "C0 kN", "Z x Dw", "geometry"),
-    "lubricant": ("name", "base", "ν40", "ν100 mm2/s", "α40 1/GPa", "rheology"),
+    "lubricant": ("name", "base", "ν40 mm2/s", "ν100 mm2/s", "α40 1/GPa", "rheology"),
 }
 _HINT: dict[Kind, str] = {
     "bearing": 'designation, maker, series or a dimension; "d=40", "C>30"',
@@ -96,6 +96,7 @@ class CatalogueScreen(Screen[Taken | None]):
         self.query_one("#details").can_focus = False
         self.query_one(DataTable).can_focus = False
         self.query_one(Input).focus()
+        self.app.theme_changed_signal.subscribe(self, lambda _: self._show_details())
         self._show_kind()
 
     def on_unmount(self) -> None:

@@ -13,8 +13,7 @@ from textual.widget import Widget
 
 from lambda_core.registry.chart import Axis, Panel, Series
 from lambda_gui.maps import FieldPlot
-from lambda_gui.plots import CYCLE as _CYCLE
-from lambda_gui.plots import Colour, Plot, labels_of, padded, round_numbers
+from lambda_gui.plots import Colour, Plot, labels_of, padded, round_numbers, series_colour
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -111,7 +110,7 @@ class PanelPlot(Plot):
                 y = base
             y = _scaled(y, panel.y)
             colour = self._of(series, number)
-            label = None if series.unlisted else series.name
+            label = None if series.unlisted or (len(panel.series) == 1 and panel.marks) else series.name
             if series.low is not None and series.high is not None:
                 for edge in (_scaled(series.low, panel.y), _scaled(series.high, panel.y)):
                     self._line(x, edge, self.dimmed(colour), None)
@@ -144,13 +143,19 @@ class PanelPlot(Plot):
         self._ticks(panel.y, y_low, y_high, "y", height)
         if panel.shape == "plane":
             self._to_scale((x_low, x_high), (y_low, y_high))
-        for mark in panel.marks:
+        free = x_low  # where the next label over the plot finds room
+        for mark in sorted(panel.marks, key=lambda mark: mark.value):
             value = float(_scaled(np.array([mark.value]), panel.x if mark.axis == "x" else panel.y)[0])
             low, high = (x_low, x_high) if mark.axis == "x" else (y_low, y_high)
             if not low <= value <= high:
                 continue
             draw = self.plt.vline if mark.axis == "x" else self.plt.hline
             draw(value, self.colour("secondary"))
+            letter = (x_high - x_low) / max(1, self.size.width - 12)
+            if mark.axis == "x" and mark.label:
+                if value - letter * len(mark.label) < free:
+                    continue
+                free = value + 2.0 * letter
             if mark.label:
                 at = (value, y_high) if mark.axis == "x" else (x_high, value)
                 colour, back = self.colour("secondary"), self.colour("surface")
@@ -217,10 +222,18 @@ class BarPlot(Widget):
         panel, colours = self._panel, self.app.theme_variables
         names = list(panel.x.categories) or [f"{x:g}" for x in panel.series[0].x]
         rows = np.array([np.nan_to_num(series.y) for series in panel.series])
-        paint = [colours[_ROLES.get(s.role, _CYCLE[i % len(_CYCLE)])] for i, s in enumerate(panel.series)]
+        paint = [
+            colours[_ROLES[s.role]] if s.role in _ROLES else series_colour(colours, number)
+            for number, s in enumerate(panel.series)
+        ]
         text = Text(f"{panel.title}   {panel.y.text}\n", no_wrap=True, overflow="ellipsis")
+        used = 0
         for series, colour in zip(panel.series, paint, strict=True):
+            if used and used + len(series.name) + 2 > self.size.width - 2:
+                text.append("\n")
+                used = 0
             text.append("■ ", style=colour).append(f"{series.name}  ", style="dim")
+            used += len(series.name) + 4
         text.append("\n\n")
         width = max((len(name) for name in names), default=0)
         largest = float((rows.sum(axis=0) if panel.stacked else rows).max(initial=0.0)) or 1.0

@@ -45,9 +45,9 @@ class Checker:
             with self._turn:
                 if self._catalogue is None:
                     self._catalogue = api.catalogue()
-                model = api.check(deepcopy(dict(tables)), folder=folder, catalogue=self._catalogue)
+                model = api.check(_with_needed(tables), folder=folder, catalogue=self._catalogue)
         except api.CaseError as error:
-            return Check(tuple(spread(error.problems)))
+            return Check(tuple(sorted(error.problems, key=_order)))
         except api.LambdaError as error:  # a broken catalogue or plugin: nothing can be checked
             return Check((Problem("", str(error)),))
         return Check((), model, tuple(value_reports(model)))
@@ -60,22 +60,17 @@ class Checker:
                 self._catalogue = None
 
 
-def spread(problems: Iterable[Problem]) -> list[Problem]:
-    """Put "is required" of a missing table on each of its required options."""
-    found = []
-    for problem in problems:
-        table = model_at(Case, problem.where.split(".")) if problem.where else None
-        is_signal = table is not None and "kind" in table.model_fields
-        required = (
-            [n for n, info in table.model_fields.items() if info.is_required()] if table and not is_signal else []
-        )
-        if problem.message.startswith("is required") and table is not None and required:
-            for name in required:
-                text = table.model_fields[name].description
-                found.append(Problem(f"{problem.where}.{name}", f"is required: {text}"))
-        else:
-            found.append(problem)
-    return found
+def _order(problem: Problem) -> int:
+    """Return the place of a problem's table in the case, so that mistakes come in the order of the tree."""
+    names = list(Case.model_fields)
+    first = problem.where.partition(".")[0]
+    return names.index(first) if first in names else len(names)
+
+
+def _with_needed(tables: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a copy with an empty table where a required one is missing: the mistakes are then about its options."""
+    needed = (name for name, info in Case.model_fields.items() if info.is_required() and model_at(Case, (name,)))
+    return {**{name: {} for name in needed}, **deepcopy(dict(tables))}
 
 
 def belongs(problem: Problem, place: Keys) -> bool:

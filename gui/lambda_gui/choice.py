@@ -32,16 +32,18 @@ class Entry:
 class PickList(ModalScreen[str | None]):
     """The open list of a choice; answers with the value, None when left with Esc."""
 
-    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "dismiss(None)", "Back")]
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape", "dismiss(None)", "Back"),
+        Binding("f1", "app.help", "Help", priority=True),
+    ]
     DEFAULT_CSS = """
     PickList { background: $background 30%; }
-    PickList > Vertical { width: auto; max-width: 90%; height: auto; max-height: 80%; background: $panel;
-        border: round $border; padding: 0; }
-    PickList OptionList { width: auto; min-width: 24; max-width: 100%; height: auto; max-height: 16;
-        background: $panel; border: none; padding: 0 1; }
+    PickList > Vertical { max-width: 96%; height: auto; max-height: 80%; background: $panel; border: round $border;
+        padding: 0; }
+    PickList OptionList { width: 1fr; height: auto; max-height: 14; background: $panel; border: none; padding: 0 1; }
     PickList OptionList:focus { border: none; }
-    PickList Static { width: auto; max-width: 64; height: auto; max-height: 5; color: $text-muted; padding: 0 1;
-        display: none; }
+    PickList Static { width: 1fr; height: auto; max-height: 7; color: $text-muted; padding: 0 1;
+        border-top: hkey $border-blurred; display: none; }
     """
 
     def __init__(self, entries: Sequence[Entry], value: str, at: Offset) -> None:
@@ -56,6 +58,9 @@ class PickList(ModalScreen[str | None]):
 
     def on_mount(self) -> None:
         """Start at the present value, near the field."""
+        widest = max(len(entry.label) for entry in self._entries) + 6
+        has_help = any(entry.help for entry in self._entries)
+        self.query_one(Vertical).styles.width = max(widest, 64 if has_help else 24)
         options = self.query_one(OptionList)
         options.highlighted = next((i for i, e in enumerate(self._entries) if e.value == self._value), 0)
         self.call_after_refresh(self._place)

@@ -10,6 +10,12 @@ from lambda_core.schema.case import Case
 from lambda_core.schema.problems import field_at, option_paths
 from lambda_gui.builder import BuilderScreen
 
+_LINE = 70  # characters that fit under a hit on a narrow screen
+
+
+def _in_one_line(text: str) -> str:
+    return text if len(text) <= _LINE else f"{text[: _LINE - 1].rstrip()}…"
+
 
 class OptionSearch(Provider):
     """Go to an option."""
@@ -25,7 +31,7 @@ class OptionSearch(Provider):
             score = max(matcher.match(path), matcher.match(path.replace("_", " ")), 0.8 * matcher.match(about or ""))
             if score > 0.0 and self.screen.has_option(path):
                 go = partial(self.screen.go_to, tuple(path.split(".")))
-                yield Hit(score, matcher.highlight(path), go, help=about)
+                yield Hit(score, matcher.highlight(path), go, help=_in_one_line(about or ""))
 
     async def discover(self) -> Hits:
         """Yield the options that are changed most often."""

@@ -28,26 +28,27 @@ class Derived(Static):
         self._check: Check | None = None
         self._estimate: Estimate | None = None
         self._say = ""
-        self._is_current = False
+        self.is_current = False  # whether the numbers are those of the case as it stands
 
     def show_check(self, check: Check) -> None:
         """Take the outcome of a check; an estimate of the case before is shown as such."""
         self._check = check
-        self._is_current = False
-        self._draw()
+        self.is_current = False
+        self.draw()
 
     def show_estimate(self, estimate: Estimate | None, say: str) -> None:
         """Take an estimate, or what is being done about it."""
         if estimate is not None:
-            self._estimate, self._is_current = estimate, True
+            self._estimate, self.is_current = estimate, True
         self._say = say
-        self._draw()
+        self.draw()
 
     def on_resize(self) -> None:
         """Draw for the new size."""
-        self._draw()
+        self.draw()
 
-    def _draw(self) -> None:
+    def draw(self) -> None:
+        """Draw what is known, in the colours of the theme."""
         if self._check is None:
             self.update(Text("checking ...", style="dim"))
         elif self._check.model is None:
@@ -58,28 +59,28 @@ class Derived(Static):
             if self.size.height > len(geometry) + len(numbers) + 1:
                 self.update(self._listed(geometry, numbers))
             else:
-                self.update(self._inline(geometry, numbers))
+                self.update(self._inline(geometry[1:], numbers))  # the balls stand in the tree
 
     def _mistakes(self, check: Check) -> Text:
         text = Text()
         room = max(self.size.height, 1)
         shown = check.problems if len(check.problems) <= room else check.problems[: room - 1]
         for problem in shown:
-            text.append("▲ ", style="red")
+            text.append("▲ ", style=self.app.theme_variables["error"])
             line = Text(f"{problem.where}  {problem.message}" if problem.where else problem.message)
             if 3 * len(check.problems) > room:
-                line.truncate(max(10, self.size.width - 2), overflow="ellipsis")
+                line.truncate(max(10, self.size.width - 3), overflow="ellipsis")
             text.append_text(line).append("\n")
         if len(shown) < len(check.problems):
             text.append(f"and {len(check.problems) - len(shown)} more", style="dim")
         return text
 
     def _style(self) -> str:
-        return "" if self._is_current else "dim"
+        return "" if self.is_current else "dim"
 
     def _inline(self, geometry: Sequence[Fact], numbers: Sequence[Fact]) -> Text:
         """Pack the facts into as few lines as they take."""
-        room, text, used = max(20, self.size.width - 2), Text(), 0
+        room, text, used = max(20, self.size.width), Text(), 0
         styled = [(fact, "") for fact in geometry] + [(fact, self._style()) for fact in numbers]
         for (name, number, unit), style in styled:
             value = f"{number} {unit}".strip()

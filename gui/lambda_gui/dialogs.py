@@ -28,6 +28,7 @@ class Ask(ModalScreen[str]):
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "dismiss('')", "Back"),
+        Binding("f1", "app.help", "Help", priority=True),
         Binding("left,up", "app.focus_previous", show=False),
         Binding("right,down", "app.focus_next", show=False),
     ]
@@ -53,7 +54,10 @@ class Ask(ModalScreen[str]):
 class AskText(ModalScreen[str | None]):
     """A line of text; None when left with Esc."""
 
-    BINDINGS: ClassVar[list[BindingType]] = [Binding("escape", "dismiss(None)", "Back")]
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape", "dismiss(None)", "Back"),
+        Binding("f1", "app.help", "Help", priority=True),
+    ]
     DEFAULT_CSS = _BOX.format(name="AskText", width="70")
 
     def __init__(self, question: str, text: str) -> None:
@@ -79,6 +83,7 @@ class OpenCase(ModalScreen[str | None]):
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "dismiss(None)", "Back"),
+        Binding("f1", "app.help", "Help", priority=True),
         Binding("down", "into_list", show=False),
     ]
     DEFAULT_CSS = (

@@ -103,7 +103,7 @@ class NodeForm(VerticalScroll, can_focus=False):
 
     def compose(self) -> ComposeResult:
         """Lay out the title and the rows."""
-        yield Static(Text(self.node.title, style="bold"), classes="title")
+        yield Static(Text(self.node.heading, style="bold"), classes="title")
         yield from self._rows()
         yield from self._buttons()
         yield Static(classes="in-effect")
@@ -171,6 +171,8 @@ class NodeForm(VerticalScroll, can_focus=False):
         """Say what the case takes from elsewhere for this node, with grades and sources."""
         text = Text()
         if self.node.key in ("bearing", "lubricant"):
+            text.append("from the catalogue or derived; grade\n", style="italic")
+            head = len(text)
             own = {row.place.keys[-1] for row in self.query(Row)}
             for value in self._around.table(self.node.key):
                 name = value.path.rpartition(".")[2]
@@ -178,8 +180,10 @@ class NodeForm(VerticalScroll, can_focus=False):
                     continue
                 mark = "≈ " if value.status in ("derived", "assumed") else ""
                 source = f"  {value.source}" if self.size.width >= 60 else ""
-                text.append(f"{name.replace('_', ' '):<24}").append(f"{mark}{value.text}".ljust(15), style="not dim")
-                text.append(f" {value.grade or ' '}{source}\n")
+                text.append(f"{name.replace('_', ' '):<24}").append(f"{mark}{value.text}".ljust(14), style="not dim")
+                text.append(f" {value.grade or '-'}{source}\n")
+            if len(text) == head:
+                return Text()
         text.no_wrap, text.overflow = True, "ellipsis"
         return text
 
@@ -187,7 +191,7 @@ class NodeForm(VerticalScroll, can_focus=False):
         """Bring one option into view and to the keyboard: the row that is most about it."""
         rows = [row for row in self.query(Row) if _meets(row.place.keys, keys)]
         for row in sorted(rows, key=lambda row: -len(row.place.keys) if len(row.place.keys) <= len(keys) else 0):
-            entry = next((w for w in row.query("*").results(Widget) if w.focusable), None)
+            entry = row.entry()
             if entry is not None:
                 entry.focus()
                 return

@@ -1,9 +1,10 @@
-"""The help screen: keys, axes and signs."""
+"""The help screen: what has the keyboard, the keys of the screen, marks, axes and signs."""
 
 from __future__ import annotations
 
 from typing import ClassVar
 
+from rich.table import Table
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
@@ -11,82 +12,168 @@ from textual.containers import VerticalScroll
 from textual.screen import ModalScreen
 from textual.widgets import Static
 
-AXES = r"""
-            z up
-            │   azimuth from +y towards +z
-            │  ╮ 270° is down
-      ______│___╲______                  outer ring      Frames
-     ╱    ◯ │ ◯  ╲     ╲                                 x  shaft axis
-    │  ◯  ╭─┼─╮  ◯│     │   gravity ↓ -z                 y  horizontal
-    │     │ x⊙──────────── y horizontal                  z  up
-    │  ◯  ╰───╯  ◯│     │                                tilt y, z: rotation about y, z
-     ╲    ◯   ◯  ╱     ╱                                 spin: about the body's own axis
-      ‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾
-"""
+from lambda_gui.axes import MORE_SIGNS, SIGNS, axes_sketch
 
-SIGNS = """
-A positive speed turns y towards z. A positive axial load pushes the inner ring along +x; the
-radial load acts at its azimuth (270° = down). The contact angle is positive when the ball pushes
-the outer ring towards +x. Clearance is the radial internal clearance, a diametral measure.
-A friction torque is the dissipated power over the relative speed of the rings.
-"""
+_ALL = (("F1", "this help"), ("Ctrl+P", "all commands"), ("F9", "light or dark"), ("Ctrl+Q", "quit"))
+_ASKING = (("↑ ↓ or ← →", "between the answers"), ("Enter", "take the answer"), ("Esc", "back, nothing is done"))
 
-KEYS: dict[str, tuple[tuple[str, str], ...]] = {
+# Class of the screen -> title, what it is for, keys
+ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     "BuilderScreen": (
-        ("arrows", "move in the tree; → opens a node or goes into its form, ← closes it"),
-        ("Enter", "into the form; in a field: complete it and go on; on a choice: open its list"),
-        ("Esc", "back: from the form to the tree, from every other screen to the builder"),
-        ("Tab, ↑ ↓", "between fields; the line below says what the field is"),
-        ("F2", "choose a bearing or an oil from the catalogue"),
-        ("F5 (Ctrl+R)", "run the case as it stands; F7 shows all runs"),
-        ("F6", "results: summary, views, comparison, export"),
-        ("F8", "go to the next mistake"),
-        ("Ctrl+S", "save; only what you changed is changed in the file"),
-        ("Ctrl+Z, Ctrl+Y", "undo, redo"),
-        ("Ctrl+O", "open another case, a built-in one, or an empty model"),
-        ("Ctrl+P", "all commands; type the name of any option to go to it"),
-        ("F9", "light or dark"),
-        ("Ctrl+Q", "quit"),
+        "The model",
+        "The tree mirrors the multibody set-up; the form of the node under the cursor stands beside it, the numbers "
+        "that follow from the case below or beside that. Everything is checked as you type.",
+        (
+            ("↑ ↓", "move in the tree, or between the fields of a form"),
+            ("→ ←", "open or close a node; → on an open node goes into its form"),
+            ("Enter", "into the form; in a field: complete the unit and go on; on a choice: open its list"),
+            ("Esc", "from the form back to the tree"),
+            ("F2", "catalogue: bearings, or oils when the form of the lubricant is shown"),
+            ("F5 or Ctrl+R", "run the case as it stands, saved or not"),
+            ("F6  F7", "results; runs"),
+            ("F8", "go to the next mistake"),
+            ("Ctrl+S", "save; only what you changed is changed in the file"),
+            ("Ctrl+Z  Ctrl+Y", "undo, redo"),
+            ("Ctrl+O", "open another case, a built-in one, or an empty model"),
+            ("Ctrl+P", "all commands; type the name of any option to go to it"),
+            ("F9", "light or dark"),
+            ("Ctrl+Q", "quit; asks for unsaved changes and runs that go on"),
+        ),
     ),
+    "CatalogueScreen": (
+        "The catalogue",
+        "Type to filter: words of designation, maker or series, a dimension, or conditions such as d=40 and C>30. "
+        "Each value has a grade (A published and cross-read, B good, C weak) and the number of its source.",
+        (
+            ("type", "filter the list"),
+            ("↑ ↓", "move in the list"),
+            ("PgUp PgDn", "scroll the details: values, clearance classes, designs that fit, sources"),
+            ("Enter", "take the row into the case"),
+            ("F4", "begin a row of your own with a copy of this one"),
+            ("F2", "bearings or lubricants"),
+            ("Esc", "back, the case stays as it is"),
+            *_ALL,
+        ),
+    ),
+    "OwnRow": (
+        "A catalogue row of your own",
+        "A copy of a row, to be changed. Values that you change get the source and grade that you give; all others "
+        "keep theirs. It is stored in your own catalogue, beside the published one.",
+        (
+            ("↑ ↓ or Tab", "between the values"),
+            ("Ctrl+S", "save the row"),
+            ("Esc", "back, nothing is stored"),
+            *_ALL,
+        ),
+    ),
+    "RunScreen": (
+        "Runs",
+        "Runs wait for each other and go on when the builder is closed. The traces show the run under the cursor: "
+        "friction torque now with its running mean and its 95 % band, cage speed, and the load of each ball.",
+        (
+            ("↑ ↓", "between the runs"),
+            ("Enter or F6", "look at the result, finished or not"),
+            ("c", "cancel: the run ends in order and keeps what it has"),
+            ("g", "go on with a run that was cancelled or did not converge"),
+            ("x", "take ended runs off the list; their results stay"),
+            ("Esc or F7", "back"),
+            *_ALL,
+        ),
+    ),
+    "ResultsScreen": (
+        "Results",
+        "The result files beside the case, the newest first; one that a run still writes is read again as it grows. "
+        "The list below has the summary and all views. Two or more marked results are compared.",
+        (
+            ("Tab", "between the results and the views"),
+            ("↑ ↓", "move in the list; what is under the cursor is shown"),
+            ("PgUp PgDn", "scroll what is shown"),
+            ("Space", "mark a result (in the upper list)"),
+            ("e", "export the view as SVG and PNG"),
+            ("t", "write a report (HTML)"),
+            ("c", "write the case of the result into a file of its own"),
+            ("o", "open a result or a folder from elsewhere"),
+            ("Esc or F6", "back"),
+            *_ALL,
+        ),
+    ),
+    "OpenCase": (
+        "Open a case",
+        "An empty model, a case file of this folder, or a copy of a built-in case.",
+        (("type", "filter the list, or write the path of a file"), *_ASKING),
+    ),
+    "PickList": (
+        "A choice",
+        "The first entry is what holds when nothing is written in the case; the line below tells about the entry.",
+        (("↑ ↓", "between the entries"), ("Enter", "take the entry"), ("Esc", "back, nothing is changed")),
+    ),
+    "Ask": ("A question", "Nothing happens before you answer.", _ASKING),
+    "AskText": ("A name", "Enter takes what is written, Esc goes back.", (("Enter", "take it"), ("Esc", "back"))),
 }
 
-MARKS = """
-●  differs from the file      ▲2  two mistakes here or below      ≈  estimated or assumed, with its grade
-grey text in a field is what holds when nothing is written there; clearing a field goes back to it
-numbers take a unit: "16 kN"; a bare number gets the unit that is proposed in grey
-"""
+_MARKS = (
+    ("●", "differs from the file"),
+    ("▲2", "two mistakes here or below"),
+    ("≈", "estimated or assumed, with its grade"),
+    ("grey text", "what holds when nothing is written; clearing a field goes back to it"),
+    ("units", "a bare number gets the unit that is proposed in grey: 16 becomes 16 N, 16 k becomes 16 kN"),
+)
+_COLUMN = 14
 
 
 class HelpScreen(ModalScreen[None]):
-    """Help for one screen."""
+    """Help for one screen.
+
+    Parameters
+    ----------
+    screen : str
+        Class of the screen that is explained.
+    option : rich.text.Text, optional
+        Help of the option under the keyboard, put before everything else.
+    """
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape,f1,q", "dismiss", "Back"),
-        Binding("down", "scroll(1)", show=False),
-        Binding("up", "scroll(-1)", show=False),
+        Binding("down", "scroll(2)", show=False),
+        Binding("up", "scroll(-2)", show=False),
     ]
     DEFAULT_CSS = """
     HelpScreen { align: center middle; background: $background 60%; }
-    HelpScreen > VerticalScroll { width: 104; max-width: 98%; height: auto; max-height: 96%; background: $surface;
-        border: round $border; padding: 0 2; }
+    HelpScreen > VerticalScroll { width: 104; max-width: 98%; height: auto; max-height: 98%; background: $surface;
+        border: round $border; border-subtitle-color: $text-muted; padding: 0 2; scrollbar-size-vertical: 1; }
     HelpScreen Static { width: 1fr; height: auto; }
     """
 
-    def __init__(self, screen: str) -> None:
+    def __init__(self, screen: str, option: Text | None = None) -> None:
         super().__init__()
-        self._screen = screen
+        self._screen, self._option = screen, option
 
     def compose(self) -> ComposeResult:
-        """Lay out keys, marks and axes."""
-        text = Text("Keys\n", style="bold")
-        for key, meaning in KEYS.get(self._screen, KEYS["BuilderScreen"]):
-            text.append(f"{key:<16}", style="bold").append(f"{meaning}\n", style="not bold")
-        text.append("\nMarks", style="bold").append(MARKS, style="not bold")
-        text.append("\nAxes and signs", style="bold").append(AXES, style="not bold").append(SIGNS, style="not bold")
+        """Lay out the option, keys, marks and axes."""
         with VerticalScroll() as box:
             box.can_focus = True
-            yield Static(text)
+            box.border_subtitle = "↑ ↓ scroll   Esc back"
+            if self._option is not None:
+                yield Static(self._option)
+                yield Static()
+            title, about, keys = ABOUT[self._screen]
+            yield Static(Text.assemble((f"{title}\n", "bold"), f"{about}\n"))
+            yield Static(Text("Keys", style="bold"))
+            yield Static(_table(keys))
+            yield Static(Text("\nMarks", style="bold"))
+            yield Static(_table(_MARKS))
+            yield Static(Text.assemble(("\nAxes and signs\n", "bold"), axes_sketch(self.app.theme_variables)))
+            yield Static(f"{SIGNS} {MORE_SIGNS}")
 
     def action_scroll(self, by: int) -> None:
         """Scroll."""
-        self.query_one(VerticalScroll).scroll_relative(y=2 * by)
+        self.query_one(VerticalScroll).scroll_relative(y=by, animate=False)
+
+
+def _table(rows: tuple[tuple[str, str], ...]) -> Table:
+    table = Table.grid(padding=(0, 2, 0, 0))
+    table.add_column(width=_COLUMN, style="bold", no_wrap=True)
+    table.add_column(ratio=1)
+    for row in rows:
+        table.add_row(*row)
+    return table

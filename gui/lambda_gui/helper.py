@@ -102,6 +102,7 @@ class Estimator:
         self._helper = Helper(lambda text: tell(None, text))
         self._waiting: tuple[dict[str, Any], Path | None] | None = None
         self._is_busy = False
+        self._is_closed = False
 
     async def ask(self, tables: dict[str, Any], folder: Path | None) -> None:
         """Ask about a case without mistakes; the answer comes through `tell`."""
@@ -123,9 +124,11 @@ class Estimator:
             found, words = None, str(error)
         else:
             words = ""
-        if self._waiting is None:
+        if self._waiting is None and not self._is_closed:
             self._tell(found, words)
 
     async def close(self) -> None:
-        """End the helper."""
+        """End the helper; whoever is still waiting for an answer hears no more."""
+        self._is_closed = True
+        self._waiting = None
         await self._helper.close()

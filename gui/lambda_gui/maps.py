@@ -22,7 +22,7 @@ class FieldPlot(Widget):
     """A field of values as a map: two cells of it in each character."""
 
     DEFAULT_CSS = """
-    FieldPlot { background: $surface; width: 1fr; height: 1fr; }
+    FieldPlot { background: $surface; width: 1fr; height: 1fr; text-wrap: nowrap; text-overflow: ellipsis; }
     """
 
     def __init__(self, panel: Panel) -> None:
@@ -47,7 +47,8 @@ class FieldPlot(Widget):
                 _append_pair(text, ramp(top), ramp(bottom))
             text.append("\n")
         x, y = panel.field.x, panel.field.y
-        text.append(f" {panel.x.text} {_ends(x)}   {panel.y.text} {_ends(y)}\n ", style="dim")
+        ends = f"{panel.x.text} {_ends(x)}   {panel.y.text} {_ends(y)}"
+        text.append(f" {ends if len(ends) <= width else ends.replace(' rolling', '')}\n ", style="dim")
         return text.append_text(ramp.scale(width))
 
 

@@ -59,6 +59,8 @@ class Node:
         The options on its form, in order.
     role, element : str
         Of a node for one role: which, and of which force element ("" for all of them).
+    heading : str
+        Over the form; the title where nothing else is given.
     """
 
     key: str
@@ -69,6 +71,10 @@ class Node:
     kind: Kind = "form"
     role: str = ""
     element: str = ""
+    heading: str = ""
+
+    def __post_init__(self) -> None:
+        self.heading = self.heading or self.title
 
     def walk(self) -> Iterator[Node]:
         """Yield this node and all below it."""
@@ -168,7 +174,9 @@ def _forces() -> Node:
 
 def _role(element: str, role: str) -> Node:
     key = f"forces.{element}.{role}" if element else f"models.{role}"
-    return Node(key, role.replace("_", " "), ROLES[role].summary, kind="role", role=role, element=element)
+    title = role.replace("_", " ")
+    heading = f"{ELEMENTS.get(element, 'All elements')} · {title}"
+    return Node(key, title, ROLES[role].summary, kind="role", role=role, element=element, heading=heading)
 
 
 def _loads() -> Node:
@@ -181,7 +189,7 @@ def _loads() -> Node:
         freedoms = Group("", ("bodies", body), tuple(name for name in DOFS))
         more = Group("Further loads", ("loads", body), tuple(plain_fields(("loads", body))))
         text = f"boundary conditions of the {title.lower()}: free, locked, or moved; further loads on it"
-        nodes.append(Node(f"boundary.{body}", title, text, [freedoms, more]))
+        nodes.append(Node(f"boundary.{body}", title, text, [freedoms, more], heading=f"{title} · boundary conditions"))
     nodes.append(Node("gravity", "Gravity", _doc(("gravity",)), [_group(("gravity",))]))
     return Node("motion", "Loads and motion", "what drives, loads and holds the bodies", children=nodes)
 

@@ -6,6 +6,7 @@ from typing import Any, ClassVar
 
 from lambda_db.catalogue import SqlCatalogue
 from rich.text import Text
+from textual import events
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import VerticalScroll
@@ -16,6 +17,7 @@ from lambda_core.errors import LambdaError
 from lambda_core.registry.catalogue import BearingRow, LubricantRow
 from lambda_core.schema.cards import FieldCard, Kind
 from lambda_core.schema.units import UNITS
+from lambda_gui.option_help import OptionHelp
 from lambda_gui.outline import Keys
 from lambda_gui.rows import Row, Surroundings, row_for
 
@@ -39,6 +41,7 @@ class OwnRow(ModalScreen[str | None]):
     """Change what differs, say where it comes from, save; answers with the new row's name."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("f1", "app.help", "Help", priority=True),
         Binding("ctrl+s", "save", "Save as my own", priority=True),
         Binding("escape", "dismiss(None)", "Back"),
         Binding("down", "app.focus_next", show=False),
@@ -48,6 +51,7 @@ class OwnRow(ModalScreen[str | None]):
     OwnRow { background: $background; }
     OwnRow VerticalScroll { height: 1fr; padding: 0 1; }
     OwnRow .title { height: auto; width: 1fr; background: $panel; padding: 0 1; }
+    OwnRow OptionHelp { height: 4; border-top: hkey $border-blurred; }
     OwnRow .group { width: 1fr; height: 1; color: $primary; margin-top: 1; }
     """
 
@@ -68,7 +72,14 @@ class OwnRow(ModalScreen[str | None]):
                 for keys, card, value in cells:
                     self._values[keys] = value
                     yield row_for(Cell(self._values, keys), card, Surroundings())
+        yield OptionHelp()
         yield Footer()
+
+    def on_descendant_focus(self, event: events.DescendantFocus) -> None:
+        """Say what the value under the keyboard is, and where it comes from."""
+        row = next((w for w in event.widget.ancestors_with_self if isinstance(w, Row)), None)
+        if row is not None:
+            self.query_one(OptionHelp).show(row.help())
 
     def on_mount(self) -> None:
         """Remember what the copy began with."""
@@ -83,7 +94,12 @@ class OwnRow(ModalScreen[str | None]):
         row = self._row
         provenance = [
             _text("source", "", "where the values that you change come from: publication, drawing, measurement"),
-            _choice("grade", "B", ["A", "B", "C"], "A published and cross-read, B good, C weak"),
+            _choice(
+                "grade",
+                "B",
+                ["A", "B", "C"],
+                "of what you change: A published and cross-read, B good, C weak",
+            ),
         ]
         if isinstance(row, BearingRow):
             names = [_text("designation", row.designation, "of the new row"), _text("maker", "own", "of the new row")]

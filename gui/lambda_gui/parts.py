@@ -20,6 +20,15 @@ from lambda_gui.signals import SignalRow
 
 _EMPTY = {"youngs_modulus": ""}  # begins a table of one's own where nothing is known
 
+_SENSE = {
+    "x": "axial",
+    "y": "horizontal",
+    "z": "vertical",
+    "tilt_y": "about y",
+    "tilt_z": "about z",
+    "spin": "about x",
+}
+
 
 class FreedomRow(Branch):
     """One degree of freedom of a body: how it moves, and its support or motion."""
@@ -32,13 +41,22 @@ class FreedomRow(Branch):
     )
 
     def __init__(self, place: Option, card: FieldCard, around: Surroundings, table: type[BaseModel]) -> None:
-        super().__init__(place, card, around, label=f"{card.name.replace('_', ' ')}  {card.description.split(':')[0]}")
+        modes = [label for _, label, _ in self._modes(table)]
+        told = card.model_copy(update={"choices": modes, "description": f"how it moves: {card.description}"})
+        super().__init__(place, told, around, label=f"{card.name.replace('_', ' ')}  {_SENSE[card.name]}")
         self._option, self._table = place, table
         self._supported = False
 
+    def _modes(self, table: type[BaseModel]) -> list[tuple[str, str, str]]:
+        """Return the modes; a rotation about the body's own axis can only be resisted."""
+        if "stiffness" in table.model_fields:
+            return list(self._MODES)
+        resisted = ("support", "free with resistance", "moves by the forces on it and a moment against its speed")
+        return [resisted if mode[0] == "support" else mode for mode in self._MODES]
+
     def control(self) -> Widget:
         """Return the choice of modes."""
-        modes = [ChoiceEntry(value, label, text) for value, label, text in self._MODES]
+        modes = [ChoiceEntry(value, label, text) for value, label, text in self._modes(self._table)]
         return Choice(modes, self._mode())
 
     def _mode(self) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from textual.color import Color
@@ -37,7 +37,7 @@ class Plot(PlotextPlot):
 
     def cycle(self, number: int) -> Colour:
         """Return the colour of the n-th series."""
-        return self.colour(CYCLE[number % len(CYCLE)])
+        return Color.parse(series_colour(self.app.theme_variables, number)).rgb
 
     def ticks(self, low: float, high: float, axis: str, wanted: int) -> None:
         """Put round numbers along an axis."""
@@ -49,6 +49,13 @@ class Plot(PlotextPlot):
         else:
             self.plt.ylim(low, high)
             self.plt.yticks(places, labels)
+
+
+def series_colour(colours: Mapping[str, str], number: int) -> str:
+    """Return the colour of the n-th series as #rrggbb; after the first six they are paler."""
+    colour = Color.parse(colours[CYCLE[number % len(CYCLE)]])
+    back = Color.parse(colours["background"])
+    return colour.blend(back, min(0.7, 0.45 * (number // len(CYCLE)))).hex[:7]
 
 
 def round_numbers(low: float, high: float, wanted: int) -> list[float]:
@@ -64,7 +71,7 @@ def round_numbers(low: float, high: float, wanted: int) -> list[float]:
 
 
 def labels_of(places: Sequence[float]) -> list[str]:
-    """Write ticks with as few digits as tell them apart."""
+    """Write ticks with as few digits as tell them apart, all with as many decimals."""
     for digits in range(2, 8):
         labels = [f"{place:.{digits}g}" for place in places]
         if len(set(labels)) == len(labels) and all(
@@ -74,7 +81,9 @@ def labels_of(places: Sequence[float]) -> list[str]:
             break
     else:
         labels = [f"{place:g}" for place in places]
-    return [_plain(label) for label in labels]
+    plain = [_plain(label) for label in labels]
+    decimals = max((len(label.partition(".")[2]) for label in plain), default=0)
+    return plain if any("e" in label for label in plain) else [f"{float(label):.{decimals}f}" for label in plain]
 
 
 def _plain(label: str) -> str:

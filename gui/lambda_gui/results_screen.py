@@ -59,7 +59,7 @@ class ResultsScreen(Screen[None]):
     ResultsScreen #views { height: 1fr; background: $background; border: none; padding: 0 1;
         border-top: hkey $border-blurred; scrollbar-size-vertical: 1; }
     ResultsScreen #views:focus { border: none; border-top: hkey $border; }
-    ResultsScreen #title { height: 2; padding: 0 1; width: 1fr; }
+    ResultsScreen #title { height: 2; padding: 0 1; width: 1fr; text-wrap: nowrap; text-overflow: ellipsis; }
     ResultsScreen #content { height: 1fr; padding: 0 1; scrollbar-size-vertical: 1; }
     ResultsScreen #content Static { width: auto; height: auto; }
     ResultsScreen .row { width: 1fr; }
@@ -74,7 +74,7 @@ class ResultsScreen(Screen[None]):
         self._more: list[Path] = [shown] if shown is not None else []
         self._marked: set[Path] = set()
         self._helper = Helper(self._say)
-        self._name = SUMMARY
+        self._view = SUMMARY
         self._stamp: object = None
         self._data: ViewData | None = None
 
@@ -96,6 +96,7 @@ class ResultsScreen(Screen[None]):
         table.add_column("result")
         self._list(self._first)
         self.query_one("#views", OptionList).focus()
+        self.app.theme_changed_signal.subscribe(self, lambda _: self._show())
         self.set_interval(_LIVE, self._refresh_live)
         self._fill_views()
 
@@ -199,16 +200,16 @@ class ResultsScreen(Screen[None]):
         options.add_option(Option(SUMMARY, id=SUMMARY))
         options.add_options([Option(card.name.replace("-", " "), id=card.name) for card in cards])
         names = [SUMMARY, *(card.name for card in cards)]
-        if self._name not in names:
-            self._name = names[-1] if many else SUMMARY
-        options.highlighted = names.index(self._name)
+        if self._view not in names:
+            self._view = names[-1] if many else SUMMARY
+        options.highlighted = names.index(self._view)
         self._show()
 
     def on_option_list_option_highlighted(self, event: OptionList.OptionHighlighted) -> None:
         """Show the view under the cursor."""
         name = event.option_id or SUMMARY
-        if name != self._name:
-            self._name = name
+        if name != self._view:
+            self._view = name
             self._show()
 
     def _refresh_live(self) -> None:
@@ -224,19 +225,19 @@ class ResultsScreen(Screen[None]):
     @work(exclusive=True, group="show")
     async def _show(self) -> None:
         paths = self._chosen()
-        self._title("reading ..." if paths else "F5 in the builder runs a case")
+        self._title("reading ..." if paths else "Esc, then F5 runs the case; o opens a result from elsewhere")
         if not paths:
             await self.query_one("#content", VerticalScroll).remove_children()
             return
         self._stamp = _stamp(paths)
         try:
-            if self._name == SUMMARY:
+            if self._view == SUMMARY:
                 found = [await self._helper.ask("summary", path=str(path)) for path in paths]
                 self._data = None
                 await self._put(*(Static(summary_view(summary, self.app.theme_variables)) for summary in found))
-                self._title(f"{found[0].title}   {found[0].state}")
+                self._title("   ".join(summary.state for summary in found))
                 return
-            self._data = await self._helper.ask("view", sources=[str(path) for path in paths], name=self._name)
+            self._data = await self._helper.ask("view", sources=[str(path) for path in paths], name=self._view)
         except LambdaError as error:
             self._data = None
             await self._put(Static(Text(str(error), style="bold")))
@@ -268,7 +269,7 @@ class ResultsScreen(Screen[None]):
 
     def action_figure(self) -> None:
         """Write the view as SVG and PNG."""
-        if self._name == SUMMARY:
+        if self._view == SUMMARY:
             self.notify("choose a view first; the summary goes into the report", severity="warning")
         else:
             self._export("draw", "figures into the folder", sources=True)
@@ -316,7 +317,7 @@ class ResultsScreen(Screen[None]):
         if answer is None:
             return
         target = str(Path(answer).expanduser())
-        more = {"name": self._name, "folder": target} if what == "draw" else {"target": target}
+        more = {"name": self._view, "folder": target} if what == "draw" else {"target": target}
         try:
             written: Sequence[str] = await self._helper.ask(what, sources=paths, **more)
         except LambdaError as error:

@@ -23,9 +23,6 @@ from lambda_gui.places import Place
 if TYPE_CHECKING:
     from lambda_core.physics.describe import ValueReport
 
-if TYPE_CHECKING:
-    pass
-
 
 @dataclass
 class Edited(Message):
@@ -72,6 +69,7 @@ class Row(Vertical):
     Row > .line > .label { width: 23; color: $text-muted; text-overflow: ellipsis; text-wrap: nowrap; }
     Row.-deep > .line > .label { padding-left: 2; }
     Row:focus-within > .line > .label { color: $text; }
+    Row > .line > Entry, Row > .line > Choice { width: 1fr; max-width: 60; }
     Row > .line > .mark { width: 2; color: $accent; padding-left: 1; }
     Row > .mistake { display: none; width: 1fr; height: auto; color: $text-error; padding-left: 2; }
     Row.-wrong > .mistake { display: block; }
@@ -137,6 +135,10 @@ class Row(Vertical):
         self.set_class(bool(mistakes), "-wrong")
         self.query_one(".mistake", Static).update("\n".join(f"▲ {text}" for text in mistakes))
 
+    def entry(self) -> Widget | None:
+        """Return what takes the keyboard when somebody comes to change the option."""
+        return next((widget for widget in self.query("*").results(Widget) if widget.focusable), None)
+
     def help(self) -> Text:
         """Return what the option is: meaning, default, units, limits, source."""
         card = self.card
@@ -156,7 +158,7 @@ class Row(Vertical):
             text.append(f"\nnow {origin}", style="not bold")
         if card.reference:
             text.append(f"\n{card.reference}", style="italic not bold")
-        text.append(f"\n{'.'.join(self.place.keys)}", style="dim not bold")
+        text.append(f"\n{'.'.join(self.place.keys)}", style="not bold")
         return text
 
 

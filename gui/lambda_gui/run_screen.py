@@ -12,10 +12,9 @@ from textual.screen import Screen
 from textual.widgets import DataTable, Footer, Static
 
 from lambda_gui.derived import duration, grouped
-from lambda_gui.plots import Plot, padded
+from lambda_gui.traces import CageTrace, LoadTrace, TorqueTrace, Trace
 
 if TYPE_CHECKING:
-    from lambda_core.simulate.progress import Progress
     from lambda_gui.runs import Queue, Run
 
 _MARK = {"waiting": "…", "running": "▶", "done": "✔", "stopped": "■", "failed": "✘"}
@@ -36,7 +35,7 @@ class RunScreen(Screen[None]):
     DEFAULT_CSS = """
     RunScreen { background: $background; }
     RunScreen DataTable { height: 5; background: $background; scrollbar-size-vertical: 1; }
-    RunScreen #state { height: 3; padding: 0 1; }
+    RunScreen #state { height: 3; padding: 0 1; text-wrap: nowrap; text-overflow: ellipsis; }
     RunScreen #plots { height: 1fr; }
     RunScreen #right { width: 1fr; }
     RunScreen.-wide DataTable { height: 10; }
@@ -53,16 +52,16 @@ class RunScreen(Screen[None]):
         yield DataTable(cursor_type="row")
         yield Static(id="state")
         with Horizontal(id="plots"):
-            yield Plot(id="torque")
+            yield TorqueTrace()
             with Vertical(id="right"):
-                yield Plot(id="cage")
-                yield Plot(id="loads")
+                yield CageTrace()
+                yield LoadTrace()
         yield Footer()
 
     def on_mount(self) -> None:
         """Show the queue and follow it."""
         table = self.query_one(DataTable)
-        for title, width in (("", 1), ("case", 26), ("progress", 12), ("left", 7), ("M N mm", 18)):
+        for title, width in (("", 1), ("case", 24), ("progress", 12), ("time left", 9), ("torque N mm", 16)):
             table.add_column(title, width=width)
         table.focus()
         self.follow()
@@ -72,7 +71,6 @@ class RunScreen(Screen[None]):
 
     def on_resize(self) -> None:
         """Draw for the new size."""
-        self._drawn = None
         self.call_after_refresh(self._draw)
 
     @property
@@ -104,16 +102,16 @@ class RunScreen(Screen[None]):
     def _draw(self) -> None:
         run = self.run_shown
         state = self.query_one("#state", Static)
+        self.query_one("#plots").display = run is not None and bool(run.history)
         if run is None:
-            state.update(Text("no runs yet: F5 in the builder runs the case", style="dim"))
+            state.update(Text("no runs yet: Esc, then F5 runs the case; several wait for each other here", style="dim"))
             return
         state.update(_state(run, self.size.width - 2))
-        seen = (id(run), len(run.history), run.state, self.size, self.app.theme)
+        seen = (id(run), len(run.history))
         if seen != self._drawn and run.history:
             self._drawn = seen
-            _torque(self.query_one("#torque", Plot), run.history)
-            _cage(self.query_one("#cage", Plot), run.history)
-            _loads(self.query_one("#loads", Plot), run.history[-1])
+            for trace in self.query(Trace):
+                trace.follow(run.history)
 
     def action_cancel(self) -> None:
         """Stop the run under the cursor; it keeps what it has."""
@@ -171,9 +169,11 @@ def _bar(percent: float, width: int) -> str:
 
 
 def _state(run: Run, width: int) -> Text:
-    """Say where the run stands, in two lines."""
+    """Say where the run stands, in three lines."""
     text, last = Text(no_wrap=True, overflow="ellipsis"), run.last
-    if last is not None and run.state in ("running", "stopped"):
+    if run.state == "waiting":
+        text.append(f"{_MARK[run.state]} {run.name}  waits for the runs above it", style="bold")
+    elif last is not None and run.state in ("running", "stopped"):
         text.append(_bar(last.percent, max(10, width - 46)), style="bold")
         text.append(
             f" {last.percent:3.0f} %  cage turn {last.cage_revolutions:.1f} of {last.cage_revolutions_wanted:.3g}"
@@ -181,60 +181,7 @@ def _state(run: Run, width: int) -> Text:
         text.append(f"  {duration(last.left_s)} left" if last.left_s is not None and run.is_active else "")
     else:
         text.append(f"{_MARK[run.state]} {run.name}  {run.state}", style="bold")
-    text.append(f"\n{run.message}", style="dim")
+    text.append(f"\n{run.message}\n{run.result.name}", style="dim")
     if last is not None and last.energy_residual is not None:
-        text.append(f"   energy residual {last.energy_residual:.1e}", style="dim")
-    return text.append(f"   {run.result.name}", style="dim")
-
-
-def _torque(plot: Plot, history: list[Progress]) -> None:
-    """Draw the friction torque, its mean and the band of its confidence."""
-    plot.clear("friction torque, N mm")
-    now = [(p.cage_revolutions, p.friction_torque_now_Nmm) for p in history if p.friction_torque_now_Nmm is not None]
-    mean = [(p.cage_revolutions, p.friction_torque_Nmm) for p in history if p.friction_torque_Nmm is not None]
-    if not now or not mean:
-        return
-    banded = [p for p in history if p.friction_torque_ci_Nmm is not None and p.friction_torque_Nmm is not None]
-    edges = [
-        [(p.cage_revolutions, p.friction_torque_Nmm + sign * p.friction_torque_ci_Nmm) for p in banded]  # type: ignore[operator]
-        for sign in (-1.0, 1.0)
-    ]
-    for points, colour, label in (
-        (now, "secondary", "now"),
-        *((edge, "accent", "") for edge in edges),
-        (mean, "primary", "mean"),
-    ):
-        if points:
-            plot.plt.plot(*zip(*points, strict=True), color=plot.colour(colour), marker="braille", label=label or None)
-    values = [y for points in (now, mean, *edges) for _, y in points]
-    low, high = padded(min(values), max(values), 0.02 * abs(mean[-1][1]))
-    plot.ticks(low, high, "y", max(2, plot.size.height // 4))
-    plot.ticks(0.0, max(history[-1].cage_revolutions_wanted, now[-1][0]), "x", max(2, plot.size.width // 12))
-    plot.plt.xlabel("cage revolutions")
-    plot.refresh()
-
-
-def _cage(plot: Plot, history: list[Progress]) -> None:
-    """Draw cage speed over inner ring speed."""
-    points = [(p.cage_revolutions, p.cage_speed_ratio) for p in history if p.cage_speed_ratio is not None]
-    plot.clear("cage speed over inner ring speed")
-    if not points:
-        return
-    plot.plt.plot(*zip(*points, strict=True), color=plot.colour("success"), marker="braille")
-    ratios = [y for _, y in points]
-    plot.ticks(*padded(min(ratios), max(ratios), 0.004), "y", max(2, plot.size.height // 4))
-    plot.ticks(0.0, max(history[-1].cage_revolutions_wanted, points[-1][0]), "x", max(2, plot.size.width // 12))
-    plot.refresh()
-
-
-def _loads(plot: Plot, last: Progress) -> None:
-    """Draw the load of each ball on the inner ring now."""
-    plot.clear("ball loads on the inner ring now, N")
-    loads = list(last.inner_loads_N)
-    if not loads:
-        return
-    balls = [float(ball) for ball in range(1, len(loads) + 1)]
-    plot.plt.bar(balls, loads, color=plot.colour("accent"), marker="sd", width=0.6)
-    plot.plt.xticks(balls, [f"{ball:.0f}" for ball in balls])
-    plot.ticks(0.0, 1.05 * max(*loads, 1.0), "y", max(2, plot.size.height // 4))
-    plot.refresh()
+        text.append(f"   energy residual {last.energy_residual:.1e} of input", style="dim")
+    return text

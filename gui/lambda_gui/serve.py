@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import ipaddress
 import shlex
 import sys
@@ -45,6 +46,7 @@ def serve(case: str | None, host: str, port: int) -> None:
         raise UsageError('serving needs another package: pip install "lambda-bearing[serve]"') from None
     command = [sys.executable, "-m", "lambda_cli", "gui", *([case] if case else [])]
     try:
-        Server(shlex.join(command), host=host, port=port, title="lambda-bearing").serve()
+        with contextlib.redirect_stdout(sys.stderr):  # the server talks; stdout is for data
+            Server(shlex.join(command), host=host, port=port, title="lambda-bearing").serve()
     except OSError as error:
         raise UsageError(f"cannot serve at {host}:{port}: {error.strerror}") from None

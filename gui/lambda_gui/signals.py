@@ -84,6 +84,10 @@ class SignalRow(Branch):
             entry.placeholder = "required" if self.card.required else self.card.default or "none"
         super().show()
 
+    def entry(self) -> Widget | None:
+        """Return the value where there is one: it is changed more often than the kind before it."""
+        return self.query_one(Entry) if self._kind() == "value" else super().entry()
+
     def twigs(self) -> Iterator[Widget]:
         """Yield the options of the kind, or the terms of a sum."""
         table = self._tables.get(self._kind())

@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from lambda_db.drawing import Section
+from lambda_db.drawing import AIR, BALL, RING, Section
 from rich.text import Text
+from textual.color import Color
 from textual.widgets import Static
+
+from lambda_gui.axes import SIGNS, axes_sketch
 
 if TYPE_CHECKING:
     from lambda_core.physics.model import BearingModel, Geometry
+    from lambda_gui.outline import Node
+
+_POINTS = 4  # along each side of a pixel, for smooth edges
+_WITH_AXES = ("motion", "operation", "loads", "boundary", "gravity", "markers")
+_MARKS = 17  # room for the diameters beside a section
 
 
 class Sketch(Static):
-    """The upper half-section of the bearing of the case."""
+    """The upper half-section of the bearing of the case; axes and signs beside forms about loads and motion."""
 
     DEFAULT_CSS = """
     Sketch { width: 1fr; padding: 0 1; }
@@ -22,22 +31,32 @@ class Sketch(Static):
     def __init__(self) -> None:
         super().__init__(id="sketch")
         self._section: Section | None = None
+        self._is_about_axes = False
 
     def show_model(self, model: BearingModel | None) -> None:
         """Take the geometry of a resolved case; one with mistakes leaves the last."""
         if model is not None:
             self._section = section_of_geometry(model.geometry)
-            self._draw()
+            self.draw()
+
+    def show_node(self, node: Node) -> None:
+        """Take the node whose form is shown."""
+        self._is_about_axes = node.key.split(".")[0] in _WITH_AXES
+        self.draw()
 
     def on_resize(self) -> None:
         """Draw for the new size."""
-        self._draw()
+        self.draw()
 
-    def _draw(self) -> None:
+    def draw(self) -> None:
+        """Draw section or axes, in the colours of the theme."""
+        colours = self.app.theme_variables
+        if self._is_about_axes:
+            self.update(axes_sketch(colours).append(f"\n{SIGNS}", style="dim"))
+            return
         if self._section is None or self.size.height < 6:
             self.update("")
             return
-        colours = self.app.theme_variables
         self.update(drawn(self._section, min(self.size.height - 2, 22), self.size.width - 2, colours))
 
 
@@ -61,7 +80,7 @@ def section_of_geometry(geometry: Geometry) -> Section:
 
 
 def drawn(section: Section, height: int, width: int, colours: dict[str, str]) -> Text:
-    """Draw a section with its diameters at the side.
+    """Draw a section with its diameters at the side; edges are blended, so that they look smooth.
 
     Parameters
     ----------
@@ -72,11 +91,10 @@ def drawn(section: Section, height: int, width: int, colours: dict[str, str]) ->
     """
     high = 0.5 * (section.outside - section.bore)
     rows = 2 * height
-    while rows > 8 and section.width / high * rows > width - 17:
+    while rows > 8 and section.width / high * rows > width - _MARKS:
         rows -= 2
-    step = high / rows
-    columns = max(4, round(section.width / step))
-    paint = {"█": colours["secondary"], "░": colours["accent"]}
+    columns = max(4, round(section.width / high * rows))
+    pixels = _pixels(section, rows, columns, *(colours[name] for name in ("background", "secondary", "accent")))
     marks = {
         0: f"D {section.outside:g} mm",
         _row(section.race_outer, section, rows): f"⌀ {section.race_outer:.2f}",
@@ -86,21 +104,34 @@ def drawn(section: Section, height: int, width: int, colours: dict[str, str]) ->
     }
     text = Text(no_wrap=True)
     for line in range(rows // 2):
-        for column in range(columns):
-            x = (column + 0.5) / columns * section.width - 0.5 * section.width
-            top, bottom = (
-                paint.get(section.cell(x, 0.5 * section.outside - (2 * line + half + 0.5) * step), "")
-                for half in (0, 1)
-            )
-            if top and bottom:
-                text.append("▀", style=f"{top} on {bottom}")
-            elif top or bottom:
-                text.append("▀" if top else "▄", style=top or bottom)
-            else:
-                text.append(" ")
+        for top, bottom in zip(pixels[2 * line], pixels[2 * line + 1], strict=True):
+            text.append("▀", style=f"{top} on {bottom}")
         text.append(f"  {marks.get(line, '')}\n", style="dim")
     text.append(f"B {section.width:g} mm".center(columns), style="dim")
     return text
+
+
+@lru_cache(maxsize=32)
+def _pixels(section: Section, rows: int, columns: int, air: str, ring: str, ball: str) -> list[list[str]]:
+    """Return the colour of each pixel: the mean over points in it."""
+    colours = {AIR: Color.parse(air), RING: Color.parse(ring), BALL: Color.parse(ball)}
+    high = 0.5 * (section.outside - section.bore)
+    inside = [(n + 0.5) / _POINTS for n in range(_POINTS)]
+
+    def colour(row: int, column: int) -> str:
+        found = [
+            colours[
+                section.cell(
+                    ((column + x) / columns - 0.5) * section.width, 0.5 * section.outside - (row + y) / rows * high
+                )
+            ]
+            for x in inside
+            for y in inside
+        ]
+        red, green, blue = (sum(parts) // len(found) for parts in zip(*(c.rgb for c in found), strict=True))
+        return f"#{red:02x}{green:02x}{blue:02x}"
+
+    return [[colour(row, column) for column in range(columns)] for row in range(rows)]
 
 
 def _row(diameter: float, section: Section, rows: int) -> int:

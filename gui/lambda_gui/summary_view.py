@@ -59,13 +59,14 @@ def summary_view(summary: Summary, colours: Mapping[str, str]) -> Text:
 def _breakdown(text: Text, summary: Summary) -> None:
     """Append the parts of the friction torque: per ring side by side, then the rest."""
     parts = summary.friction_breakdown_Nmm
-    text.append(f"\n{'N mm':<{_LABEL}}{'inner':>9}{'outer':>9}\n", style="dim")
+    text.append(f"\n{'N mm':<{_LABEL}}{'inner':>9}{'outer':>9}{'both':>9}\n", style="dim")
     for mechanism in dict.fromkeys(name.rpartition("_")[0] for name in parts if name.endswith(("_inner", "_outer"))):
         text.append(f"{mechanism:<{_LABEL}}", style="dim")
-        for ring in ("inner", "outer"):
-            text.append(f"{number(parts.get(f'{mechanism}_{ring}')):>9}")
+        rings = [parts.get(f"{mechanism}_{ring}") for ring in ("inner", "outer")]
+        for value in (*rings, sum(part for part in rings if part is not None)):
+            text.append(f"{number(value):>9}")
         text.append("\n")
     for name, value in parts.items():
         if not name.endswith(("_inner", "_outer")):
-            text.append(f"{name:<{_LABEL}}", style="dim").append(f"{number(value):>9}\n")
+            text.append(f"{name:<{_LABEL}}", style="dim").append(f"{number(value):>27}\n")
     text.append("\n")

@@ -104,7 +104,7 @@ class ModelTree(Tree[Node]):
         words = summary(node, self.draft, self._around)
         if words:
             arrow = 2 if node.children else 0
-            column = max(1, 18 - 2 * depth - arrow - len(node.title))
+            column = max(1, 17 - 2 * depth - arrow - len(node.title))
             left = room - arrow - len(marks) - len(text) - column
             text.append(" " * column + _fitting(words.split("\t"), left), style="dim not bold")
         text.truncate(room - len(marks) - (2 if node.children else 0), overflow="ellipsis", pad=True)
@@ -160,9 +160,9 @@ def _fitting(parts: list[str], room: int) -> str:
     """Join the first parts, as many as there is room for."""
     shown = parts[0]
     for part in parts[1:]:
-        if len(shown) + 1 + len(part) > room:
+        if len(shown) + 3 + len(part) > room:
             break
-        shown += f" {part}"
+        shown += f" · {part}"
     return shown
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from lambda_gui.app import BuilderApp
 from lambda_gui.builder import BuilderScreen
 from lambda_gui.rows import Row
+from textual.command import CommandList, CommandPalette
 
 if TYPE_CHECKING:
     from textual.pilot import Pilot
@@ -75,9 +76,10 @@ async def write(pilot: Pilot[None], text: str) -> None:
 async def go_to(pilot: Pilot[None], path: str) -> None:
     """Go to an option by its name, through the command palette."""
     await pilot.press("ctrl+p")
-    await pilot.pause(0.1)
+    await wait_for(pilot, lambda: isinstance(pilot.app.screen, CommandPalette))
     await write(pilot, path)
-    await pilot.pause(0.4)
+    hits = pilot.app.screen.query_one(CommandList)
+    await wait_for(pilot, lambda: hits.option_count and path in str(hits.get_option_at_index(0).prompt))
     await pilot.press("enter")
     keys = tuple(path.split("."))
     await wait_for(pilot, lambda: focused_place(pilot) == keys)

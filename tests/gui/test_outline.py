@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from lambda_gui.checking import Checker, for_place, node_of, spread
+from lambda_gui.checking import Checker, for_place, node_of
 from lambda_gui.outline import Node, outline
 
 from lambda_core import api
@@ -79,21 +79,16 @@ def test_a_mistake_finds_its_node(where: str, key: str) -> None:
     assert found.key == key
 
 
-def test_a_missing_table_is_asked_for_option_by_option() -> None:
-    found = spread([Problem("lubricant", "is required: the oil"), Problem("loads.radial", "is required")])
-    assert [problem.where for problem in found] == ["lubricant.name", "lubricant.temperature", "loads.radial"]
-
-
 def test_an_empty_model_says_what_it_needs() -> None:
     found = Checker().check(api.draft().tables, None)
     assert found.model is None
-    assert {problem.where for problem in found.problems} == {
-        "bearing",
+    assert [problem.where for problem in found.problems] == [
+        "bearing.designation",
         "lubricant.name",
         "lubricant.temperature",
         "operation.speed",
-    }
-    assert for_place(found.problems, ("bearing", "designation"), first=True)
+    ]  # option by option, in the order of the tree
+    assert for_place(found.problems, ("bearing", "designation"))
     assert not for_place(found.problems, ("bearing", "maker"))
 
 

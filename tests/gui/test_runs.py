@@ -87,7 +87,6 @@ async def test_from_an_empty_model_to_a_result_by_keyboard(work_folder: Path, sh
             await pilot.press("enter")
         for path, text in (("loads.axial", "1300"), ("operation.speed", "2750")):
             await go_to(pilot, path)
-            await pilot.press("tab")
             await write(pilot, text)
             await pilot.press("enter")
         await checked(pilot)
@@ -173,7 +172,7 @@ async def test_traces_are_drawn_and_a_resize_in_the_middle_does_no_harm(
             await pilot.resize_terminal(*size)
             await pilot.pause(0.3)
             assert "drive-end" in screen_text(pilot.app)
-        assert "friction torque, N mm" in screen_text(pilot.app)
+        assert "friction torque [N mm]" in screen_text(pilot.app)
         assert pilot.app.queue.runs[0].is_active
         await pilot.press("escape")
         await go_to(pilot, "loads.axial")  # a run does not keep one from working

@@ -1,0 +1,132 @@
+"""The builder in a browser: a case is built from nothing and run; who may reach it is said."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from lambda_gui.serve import is_loopback, warning
+
+from lambda_core import api
+
+pytest.importorskip("textual_serve")
+pytest.importorskip("aiohttp")
+
+from browsing import CHROMIUM, Browser, chromium, client
+
+
+def test_only_this_machine_unless_told_otherwise() -> None:
+    for host in ("localhost", "127.0.0.1", "::1"):
+        assert is_loopback(host)
+        assert not warning(host)
+    for host in ("0.0.0.0", "192.168.1.5", "example.org"):
+        assert "no password" in warning(host)
+
+
+@pytest.fixture
+def served(work_folder: Path, shared_compiled_code: None) -> Iterator[int]:
+    """Serve the builder without a case; gives the port."""
+    with socket.socket() as found:
+        found.bind(("127.0.0.1", 0))
+        port = int(found.getsockname()[1])
+    command = [sys.executable, "-m", "lambda_cli", "gui", "--serve", "--port", str(port)]
+    server = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, env=os.environ)
+    try:
+        yield port
+    finally:
+        server.terminate()
+        server.wait(20)
+
+
+def _wait_for_server(port: int) -> None:
+    end = time.monotonic() + 40.0
+    while True:
+        with socket.socket() as line:
+            if line.connect_ex(("127.0.0.1", port)) == 0:
+                return
+        assert time.monotonic() < end, "the server does not answer"
+        time.sleep(0.1)
+
+
+def test_nobody_else_is_served_and_a_port_in_use_is_said(served: int) -> None:
+    _wait_for_server(served)
+    with socket.socket() as line:
+        line.settimeout(1.0)
+        other = socket.gethostbyname(socket.gethostname())
+        if not other.startswith("127."):
+            assert line.connect_ex((other, served)) != 0
+    command = [sys.executable, "-m", "lambda_cli", "gui", "--serve", "--port", str(served)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2
+    assert "cannot serve" in done.stderr
+
+
+async def build_and_run(browser: Browser) -> None:
+    """Build the 6208 of the paper under 1300 N from nothing, save it, run it for 5 ms."""
+    await browser.until("which case?")
+    await browser.press("enter")
+    await browser.until("4 mistakes", without="which case?")
+    await browser.press("f8")
+    await browser.until("designation  catalogue designation")
+    await browser.write("6208")
+    await browser.until("choose one: ")
+    await browser.press("down")
+    await browser.until("maker  whose design")
+    await browser.write("Syla2026")
+    await browser.until("3 mistakes")
+    oil = (("name  catalogue name", "bode-mineral", "2 mistakes"), ("temperature  temperature", "40", "1 mistake "))
+    for about, text, left in oil:
+        await browser.press("f8")
+        await browser.until(about)
+        await browser.write(text)
+        await browser.until(left)
+    await browser.press("f8")
+    await browser.until("speed  speed of the inner ring")
+    await browser.write("2750 rpm")
+    await browser.until("ready")
+    for place, about, text in (
+        ("loads.axial", "axial load on the inner ring", "1300 N"),
+        ("solver.duration", "simulated time; absent", "5 ms"),
+    ):
+        await browser.press("ctrl+p")
+        await browser.until("Search for commands")
+        await browser.write(place)
+        await browser.until(about)
+        await browser.press("enter")
+        await browser.until(f"{place.partition('.')[2]}  {about}")  # the help beside the form
+        await browser.write(text)
+        await browser.until(text)
+    await browser.press("ctrl+s")
+    await browser.until("Save the case as")
+    await browser.press("enter")
+    await browser.until("untitled.toml", without="unsaved")
+    await browser.press("f5")
+    await browser.until("untitled                  done", seconds=200.0)
+
+
+def saw_to_it(folder: Path) -> None:
+    """Check what is on the disk."""
+    case = api.case(folder / "untitled.toml")
+    assert (case.bearing.designation, case.bearing.maker) == ("6208", "Syla2026")
+    assert (case.lubricant.name, case.loads.axial) == ("bode-mineral", 1300.0)
+    assert api.summary(folder / "untitled.h5").simulated_s == pytest.approx(0.005, rel=0.05)
+
+
+async def test_a_case_is_built_and_run_through_the_web_socket(served: int, work_folder: Path) -> None:
+    async with client(served) as browser:
+        await build_and_run(browser)
+    await asyncio.to_thread(saw_to_it, work_folder)
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="needs chromium on PATH")
+async def test_a_case_is_built_and_run_in_chromium(served: int, work_folder: Path, tmp_path: Path) -> None:
+    async with chromium(served, tmp_path / "profile") as browser:
+        await build_and_run(browser)
+    await asyncio.to_thread(saw_to_it, work_folder)
