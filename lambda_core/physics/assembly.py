@@ -386,7 +386,7 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oil: Oi
         table,
         active,
         np.zeros((L.NCH, 3)),
-        np.zeros((2, 12, grid.shape[1])),
+        np.zeros((2, L.N_CELL_ROWS, grid.shape[1])),
         np.zeros((L.N_SCRATCH, 64)),
         np.zeros((balls, 6)),
     )

@@ -121,7 +121,7 @@ def contact_field(
     if kinematics.contact_kinematics.py_func(ball, ring, index, in_python, kin) <= 0.0:
         raise SolverError(f"the ball does not touch the {which} ring at this moment")
     grid, laws = unit_grid(strips, rows), getattr(bundle.laws, which)
-    cells, scratch = np.zeros((12, grid.shape[1])), np.zeros((L.N_SCRATCH, 64))
+    cells, scratch = np.zeros((L.N_CELL_ROWS, grid.shape[1])), np.zeros((L.N_SCRATCH, 64))
     scratch[L.FAULT, 0] = -1.0
     scalars, wrench, losses = np.zeros(L.NC), np.zeros(64), np.zeros(L.NL)
     run = compile_host(raceway.raceway_wrench, L.wrench_sig, Path(raceway.__file__).parent).dispatcher

@@ -324,7 +324,7 @@ def _contacts(compiled: Core, assembly: A.Assembly, state: FloatArray) -> tuple[
     system["guides_on"] = 0
     ok = compiled.observe(
         np.zeros(1), state.reshape(1, -1), bundle, compiled.evaluate_pointer, 1.0, contacts, np.zeros((1, z, 3)),
-        np.zeros((1, 2, 3)), np.zeros((1, L.NI + 2)), np.zeros((1, 3 * L.NS)), rates,
+        np.zeros((1, 2, 3)), np.zeros((1, L.NI + 2)), np.zeros((1, 3 * L.NS)), rates, np.zeros(assembly.size),
     )  # fmt: skip
     system["guides_on"] = 1
     if ok != 1:

@@ -191,6 +191,7 @@ class BearingEngine:
             "newton_iterations": bdf.NEWTON,
             "rhs_calls": bdf.RHS,
             "jacobians": bdf.JACOBIANS,
+            "ball_jacobians": bdf.LOCAL,
             "factorisations": bdf.FACTORS,
         }
         return {name: float(self._memory.count[i]) for name, i in names.items()}
@@ -201,7 +202,7 @@ class BearingEngine:
         for prefix, group in (("memory", self._memory), ("factors", self._factors)):
             for name, array in zip(group._fields, group, strict=True):
                 parts[f"{prefix}.{name}"] = np.array(array, copy=True)
-        for name in ("a", "b", "c", "d"):
+        for name in ("a", "b", "c", "d", "parts"):
             parts[f"blocks.{name}"] = getattr(self._assembly.blocks, name).copy()
         parts["start"] = np.array([*self._start_angles, self._start_energy])
         return parts
@@ -272,8 +273,9 @@ def observe(core_: Core, assembly: A.Assembly, times: FloatArray, states: FloatA
     contacts, pockets, lands = np.zeros((n, z, 2, 16)), np.zeros((n, z, 3)), np.zeros((n, 2, 3))
     extra, flat, rates = np.zeros((n, L.NI + 2)), np.zeros((n, 3 * L.NS)), np.zeros((n, L.NI))
     ok = core_.observe(
-        times, states, assembly.bundle, core_.evaluate_pointer, SHORTED, contacts, pockets, lands, extra, flat, rates
-    )
+        times, states, assembly.bundle, core_.evaluate_pointer, SHORTED, contacts, pockets, lands, extra, flat, rates,
+        np.zeros(assembly.size),
+    )  # fmt: skip
     if ok != 1:
         raise SolverError(fault_sentence(assembly))
     shared = flat.reshape(n, 3, L.NS)

@@ -7,6 +7,8 @@ from typing import Annotated
 
 from lambda_core.plugins import Quantity, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_plugins.shapes import at_most
+from lambda_plugins.vector_math import exp, log, power
 
 
 class Floors(Parameters):
@@ -55,10 +57,10 @@ def chittenden(
     force = math.sqrt(load * load + par[1] * par[1])
     U = eta0 * speed / (E_eff * R_e)
     W = force / (E_eff * R_e * R_e)
-    common = R_e * (alpha_p * E_eff) ** 0.49 * U**0.68 * W**-0.073
-    shape = (R_s / R_e) ** (2.0 / 3.0)
-    central = 4.31 * common * (1.0 - math.exp(-1.23 * shape))
-    minimum = 3.68 * common * (1.0 - math.exp(-0.67 * shape))
+    common = R_e * (alpha_p * E_eff) ** 0.49 * exp(0.68 * log(U) - 0.073 * log(W))
+    shape = power(R_s / R_e, 2.0 / 3.0)
+    central = 4.31 * common * (1.0 - exp(-at_most(1.23 * shape, 700.0)))
+    minimum = 3.68 * common * (1.0 - exp(-at_most(0.67 * shape, 700.0)))
     out[0] = math.sqrt(central * central + par[2] * par[2])
     out[1] = math.sqrt(minimum * minimum + par[2] * par[2])
     return 1

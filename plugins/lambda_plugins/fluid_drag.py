@@ -117,11 +117,14 @@ def skf_catalogue(
     viscous term of the 2018 edition is optional (not confirmed from its original).
     """
     wet = immersion(azimuth, par[0], par[1], par[2])
-    viscosity = (1e6 * nu) ** 1.379
-    n = v_orbit / par[3]
-    out[0] = wet * n * (par[5] * abs(n) + par[7] * viscosity * (n * n + _SLOW * _SLOW) ** -0.1895)
-    n = omega_spin / par[4]
-    out[1] = wet * n * (par[6] * abs(n) + par[8] * viscosity * (n * n + _SLOW * _SLOW) ** -0.1895)
+    orbit = v_orbit / par[3]
+    spin = omega_spin / par[4]
+    out[0] = wet * orbit * par[5] * abs(orbit)
+    out[1] = wet * spin * par[6] * abs(spin)
+    if par[7] > 0.0 or par[8] > 0.0:
+        viscosity = (1e6 * nu) ** 1.379
+        out[0] += wet * orbit * par[7] * viscosity * (orbit * orbit + _SLOW * _SLOW) ** -0.1895
+        out[1] += wet * spin * par[8] * viscosity * (spin * spin + _SLOW * _SLOW) ** -0.1895
     return 1
 
 

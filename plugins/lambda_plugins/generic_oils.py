@@ -16,7 +16,7 @@ from pydantic import model_validator
 from lambda_core.plugins import Context, Quantity, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
 from lambda_plugins.rheology import capped, dowson_higginson
-from lambda_plugins.shapes import POLYNOMIAL_TERMS, at_least, at_most, polynomial, smooth_min
+from lambda_plugins.shapes import POLYNOMIAL_TERMS, at_least, at_most, polynomial, series, smooth_min
 
 _T_LOW = 233.15  # [K]
 _T_HIGH = 573.15  # [K]
@@ -107,14 +107,6 @@ def _density(oil: TwoPointOil, T: FloatArray) -> FloatArray:
     return oil.density_15 + oil.density_slope * (T - 288.15)
 
 
-def _series(function: Callable[[FloatArray], FloatArray], low: float, high: float) -> FloatArray:
-    """Return the coefficients of a polynomial for `function` over low..high mapped to -1..1 (Chebyshev points)."""
-    nodes = np.cos((np.arange(64) + 0.5) * math.pi / 64)
-    values = function(0.5 * (low + high) + 0.5 * (high - low) * nodes)
-    fit = np.polynomial.chebyshev.chebfit(nodes, values, POLYNOMIAL_TERMS - 1)
-    return np.asarray(np.polynomial.chebyshev.cheb2poly(fit), dtype=np.float64)
-
-
 def _log_viscosity_series(oil: TwoPointOil) -> FloatArray:
     """Return the series of ln(eta_0 / Pa s) over 1/T."""
 
@@ -122,7 +114,7 @@ def _log_viscosity_series(oil: TwoPointOil) -> FloatArray:
         T = 1.0 / inverse
         return np.asarray(np.log(kinematic_viscosity(oil, T) * _density(oil, T)), dtype=np.float64)
 
-    return _series(log_viscosity, 1.0 / _T_HIGH, 1.0 / _T_LOW)
+    return series(log_viscosity, 1.0 / _T_HIGH, 1.0 / _T_LOW)
 
 
 def scaled_inverse(T: float) -> float:
@@ -155,7 +147,7 @@ def prepare_roelands(parameters: RoelandsOil, context: Context) -> FloatArray:
         raise ValueError(
             f"alpha_p = {1e9 * parameters.alpha_p:.3g} 1/GPa gives Roelands' Z = {Z:.3g}; oils have 0.2..1.2"
         )
-    pressure = _series(lambda root: np.asarray(root ** (2.0 * Z) - 1.0, dtype=np.float64), 1.0, _ROOT_HIGH)
+    pressure = series(lambda root: np.asarray(root ** (2.0 * Z) - 1.0, dtype=np.float64), 1.0, _ROOT_HIGH)
     head = [parameters.density_15, parameters.density_slope]
     return np.concatenate([head, _log_viscosity_series(parameters), pressure])
 
@@ -188,7 +180,7 @@ def prepare_barus(parameters: BarusOil, context: Context) -> FloatArray:
         return np.asarray(parameters.alpha_p * ratio, dtype=np.float64)
 
     head = [parameters.density_15, parameters.density_slope, parameters.exponent_limit]
-    return np.concatenate([head, _log_viscosity_series(parameters), _series(alpha, 1.0 / _T_HIGH, 1.0 / _T_LOW)])
+    return np.concatenate([head, _log_viscosity_series(parameters), series(alpha, 1.0 / _T_HIGH, 1.0 / _T_LOW)])
 
 
 def barus_limited(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArray, rho: FloatArray) -> int:

@@ -9,7 +9,7 @@ from pydantic import model_validator
 
 from lambda_core.plugins import NoParameters, Quantity, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
-from lambda_plugins.shapes import at_least, cubic_friction_slope
+from lambda_plugins.shapes import at_least, cubic_friction
 
 _SISTER = "Wingertszahn et al. 2023, Lubricants 11, 369"
 
@@ -74,8 +74,10 @@ def cubic(slip: FloatArray, p: FloatArray, par: FloatArray, mu: FloatArray) -> i
 
     Teutsch 2005; Wingertszahn et al. 2023, Lubricants 11, 369, eq. 21 with its missing factor.
     """
+    per_v_s = 1.0 / par[2]
+    per_fall = 1.0 / (par[3] - par[2])
     for i in range(mu.size):
-        mu[i] = slip[i] * cubic_friction_slope(slip[i], par[0], par[1], par[2], par[3])
+        mu[i] = cubic_friction(slip[i], par[0], par[1], per_v_s, per_fall)
     return 1
 
 

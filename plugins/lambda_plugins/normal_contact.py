@@ -44,13 +44,14 @@ def ellipse_from_penetration(
     R = R_x * R_y / (R_x + R_y)
     s = math.sqrt(delta / first)
     scale = math.sqrt(second * R / 4.5)
-    minor = (6.0 * second * R * scale) ** (1.0 / 3.0) * s
+    root = (6.0 * second * R * scale) ** (1.0 / 3.0)
+    minor = root * s
     major = minor * k
     out[0] = math.pi * k * E_eff * scale * s * s * s
     out[1] = major if R_y >= R_x else minor
     out[2] = minor if R_y >= R_x else major
     # Q/(major minor) with the powers of s cancelled by hand: finite for the smallest penetration.
-    out[3] = 1.5 * E_eff * scale * s / (6.0 * second * R * scale) ** (2.0 / 3.0)
+    out[3] = 1.5 * E_eff * scale * s / (root * root)
 
 
 def hamrock_brewe(delta: float, R_x: float, R_y: float, E_eff: float, par: FloatArray, out: FloatArray) -> int:

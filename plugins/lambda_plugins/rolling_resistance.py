@@ -15,7 +15,7 @@ import numpy as np
 
 from lambda_core.plugins import Context, NoParameters, Quantity, model
 from lambda_plugins.fields import FloatArray, Parameters, parameter
-from lambda_plugins.shapes import at_least
+from lambda_plugins.shapes import at_least, polynomial, series
 
 _POINTS = 8
 
@@ -35,14 +35,16 @@ class InletShear(Parameters):
 
 
 def prepare(parameters: InletShear, context: Context) -> FloatArray:
-    """Return [c, speed floor, 1 - s^2 at the points, weights of ds over -1..1]."""
+    """Return [c, speed floor], then at the points 1 - s^2, its inverse, the weights of ds over -1..1 without and with
+    sqrt(1 - s^2), then the polynomial of (1 + q)^-0.1 over 0..1."""
     nodes, weights = np.polynomial.legendre.leggauss(_POINTS)
     t = 0.25 * math.pi * (nodes + 1.0)
     # symmetric in s: the half 0..1 counts twice
     cosines = np.cos(t)
-    return np.concatenate(
-        [[parameters.thermal_coefficient, parameters.speed_floor], cosines**2, 0.5 * math.pi * weights * cosines]
-    )
+    head = [parameters.thermal_coefficient, parameters.speed_floor]
+    transition = series(lambda q: np.asarray((1.0 + q) ** -0.1, dtype=np.float64), 0.0, 1.0)
+    weights = 0.5 * math.pi * weights * cosines
+    return np.concatenate([head, cosines**2, cosines**-2, weights, weights * cosines, transition])
 
 
 def regular_speed(u_mean: float, floor: float) -> float:
@@ -86,16 +88,18 @@ def biboulet_houpert(
     U2 = 2.0 * eta0 * speed / (E_eff * R_x)
     root = math.sqrt(U2)
     peak = 0.75 * load / (semi_a * E_eff * R_x)
+    thin = math.sqrt(U2 * peak)
+    thick = root * math.sqrt(root) / 0.966
+    square = 0.966 * 0.966 * peak / root
+    inverse = 1.0 / square
     total = 0.0
     for i in range(_POINTS):
-        W = peak * par[2 + i]
-        m2 = 0.966 * 0.966 * W / root
         # the two branches are one function, written so that neither overflows
-        if m2 < 1.0:
-            strip = math.sqrt(U2 * W) / (1.0 + m2**5) ** 0.1
-        else:
-            strip = root * math.sqrt(root) / 0.966 / (1.0 + m2**-5) ** 0.1
-        total += par[2 + _POINTS + i] * strip
+        low = square * par[2 + i] < 1.0
+        x = square * par[2 + i] if low else inverse * par[2 + _POINTS + i]
+        x2 = x * x
+        branch = thin * par[2 + 3 * _POINTS + i] if low else thick * par[2 + 2 * _POINTS + i]
+        total += branch * polynomial(2.0 * x2 * x2 * x - 1.0, par, 2 + 4 * _POINTS)
     force = 1.4 / 0.985 * E_eff * R_x * semi_a * total
     out[0] = force * thermal_factor(par[0], speed, eta0, beta, k_oil) * abs(u_mean) / speed
     return 1

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+
+import numpy as np
+
 from lambda_plugins.fields import FloatArray
 
 
@@ -22,7 +27,8 @@ def smooth_min(value: float, limit: float, width: float) -> float:
     """
     held = at_most(value, limit + width)
     inside = at_least(held - (limit - width), 0.0)
-    return held - inside * inside / (4.0 * width + 1e-300)
+    # the quotient first: it need not wait for the value
+    return held - inside * inside * (1.0 / (4.0 * width + 1e-300))
 
 
 def cubic_friction_slope(speed: float, mu_s: float, mu_d: float, v_s: float, v_d: float) -> float:
@@ -39,7 +45,23 @@ def cubic_friction_slope(speed: float, mu_s: float, mu_d: float, v_s: float, v_d
     return (mu_s + (mu_d - mu_s) * d * d * (3.0 - 2.0 * d)) / speed
 
 
+def cubic_friction(speed: float, mu_s: float, mu_d: float, per_v_s: float, per_fall: float) -> float:
+    """Return mu(v) of the law of :func:`cubic_friction_slope`; `per_v_s` is 1/v_s, `per_fall` is 1/(v_d - v_s)."""
+    x = speed * per_v_s
+    d = at_most(at_least((speed - 1.0 / per_v_s) * per_fall, 0.0), 1.0)
+    rise = 0.5 * mu_s * x * (3.0 - x * x)
+    return rise if x < 1.0 else mu_s + (mu_d - mu_s) * d * d * (3.0 - 2.0 * d)
+
+
 POLYNOMIAL_TERMS = 13
+
+
+def series(function: Callable[[FloatArray], FloatArray], low: float, high: float) -> FloatArray:
+    """Return the coefficients for :func:`polynomial` of `function` over low..high mapped to -1..1 (Chebyshev points)."""
+    nodes = np.cos((np.arange(64) + 0.5) * math.pi / 64)
+    values = function(0.5 * (low + high) + 0.5 * (high - low) * nodes)
+    fit = np.polynomial.chebyshev.chebfit(nodes, values, POLYNOMIAL_TERMS - 1)
+    return np.asarray(np.polynomial.chebyshev.cheb2poly(fit), dtype=np.float64)
 
 
 def polynomial(x: float, c: FloatArray, start: int) -> float:

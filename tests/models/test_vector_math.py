@@ -11,6 +11,9 @@ from hypothesis import strategies as st
 from lambda_plugins import vector_math
 from numba import float64, njit
 
+from lambda_core.registry.machine_code import OPTIONS, make_callable
+from lambda_core.registry.reach import reach
+
 EPS = np.finfo(float).eps
 
 
@@ -22,6 +25,22 @@ def test_exp(x: float) -> None:
 @given(st.floats(0.0, 1e290, allow_subnormal=False))
 def test_log1p(d: float) -> None:
     assert vector_math.log1p(d) == pytest.approx(math.log1p(d), rel=4 * EPS, abs=0.0)
+
+
+@given(st.floats(1e-290, 1e290))
+def test_log(x: float) -> None:
+    # near 1 the argument x has digits that its logarithm feels one to one
+    assert vector_math.log(x) == pytest.approx(math.log(x), rel=4 * EPS, abs=EPS)
+
+
+@given(st.floats(1e-100, 1e100), st.floats(-3.0, 3.0))
+def test_power(x: float, y: float) -> None:
+    assert vector_math.power(x, y) == pytest.approx(x**y, rel=(4 + 4 * abs(y * math.log(x))) * EPS)
+
+
+@pytest.mark.parametrize("x", [-1.0, 0.0, math.inf, math.nan])
+def test_log_of_what_has_none(x: float) -> None:
+    assert math.isnan(vector_math.log(x))
 
 
 @given(st.floats(0.0, 1e140, allow_subnormal=False))
@@ -37,8 +56,10 @@ def test_no_step_where_the_exponent_changes(split: float) -> None:
 
 
 def test_compiled_equals_plain_and_nan_stays_nan() -> None:
-    log1p = njit(float64(float64), error_model="numpy")(vector_math.log1p)
-    exp = njit(float64(float64), error_model="numpy")(vector_math.exp)
+    for function in (vector_math.log1p, vector_math.exp):
+        make_callable(reach(function).helpers)
+    log1p = njit(float64(float64), **OPTIONS)(vector_math.log1p)
+    exp = njit(float64(float64), **OPTIONS)(vector_math.exp)
     for x in np.random.default_rng(1).uniform(-50.0, 50.0, 2000):
         assert exp(x) == pytest.approx(vector_math.exp(x), rel=4 * EPS)
         assert log1p(abs(x)) == pytest.approx(vector_math.log1p(abs(x)), rel=4 * EPS)

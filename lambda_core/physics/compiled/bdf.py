@@ -52,17 +52,21 @@ N_CONTROL = 16
     AGE,
     FAILED,
     CAREFUL,
-) = range(12)
+    LOCAL,
+) = range(13)
 N_COUNT = 16
 
 OK, FULL, STEP_TOO_SMALL, FAULT = 0, 1, 2, 3
 
 _NEWTON_TOLERANCE = 0.3  # of the error allowed per step
 _MAX_NEWTON = 4
+_MAX_LOCAL = 4  # more iterations where Jacobians of single balls are renewed on the way
 _REFACTOR = 0.41  # relative change of gamma beyond which M is factored anew; not a tie with one growth of the step
-_SLOW = 0.3  # convergence rate beyond which the Jacobian is renewed
-_SAFETY = 0.8  # of the step that the error would just allow
-_GROWTH = 1.4  # of the step, at most; BDF2 is stable up to 2.4
+_SLOW = 0.3  # convergence rate beyond which the Jacobian is renewed for the balls that are to blame
+_WORN = 0.5  # convergence rate at the end of a step beyond which it is renewed for all
+_SHARE = 0.05  # of the squared last change, from which a ball's part of the Jacobian is renewed
+_SAFETY = 0.7  # of the step that the error would just allow
+_GROWTH = 1.7  # of the step, at most; BDF2 is stable up to 2.4
 _SWING = 0.04  # share of its square by which a correction turns round before the secant is taken
 _STAY_CAREFUL = 4  # steps for which the iteration keeps beginning at the last speeds once that was needed
 _MAX_AGE = 60  # steps after which the Jacobian is renewed in any case
@@ -203,11 +207,46 @@ def _move(mem, first, last, relax, again):
 
 
 @helper
+def _renew(jacobian, t, gamma, bundle, bl, fa, mem):
+    """Bring the Jacobian, if it is due, and the factors to the point evaluated last; returns 1 when well."""
+    control, count = mem.control, mem.count
+    if count[STALE] == 1:
+        if jacobian(t, mem.new, bundle, bl) != 1:
+            return 0
+        control[G_FACTORED] = 0.0
+        count[STALE] = 0
+    if abs(gamma / (control[G_FACTORED] + 1e-300) - 1.0) > _REFACTOR:
+        count[FACTORS] += 1
+        if arrow_factor(bl, 1.0, gamma, fa) != 1:
+            return 0
+        control[G_FACTORED] = gamma
+        control[RATE] = 1.0
+    return 1
+
+
+@helper
+def _mark_slow(bl, mem, size):
+    """Mark the balls that make most of the last change, of the given norm; returns how many."""
+    change, weight = mem.change, mem.weight
+    bar = _SHARE * size * size * change.size
+    marked = 0
+    for j in range(bl.due.size):
+        total = 0.0
+        for i in range(NB * j, NB * j + NB):
+            x = change[i] * weight[i]
+            total += x * x
+        bl.due[j] = 1 if total > bar else 0
+        marked += bl.due[j]
+    return marked
+
+
+@helper
 def _newton(evaluate, jacobian, t, gamma, bundle, bl, fa, mem):
     """Solve new = base + gamma f(new); returns 1 converged, 0 not, -1 a kernel refused.
 
-    The rates of the running integrals are those of the last iterate, which differs from the result by less
-    than the error allowed per step.
+    A ball that bounces on a raceway or in its pocket spoils the convergence of all: where it is slow, the Jacobian is
+    renewed at the iterate for the balls that change most. The rates of the running integrals are those of the last
+    iterate, which differs from the result by less than the error allowed per step.
     """
     new, change, weight, count, control = (
         mem.new,
@@ -218,31 +257,26 @@ def _newton(evaluate, jacobian, t, gamma, bundle, bl, fa, mem):
     )
     n = new.size
     _start(bundle, mem)
-    before = 0.0
-    for iteration in range(_MAX_NEWTON):
+    careful = count[CAREFUL] > 0
+    before, limit = 0.0, _MAX_NEWTON
+    for iteration in range(_MAX_NEWTON + _MAX_LOCAL):
+        if iteration >= limit:
+            return 0
         count[RHS] += 1
         if evaluate(t, new, bundle, mem.slope, mem.new_rates, 1) != 1:
             return -1
-        if iteration == 0:
-            if count[STALE] == 1:
-                count[JACOBIANS] += 1
-                if jacobian(t, new, bundle, bl) != 1:
-                    return -1
-                count[STALE], count[AGE] = 0, 0
-                control[G_FACTORED] = 0.0
-            if abs(gamma / (control[G_FACTORED] + 1e-300) - 1.0) > _REFACTOR:
-                count[FACTORS] += 1
-                if arrow_factor(bl, 1.0, gamma, fa) != 1:
-                    return -1
-                control[G_FACTORED] = gamma
-                control[RATE] = 1.0
+        if iteration == 0 and count[STALE] == 1:
+            count[JACOBIANS] += 1
+            count[AGE] = 0
+        if _renew(jacobian, t, gamma, bundle, bl, fa, mem) != 1:
+            return -1
         count[NEWTON] += 1
         for i in range(n):
             change[i] = mem.base[i] + gamma * mem.slope[i] - new[i]
         arrow_solve(fa, change)
         # A matrix factored for another gamma over- or undershoots by a known amount.
         relax = 2.0 / (1.0 + gamma / control[G_FACTORED])
-        again = iteration > 0 and count[CAREFUL] > 0
+        again = iteration > 0 and careful
         for j in range(bundle.system[0].balls):
             _move(mem, NB * j, NB * j + NB, relax, again)
         _move(mem, NB * bundle.system[0].balls, n, relax, again)
@@ -251,12 +285,18 @@ def _newton(evaluate, jacobian, t, gamma, bundle, bl, fa, mem):
             return 0
         if iteration > 0:
             control[RATE] = max(0.2 * control[RATE], size / (before + 1e-300))
-            if size > 2.0 * before and size > _NEWTON_TOLERANCE:
+            if careful and size > 2.0 * before and size > _NEWTON_TOLERANCE:
                 return 0
         # Secants hide the rate of convergence.
-        rate = control[RATE] if count[CAREFUL] == 0 else 1.0
+        rate = 1.0 if careful else control[RATE]
         if size * min(1.0, rate) <= _NEWTON_TOLERANCE:
             return 1
+        if iteration > 0 and not careful and size > _SLOW * before:
+            if _mark_slow(bl, mem, size) == 0:
+                return 0
+            count[LOCAL] += 1
+            count[STALE] = 1
+            limit = min(limit + 1, _MAX_NEWTON + _MAX_LOCAL)
         before = size
     return 0
 
@@ -339,6 +379,7 @@ def advance(evaluate, jacobian, until, max_steps, bundle, bl, fa, mem):
             else:
                 count[FAILED] += 1
                 count[STALE] = 1
+                bl.due[:] = 1
                 if ok == -1 or renewed:
                     control[H] = 0.3 * h
                 if renewed:
@@ -347,7 +388,7 @@ def advance(evaluate, jacobian, until, max_steps, bundle, bl, fa, mem):
             if control[H] < control[H_MIN]:
                 return FAULT if ok == -1 else STEP_TOO_SMALL
         _accept(mem, h)
-        if control[RATE] > _SLOW and control[RATE] < 1.0:
+        if control[RATE] > _WORN and control[RATE] < 1.0:
             count[STALE] = 1
         # Small changes of step are not worth a new factorisation.
         if factor > 1.15 or factor < 1.0:

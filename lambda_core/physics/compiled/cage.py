@@ -140,17 +140,16 @@ def guide_force(law, par, g, eta0, out, fault, which):
 
 
 @helper
-def guide_loss(law, par, g, eta0, out, still, fault, which):
+def guide_loss(law, par, g, eta0, out, still):
     """Return the power dissipated in a cage contact [W]: all work less that of the elastic force.
 
-    The elastic force is the law's force at rest.
+    The elastic force is the law's force at rest. Call after guide_force, whose result `out` keeps.
     """
-    if guide_force(law, par, g, eta0, out, fault, which) != 1:
-        return 0.0
     # A contact that leaves too fast to push back has no force, but loses its elastic energy all the same.
     f0, f1, f2 = out[0], out[1], out[2]
     q0, q1, q2 = out[3] - g[G_R], out[4] - g[G_R + 1], out[5] - g[G_R + 2]
     w0, w1, w2 = g[G_W], g[G_W + 1], g[G_W + 2]
+    p0, p1, p2 = out[3], out[4], out[5]
     v0 = g[G_V] + w1 * q2 - w2 * q1
     v1 = g[G_V + 1] + w2 * q0 - w0 * q2
     v2 = g[G_V + 2] + w0 * q1 - w1 * q0
@@ -159,6 +158,7 @@ def guide_loss(law, par, g, eta0, out, still, fault, which):
         still[k] = g[G_R + k]
     law(still[0:3], still[3:6], still[6:9], eta0, par, out)
     elastic = out[0] * g[G_V] + out[1] * g[G_V + 1] + out[2] * g[G_V + 2]
+    out[0], out[1], out[2], out[3], out[4], out[5] = f0, f1, f2, p0, p1, p2
     return elastic - (f0 * v0 + f1 * v1 + f2 * v2)
 
 

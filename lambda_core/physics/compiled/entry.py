@@ -50,18 +50,22 @@ UNITS: dict[str, tuple[Any, Any]] = {
     "observe": (observe.observe, observe.observe_sig),
     "settle": (statics.settle, statics.settle_sig),
 }
+# The equilibrium allocates its workspaces; all others run without reference counting.
+_OPTIONS: dict[str, dict[str, Any]] = {"settle": {"_nrt": True}}
 
 
 def missing() -> list[str]:
     """Return the units that are not on disk yet."""
-    folders = {name: host_folder(host_key(function, _FOLDER)) for name, (function, _) in UNITS.items()}
+    folders = {
+        name: host_folder(host_key(function, _FOLDER, **_OPTIONS.get(name, {}))) for name, (function, _) in UNITS.items()
+    }
     return [name for name, folder in folders.items() if not any(folder.rglob("*.nbc"))]
 
 
-def build(name: str) -> None:
-    """Compile one unit into the cache."""
+def build(name: str, announce: Callable[[str], None] | None = None) -> Any:
+    """Compile one unit into the cache, or load it; returns its dispatcher."""
     function, signature = UNITS[name]
-    compile_host(function, signature, _FOLDER)
+    return compile_host(function, signature, _FOLDER, announce, **_OPTIONS.get(name, {})).dispatcher
 
 
 def _build_side_by_side(names: list[str], announce: Callable[[str], None] | None) -> None:
@@ -98,10 +102,7 @@ def _load(announce: Callable[[str], None] | None) -> Core:
     absent = missing()
     if len(absent) > 1:
         _build_side_by_side(absent, announce)
-    built = {
-        name: compile_host(function, signature, _FOLDER, announce).dispatcher
-        for name, (function, signature) in UNITS.items()
-    }
+    built = {name: build(name, announce) for name in UNITS}
     pointers = {
         f"{name}_pointer": Pointer(built[name], UNITS[name][1])
         for name in ("wrench", "tangent", "evaluate", "jacobian")

@@ -158,90 +158,38 @@ def cage_forces(y, bundle, rates, want):
     g, out, fault, eta0 = scratch[GUIDE], scratch[OUT], scratch[FAULT], system.eta0
     cage = scratch[SHARED][NS * CAGE : NS * CAGE + NS]
     z = system.balls
-    if system.cage_on == 0:
-        for j in range(z):
-            k = (j + 1) % z
-            ball, other = y[NB * j : NB * j + NB], y[NB * k : NB * k + NB]
+    law, par = bundle.laws.pocket, par_of(bundle.par, system, P_POCKET)
+    for j in range(z):
+        ball = y[NB * j : NB * j + NB]
+        k = (j + 1) % z
+        other = y[NB * k : NB * k + NB]
+        if system.cage_on == 1:
+            pocket_state(ball, cage, j, system, g)
+        else:
             neighbour_state(ball, other, g)
-            if (
-                guide_force(
-                    bundle.laws.pocket,
-                    par_of(bundle.par, system, P_POCKET),
-                    g,
-                    eta0,
-                    out,
-                    fault,
-                    -1.0,
-                )
-                != 1
-            ):
-                fault[2] = j
-                return 0
-            if want == 1:
-                rates[L_LAND] += guide_loss(
-                    bundle.laws.pocket,
-                    par_of(bundle.par, system, P_POCKET),
-                    g,
-                    eta0,
-                    out,
-                    scratch[STILL],
-                    fault,
-                    -1.0,
-                )
-                guide_force(
-                    bundle.laws.pocket,
-                    par_of(bundle.par, system, P_POCKET),
-                    g,
-                    eta0,
-                    out,
-                    fault,
-                    -1.0,
-                )
+        if guide_force(law, par, g, eta0, out, fault, -1.0) != 1:
+            fault[2] = j
+            return 0
+        if want == 1:
+            rates[L_POCKET if system.cage_on == 1 else L_LAND] += guide_loss(law, par, g, eta0, out, scratch[STILL])
+        if system.cage_on == 1:
+            pocket_apply(ball, cage, g, out, bundle.ball_fm[j], scratch[BODY_FM + CAGE])
+        else:
             a0, a1, a2 = out[3] - g[G_R], out[4] - g[G_R + 1], out[5] - g[G_R + 2]
             neighbour_apply(ball[BPSI], a0, a1, a2, out, 1.0, bundle.ball_fm[j])
             neighbour_apply(other[BPSI], out[3], out[4], out[5], out, -1.0, bundle.ball_fm[k])
-        return 1
-    for j in range(z):
-        ball = y[NB * j : NB * j + NB]
-        pocket_state(ball, cage, j, system, g)
-        if want == 1:
-            rates[L_POCKET] += guide_loss(
-                bundle.laws.pocket,
-                par_of(bundle.par, system, P_POCKET),
-                g,
-                eta0,
-                out,
-                scratch[STILL],
-                fault,
-                -1.0,
-            )
-        if (
-            guide_force(
-                bundle.laws.pocket,
-                par_of(bundle.par, system, P_POCKET),
-                g,
-                eta0,
-                out,
-                fault,
-                -1.0,
-            )
-            != 1
-        ):
-            fault[2] = j
-            return 0
-        pocket_apply(ball, cage, g, out, bundle.ball_fm[j], scratch[BODY_FM + CAGE])
     for which in range(2):
-        if system.land_on[which] == 0:
+        if system.land_on[which] == 0 or system.cage_on == 0:
             continue
         ring = scratch[SHARED][NS * which : NS * which + NS]
         law = bundle.laws.land_inner if which == INNER else bundle.laws.land_outer
         par = par_of(bundle.par, system, P_LAND + which)
         for side in range(2):
             land_state(cage, ring, (2 * side - 1) * system.land_offset, g)
-            if want == 1:
-                rates[L_LAND] += guide_loss(law, par, g, eta0, out, scratch[STILL], fault, which)
             if guide_force(law, par, g, eta0, out, fault, which) != 1:
                 return 0
+            if want == 1:
+                rates[L_LAND] += guide_loss(law, par, g, eta0, out, scratch[STILL])
             land_apply(cage, ring, g, out, scratch[BODY_FM + CAGE], scratch[BODY_FM + which])
     return 1
 

@@ -69,6 +69,7 @@ from lambda_core.physics.compiled.layout import (
     array1,
     array2,
     array3,
+    array4,
     helper,
     iarray1,
     par_of,
@@ -93,7 +94,9 @@ class Blocks(NamedTuple):
     own: Any  # (6, 9) d(ball force)/d(ball)
     to_shared: Any  # (6, 36) d(ball force)/d(shared)
     from_ball: Any  # (3, 6, 9) d(body force)/d(ball)
-    shared: Any  # (3, 6, 36) d(body force)/d(shared), summed
+    shared: Any  # (3, 6, 36) d(body force)/d(shared), of one ball, then summed
+    parts: Any  # (Z, 3, 6, 36) the same of every ball
+    due: Any  # int64 (Z,): whether the next call renews this ball; it leaves 1 everywhere
     slope: Any  # (6, 9) d(wrench)/dq
     ball: Any  # (9,) perturbed
     body: Any  # (12,) perturbed
@@ -110,6 +113,8 @@ _BLOCK_TYPES = {
     "c": array3,
     "from_ball": array3,
     "shared": array3,
+    "parts": array4,
+    "due": iarray1,
     "index": iarray1,
 }
 _BLOCK_TYPES.update(dict.fromkeys(("d", "own", "to_shared", "slope", "fm", "map"), array2))
@@ -131,6 +136,8 @@ def make_blocks(balls: int, active: np.ndarray) -> Blocks:
         zeros((6, 3 * NS)),
         zeros((3, 6, NB)),
         zeros((3, 6, 3 * NS)),
+        zeros((balls, 3, 6, 3 * NS)),
+        np.ones(balls, dtype=np.int64),
         zeros((6, 9)),
         zeros(NB),
         zeros(NS),
@@ -500,18 +507,39 @@ def _shared_rows(b, bundle, bl):
                 d[k, kc] += (scratch[RATE][row] - bl.body2[row]) / step
 
 
-def jacobian(t, y, bundle, bl):
-    """Write the blocks at (t, y); call right after `evaluate` at the same point.
+@helper
+def _keep_part(bl, j):
+    """Keep what ball j adds to the slopes of the forces on the bodies."""
+    for b in range(3):
+        for i in range(6):
+            for c in range(3 * NS):
+                bl.parts[j, b, i, c] = bl.shared[b, i, c]
 
-    Uses scratch[BODY_FM] of that evaluation for the bodies' own equations. Returns 1 when well.
+
+@helper
+def _add_part(bl, j):
+    """Add what ball j adds to the slopes of the forces on the bodies."""
+    for b in range(3):
+        for i in range(6):
+            for c in range(3 * NS):
+                bl.shared[b, i, c] += bl.parts[j, b, i, c]
+
+
+def jacobian(t, y, bundle, bl):
+    """Write the blocks of the balls marked in bl.due at (t, y); call right after `evaluate` at the same point.
+
+    All are marked unless the caller has taken marks away; afterwards all are again. Uses scratch[BODY_FM] of that
+    evaluation for the bodies' own equations. Returns 1 when well.
     """
     scratch = bundle.scratch
     system = bundle.system[0]
     z = system.balls
     fill_shared(t, y, bundle)
-    bl.shared[:, :, :] = 0.0
     for j in range(z):
+        if bl.due[j] == 0:
+            continue
         ball = y[NB * j : NB * j + NB]
+        bl.shared[:, :, :] = 0.0
         bl.own[:, :] = 0.0
         bl.to_shared[:, :] = 0.0
         bl.from_ball[:, :, :] = 0.0
@@ -540,8 +568,13 @@ def jacobian(t, y, bundle, bl):
             body = scratch[SHARED][NS * b : NS * b + NS]
             _force_map(body, b, system, bl.map)
             _body_rows(b, j, bundle, bl, bl.c[j])
+        _keep_part(bl, j)
+    bl.shared[:, :, :] = 0.0
     if system.guides_on == 1 and system.cage_on == 1 and _land_columns(bundle, bl) != 1:
         return 0
+    for j in range(z):
+        bl.due[j] = 1
+        _add_part(bl, j)
     bl.d[:, :] = 0.0
     for b in range(3):
         if b == CAGE and system.cage_on == 0:

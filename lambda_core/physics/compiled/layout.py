@@ -18,6 +18,8 @@ import numba
 import numpy as np
 from numba import types
 
+from lambda_core.registry.machine_code import OPTIONS
+
 NB = 9  # states of a ball
 NS = 12  # states of a shared body
 BX, BR, BPSI, BVX, BVR, BVT, BWX, BWR, BWT = range(9)
@@ -253,8 +255,11 @@ K_T, K_S, K_N, K_D, K_ARM, K_AXIAL, K_RADIAL, K_COS, K_SIN, K_RISE = (
 )
 NKIN = NQ + 19
 
-# Rows of one block of Bundle.cells.
-(X_SLIP, X_P, X_T, X_LN, X_RHO, X_TAU, X_MU, X_VT, X_VS, X_TAU0, X_T1) = range(11)
+# Rows of one block of Bundle.cells; the first X_RESULTS of them are written by kernels.
+# X_P and what follows depends on the kinematics alone: pressure, slip, its inverse, its two components.
+(X_LN0, X_TAU0, X_T1, X_LN, X_TAU, X_MU, X_RHO, X_T, X_P, X_SLIP, X_INVERSE, X_VT, X_VS) = range(13)
+X_RESULTS = 6
+N_CELL_ROWS = 13
 
 _raceway_sigs = [
     _sig(s)
@@ -311,7 +316,7 @@ class Bundle(NamedTuple):
     table: Any  # knots and spline coefficients
     active: Any  # int64 (n_active,): free entries of the shared state
     channels: Any  # (36, 3) value and two derivatives of every time function
-    cells: Any  # (2, 12, cells)
+    cells: Any  # (2, N_CELL_ROWS, cells)
     scratch: Any  # (N_SCRATCH, 64)
     ball_fm: Any  # (Z, 6) force and moment on each ball, axes x, r, t
 
@@ -341,15 +346,22 @@ def vector_helper(function):
 
     Only the order of sums, fused multiply-adds and the sign of zero are set free: NaN and infinity keep their meaning.
     """
-    return numba.njit(error_model="numpy", fastmath={"reassoc", "contract", "nsz"})(function)
+    return numba.njit(**{**OPTIONS, "fastmath": {"reassoc", "contract", "nsz"}})(function)
 
 
 def helper(function):
-    """Compile a helper of the core; never cached by itself, its callers are."""
-    return numba.njit(error_model="numpy")(function)
+    """Compile a helper of the core; never cached by itself, its callers are.
+
+    """
+    return numba.njit(**OPTIONS)(function)
 
 
-@helper
+def allocating_helper(function):
+    """Compile a helper that makes arrays of its own, off the hot path."""
+    return numba.njit(**{**OPTIONS, "_nrt": True})(function)
+
+
+@numba.njit(inline="always")  # a function of its own could not return a view without counting references
 def par_of(par, system, k):
     """Return the parameters of kernel k, a view."""
     return par[system.par_start[k] : system.par_start[k + 1]]

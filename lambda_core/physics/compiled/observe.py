@@ -122,6 +122,7 @@ observe_sig = i8(
     array2,
     array2,
     array2,
+    array1,
 )
 
 
@@ -432,6 +433,7 @@ def observe(
     extra,
     shared,
     rates,
+    dydt,
 ):
     """Write what samples show; an entry point.
 
@@ -456,13 +458,14 @@ def observe(
         The whole shared state.
     rates : float64[:, :], shape (n, NI)
         Losses [W] and the rates of the other running integrals.
+    dydt : float64[:], shape (9 Z + n_active,)
+        Workspace.
 
     Returns
     -------
     int
         1 when every kernel was well; otherwise 0 and scratch[FAULT] says which was not.
     """
-    dydt = np.zeros(states.shape[1])
     for i in range(times.size):
         y = states[i]
         if (

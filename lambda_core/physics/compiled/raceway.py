@@ -62,9 +62,12 @@ from lambda_core.physics.compiled.layout import (
     R_THERMAL,
     R_TRACTION,
     RACEWAY_KERNELS,
+    X_INVERSE,
     X_LN,
+    X_LN0,
     X_MU,
     X_P,
+    X_RESULTS,
     X_RHO,
     X_SLIP,
     X_T,
@@ -258,6 +261,9 @@ def slip_field(which, q, system, grid, scalars, cells):
         slip[i] = floor + _CELL_VARIANCE * (slope_t * slope_t + slope_s * slope_s + turn * turn)
     for i in range(n):
         slip[i] = math.sqrt(slip[i] + vt[i] * vt[i] + vs[i] * vs[i])
+    inverse = cells[X_INVERSE]
+    for i in range(n):
+        inverse[i] = 1.0 / slip[i]
 
 
 @vector_helper
@@ -271,11 +277,11 @@ def _close_loop(tau0, tau, hot, area, inlet, scalars):
         second += tau[i] * area[i]
     for i in range(tau.size):
         cold = tau0[i] + 1e-30
-        closed = cold * cold / max(2.0 * cold - tau[i], 1e-3 * cold)
-        hot[i] = inlet + (hot[i] - inlet) * closed / cold
+        share = cold / max(2.0 * cold - tau[i], 1e-3 * cold)
+        hot[i] = inlet + (hot[i] - inlet) * share
         heat += hot[i] * area[i]
-        first += closed * area[i]
-        tau[i] = closed
+        tau[i] = cold * share
+        first += tau[i] * area[i]
     scalars[C_CHANGE] = abs(first - second) / (first + 1e-30)
     scalars[C_TMEAN] = heat / math.pi
 
@@ -289,6 +295,34 @@ def _mix(psi, tau, tau0, mu, p):
         tau[i] = tau0[i] + mu[i]
 
 
+@vector_helper
+def _finite_rows(block):
+    """Return whether the results of all kernels of a contact are finite; their rows begin the block."""
+    total = 0.0
+    for row in range(X_RESULTS):
+        for i in range(block.shape[1]):
+            total += abs(block[row, i])
+    return total < np.inf
+
+
+@helper
+def _shear_fault(which, system, scalars, cells, fault):
+    """Report the first kernel of shear_stage, in the order of their calls, whose result is not finite."""
+    slip, p, hot = cells[X_SLIP], cells[X_P], cells[X_T1]
+    pmax, h = scalars[C_PMAX], scalars[C_HCEN]
+    if not _finite(cells[X_LN0]):
+        return report(fault, R_RHEOLOGY, 1, which, pmax, system.oil_temperature, 0.0, 0.0)
+    if not _finite(cells[X_TAU0]):
+        return report(fault, R_TRACTION, 1, which, pmax, h, slip[0], cells[X_LN0, 0])
+    if not _finite(hot):
+        return report(fault, R_TEMPERATURE, 1, which, scalars[C_UMEAN], h, scalars[C_B], cells[X_TAU0, 0])
+    if not _finite(cells[X_LN]):
+        return report(fault, R_RHEOLOGY, 1, which, pmax, hot[0], 0.0, 0.0)
+    if not _finite(cells[X_TAU]):
+        return report(fault, R_TRACTION, 1, which, pmax, h, slip[0], cells[X_LN, 0])
+    return report(fault, R_BOUNDARY, 1, which, slip[0], p[0], 0.0, 0.0)
+
+
 @helper
 def shear_stage(which, laws, par, system, grid, scalars, cells, fault):
     """Shear stress of film and asperities in every cell.
@@ -297,88 +331,50 @@ def shear_stage(which, laws, par, system, grid, scalars, cells, fault):
     and at the temperature that this shear would cause; between them the shear stress is
     taken as linear in temperature, which closes the loop. The relative change of
     the mean shear stress from the second sweep to the result is kept in scalars[C_CHANGE].
+
+    Each kernel writes into a row of its own, filled with NaN before; all rows are looked at together after the last.
     """
-    slip, p, temp, ln_eta, rho = (
-        cells[X_SLIP],
-        cells[X_P],
-        cells[X_T],
-        cells[X_LN],
-        cells[X_RHO],
-    )
+    slip, p, temp, rho = cells[X_SLIP], cells[X_P], cells[X_T], cells[X_RHO]
+    cold, ln_eta = cells[X_LN0], cells[X_LN]
     tau, tau0, hot, mu = cells[X_TAU], cells[X_TAU0], cells[X_T1], cells[X_MU]
-    h, b, u, psi = scalars[C_HCEN], scalars[C_B], scalars[C_UMEAN], scalars[C_PSI]
-    temp[:] = system.oil_temperature
-    ln_eta[:] = np.nan
-    tau0[:] = np.nan
-    status = laws.rheology(p, temp, par_of(par, system, RACEWAY_KERNELS * which + R_RHEOLOGY), ln_eta, rho)
-    if status != 1 or not _finite(ln_eta):
-        return report(
-            fault,
-            R_RHEOLOGY,
-            status,
-            which,
-            scalars[C_PMAX],
-            system.oil_temperature,
-            0.0,
-            0.0,
-        )
-    status = laws.traction(
-        slip,
-        p,
-        temp,
-        ln_eta,
-        h,
-        par_of(par, system, RACEWAY_KERNELS * which + R_TRACTION),
-        tau0,
-    )
-    if status != 1 or not _finite(tau0):
-        return report(fault, R_TRACTION, status, which, scalars[C_PMAX], h, slip[0], ln_eta[0])
-    hot[:] = np.nan
-    status = laws.contact_temperature(
-        system.oil_temperature,
-        u,
-        h,
-        b,
-        tau0,
-        slip,
-        par_of(par, system, RACEWAY_KERNELS * which + R_TEMPERATURE),
-        hot,
-    )
-    if status != 1 or not _finite(hot):
+    h, b, u, inlet = scalars[C_HCEN], scalars[C_B], scalars[C_UMEAN], system.oil_temperature
+    first = RACEWAY_KERNELS * which
+    cells[:X_RESULTS, :] = np.nan
+    temp[:] = inlet
+    oil, shear = par_of(par, system, first + R_RHEOLOGY), par_of(par, system, first + R_TRACTION)
+    status = laws.rheology(p, temp, oil, cold, rho)
+    if status != 1:
+        return report(fault, R_RHEOLOGY, status, which, scalars[C_PMAX], inlet, 0.0, 0.0)
+    status = laws.traction(slip, p, temp, cold, h, shear, tau0)
+    if status != 1:
+        return report(fault, R_TRACTION, status, which, scalars[C_PMAX], h, slip[0], cold[0])
+    status = laws.contact_temperature(inlet, u, h, b, tau0, slip, par_of(par, system, first + R_TEMPERATURE), hot)
+    if status != 1:
         return report(fault, R_TEMPERATURE, status, which, u, h, b, tau0[0])
-    ln_eta[:] = np.nan
-    tau[:] = np.nan
-    status = laws.rheology(p, hot, par_of(par, system, RACEWAY_KERNELS * which + R_RHEOLOGY), ln_eta, rho)
-    if status != 1 or not _finite(ln_eta):
+    status = laws.rheology(p, hot, oil, ln_eta, rho)
+    if status != 1:
         return report(fault, R_RHEOLOGY, status, which, scalars[C_PMAX], hot[0], 0.0, 0.0)
-    status = laws.traction(
-        slip,
-        p,
-        hot,
-        ln_eta,
-        h,
-        par_of(par, system, RACEWAY_KERNELS * which + R_TRACTION),
-        tau,
-    )
-    if status != 1 or not _finite(tau):
+    status = laws.traction(slip, p, hot, ln_eta, h, shear, tau)
+    if status != 1:
         return report(fault, R_TRACTION, status, which, scalars[C_PMAX], h, slip[0], ln_eta[0])
-    _close_loop(tau0, tau, hot, grid[GRID_AREA], system.oil_temperature, scalars)
-    mu[:] = np.nan
-    status = laws.boundary_friction(slip, p, par_of(par, system, RACEWAY_KERNELS * which + R_BOUNDARY), mu)
-    if status != 1 or not _finite(mu):
+    status = laws.boundary_friction(slip, p, par_of(par, system, first + R_BOUNDARY), mu)
+    if status != 1:
         return report(fault, R_BOUNDARY, status, which, slip[0], p[0], 0.0, 0.0)
-    _mix(psi, tau, tau0, mu, p)
+    if not _finite_rows(cells):
+        return _shear_fault(which, system, scalars, cells, fault)
+    _close_loop(tau0, tau, hot, grid[GRID_AREA], inlet, scalars)
+    _mix(scalars[C_PSI], tau, tau0, mu, p)
     return 1
 
 
 @vector_helper
 def _sum_cells(half_curvature, a, b, grid, cells, wrench):
     """Write the resultant of the shear on the ball over a b: forces, couples."""
-    tau, slip, vt, vs = cells[X_TAU], cells[X_SLIP], cells[X_VT], cells[X_VS]
+    tau, inverse, vt, vs = cells[X_TAU], cells[X_INVERSE], cells[X_VT], cells[X_VS]
     across, along, area = grid[GRID_S], grid[GRID_T], grid[GRID_AREA]
     ft, fs, mt, ms, mn = 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(tau.size):
-        g = tau[i] * area[i] / slip[i]
+        g = tau[i] * area[i] * inverse[i]
         dt, ds = -g * vt[i], -g * vs[i]
         s, t = a * across[i], b * along[i]
         z = half_curvature * s * s
@@ -473,8 +469,8 @@ pipeline = helper(raceway_wrench)
 @vector_helper
 def _cell_powers(a, b, wn, grid, cells):
     """Return the power of film shear by sliding and by spin and that of the asperities, over a b."""
-    slip, vt, vs, fluid, solid = (
-        cells[X_SLIP],
+    inverse, vt, vs, fluid, solid = (
+        cells[X_INVERSE],
         cells[X_VT],
         cells[X_VS],
         cells[X_TAU0],
@@ -483,8 +479,8 @@ def _cell_powers(a, b, wn, grid, cells):
     across, along, area = grid[GRID_S], grid[GRID_T], grid[GRID_AREA]
     width_s, width_t = grid[GRID_DS], grid[GRID_DT]
     slide, spin, boundary = 0.0, 0.0, 0.0
-    for i in range(slip.size):
-        v2 = (vt[i] * vt[i] + vs[i] * vs[i]) * area[i] / slip[i]
+    for i in range(vt.size):
+        v2 = (vt[i] * vt[i] + vs[i] * vs[i]) * area[i] * inverse[i]
         s, t, ds, dt = a * across[i], b * along[i], a * width_s[i], b * width_t[i]
         turning = wn * wn * (s * s + t * t + _CELL_VARIANCE * (ds * ds + dt * dt))
         rest_t, rest_s = vt[i] + wn * s, vs[i] - wn * t

@@ -31,6 +31,7 @@ from lambda_core.physics.compiled.layout import (
     SAY,
     SAZ,
     SHARED,
+    allocating_helper,
     array1,
     bundle_t,
     helper,
@@ -49,16 +50,13 @@ _GRIP = 0.02  # share of the largest ball load below which the cage sets a ball'
 
 
 @helper
-def _ball_rows(system, held):
-    """Say for each ball state which acceleration drives it: row index, or -1 when it is fixed."""
-    rows = np.full(NB, -1, dtype=np.int64)
-    rows[BX], rows[BR] = 3, 4
-    if system.friction_on == 1:
-        if not held:
-            rows[BVT] = 5
-        for i in range(6, NB):
-            rows[i] = i
-    return rows
+def _ball_row(state, held, friction_on):
+    """Return which acceleration drives a ball state: row index, or -1 when it is fixed."""
+    if state == BX or state == BR:
+        return 3 + state
+    if friction_on == 1 and (state >= 6 or (state == BVT and not held)):
+        return state
+    return -1
 
 
 @helper
@@ -84,11 +82,11 @@ def _residual(bundle, index, y, dydt, held, orbit, f):
     z = system.balls
     f[:] = 0.0
     for j in range(z):
-        rows = _ball_rows(system, held[j])
         for i in range(NB):
-            if rows[i] >= 0:
+            row = _ball_row(i, held[j], system.friction_on)
+            if row >= 0:
                 scale = _MOBILITY if i < 3 else 1.0
-                f[NB * j + i] = scale * dydt[NB * j + rows[i]]
+                f[NB * j + i] = scale * dydt[NB * j + row]
         if held[j] and system.friction_on == 1:
             f[NB * j + BVT] = _HOLD * (orbit * y[NB * j + BR] - y[NB * j + BVT])
     active = bundle.active
@@ -98,7 +96,7 @@ def _residual(bundle, index, y, dydt, held, orbit, f):
             f[NB * z + k] = _MOBILITY * sign * dydt[NB * z + index[row]]
 
 
-@helper
+@allocating_helper
 def _mask(bundle, bl, held):
     """Turn the blocks of dy/dt into those of the pseudo-transient system, in place."""
     system = bundle.system[0]
@@ -110,19 +108,19 @@ def _mask(bundle, bl, held):
         column_on[k] = 1 if row >= 0 and bl.index[row] >= 0 else 0
     a2, b2 = np.zeros((NB, NB)), np.zeros((NB, n))
     for j in range(z):
-        rows = _ball_rows(system, held[j])
         a, b = bl.a[j], bl.b[j]
         a2[:, :] = 0.0
         b2[:, :] = 0.0
         for i in range(NB):
-            if rows[i] < 0:
+            row = _ball_row(i, held[j], system.friction_on)
+            if row < 0:
                 continue
             scale = _MOBILITY if i < 3 else 1.0
             for c in range(NB):
-                if rows[c] >= 0 or (c == BVT and system.friction_on == 1):
-                    a2[i, c] = scale * a[rows[i], c]
+                if _ball_row(c, held[j], system.friction_on) >= 0 or (c == BVT and system.friction_on == 1):
+                    a2[i, c] = scale * a[row, c]
             for k in range(n):
-                b2[i, k] = scale * b[rows[i], k] * column_on[k]
+                b2[i, k] = scale * b[row, k] * column_on[k]
         if held[j] and system.friction_on == 1:
             a2[BVT, BVT] = -_HOLD
         a[:, :] = a2
@@ -135,14 +133,13 @@ def _mask(bundle, bl, held):
                 d2[k, m] = _MOBILITY * sign * bl.d[bl.index[row], m] * column_on[m]
     bl.d[:, :] = d2
     for j in range(z):
-        rows = _ball_rows(system, held[j])
         c = bl.c[j]
         c2[:, :] = 0.0
         for k in range(n):
             row, sign = _shared_row(active[k])
             if column_on[k] == 1:
                 for i in range(NB):
-                    if rows[i] >= 0 or (i == BVT and system.friction_on == 1):
+                    if _ball_row(i, held[j], system.friction_on) >= 0 or (i == BVT and system.friction_on == 1):
                         c2[k, i] = _MOBILITY * sign * c[bl.index[row], i]
         c[:, :] = c2
 

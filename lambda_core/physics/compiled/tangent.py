@@ -27,6 +27,7 @@ from lambda_core.physics.compiled.layout import (
     Q_DELTA,
     Q_UT,
     Q_VN,
+    Q_VS,
     Q_VT,
     Q_WN,
     Q_WS,
@@ -43,6 +44,7 @@ from lambda_core.physics.compiled.layout import (
     W_MT,
     WRENCH,
     WRENCH2,
+    X_INVERSE,
     X_P,
     X_SLIP,
     X_TAU,
@@ -50,6 +52,7 @@ from lambda_core.physics.compiled.layout import (
     X_VT,
     helper,
     par_of,
+    vector_helper,
 )
 from lambda_core.physics.compiled.raceway import (
     _CELL_VARIANCE,
@@ -57,57 +60,63 @@ from lambda_core.physics.compiled.raceway import (
     pipeline,
     rolling_speeds,
     shear_stage,
-    slip_field,
     sum_wrench,
 )
 
 _RELATIVE = 1e-5  # relative step of the small differences; the laws are smooth at this scale
 
 
+@vector_helper
+def _slip_column(a, b, curvature, along, across, spread, grid, cells, tau2, step, slope, column):
+    """Write d(wrench)/d(one slip kinematic) from the cells' tangent moduli.
+
+    The slip along rolling changes by along[0] + along[1] s + along[2] z, across by across[0] + across[1] t +
+    across[2] z, half its squared spread inside a cell as `spread` says: powers of s/R over the cell's width across,
+    then the share of its width along.
+    """
+    tau, inverse, vt, vs = cells[X_TAU], cells[X_INVERSE], cells[X_VT], cells[X_VS]
+    grid_s, grid_t, grid_area = grid[GRID_S], grid[GRID_T], grid[GRID_AREA]
+    grid_ds, grid_dt = grid[GRID_DS], grid[GRID_DT]
+    t0, t1, t2 = along
+    s0, s1, s2 = across
+    p0, p1, p2, p3 = spread
+    width_s, width_t = _CELL_VARIANCE * a * a, _CELL_VARIANCE * b * b
+    sum_t, sum_s, sum_mt, sum_ms, sum_mn = 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(tau.size):
+        s, t = a * grid_s[i], b * grid_t[i]
+        kink = s * curvature
+        z = 0.5 * s * kink
+        dvt, dvs = t0 + t1 * s + t2 * z, s0 + s1 * t + s2 * z
+        rise = width_s * grid_ds[i] * grid_ds[i] * (p0 + kink * (p1 + kink * p2))
+        rise += width_t * grid_dt[i] * grid_dt[i] * p3
+        g = tau[i] * inverse[i]
+        dg = ((tau2[i] - tau[i]) / step - tau[i]) * inverse[i] * inverse[i] * inverse[i]
+        dg *= vt[i] * dvt + vs[i] * dvs + rise
+        ft = -grid_area[i] * (dg * vt[i] + g * dvt)
+        fs = -grid_area[i] * (dg * vs[i] + g * dvs)
+        sum_t += ft
+        sum_s += fs
+        sum_ms -= z * ft
+        sum_mt += z * fs
+        sum_mn += t * fs - s * ft
+    ab = a * b
+    slope[W_FT, column], slope[W_FS, column] = ab * sum_t, ab * sum_s
+    slope[W_MT, column], slope[W_MS, column], slope[W_MN, column] = ab * sum_mt, ab * sum_ms, ab * sum_mn
+
+
 @helper
 def slip_columns(which, q, system, grid, scalars, cells, tau2, step, slope):
-    """Add d(wrench)/d(V_t, V_s, W_t, W_s, W_n) from the cells' tangent moduli."""
+    """Write d(wrench)/d(V_t, V_s, W_t, W_s, W_n) from the shear at slightly larger slip."""
     a, b = scalars[C_A], scalars[C_B]
-    curvature = 1.0 / system.radius_deformed[which]
-    tau, slip, vt, vs = cells[X_TAU], cells[X_SLIP], cells[X_VT], cells[X_VS]
+    c = 1.0 / system.radius_deformed[which]
     wt, ws, wn = q[Q_WT], q[Q_WS], q[Q_WN]
-    ab = a * b
-    for i in range(grid.shape[1]):
-        v = slip[i]
-        area = ab * grid[GRID_AREA, i]
-        modulus = (tau2[i] - tau[i]) / (step * v)
-        g = tau[i] / v
-        s, t = a * grid[GRID_S, i], b * grid[GRID_T, i]
-        z = 0.5 * s * s * curvature
-        kink = s * curvature
-        ds2 = _CELL_VARIANCE * (a * grid[GRID_DS, i]) ** 2
-        dt2 = _CELL_VARIANCE * (b * grid[GRID_DT, i]) ** 2
-        for k in range(5):
-            # Change of slip vector and of the in-cell spread by this kinematic input.
-            dvt, dvs, spread = 0.0, 0.0, 0.0
-            column = Q_VT + k
-            if k == 0:
-                dvt = 1.0
-            elif k == 1:
-                dvs = 1.0
-            elif k == 2:
-                dvs = z
-                spread = ds2 * wt * kink * kink
-            elif k == 3:
-                dvt = -z
-                spread = ds2 * (wn + ws * kink) * kink
-            else:
-                dvt, dvs = -s, t
-                spread = ds2 * (wn + ws * kink) + dt2 * wn
-            dv = (vt[i] * dvt + vs[i] * dvs + spread) / v
-            dg = (modulus - g) * dv / v
-            ft = -area * (dg * vt[i] + g * dvt)
-            fs = -area * (dg * vs[i] + g * dvs)
-            slope[W_FT, column] += ft
-            slope[W_FS, column] += fs
-            slope[W_MS, column] -= z * ft
-            slope[W_MT, column] += z * fs
-            slope[W_MN, column] += t * fs - s * ft
+    none, still = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
+    _slip_column(a, b, c, (1.0, 0.0, 0.0), none, still, grid, cells, tau2, step, slope, Q_VT)
+    _slip_column(a, b, c, none, (1.0, 0.0, 0.0), still, grid, cells, tau2, step, slope, Q_VS)
+    _slip_column(a, b, c, none, (0.0, 0.0, 1.0), (0.0, 0.0, wt, 0.0), grid, cells, tau2, step, slope, Q_WT)
+    _slip_column(a, b, c, (0.0, 0.0, -1.0), none, (0.0, wn, ws, 0.0), grid, cells, tau2, step, slope, Q_WS)
+    turn = (wn, ws, 0.0, wn)
+    _slip_column(a, b, c, (0.0, -1.0, 0.0), (0.0, 1.0, 0.0), turn, grid, cells, tau2, step, slope, Q_WN)
 
 
 @helper
@@ -170,9 +179,11 @@ def contact_tangent(which, q, laws, par, systems, grid, blocks, scratch, slope):
     q[column] = entrainment + step
     for i in range(NC):
         scalars2[i] = scalars[i]
+    for row in range(X_P, cells.shape[0]):  # pressure and slip do not change with entrainment
+        for i in range(cells.shape[1]):
+            cells2[row, i] = cells[row, i]
     ok = film_stage(which, q, laws, par, system, scalars2, out, fault)
     if ok == 1:
-        slip_field(which, q, system, grid, scalars2, cells2)
         ok = shear_stage(which, laws, par, system, grid, scalars2, cells2, fault)
     if ok == 1:
         sum_wrench(which, q, system, grid, scalars2, cells2, wrench2)
@@ -184,7 +195,6 @@ def contact_tangent(which, q, laws, par, systems, grid, blocks, scratch, slope):
     # Slip: the same cells at slightly larger slip.
     for i in range(grid.shape[1]):
         cells2[X_SLIP, i] = cells[X_SLIP, i] * (1.0 + _RELATIVE)
-        cells2[X_P, i] = cells[X_P, i]
     for i in range(NC):
         scalars2[i] = scalars[i]
     if shear_stage(which, laws, par, system, grid, scalars2, cells2, fault) != 1:
