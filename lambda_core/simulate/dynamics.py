@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,6 +72,17 @@ class BearingEngine:
         control[bdf.H_MAX] = min(model.solver.max_step, longest_step(self._assembly))
         control[bdf.SAMPLE_STEP] = self.sample_interval
         count[bdf.STALE] = 1
+        self._handle = self._core.grasp(
+            self._core.evaluate_pointer,
+            self._core.jacobian_pointer,
+            self._core.advance_pointer,
+            self._core.observe_pointer,
+            self._assembly.bundle,
+            self._assembly.blocks,
+            self._factors,
+            self._memory,
+        )
+        self._scratch = Scratch.of(1, self._assembly)
         self._start_angles = self._angles()
         self._start_energy = self._stored(0.0, start)
         self._drained: list[dict[str, FloatArray]] = []
@@ -95,16 +107,7 @@ class BearingEngine:
         """Integrate until `time` >= `until` [s]; samples gather in the buffer meanwhile."""
         status = bdf.OK
         while self.time < until:
-            status = self._core.advance(
-                self._core.evaluate_pointer,
-                self._core.jacobian_pointer,
-                until,
-                _STEPS_PER_CALL,
-                self._assembly.bundle,
-                self._assembly.blocks,
-                self._factors,
-                self._memory,
-            )
+            status = self._core.proceed(self._handle, until, _STEPS_PER_CALL)
             if status == bdf.FULL:
                 self._drain()
             elif status != bdf.OK:
@@ -160,7 +163,9 @@ class BearingEngine:
             self._memory.count[bdf.SAMPLES] = 0
 
     def _stored(self, t: float, y: FloatArray) -> float:
-        return float(self._observe(np.array([t]), y.reshape(1, -1))["stored_energy"][0])
+        scratch = self._scratch
+        self._core.look(self._handle, np.array([t]), y.reshape(1, -1), -1.0, *scratch)
+        return float(scratch.extra[0, 0])
 
     def integrals(self) -> dict[str, float]:
         """Return running time integrals from t = 0 (see the Engine protocol)."""
@@ -253,7 +258,28 @@ class BearingEngine:
 
     def _observe(self, times: FloatArray, states: FloatArray) -> dict[str, FloatArray]:
         """Return every channel at n points: channel -> array, first axis is time."""
-        return observe(self._core, self._assembly, times, states)
+        scratch = Scratch.of(times.size, self._assembly)
+        ok = self._core.look(self._handle, times, states, SHORTED, *scratch)
+        return _channels(ok, self._assembly, times, states, scratch)
+
+
+class Scratch(NamedTuple):
+    """What compiled code writes about n samples; see compiled.observe.observe."""
+
+    contacts: FloatArray
+    pockets: FloatArray
+    lands: FloatArray
+    extra: FloatArray
+    shared: FloatArray
+    rates: FloatArray
+    dydt: FloatArray
+
+    @classmethod
+    def of(cls, n: int, assembly: A.Assembly) -> Scratch:
+        """Allocate for `n` samples."""
+        z = assembly.model.geometry.ball_count
+        shapes = ((n, z, 2, 16), (n, z, 3), (n, 2, 3), (n, L.NI + 2), (n, 3 * L.NS), (n, L.NI), (assembly.size,))
+        return cls(*(np.zeros(shape) for shape in shapes))
 
 
 def observe(core_: Core, assembly: A.Assembly, times: FloatArray, states: FloatArray) -> dict[str, FloatArray]:
@@ -269,15 +295,19 @@ def observe(core_: Core, assembly: A.Assembly, times: FloatArray, states: FloatA
     SolverError
         When a kernel refuses, with its name.
     """
-    n, z = times.size, assembly.model.geometry.ball_count
-    contacts, pockets, lands = np.zeros((n, z, 2, 16)), np.zeros((n, z, 3)), np.zeros((n, 2, 3))
-    extra, flat, rates = np.zeros((n, L.NI + 2)), np.zeros((n, 3 * L.NS)), np.zeros((n, L.NI))
-    ok = core_.observe(
-        times, states, assembly.bundle, core_.evaluate_pointer, SHORTED, contacts, pockets, lands, extra, flat, rates,
-        np.zeros(assembly.size),
-    )  # fmt: skip
+    scratch = Scratch.of(times.size, assembly)
+    ok = core_.observe(times, states, assembly.bundle, core_.evaluate_pointer, SHORTED, *scratch)
+    return _channels(ok, assembly, times, states, scratch)
+
+
+def _channels(
+    ok: int, assembly: A.Assembly, times: FloatArray, states: FloatArray, scratch: Scratch
+) -> dict[str, FloatArray]:
+    """Return what was written about samples by the names of the channels."""
     if ok != 1:
         raise SolverError(fault_sentence(assembly))
+    n, z = times.size, assembly.model.geometry.ball_count
+    contacts, pockets, lands, extra, flat, rates, _ = scratch
     shared = flat.reshape(n, 3, L.NS)
     balls = states[:n, : L.NB * z].reshape(n, z, L.NB)
     channels: dict[str, FloatArray] = {

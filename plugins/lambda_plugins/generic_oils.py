@@ -7,7 +7,6 @@ polynomial in 1/T (error below 1e-5 in ln eta), and so are the powers of pressur
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Annotated, Self
 
 import numpy as np

@@ -57,7 +57,7 @@ POLYNOMIAL_TERMS = 13
 
 
 def series(function: Callable[[FloatArray], FloatArray], low: float, high: float) -> FloatArray:
-    """Return the coefficients for :func:`polynomial` of `function` over low..high mapped to -1..1 (Chebyshev points)."""
+    """Return the coefficients of a polynomial for `function` over low..high mapped to -1..1 (Chebyshev points)."""
     nodes = np.cos((np.arange(64) + 0.5) * math.pi / 64)
     values = function(0.5 * (low + high) + 0.5 * (high - low) * nodes)
     fit = np.polynomial.chebyshev.chebfit(nodes, values, POLYNOMIAL_TERMS - 1)

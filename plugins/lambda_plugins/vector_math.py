@@ -24,7 +24,7 @@ def exp(x: float) -> float:
     shifted = np.float64(x * 1.4426950408889634 + _ROUND)
     n = shifted - _ROUND
     r = (x - n * _LN2_HIGH) - n * _LN2_LOW
-    # Taylor series of degree 12 on |r| <= ln(2)/2, remainder 2e-16; in pairs of terms, which need not wait for each other
+    # Taylor series of degree 12 on |r| <= ln(2)/2, remainder 2e-16; in pairs of terms that need not wait
     r2 = r * r
     tail = (1 / 40320 + r * (1 / 362880)) + r2 * ((1 / 3628800 + r * (1 / 39916800)) + r2 * (1 / 479001600))
     tail = (1 / 24 + r * (1 / 120)) + r2 * ((1 / 720 + r * (1 / 5040)) + r2 * tail)
@@ -42,7 +42,7 @@ def _octave(x: float) -> int:
 def _mantissa(x: float, k: int) -> float:
     """Return x / 2^k."""
     bits = np.float64(x).view(np.int64)
-    return np.int64(bits - (k << 52)).view(np.float64)  # type: ignore[no-any-return,attr-defined]
+    return np.int64(bits - (k << 52)).view(np.float64)
 
 
 def _log(z: float, k: int) -> float:

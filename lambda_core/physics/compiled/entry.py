@@ -12,6 +12,7 @@ from typing import Any
 from lambda_core.physics.compiled import (
     bdf,
     forces,
+    handle,
     jacobian,
     layout,
     observe,
@@ -38,6 +39,11 @@ class Core:
     advance: Any
     observe: Any
     settle: Any
+    advance_pointer: Any
+    observe_pointer: Any
+    grasp: Any
+    proceed: Any
+    look: Any
 
 
 # Each unit calls the others through pointers, so that none is compiled into another.
@@ -49,15 +55,19 @@ UNITS: dict[str, tuple[Any, Any]] = {
     "advance": (bdf.advance, bdf.advance_sig),
     "observe": (observe.observe, observe.observe_sig),
     "settle": (statics.settle, statics.settle_sig),
+    "grasp": (handle.grasp, handle.grasp_sig),
+    "proceed": (handle.proceed, handle.proceed_sig),
+    "look": (handle.look, handle.look_sig),
 }
-# The equilibrium allocates its workspaces; all others run without reference counting.
-_OPTIONS: dict[str, dict[str, Any]] = {"settle": {"_nrt": True}}
+# The equilibrium allocates its workspaces, a handle is allocated itself; all others run without reference counting.
+_OPTIONS: dict[str, dict[str, Any]] = {name: {"_nrt": True} for name in ("settle", "grasp", "proceed", "look")}
 
 
 def missing() -> list[str]:
     """Return the units that are not on disk yet."""
     folders = {
-        name: host_folder(host_key(function, _FOLDER, **_OPTIONS.get(name, {}))) for name, (function, _) in UNITS.items()
+        name: host_folder(host_key(function, _FOLDER, **_OPTIONS.get(name, {})))
+        for name, (function, _) in UNITS.items()
     }
     return [name for name, folder in folders.items() if not any(folder.rglob("*.nbc"))]
 
@@ -105,9 +115,9 @@ def _load(announce: Callable[[str], None] | None) -> Core:
     built = {name: build(name, announce) for name in UNITS}
     pointers = {
         f"{name}_pointer": Pointer(built[name], UNITS[name][1])
-        for name in ("wrench", "tangent", "evaluate", "jacobian")
+        for name in ("wrench", "tangent", "evaluate", "jacobian", "advance", "observe")
     }
-    names = ("evaluate", "jacobian", "advance", "observe", "settle")
+    names = ("evaluate", "jacobian", "advance", "observe", "settle", "grasp", "proceed", "look")
     return Core(**pointers, **{name: _call(built[name], UNITS[name][1]) for name in names})
 
 

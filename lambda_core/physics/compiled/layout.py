@@ -350,9 +350,7 @@ def vector_helper(function):
 
 
 def helper(function):
-    """Compile a helper of the core; never cached by itself, its callers are.
-
-    """
+    """Compile a helper of the core; never cached by itself, its callers are."""
     return numba.njit(**OPTIONS)(function)
 
 

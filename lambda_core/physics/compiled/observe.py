@@ -444,7 +444,7 @@ def observe(
     evaluate : pointer
         The right-hand side.
     shorted : float
-        Asperity share above which a contact counts as touching metal.
+        Asperity share above which a contact counts as touching metal; below zero the stored energy alone is written.
     contacts : float64[:, :, :, :], shape (n, Z, 2, 16)
         CONTACT_CHANNELS.
     pockets : float64[:, :, :], shape (n, Z, 3)
@@ -468,6 +468,9 @@ def observe(
     """
     for i in range(times.size):
         y = states[i]
+        if shorted < 0.0:
+            extra[i, 0] = stored_energy(times[i], y, bundle)
+            continue
         if (
             _observe_one(
                 times[i],

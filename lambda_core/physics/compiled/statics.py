@@ -52,7 +52,7 @@ _GRIP = 0.02  # share of the largest ball load below which the cage sets a ball'
 @helper
 def _ball_row(state, held, friction_on):
     """Return which acceleration drives a ball state: row index, or -1 when it is fixed."""
-    if state == BX or state == BR:
+    if state in (BX, BR):
         return 3 + state
     if friction_on == 1 and (state >= 6 or (state == BVT and not held)):
         return state
