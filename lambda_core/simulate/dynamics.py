@@ -207,7 +207,7 @@ class BearingEngine:
         for prefix, group in (("memory", self._memory), ("factors", self._factors)):
             for name, array in zip(group._fields, group, strict=True):
                 parts[f"{prefix}.{name}"] = np.array(array, copy=True)
-        for name in ("a", "b", "c", "d", "parts"):
+        for name in ("a", "b", "c", "d", "shared", "parts", "reach"):
             parts[f"blocks.{name}"] = getattr(self._assembly.blocks, name).copy()
         parts["start"] = np.array([*self._start_angles, self._start_energy])
         return parts

@@ -15,11 +15,20 @@ from numba import types
 
 from lambda_core.physics.compiled.arrow import arrow_factor, arrow_solve, factors_t
 from lambda_core.physics.compiled.jacobian import blocks_t
+from lambda_core.physics.compiled.kinematics import axis_x
 from lambda_core.physics.compiled.layout import (
     BVX,
+    FREE,
+    I_DRIVE,
+    I_INPUT,
+    I_INPUT_ABS,
     NB,
     NI,
     NS,
+    SAY,
+    SAZ,
+    SHARED,
+    SSIGMA,
     SVX,
     array1,
     array2,
@@ -241,12 +250,52 @@ def _mark_slow(bl, mem, size):
 
 
 @helper
+def _force_change(b, i, bl, mem):
+    """Return the change of force or moment component i on body b by the last move, to first order."""
+    move, balls = mem.last_move, bl.due.size
+    total = 0.0
+    for j in range(balls):
+        for c in range(NB):
+            total += bl.reach[j, b, i, c] * move[NB * j + c]
+    for column in range(3 * NS):
+        k = bl.index[column]
+        if k >= 0:
+            total += bl.shared[b, i, column] * move[NB * balls + k]
+    return total
+
+
+@helper
+def _correct_power(b, bundle, bl, mem):
+    """Bring the power of what holds or drives a ring from the last iterate to the result, to first order.
+
+    Tractions change steeply with slip: an error of the iterate that no loss would feel is felt by the torque times
+    the speed of the ring. Supports hold (forces.body_rates) what is not free.
+    """
+    system = bundle.system[0]
+    o, d = NS * b, 6 * b
+    shared, rates = bundle.scratch[SHARED], mem.new_rates
+    power = 0.0
+    for i in range(3):
+        if system.mode[d + i] != FREE and shared[o + SVX + i] != 0.0:
+            power -= _force_change(b, i, bl, mem) * shared[o + SVX + i]
+    if system.mode[d + 5] != FREE and shared[o + SSIGMA] != 0.0:
+        ay, az = shared[o + SAY], shared[o + SAZ]
+        about = _force_change(b, 3, bl, mem) * axis_x(ay, az)
+        about += _force_change(b, 4, bl, mem) * ay + _force_change(b, 5, bl, mem) * az
+        rates[I_DRIVE] -= about * shared[o + SSIGMA]
+        power -= about * shared[o + SSIGMA]
+    rates[I_INPUT] += power
+    rates[I_INPUT_ABS] = abs(rates[I_INPUT])
+
+
+@helper
 def _newton(evaluate, jacobian, t, gamma, bundle, bl, fa, mem):
     """Solve new = base + gamma f(new); returns 1 converged, 0 not, -1 a kernel refused.
 
     A ball that bounces on a raceway or in its pocket spoils the convergence of all: where it is slow, the Jacobian is
     renewed at the iterate for the balls that change most. The rates of the running integrals are those of the last
-    iterate, which differs from the result by less than the error allowed per step.
+    iterate, which differs from the result by less than the error allowed per step; the power of what holds or drives a
+    ring, which feels that most, is brought to first order.
     """
     new, change, weight, count, control = (
         mem.new,
@@ -290,6 +339,8 @@ def _newton(evaluate, jacobian, t, gamma, bundle, bl, fa, mem):
         # Secants hide the rate of convergence.
         rate = 1.0 if careful else control[RATE]
         if size * min(1.0, rate) <= _NEWTON_TOLERANCE:
+            for b in range(2):
+                _correct_power(b, bundle, bl, mem)
             return 1
         if iteration > 0 and not careful and size > _SLOW * before:
             if _mark_slow(bl, mem, size) == 0:

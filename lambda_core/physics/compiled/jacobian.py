@@ -96,6 +96,7 @@ class Blocks(NamedTuple):
     from_ball: Any  # (3, 6, 9) d(body force)/d(ball)
     shared: Any  # (3, 6, 36) d(body force)/d(shared), of one ball, then summed
     parts: Any  # (Z, 3, 6, 36) the same of every ball
+    reach: Any  # (Z, 3, 6, 9) d(body force)/d(ball) of every ball
     due: Any  # int64 (Z,): whether the next call renews this ball; it leaves 1 everywhere
     slope: Any  # (6, 9) d(wrench)/dq
     ball: Any  # (9,) perturbed
@@ -114,6 +115,7 @@ _BLOCK_TYPES = {
     "from_ball": array3,
     "shared": array3,
     "parts": array4,
+    "reach": array4,
     "due": iarray1,
     "index": iarray1,
 }
@@ -137,6 +139,7 @@ def make_blocks(balls: int, active: np.ndarray) -> Blocks:
         zeros((3, 6, NB)),
         zeros((3, 6, 3 * NS)),
         zeros((balls, 3, 6, 3 * NS)),
+        zeros((balls, 3, 6, NB)),
         np.ones(balls, dtype=np.int64),
         zeros((6, 9)),
         zeros(NB),
@@ -512,6 +515,8 @@ def _keep_part(bl, j):
     """Keep what ball j adds to the slopes of the forces on the bodies."""
     for b in range(3):
         for i in range(6):
+            for c in range(NB):
+                bl.reach[j, b, i, c] = bl.from_ball[b, i, c]
             for c in range(3 * NS):
                 bl.parts[j, b, i, c] = bl.shared[b, i, c]
 
