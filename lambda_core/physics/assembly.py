@@ -10,7 +10,6 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from lambda_core.errors import SolverError
 from lambda_core.physics.compiled import layout as L
@@ -99,6 +98,8 @@ def _terms(channel: int, function: TimeFunction, rows: list[list[float]], table:
     for term in function.terms:
         row = [float(channel), float(_KINDS[term.kind]), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
         if term.kind == "table":
+            from scipy.interpolate import CubicSpline  # a third of a second to import, and most runs have no table
+
             times, values = np.array(term.values[0::2]), np.array(term.values[1::2])
             row[6], row[7] = len(table), times.size
             spline = CubicSpline(times, values, bc_type="clamped" if times.size > 2 else "natural")

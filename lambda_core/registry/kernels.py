@@ -204,9 +204,15 @@ def sources_key(folder: Path) -> str:
     return digest.hexdigest()
 
 
+@cache
+def _host_content(function: Callable[..., Any], sources: Path) -> tuple[str, str]:
+    """Return the hashes of the sources and of what the entry point reaches, found once per process."""
+    return sources_key(sources), reach(function, lenient=True).key
+
+
 def host_key(function: Callable[..., Any], sources: Path, **options: Any) -> str:
     """Return the hash of all that :func:`compile_host` would compile for this entry point."""
-    words = (sources_key(sources), reach(function, lenient=True).key, repr(sorted(options.items())))
+    words = (*_host_content(function, sources), repr(sorted(options.items())))
     return hashlib.sha256("\n".join(words).encode()).hexdigest()
 
 

@@ -26,6 +26,7 @@ from numba import config, njit, types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
 from numba.core.errors import NumbaExperimentalFeatureWarning
 from numba.core.registry import cpu_target
+from numba.core.runtime.nrt import rtsys
 from numba.core.types.function_type import WrapperAddressProtocol
 from numba.extending import register_jitable
 
@@ -113,7 +114,11 @@ def _cache(function: Callable[..., Any], folder: Path, on_miss: Callable[[], Non
 
         def load_overload(self, sig: Any, target_context: Any) -> Any:
             try:
-                found = super().load_overload(sig, target_context)
+                # The inherited method first loads all that a compiler needs, half a second even when nothing is
+                # compiled; on a miss the compiler does so itself.
+                rtsys.initialize(target_context)
+                with self._guard_against_spurious_io_errors():
+                    found = self._load_overload(sig, target_context)
             except Exception:  # a file cut short by a full disk or a killed process: compile anew
                 found = None
                 self.flush()
