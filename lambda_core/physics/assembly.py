@@ -173,6 +173,7 @@ def build_system(model: BearingModel, frame: ContactFrame, oil: Oil) -> Any:
     s["land_offset"] = 0.5 * model.cage.width
     s["land_on"] = [int(model.laws[e]["cage_contact"].model.name != "none") for e in ("cage_inner", "cage_outer")]
     s["surface_on"] = [int(model.laws[e]["surface"].model.name != "none") for e in ("ball_inner", "ball_outer")]
+    s["surfaces"] = int(s["surface_on"].any())
     s["drag_on"] = int(model.laws["fluid_drag"]["fluid_drag"].model.name != "none")
     s["roll_floor"], s["slip_floor"] = ROLL_FLOOR, SLIP_FLOOR
     s["friction_on"], s["guides_on"] = 1, 1

@@ -118,7 +118,8 @@ def contact_field(
     system: Any = bundle.system.view(np.recarray)[0]
     kin = np.zeros(L.NKIN)
     in_python = bundle._replace(system=bundle.system.view(np.recarray), laws=kernels.in_order("dispatcher"))
-    if kinematics.contact_kinematics.py_func(ball, ring, index, in_python, kin) <= 0.0:
+    kinematics.surface_lift.py_func(ball, ring, index, in_python, kin)
+    if kinematics.contact_kinematics.py_func(ball, ring, index, system, kin) <= 0.0:
         raise SolverError(f"the ball does not touch the {which} ring at this moment")
     grid, laws = unit_grid(strips, rows), getattr(bundle.laws, which)
     cells, scratch = np.zeros((L.N_CELL_ROWS, grid.shape[1])), np.zeros((L.N_SCRATCH, 64))

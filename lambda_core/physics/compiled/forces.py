@@ -21,6 +21,7 @@ from lambda_core.physics.compiled.kinematics import (
     apply_wrench,
     axis_x,
     contact_kinematics,
+    surface_lift,
 )
 from lambda_core.physics.compiled.layout import (
     BODY_FM,
@@ -91,7 +92,9 @@ def raceway_forces(y, j, bundle, rates, want):
     for which in range(2):
         ring = scratch[SHARED][NS * which : NS * which + NS]
         kin = scratch[KIN]
-        delta = contact_kinematics(ball, ring, which, bundle, kin)
+        if system.surfaces == 1:
+            surface_lift(ball, ring, which, bundle, kin)
+        delta = contact_kinematics(ball, ring, which, system, kin)
         if delta <= 0.0:
             continue
         if not delta < np.inf:

@@ -33,6 +33,7 @@ from lambda_core.physics.compiled.kinematics import (
     apply_wrench,
     axis_x,
     contact_kinematics,
+    surface_lift,
 )
 from lambda_core.physics.compiled.layout import (
     BODY_FM,
@@ -189,11 +190,15 @@ def _contact_columns(ball, ring, which, bundle, bl):
         for i in range(NB):
             bl.ball[i] = ball[i]
         bl.ball[c] += step
-        if contact_kinematics(bl.ball, ring, which, bundle, scratch[KIN2]) <= 0.0:
+        if system.surfaces == 1:
+            surface_lift(bl.ball, ring, which, bundle, scratch[KIN2])
+        if contact_kinematics(bl.ball, ring, which, system, scratch[KIN2]) <= 0.0:
             # The step leaves a lightly loaded contact, which deserves its stiffness all the same: step back instead.
             step = -step
             bl.ball[c] = ball[c] + step
-            if contact_kinematics(bl.ball, ring, which, bundle, scratch[KIN2]) <= 0.0:
+            if system.surfaces == 1:
+                surface_lift(bl.ball, ring, which, bundle, scratch[KIN2])
+            if contact_kinematics(bl.ball, ring, which, system, scratch[KIN2]) <= 0.0:
                 continue
         wrench_at(scratch[KIN2], scratch[KIN], scratch[WRENCH], bl.slope, scratch[WRENCH2])
         fm[2, :] = 0.0
@@ -209,10 +214,14 @@ def _contact_columns(ball, ring, which, bundle, bl):
         for i in range(NS):
             bl.body[i] = ring[i]
         bl.body[c] += step
-        if contact_kinematics(ball, bl.body, which, bundle, scratch[KIN2]) <= 0.0:
+        if system.surfaces == 1:
+            surface_lift(ball, bl.body, which, bundle, scratch[KIN2])
+        if contact_kinematics(ball, bl.body, which, system, scratch[KIN2]) <= 0.0:
             step = -step
             bl.body[c] = ring[c] + step
-            if contact_kinematics(ball, bl.body, which, bundle, scratch[KIN2]) <= 0.0:
+            if system.surfaces == 1:
+                surface_lift(ball, bl.body, which, bundle, scratch[KIN2])
+            if contact_kinematics(ball, bl.body, which, system, scratch[KIN2]) <= 0.0:
                 continue
         wrench_at(scratch[KIN2], scratch[KIN], scratch[WRENCH], bl.slope, scratch[WRENCH2])
         fm[2, :] = 0.0
@@ -225,10 +234,13 @@ def _contact_columns(ball, ring, which, bundle, bl):
 @helper
 def _raceway_columns(y, j, bundle, bl):
     scratch = bundle.scratch
+    system = bundle.system[0]
     ball = y[NB * j : NB * j + NB]
     for which in range(2):
         ring = scratch[SHARED][NS * which : NS * which + NS]
-        delta = contact_kinematics(ball, ring, which, bundle, scratch[KIN])
+        if system.surfaces == 1:
+            surface_lift(ball, ring, which, bundle, scratch[KIN])
+        delta = contact_kinematics(ball, ring, which, system, scratch[KIN])
         if delta <= 0.0:
             continue
         if not delta < np.inf:

@@ -26,6 +26,7 @@ from lambda_core.physics.compiled.layout import (
     K_AXIAL,
     K_COS,
     K_D,
+    K_LIFT,
     K_N,
     K_RADIAL,
     K_RISE,
@@ -67,7 +68,60 @@ def axis_x(ay, az):
 
 
 @helper
-def contact_kinematics(ball, ring, which, bundle, kin):
+def _from_axis(ball, ring, c, s):
+    """Return the ring's axis, the ball's centre from the ring's, its part along the axis and that across it (x, r, t).
+
+    c and s are cosine and sine of the ball's azimuth.
+    """
+    ay, az = ring[SAY], ring[SAZ]
+    a0, a1, a2 = axis_x(ay, az), ay * c + az * s, -ay * s + az * c
+    d0 = ball[BX] - ring[SX]
+    d1 = ball[BR] - (ring[SY] * c + ring[SZ] * s)
+    d2 = -(-ring[SY] * s + ring[SZ] * c)
+    axial = d0 * a0 + d1 * a1 + d2 * a2
+    return a0, a1, a2, d0, d1, d2, axial, d0 - axial * a0, d1 - axial * a1, d2 - axial * a2
+
+
+@helper
+def surface_lift(ball, ring, which, bundle, kin):
+    """Look up the raceway's surface under a ball, for `contact_kinematics` to take: call it first where one is in use.
+
+    Writes kin[K_LIFT], the height, and kin[K_RISE], its slopes with the ball centre's place along t and s; NaN when the
+    law refused. In the quasi-static equilibrium raceways are nominal.
+    """
+    system = bundle.system[0]
+    kin[K_LIFT], kin[K_RISE], kin[K_RISE + 1] = 0.0, 0.0, 0.0
+    if system.surface_on[which] == 0 or system.guides_on == 0:
+        return
+    c, s = math.cos(ball[BPSI]), math.sin(ball[BPSI])
+    ay, az = ring[SAY], ring[SAZ]
+    ax, _, _, _, _, _, axial, p0, p1, p2 = _from_axis(ball, ring, c, s)
+    rho = math.sqrt(p0 * p0 + p1 * p1 + p2 * p2)
+    radial = rho - system.groove_circle[which]
+    # Azimuth in the frame of least rotation of the tilted ring, less its spin: fixed to the raceway.
+    q1, q2 = p1 * c - p2 * s, p1 * s + p2 * c
+    lean = p0 + (ay * q1 + az * q2) / (1.0 + ax)
+    azimuth = math.atan2(q2 - az * lean, q1 - ay * lean) - ring[STHETA]
+    azimuth -= 2.0 * math.pi * math.floor(azimuth / (2.0 * math.pi) + 0.5)
+    sign = -1.0 if which == INNER else 1.0
+    angle, k = math.atan2(sign * axial, sign * radial), RACEWAY_KERNELS * which + R_SURFACE
+    out, par = bundle.scratch[SURFACE], bundle.par[system.par_start[k] : system.par_start[k + 1]]
+    out[:3] = np.nan
+    if which == INNER:
+        status = bundle.laws.inner.surface(azimuth, angle, par, out)
+    else:
+        status = bundle.laws.outer.surface(azimuth, angle, par, out)
+    if status != 1 or not abs(out[0]) + abs(out[1]) + abs(out[2]) < np.inf:
+        report(bundle.scratch[FAULT], R_SURFACE, status, which, azimuth, angle, 0.0, 0.0)
+        kin[K_LIFT] = np.nan
+        return
+    kin[K_LIFT] = out[0]
+    kin[K_RISE] = out[1] / rho
+    kin[K_RISE + 1] = out[2] / math.sqrt(axial * axial + radial * radial)
+
+
+@helper
+def contact_kinematics(ball, ring, which, system, kin):
     """Identify the contact of one ball with one ring.
 
     Parameters
@@ -77,52 +131,23 @@ def contact_kinematics(ball, ring, which, bundle, kin):
         Shared state of the ring.
     which : int
         INNER or OUTER.
-    bundle : Bundle
     kin : float64[:], shape (NKIN,)
-        Result: q (penetration, velocities), frame, arms, contact angle.
+        Result: q (penetration, velocities), frame, arms, contact angle. What `surface_lift` wrote is taken from it.
 
     Returns
     -------
     float
         Penetration [m]; velocities are written only where it is positive. NaN when the surface law refused.
     """
-    system = bundle.system[0]
     c, s = math.cos(ball[BPSI]), math.sin(ball[BPSI])
-    ay, az = ring[SAY], ring[SAZ]
-    ax = axis_x(ay, az)
-    a0, a1, a2 = ax, ay * c + az * s, -ay * s + az * c
-    # Ball centre from the ring's centre.
-    d0 = ball[BX] - ring[SX]
-    d1 = ball[BR] - (ring[SY] * c + ring[SZ] * s)
-    d2 = -(-ring[SY] * s + ring[SZ] * c)
-    axial = d0 * a0 + d1 * a1 + d2 * a2
-    p0, p1, p2 = d0 - axial * a0, d1 - axial * a1, d2 - axial * a2
+    a0, a1, a2, d0, d1, d2, axial, p0, p1, p2 = _from_axis(ball, ring, c, s)
+    ax, ay, az = a0, ring[SAY], ring[SAZ]
     rho = math.sqrt(p0 * p0 + p1 * p1 + p2 * p2)
     p0, p1, p2 = p0 / rho, p1 / rho, p2 / rho
     radial = rho - system.groove_circle[which]
     length = math.sqrt(axial * axial + radial * radial)
-    delta = length + system.ball_radius - system.groove_radius[which]
+    delta = length + system.ball_radius - system.groove_radius[which] + kin[K_LIFT]
     na, nr = axial / length, radial / length
-    rise_t, rise_s = 0.0, 0.0
-    if system.surface_on[which] == 1 and system.guides_on == 1:
-        # Azimuth in the frame of least rotation of the tilted ring, less its spin: fixed to the raceway.
-        q1, q2 = p1 * c - p2 * s, p1 * s + p2 * c
-        lean = p0 + (ay * q1 + az * q2) / (1.0 + ax)
-        azimuth = math.atan2(q2 - az * lean, q1 - ay * lean) - ring[STHETA]
-        azimuth -= 2.0 * math.pi * math.floor(azimuth / (2.0 * math.pi) + 0.5)
-        sign = -1.0 if which == INNER else 1.0
-        angle, k = math.atan2(sign * na, sign * nr), RACEWAY_KERNELS * which + R_SURFACE
-        out, par = bundle.scratch[SURFACE], bundle.par[system.par_start[k] : system.par_start[k + 1]]
-        out[:3] = np.nan
-        if which == INNER:
-            status = bundle.laws.inner.surface(azimuth, angle, par, out)
-        else:
-            status = bundle.laws.outer.surface(azimuth, angle, par, out)
-        if status != 1 or not abs(out[0]) + abs(out[1]) + abs(out[2]) < np.inf:
-            report(bundle.scratch[FAULT], R_SURFACE, status, which, azimuth, angle, 0.0, 0.0)
-            return np.nan
-        delta += out[0]
-        rise_t, rise_s = out[1] / rho, out[2] / length
     kin[Q_DELTA] = delta
     kin[K_AXIAL], kin[K_RADIAL] = axial, radial
     kin[K_COS], kin[K_SIN] = c, s
@@ -174,9 +199,9 @@ def contact_kinematics(ball, ring, which, bundle, kin):
     cs += dist * (along + x0 * s0 + x1 * s1 + x2 * s2)
     kin[Q_UT] = 0.5 * ((e0 + g0) * t0 + (e1 + g1) * t1 + (e2 + g2) * t2) - ct
     kin[Q_UT + 1] = 0.5 * ((e0 + g0) * s0 + (e1 + g1) * s1 + (e2 + g2) * s2) - cs
-    # A raceway that rises under the ball: the penetration's own rate, and the direction of its force.
-    kin[Q_VN] += rise_t * (u0 * t0 + u1 * t1 + u2 * t2 - sigma * rho) + rise_s * (u0 * s0 + u1 * s1 + u2 * s2)
-    kin[K_RISE], kin[K_RISE + 1] = rise_t, rise_s
+    # A raceway that rises under the ball: the penetration's own rate.
+    kin[Q_VN] += kin[K_RISE] * (u0 * t0 + u1 * t1 + u2 * t2 - sigma * rho)
+    kin[Q_VN] += kin[K_RISE + 1] * (u0 * s0 + u1 * s1 + u2 * s2)
     kin[K_T], kin[K_T + 1], kin[K_T + 2] = t0, t1, t2
     kin[K_S], kin[K_S + 1], kin[K_S + 2] = s0, s1, s2
     kin[K_N], kin[K_N + 1], kin[K_N + 2] = n0, n1, n2

@@ -153,6 +153,7 @@ SYSTEM = np.dtype(
         ("land_on", np.int64, (2,)),
         ("drag_on", np.int64),
         ("surface_on", np.int64, (2,)),  # 0: nominal raceway
+        ("surfaces", np.int64),  # 0: both are nominal
         (
             "roll_floor",
             np.float64,
@@ -248,12 +249,12 @@ GRID_S, GRID_T, GRID_P, GRID_AREA, GRID_DS, GRID_DT = range(6)
 N_SCRATCH = 17
 
 # Kinematics of one contact beyond q: frame and arms (components x, r, t).
-# K_AXIAL, K_RADIAL: ball centre from the groove's centre; K_COS, K_SIN: of the ball's azimuth; K_RISE: slope of the
-# penetration with the ball centre's place along t and s.
-K_T, K_S, K_N, K_D, K_ARM, K_AXIAL, K_RADIAL, K_COS, K_SIN, K_RISE = (
-    NQ + i for i in (0, 3, 6, 9, 10, 13, 14, 15, 16, 17)
+# K_AXIAL, K_RADIAL: ball centre from the groove's centre; K_COS, K_SIN: of the ball's azimuth. K_LIFT: height
+# of the raceway's surface; K_RISE: its slopes with the ball centre's place along t and s.
+K_T, K_S, K_N, K_D, K_ARM, K_AXIAL, K_RADIAL, K_COS, K_SIN, K_LIFT, K_RISE = (
+    NQ + i for i in (0, 3, 6, 9, 10, 13, 14, 15, 16, 17, 18)
 )
-NKIN = NQ + 19
+NKIN = NQ + 20
 
 # Rows of one block of Bundle.cells; the first X_RESULTS of them are written by kernels.
 # X_P and what follows depends on the kinematics alone: pressure, slip, its inverse, its two components.

@@ -21,6 +21,7 @@ from lambda_core.physics.compiled.kinematics import (
     axis_x,
     contact_angle,
     contact_kinematics,
+    surface_lift,
 )
 from lambda_core.physics.compiled.layout import (
     BODY_FM,
@@ -214,7 +215,9 @@ def _raceway_channels(y, j, which, bundle, shorted, channels, losses):
     ring = scratch[SHARED][NS * which : NS * which + NS]
     channels[:] = 0.0
     kin = scratch[KIN]
-    delta = contact_kinematics(ball, ring, which, bundle, kin)
+    if system.surfaces == 1:
+        surface_lift(ball, ring, which, bundle, kin)
+    delta = contact_kinematics(ball, ring, which, system, kin)
     if not delta < np.inf:
         return 0
     channels[1] = contact_angle(kin, which)
@@ -312,7 +315,9 @@ def stored_energy(t, y, bundle):
         total += 0.5 * system.ball_mass * v2 + 0.5 * system.ball_inertia * w2
         for which in range(2):
             ring = scratch[SHARED][NS * which : NS * which + NS]
-            if contact_kinematics(ball, ring, which, bundle, scratch[KIN]) > 0.0:
+            if system.surfaces == 1:
+                surface_lift(ball, ring, which, bundle, scratch[KIN])
+            if contact_kinematics(ball, ring, which, system, scratch[KIN]) > 0.0:
                 total += _contact_energy(which, scratch[KIN][Q_DELTA], bundle)
         if system.guides_on == 1:
             g, law, par = (

@@ -157,11 +157,11 @@ def _held_balls(y, bundle, held):
     largest = 0.0
     for j in range(system.balls):
         ball = y[NB * j : NB * j + NB]
-        largest = max(largest, contact_kinematics(ball, ring, INNER, bundle, scratch[KIN]))
+        largest = max(largest, contact_kinematics(ball, ring, INNER, system, scratch[KIN]))
     total, weight = 0.0, 0.0
     for j in range(system.balls):
         ball = y[NB * j : NB * j + NB]
-        delta = contact_kinematics(ball, ring, INNER, bundle, scratch[KIN])
+        delta = contact_kinematics(ball, ring, INNER, system, scratch[KIN])
         load = (max(delta, 0.0) / (largest + 1e-300)) ** 1.5
         held[j] = load < _GRIP
         if not held[j]:
