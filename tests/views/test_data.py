@@ -272,7 +272,8 @@ def test_the_contact_field_carries_the_load_and_the_loss(radial_run: Result) -> 
         # The contact angles at which the radii are frozen are found again, to 1e-4 rad.
         assert same.load == pytest.approx(sample["load"][ball, index], rel=1e-6)
         assert same.film == pytest.approx(sample["film_central"][ball, index], rel=1e-5)
-        assert same.loss == pytest.approx(sample["contact_loss"][ball, index], rel=1e-4)
+        # Sliding is a small difference of large speeds, and the speed at which the ring tilts is left out.
+        assert same.loss == pytest.approx(sample["contact_loss"][ball, index], rel=1e-3)
         fine = contact_field(assembly, *state, ring, 81, 41)
         assert fine.loss == pytest.approx(same.loss, rel=0.03)
         # The pressure carries the elastic load; the recorded load has the small damping force in it too.

@@ -168,7 +168,7 @@ def _vectors(axes: Any, scene: Scene, races: list[float], ball: float) -> Any:
     ]
     for line in lines:
         axes.add_collection(line)
-    names = [f"ball on inner ring, longest {most:.3g} kN", "ball on outer ring"]
+    names = [f"ball on inner ring, radial part, longest {most:.3g} kN", "ball on outer ring"]
     names += [f"cage on ball, longest {hardest:.3g} N"] if scene.has_cage and hardest > 0.0 else []
     axes.figure.legend(heads[: len(names)], names, loc="lower left", ncols=3, fontsize=10, columnspacing=1.2)
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.colors import LogNorm, TwoSlopeNorm
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+from matplotlib.transforms import ScaledTranslation
 
 from lambda_plugins.views.style import COLOUR_MAP, INK, SIGNED_MAP, SOFT, Look, look_of
 
@@ -21,9 +22,10 @@ _HEADROOM = 1.06  # above the data, on axes that begin at a given value
 _BELOW = 0.14  # margin that leaves room for numbers below bars
 _OPEN = 9.0  # size of open markers [pt]
 _DASHED = 130  # points up to which lines are dashed
-_RESTLESS = 3.0  # way up and down over the range of values, from which longer lines are solid
+_RESTLESS = 3.0  # way up and down over the range of values, from which a line fills its panel
 _SMOOTH = 6  # places along each side from which a mesh is drawn smoothly
 _LABEL = 32  # characters of a line of a label
+_LEGEND_BELOW = 0.58  # [inch] below the axes: under the numbers and the label
 _TITLE = 42  # the same of a title
 _OUTSIDE = 4  # a longer legend stands beside the axes
 
@@ -99,8 +101,13 @@ def _curve(axes: Any, series: Series, look: Look, *, polar: bool = False, framed
 
 def _is_calm(values: Any) -> bool:
     """Tell whether a line can be dashed: dashes of a long record that goes up and down would be noise of their own."""
+    return values.size <= _DASHED or not _is_restless(values)
+
+
+def _is_restless(values: Any) -> bool:
+    """Tell whether a line goes up and down so often that it fills its panel."""
     known = values[np.isfinite(values)]
-    return bool(known.size <= _DASHED or np.abs(np.diff(known)).sum() <= _RESTLESS * np.ptp(known))
+    return bool(known.size > 2 and np.abs(np.diff(known)).sum() > _RESTLESS * np.ptp(known))
 
 
 def _bars(axes: Any, series: Series, look: Look, index: int, count: int) -> None:
@@ -292,6 +299,10 @@ def _label(axes: Any, mark: Mark) -> None:
         axes.annotate(mark.label, place, (4, 0), coordinates, va="center", ha="left", **style)
 
 
+def _is_full(panel: Panel) -> bool:
+    return panel.shape == "plain" and any(series.kind == "line" and _is_restless(series.y) for series in panel.series)
+
+
 def _legend(axes: Any, panel: Panel) -> None:
     handles, labels = axes.get_legend_handles_labels()
     if not labels or (len(labels) == 1 and panel.field is None and not panel.marks and len(panel.series) == 1):
@@ -301,10 +312,12 @@ def _legend(axes: Any, panel: Panel) -> None:
         axes.legend(handles[order], labels[order], loc="center left", bbox_to_anchor=(1.01, 0.5))
     elif panel.shape == "polar":
         axes.legend(handles, labels, loc="upper left", bbox_to_anchor=(-0.3, 1.08))
-    elif panel.field is not None or panel.shape == "plane":
+    elif panel.field is not None or panel.shape == "plane" or _is_full(panel):
         # What is drawn may be anywhere: the legend stands below.
-        columns = 1 if max(map(len, labels)) > _TITLE // 2 else 2
-        axes.legend(handles, labels, loc="upper left", bbox_to_anchor=(-0.05, -0.2), borderaxespad=0.0, ncols=columns)
+        columns = 1 if max(map(len, labels)) > _TITLE // 2 else 3 if panel.shape == "plain" else 2
+        down = axes.transAxes + ScaledTranslation(0.0, -_LEGEND_BELOW, axes.figure.dpi_scale_trans)
+        place = {"bbox_to_anchor": (-0.05, 0.0), "bbox_transform": down, "borderaxespad": 0.0}
+        axes.legend(handles, labels, loc="upper left", ncols=columns, **place)
     else:
         legend = axes.legend(handles, labels, loc="best")
         legend.set_zorder(7)
