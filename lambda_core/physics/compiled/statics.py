@@ -43,9 +43,11 @@ settle_sig = i8(evaluate_t, jacobian_t, bundle_t, blocks_t, factors_t, array1, a
 _MOBILITY = 1e-4  # [s2] turns an acceleration into the rate of a position
 _HOLD = 1e4  # [1/s] rate at which an unloaded ball takes the speed of the others
 _LARGEST_MOVE = 0.2  # of the states' scales (10 um) per iteration, so that no iterate jumps through a contact
+_LARGEST_CHANGE = 0.1  # of a ball's rolling speeds per iteration
 _FIRST_STEP, _LAST_STEP = 1e-6, 1e6  # [s] of pseudo-time
 _CONVERGED = 1e-7  # last Newton step over the states' scales
 _TOLERATED_RISE = 1.5
+_CALM = 0.1  # shortening of the pseudo-time step when a step undoes the one before
 _GRIP = 0.02  # share of the largest ball load below which the cage sets a ball's orbital speed
 
 
@@ -145,12 +147,28 @@ def _mask(bundle, bl, held):
 
 
 @helper
-def _held_balls(y, bundle, held):
-    """Mark the balls that the cage drives; returns the load-weighted mean orbital speed of the others.
+def _load_shares(y, bundle, share):
+    """Write the load of each ball on the inner ring over the largest one."""
+    scratch = bundle.scratch
+    balls = bundle.system[0].balls
+    ring = scratch[SHARED][NS * INNER : NS * INNER + NS]
+    largest = 1e-300
+    for j in range(balls):
+        share[j] = max(0.0, contact_kinematics(y[NB * j : NB * j + NB], ring, INNER, bundle, scratch[KIN]))
+        largest = max(largest, share[j])
+    for j in range(balls):
+        share[j] = (share[j] / largest) ** 1.5
+
+
+@helper
+def _hold(share, held):
+    """Mark the balls that the cage drives.
 
     A ball finds its own orbital speed where the inner ring grips it. One that carries little cannot hold
-    itself against gravity and drag, in a bearing the cage does that.
+    itself against gravity and drag, in a bearing the cage does that. Decided once, at the start: a ball at the
+    limit would be gripped and lost in turn.
     """
+<<<<<<< HEAD
     scratch = bundle.scratch
     system = bundle.system[0]
     ring = scratch[SHARED][NS * INNER : NS * INNER + NS]
@@ -164,12 +182,21 @@ def _held_balls(y, bundle, held):
         delta = contact_kinematics(ball, ring, INNER, system, scratch[KIN])
         load = (max(delta, 0.0) / (largest + 1e-300)) ** 1.5
         held[j] = load < _GRIP
+=======
+    for j in range(share.size):
+        held[j] = share[j] < _GRIP
+
+
+@helper
+def _orbit(y, share, held):
+    """Return the load-weighted mean orbital speed of the balls that hold themselves."""
+    total, weight = 0.0, 0.0
+    for j in range(share.size):
+>>>>>>> e41c005 (wip)
         if not held[j]:
-            total += load * ball[BVT] / ball[BR]
-            weight += load
-    if weight == 0.0:
-        return y[BVT] / y[BR]
-    return total / weight
+            total += share[j] * y[NB * j + BVT] / y[NB * j + BR]
+            weight += share[j]
+    return total / weight if weight > 0.0 else y[BVT] / y[BR]
 
 
 @helper
@@ -179,6 +206,41 @@ def _merit(v, weight):
     for i in range(v.size):
         total += (v[i] * weight[i]) ** 2
     return math.sqrt(total / v.size)
+
+
+@helper
+def _turned_back(step, last, weight):
+    """Tell whether a step undoes most of the one before.
+
+    Friction is nearly a sign function of slip: from one of its plateaus Newton's method jumps to the other and back for
+    ever, unless the step is so short that it ends in between.
+    """
+    dot, size, size_last = 0.0, 0.0, 0.0
+    for i in range(step.size):
+        w2 = weight[i] * weight[i]
+        dot += w2 * step[i] * last[i]
+        size += w2 * step[i] * step[i]
+        size_last += w2 * last[i] * last[i]
+    return dot < -0.5 * math.sqrt(size * size_last) and size > 0.25 * size_last
+
+
+@helper
+def _clip_speeds(step, speed, spin, balls):
+    """Shorten the change of each ball's speeds to a share of rolling; tell whether any was too long.
+
+    On a plateau of friction the slope is next to nothing and Newton's method would leave for speeds from which no way
+    leads back. Ball by ball, so that one of them does not keep the others waiting.
+    """
+    clipped = False
+    for j in range(balls):
+        o = NB * j
+        turn = max(abs(step[o + 6]), abs(step[o + 7]), abs(step[o + 8]))
+        share = min(1.0, _LARGEST_CHANGE * spin / (turn + 1e-300), _LARGEST_CHANGE * speed / (abs(step[o + BVT]) + 1e-300))
+        if share < 1.0:
+            clipped = True
+            for i in range(BVT, NB):
+                step[o + i] *= share
+    return clipped
 
 
 @helper
@@ -219,13 +281,20 @@ def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations
         np.zeros(n),
         np.zeros(NI),
     )
-    held = np.zeros(system.balls, dtype=np.bool_)
+    held, share = np.zeros(system.balls, dtype=np.bool_), np.zeros(system.balls)
+    last = np.zeros(n)
     new, dt = np.zeros(n), _FIRST_STEP
     if evaluate(0.0, y, bundle, dydt, rates, 0) != 1:
         return -1
-    orbit = _held_balls(y, bundle, held)
+    _load_shares(y, bundle, share)
+    _hold(share, held)
+    orbit = _orbit(y, share, held)
     _residual(bundle, bl.index, y, dydt, held, orbit, f)
     merit = _merit(f, weight)
+    speed, spin = 1e-3, 1e-1  # of a ball that rests, so that it can start to move
+    for j in range(system.balls):
+        speed = max(speed, abs(y[NB * j + BVT]))
+        spin = max(spin, abs(y[NB * j + 6]), abs(y[NB * j + 7]), abs(y[NB * j + 8]))
     for iteration in range(max_iterations):
         if jacobian(0.0, y, bundle, bl) != 1:
             return -1
@@ -237,6 +306,7 @@ def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations
             if arrow_factor(bl, 1.0, dt, fa) == 1:
                 arrow_solve(fa, step)
                 size = _merit(step, weight)
+                clipped = system.friction_on == 1 and _clip_speeds(step, speed, spin, system.balls)
                 shrink = min(
                     1.0,
                     _LARGEST_MOVE / (_largest_move(step, weight, system.balls) + 1e-300),
@@ -244,7 +314,8 @@ def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations
                 for i in range(n):
                     trial[i] = y[i] + shrink * step[i]
                 if size < np.inf and evaluate(0.0, trial, bundle, dydt, rates, 0) == 1:
-                    orbit = _held_balls(trial, bundle, held)
+                    _load_shares(trial, bundle, share)
+                    orbit = _orbit(trial, share, held)
                     _residual(bundle, bl.index, trial, dydt, held, orbit, new)
                     found = _merit(new, weight)
                     # Overdamped motion may pass through states of larger residual, but not by much.
@@ -256,12 +327,16 @@ def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations
                 return -1 if scratch[FAULT, 0] >= 0.0 else 0
         gain = merit / (found + 1e-300)
         merit = found
+        turned = size > _CONVERGED and _turned_back(step, last, weight)
         for i in range(n):
             y[i] = trial[i]
             f[i] = new[i]
+            last[i] = step[i]
         report[0], report[1], report[2], report[3] = iteration + 1.0, size, dt, orbit
-        if dt >= 1.0 and size < _CONVERGED and shrink == 1.0:
+        if dt >= 1.0 and size < _CONVERGED and shrink == 1.0 and not clipped:
             return 1
-        if shrink == 1.0:
+        if turned:
+            dt *= _CALM
+        elif shrink == 1.0 and not clipped:
             dt = min(_LAST_STEP, dt * max(0.5, min(5.0, 2.0 * gain)))
     return 0
