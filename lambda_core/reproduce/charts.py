@@ -7,15 +7,20 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from lambda_core.registry.chart import Axis, Panel, Series, ViewData
+from lambda_core.registry.chart import Axis, Mark, Panel, Series, ViewData
 from lambda_core.reproduce.fig5 import BoundaryPoint, Fig5
 from lambda_core.reproduce.fig7 import Fig7
 from lambda_core.reproduce.published import METHODS, PAPER, POINTS, SPEEDS, TABLE_4
+from lambda_core.reproduce.sensitivity import Sensitivity
 from lambda_core.reproduce.table4 import Table4
 
 FloatArray = NDArray[np.float64]
+_TOP = 2600.0  # of both panels of the torque [N mm]
+_BESIDE = 55.0  # by which the points of each further method stand beside their speed [1/min]
+_SEEN = 0.3  # change of the torque that a bar shows [%]
 _ROWS = {"C/P = 10": slice(0, 3), "C/P = 6.5": slice(3, 6)}
-_CRITERIA = {"S": "criterion S: speed of unloaded balls", "T": "criterion T: contacts outside the load zone"}
+_CRITERIA = {"S": "speed of unloaded balls (S)", "T": "contacts outside the zone (T)"}
+_SPEEDS = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0)  # numbers at the axis [m/s]
 
 
 def _array(values: object) -> FloatArray:
@@ -37,26 +42,37 @@ def table4_chart(found: Table4) -> ViewData:
             Series("measured", speed, measured, "points", "total"),
             Series("blind, 90 % band", speed, blind, "line", "inner", np.minimum(low, blind), np.maximum(high, blind)),
             Series("calibrated on C/P = 10", speed, fitted, "line", "outer"),
-            *(Series(name, speed, _array(TABLE_4[name][rows]), "points", group=i) for i, name in enumerate(METHODS)),
+            *(
+                Series(f"{name} (printed)", speed + _BESIDE * i, _array(TABLE_4[name][rows]), "points", group=i)
+                for i, name in enumerate(METHODS, start=1)
+            ),
         ]
-        panels.append(Panel(title, Axis("speed", "1/min"), Axis("friction torque", "N mm", low=0.0), tuple(series)))
+        axes = Axis("speed", "1/min", low=0.0, high=3300.0), Axis("friction torque", "N mm", low=0.0, high=_TOP)
+        panels.append(Panel(title, *axes, tuple(series)))
     errors = ", ".join(f"{name} {value:.1f} %" for name, value in found.mean_absolute_error_pct.items())
-    return ViewData(
-        "table4", "Friction torque of the 6319, oil bath", PAPER, tuple(panels), 2, (f"mean absolute error: {errors}",)
-    )
+    notes = (f"mean absolute error: {errors}", "printed values of other methods stand a little beside their speed")
+    return ViewData("table4", "Friction torque of the 6319, oil bath", PAPER, tuple(panels), 2, notes)
 
 
 def sensitivity_chart(found: Table4) -> ViewData:
-    """Change of the torque from one end of every range to the other, largest first."""
-    names = tuple(s.name for s in found.sensitivities)
-    place = np.arange(len(names), dtype=np.float64)
+    """Change of the torque from one end of every range to the other, largest first; what does nothing in words."""
+
+    def effect(s: Sensitivity) -> float:
+        return max(abs(s.low_change_pct), abs(s.high_change_pct))
+
+    shown = [s for s in found.sensitivities if effect(s) >= _SEEN]
+    rest = [s.short for s in found.sensitivities if effect(s) < _SEEN]
+    place = np.arange(len(shown), dtype=np.float64)
     series = (
-        Series("at the low end", place, _array([s.low_change_pct for s in found.sensitivities]), "bars", "inner"),
-        Series("at the high end", place, _array([s.high_change_pct for s in found.sensitivities]), "bars", "outer"),
+        Series("at the low end", place, _array([s.low_change_pct for s in shown]), "bars", "inner"),
+        Series("at the high end", place, _array([s.high_change_pct for s in shown]), "bars", "outer"),
     )
-    panel = Panel("", Axis("", categories=names), Axis("change of the friction torque", "%"), series)
-    notes = tuple(f"{s.name}: {s.low} to {s.high}" for s in found.sensitivities[:6])
-    return ViewData("sensitivity", "What every assumed parameter does", "6319, mean of six points", (panel,), 1, notes)
+    panel = Panel("", Axis("", categories=tuple(s.short for s in shown)), Axis("change", "%"), series)
+    notes = [f"{s.short}: {s.span}" for s in shown]
+    if rest:
+        notes.append(f"below {_SEEN:g} %: {', '.join(rest)}")
+    title = "What every assumed parameter does to the torque"
+    return ViewData("sensitivity", title, "6319", (panel,), 1, tuple(notes))
 
 
 def fig5_chart(found: Fig5) -> ViewData:
@@ -78,13 +94,17 @@ def fig5_chart(found: Fig5) -> ViewData:
             )
             series.append(Series(f"{load / 1e3:g} kN", frequency, mid, "line", "", low, high, "bracket"))
         series.append(_slope_of_one(mine))
-        title = f"variant {variant}, {_CRITERIA[criterion]}"
-        axes = Axis("frequency", "Hz", log=True), Axis("excitation velocity", "m/s", log=True)
-        panels.append(Panel(title, *axes, tuple(series)))
+        title = f"Variant {variant}: {_CRITERIA[criterion]}"
+        axes = (
+            Axis("frequency", "Hz", log=True, low=4.5, high=45.0, ticks=(5.0, 10.0, 20.0, 40.0)),
+            Axis("excitation velocity", "m/s", log=True, low=0.03, high=2.0, ticks=_SPEEDS),
+        )
+        marks = (Mark("", found.frequency_range_Hz[1], "x"),)
+        panels.append(Panel(title, *axes, tuple(series), marks))
     rings, cage = (min(values) for values in zip(*((r.frequency_Hz, r.cage_Hz) for r in found.resonances), strict=True))
     low_end, high_end = found.frequency_range_Hz
     notes = (
-        f"bands: the bisection's brackets; slopes are those from {low_end:g} to {high_end:g} Hz",
+        f"bands: the bisection's brackets; slopes: {low_end:g} to {high_end:g} Hz, left of the dotted line",
         f"lowest axial resonance of the cage on the unloaded balls {cage:.0f} Hz, of the rings {rings:.0f} Hz",
         *found.notes[:1],
     )

@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 from pydantic import Field
 
+from lambda_core.reproduce.apart import Apart, apart
 from lambda_core.reproduce.boundary import (
     CASE,
     CRITERIA,
@@ -106,6 +107,7 @@ class Fig5(Record):
     lines: list[Line]
     variations: list[Variation]
     still: dict[str, dict[str, float]] = Field(description="S_0 and T_0 without excitation")
+    apart: list[Apart] = Field(description="variant A, 5 kN, 8.9 Hz: dynamic over quasi-static; empty when quick")
     bars: list[str]
     notes: list[str]
 
@@ -138,6 +140,7 @@ def fig5(workshop: Workshop, *, quick: bool = False) -> Fig5:
         lines=lines,
         variations=_variations(points, varied, still) if varied else [],
         still={_name(setting): {c: answer[c] for c in CRITERIA} for setting, answer in still.items()},
+        apart=[] if quick else apart(workshop),
         bars=_bars(points, lines, resonances, declared),
         notes=_notes(quick, ratio),
     )
@@ -258,10 +261,7 @@ def _bars(
     return [
         verdict([name(line) for line in lines if not line.falls], "every boundary falls monotonically with frequency"),
         *(slope(criterion) for criterion in CRITERIA),
-        *(
-            verdict(_against_load(points, criterion), f"criterion {criterion}: the boundary moves up with the load")
-            for criterion in CRITERIA
-        ),
+        *(_with_load(points, criterion) for criterion in CRITERIA),
         f"{'met' if below else 'missed'}: {frequencies[0]:g} to {frequencies[-1]:g} Hz, the declared range of the "
         f"slopes, end below a quarter of the lowest axial resonance, {lowest:.0f} Hz (cage); rings: {ring:.0f} Hz",
     ]
@@ -271,15 +271,31 @@ def _number(value: float | None) -> str:
     return "none" if value is None else f"{value:.2f}"
 
 
-def _against_load(points: Sequence[BoundaryPoint], criterion: str) -> list[str]:
-    """Return where in the declared range a boundary does not move up with the load, with its accelerations."""
-    wrong, mine = [], [p for p in points if p.criterion == criterion and p.declared]
-    for variant, frequency in dict.fromkeys((p.variant, p.frequency_Hz) for p in mine):
-        here = [p for p in mine if (p.variant, p.frequency_Hz) == (variant, frequency)]
-        values = [p.acceleration_m_per_s2 for p in sorted(here, key=lambda p: p.load_N)]
-        if any(a is None or b is None or b <= a for a, b in pairwise(values)):
-            wrong.append(f"{variant} at {frequency:g} Hz ({', '.join(_number(value) for value in values)} m/s2)")
-    return wrong
+def _with_load(points: Sequence[BoundaryPoint], criterion: str) -> str:
+    """Say whether the boundary over the declared range moves up with the load, and which single points do not.
+
+    The boundary is compared by the geometric mean of its accelerations: one point is uncertain by some per cent.
+    """
+    mine = [p for p in points if p.criterion == criterion and p.declared]
+    loads = sorted({p.load_N for p in mine})
+    rises, means, against = True, [], []
+    for variant in dict.fromkeys(p.variant for p in mine):
+        rows = [
+            [p.acceleration_m_per_s2 or math.nan for p in mine if (p.variant, p.load_N) == (variant, load)]
+            for load in loads
+        ]
+        mean = np.exp(np.log(rows).mean(axis=1))
+        rises = rises and bool(np.all(np.diff(mean) > 0.0))
+        means.append(f"{variant} {', '.join(f'{value:.1f}' for value in mean)} m/s2")
+        frequencies = [p.frequency_Hz for p in mine if (p.variant, p.load_N) == (variant, loads[0])]
+        for frequency, values in zip(frequencies, np.transpose(rows), strict=True):
+            worst = float(np.min(values[1:] / values[:-1]))
+            if not worst > 1.0:
+                against.append(f"{variant} {frequency:g} Hz ({100.0 * (worst - 1.0):.0f} %)")
+    text = f"criterion {criterion}: the boundary moves up with the load, on the mean {'; '.join(means)}"
+    if against:
+        text += f"; single points do not: {', '.join(against)}"
+    return f"{'met' if rises else 'missed'}: {text}"
 
 
 def _notes(quick: bool, ratio: float) -> list[str]:

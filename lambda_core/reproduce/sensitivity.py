@@ -13,6 +13,23 @@ from lambda_core.simulate.record import Record
 
 # The run that says what the cage's parameters do: the shortest one.
 _CAGE_CASE = "6319-cp10-3000"
+# What an option's name does not say by itself, for figures.
+_SHORT = {
+    "rheology: vogel k": "viscosity (Vogel K)",
+    "rheology: dicke a1": "pressure viscosity (Dicke a1)",
+    "fluid drag: v m": "drag V_M",
+    "lubricant: temperature": "oil temperature",
+    "lubricant: properties.thermal conductivity": "oil conductivity",
+    "traction: tau eyring": "tau_e",
+    "elastic hysteresis: loss factor": "hysteresis loss factor",
+    "boundary friction: mu s": "boundary friction",
+    "cage contact: mu s": "cage friction",
+    "cage contact: stiffness": "cage stiffness",
+    "bodies: cage.type": "cage type",
+    "bodies: cage.pocket clearance": "pocket clearance",
+    "asperity load: B": "asperity load B",
+    "asperity load: C": "asperity load C",
+}
 # Conductivity of the oil is a class value of the catalogue, +-15 %; the case can only replace the oil as a whole.
 _CONDUCTIVITY = P.Entry(
     "lubricant.properties.thermal_conductivity",
@@ -37,6 +54,16 @@ class Sensitivity(Record):
     published: bool = Field(description="whether the range is published")
     basis: str
     source: str
+
+    @property
+    def short(self) -> str:
+        """The name without the law or section that it belongs to."""
+        return _SHORT.get(self.name, self.name.rpartition(": ")[2])
+
+    @property
+    def span(self) -> str:
+        """Both ends of the range; the other law where there is one only."""
+        return self.low if self.low == self.high else f"{self.low} to {self.high}"
 
 
 def ends_of(entry: P.Entry) -> tuple[str, str]:

@@ -43,7 +43,7 @@ def table4_tables(found: Table4) -> tuple[Table, ...]:
         for c in found.calibrations
     )  # fmt: skip
     effects = tuple(
-        (s.name, s.value, f"{s.low} to {s.high}", f"{s.low_change_pct:+.1f}", f"{s.high_change_pct:+.1f}",
+        (s.name, s.value, s.span, f"{s.low_change_pct:+.1f}", f"{s.high_change_pct:+.1f}",
          number(s.low_error_pct), number(s.high_error_pct), s.basis)
         for s in found.sensitivities
     )  # fmt: skip
@@ -111,6 +111,19 @@ def fig5_tables(found: Fig5) -> tuple[Table, ...]:
     if found.variations:
         rows = tuple((v.what, v.criterion, *(number(r, 2) for r in v.ratios)) for v in found.variations)
         tables.append(Table("boundary over that of the base case", ("change", "criterion", "first", "second"), rows))
+    if found.apart:
+        parting = tuple(
+            (f"{a.acceleration_m_per_s2:g}", f"{a.friction_difference_pct:+.1f}", f"{a.load_difference_pct:+.1f}",
+             number(a.cage_Nmm))
+            for a in found.apart
+        )  # fmt: skip
+        tables.append(
+            Table(
+                "where dynamics and quasi-static solution part: variant A, 5 kN, 8.9 Hz",
+                ("acceleration m/s2", "friction without cage %", "largest load %", "cage N mm"),
+                parting,
+            )
+        )
     return tuple(tables)
 
 

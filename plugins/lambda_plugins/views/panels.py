@@ -263,7 +263,8 @@ def _scale(axes: Any, axis: Axis, which: str) -> None:
         )
         axes.grid(False, axis=which)
     elif axis.ticks:
-        getattr(axes, f"set_{which}ticks")(axis.ticks)
+        getattr(axes, f"set_{which}ticks")(axis.ticks, [f"{tick:g}" for tick in axis.ticks])
+        getattr(axes, f"{which}axis").set_minor_formatter(NullFormatter())
 
 
 def _limit(axes: Any, axis: Axis, which: str) -> None:

@@ -1,0 +1,107 @@
+"""Slopes and verdicts of the stability map, on boundaries of known shape."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from lambda_core.reproduce.boundary import CRITERIA
+from lambda_core.reproduce.charts import fig5_chart
+from lambda_core.reproduce.fig5 import BEYOND, FREQUENCIES, BoundaryPoint, Fig5, Resonance, _bars, _lines
+
+LOADS = (2e3, 5e3, 10e3)
+RESONANCES = [
+    Resonance(load_N=load, stiffness_N_per_um=2.0, mass_kg=6.0, frequency_Hz=88.0, ball_Hz=83.0, cage_Hz=68.0)
+    for load in LOADS
+]
+
+
+def points(slope: float = -1.0, by_load: float = 1.2) -> list[BoundaryPoint]:
+    """Boundaries v = v_0 f^slope in the declared range, one steeper above, `by_load` higher from load to load."""
+    found = []
+    for variant in ("A", "B"):
+        for i, load in enumerate(LOADS):
+            for criterion in CRITERIA:
+                for f in (*FREQUENCIES, *BEYOND):
+                    top = FREQUENCIES[-1]
+                    v = by_load**i * min(f, top) ** slope * (max(f, top) / top) ** (slope - 1.0)
+                    found.append(
+                        BoundaryPoint(
+                            variant=variant,
+                            load_N=load,
+                            criterion=criterion,
+                            frequency_Hz=f,
+                            velocity_m_per_s=v,
+                            acceleration_m_per_s2=2.0 * math.pi * f * v,
+                            low_m_per_s=0.9 * v,
+                            high_m_per_s=1.1 * v,
+                            runs=4,
+                            declared=f <= top,
+                        )
+                    )
+    return found
+
+
+def bars(found: list[BoundaryPoint]) -> list[str]:
+    return _bars(found, _lines(found), RESONANCES, FREQUENCIES)
+
+
+def test_slopes_inside_and_above_the_declared_range() -> None:
+    for line in _lines(points(-1.1)):
+        assert line.slope == pytest.approx(-1.1)
+        assert line.slope_beyond == pytest.approx(-2.1)
+        assert line.falls
+
+
+def test_every_bar_is_met_by_constant_acceleration() -> None:
+    assert all(bar.startswith("met: ") for bar in bars(points()))
+
+
+def test_a_steep_slope_is_missed_and_named() -> None:
+    wrong = [bar for bar in bars(points(-1.4)) if bar.startswith("missed: ")]
+    assert len(wrong) == len(CRITERIA)
+    assert all("A 5 kN" in bar and "-1.40" in bar for bar in wrong)
+
+
+def test_a_rising_boundary_is_missed() -> None:
+    assert any(bar.startswith("missed: every boundary falls") for bar in bars(points(0.1)))
+
+
+def test_a_boundary_that_does_not_move_up_is_missed() -> None:
+    wrong = [bar for bar in bars(points(by_load=0.95)) if bar.startswith("missed: ")]
+    assert len(wrong) == len(CRITERIA)
+    assert all("(-5 %)" in bar for bar in wrong)
+
+
+def test_single_points_against_the_load_are_named() -> None:
+    found = points()
+    i = next(i for i, p in enumerate(found) if (p.variant, p.load_N, p.criterion) == ("B", 10e3, "S"))
+    found[i] = found[i].model_copy(update={"acceleration_m_per_s2": 0.8 * (found[i].acceleration_m_per_s2 or 0.0)})
+    bar = next(bar for bar in bars(found) if "criterion S: the boundary moves" in bar)
+    assert bar.startswith("met: ")
+    assert bar.endswith(f"single points do not: B {FREQUENCIES[0]:g} Hz (-4 %)")
+
+
+def test_where_none_was_found_nothing_is_met() -> None:
+    found = [p.model_copy(update={"velocity_m_per_s": None, "acceleration_m_per_s2": None}) for p in points()]
+    assert all(bar.startswith("missed: ") for bar in bars(found)[:5])
+
+
+def test_the_picture_has_a_line_of_constant_acceleration() -> None:
+    found = points()
+    data = Fig5(
+        frequency_range_Hz=(FREQUENCIES[0], FREQUENCIES[-1]),
+        resonances=RESONANCES,
+        points=found,
+        lines=_lines(found),
+        variations=[],
+        still={},
+        apart=[],
+        bars=[],
+        notes=[],
+    )
+    panels = fig5_chart(data).panels
+    assert len(panels) == 4
+    line = panels[0].series[-1]
+    assert line.x * line.y == pytest.approx(line.x[0] * line.y[0])
