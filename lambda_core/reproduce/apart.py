@@ -6,7 +6,7 @@ from pydantic import Field
 
 from lambda_core.reproduce.boundary import CASE, Setting
 from lambda_core.reproduce.workshop import Job, Workshop
-from lambda_core.simulate.summary import Record
+from lambda_core.simulate.record import Record
 
 SETTING = Setting("A", 5.0)
 FREQUENCY = 8.9  # [Hz]

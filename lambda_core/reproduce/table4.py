@@ -280,8 +280,8 @@ def _bars(
     """Say which bars are met and by how much others are missed."""
 
     def bar(name: str, value: float, limit: float) -> str:
-        short = f"{name}: {value:.2g} %, bar {limit:g} %"
-        return f"met: {short}" if value < limit else f"missed by {value - limit:.2g}: {short}"
+        short = f"{name}: {value:.3g} %, bar {limit:g} %"
+        return f"met: {short}" if value < limit else f"missed by {value - limit:.1f}: {short}"
 
     torque = np.array([p.simulated_Nmm for p in points]).reshape(2, 3)
     rises = bool(np.all(np.diff(torque, axis=1) > 0.0) and np.all(np.diff(torque, axis=0) > 0.0))

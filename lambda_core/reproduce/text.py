@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from lambda_core.report.page import Table
 from lambda_core.reproduce.fig5 import Fig5
-from lambda_core.reproduce.fig7 import Fig7
+from lambda_core.reproduce.fig7 import STATED, Fig7
 from lambda_core.reproduce.parameters import blind_set
 from lambda_core.reproduce.published import POINTS
 from lambda_core.reproduce.table4 import Table4, rows_of
@@ -20,7 +20,7 @@ def number(value: float | None, digits: int = 1) -> str:
 
 
 def _with_error(value: float, measured: float) -> str:
-    return f"{value:.0f} ({100.0 * (value / measured - 1.0):+.0f} %)"
+    return f"{value:.0f}" if value == measured else f"{value:.0f} ({100.0 * (value / measured - 1.0):+.0f} %)"
 
 
 def table4_tables(found: Table4) -> tuple[Table, ...]:
@@ -138,7 +138,10 @@ def fig7_tables(found: Fig7) -> tuple[Table, ...]:
     bearing = tuple(
         (f"{b.load_N:g}", number(b.simulated_pF), number(b.dynamic_pF), number(b.analytical_pF)) for b in found.bearing
     )
-    stated = tuple((name, ", ".join(f"{value:+.1f}" for value in values)) for name, values in found.statements.items())
+    stated = tuple(
+        (name, ", ".join(f"{value:+.1f}" for value in values), STATED.get(name, _NONE))
+        for name, values in found.statements.items()
+    )
     return (
         Table(
             "contacts",
@@ -147,7 +150,7 @@ def fig7_tables(found: Fig7) -> tuple[Table, ...]:
             contacts,
         ),
         Table("bearing", ("F_a N", "simulated pF", "run pF", "analytical pF"), bearing),
-        Table("the paper's statements", ("", "%"), stated),
+        Table("the paper's statements", ("", "found %", "paper %"), stated),
     )  # fmt: skip
 
 
