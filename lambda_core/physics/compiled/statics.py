@@ -154,7 +154,7 @@ def _load_shares(y, bundle, share):
     ring = scratch[SHARED][NS * INNER : NS * INNER + NS]
     largest = 1e-300
     for j in range(balls):
-        share[j] = max(0.0, contact_kinematics(y[NB * j : NB * j + NB], ring, INNER, bundle, scratch[KIN]))
+        share[j] = max(0.0, contact_kinematics(y[NB * j : NB * j + NB], ring, INNER, bundle.system[0], scratch[KIN]))
         largest = max(largest, share[j])
     for j in range(balls):
         share[j] = (share[j] / largest) ** 1.5
@@ -168,21 +168,6 @@ def _hold(share, held):
     itself against gravity and drag, in a bearing the cage does that. Decided once, at the start: a ball at the
     limit would be gripped and lost in turn.
     """
-<<<<<<< HEAD
-    scratch = bundle.scratch
-    system = bundle.system[0]
-    ring = scratch[SHARED][NS * INNER : NS * INNER + NS]
-    largest = 0.0
-    for j in range(system.balls):
-        ball = y[NB * j : NB * j + NB]
-        largest = max(largest, contact_kinematics(ball, ring, INNER, system, scratch[KIN]))
-    total, weight = 0.0, 0.0
-    for j in range(system.balls):
-        ball = y[NB * j : NB * j + NB]
-        delta = contact_kinematics(ball, ring, INNER, system, scratch[KIN])
-        load = (max(delta, 0.0) / (largest + 1e-300)) ** 1.5
-        held[j] = load < _GRIP
-=======
     for j in range(share.size):
         held[j] = share[j] < _GRIP
 
@@ -192,7 +177,6 @@ def _orbit(y, share, held):
     """Return the load-weighted mean orbital speed of the balls that hold themselves."""
     total, weight = 0.0, 0.0
     for j in range(share.size):
->>>>>>> e41c005 (wip)
         if not held[j]:
             total += share[j] * y[NB * j + BVT] / y[NB * j + BR]
             weight += share[j]
