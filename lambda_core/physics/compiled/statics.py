@@ -219,7 +219,9 @@ def _clip_speeds(step, speed, spin, balls):
     for j in range(balls):
         o = NB * j
         turn = max(abs(step[o + 6]), abs(step[o + 7]), abs(step[o + 8]))
-        share = min(1.0, _LARGEST_CHANGE * spin / (turn + 1e-300), _LARGEST_CHANGE * speed / (abs(step[o + BVT]) + 1e-300))
+        share = min(
+            1.0, _LARGEST_CHANGE * spin / (turn + 1e-300), _LARGEST_CHANGE * speed / (abs(step[o + BVT]) + 1e-300)
+        )
         if share < 1.0:
             clipped = True
             for i in range(BVT, NB):
