@@ -294,11 +294,6 @@ _REFUSALS = """
 Some regimes have no answer. The program says so before it integrates:
 
 """
-_KNOWN = """
-A ball that the inner ring barely grips (the 6319 at 50 to 200 N) has no steady motion of its own. `quasistatic`
-says so, with exit code 4; the dynamics start from rolling balls instead, and say that too. Below about 100 1/min the
-equilibrium with friction is found by way of faster running.
-"""
 
 
 def _size(value: float) -> str:
@@ -323,7 +318,7 @@ def page() -> str:
     for name, (changes, words) in REFUSED.items():
         said = next(line for line in refusal(changes).splitlines() if words in line)
         refused.append(f"| {name} | {' '.join(said.split())} |")
-    return _TEXT + "\n".join(lines) + "\n" + _KNOWN + _REFUSALS + "\n".join(refused) + "\n"
+    return _TEXT + "\n".join(lines) + "\n" + _REFUSALS + "\n".join(refused) + "\n"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -80,8 +80,7 @@ def solve(
     Parameters
     ----------
     strict : bool
-        Whether the balls' friction must be in equilibrium too. The dynamics can start without it: a ball that the
-        inner ring barely touches has no steady motion of its own.
+        Whether the balls' friction must be in equilibrium too. The dynamics can start without it, from rolling balls.
     phase : float
         Where the balls stand, in ball pitches: at 0 one of them is lowest, at 0.5 two are equally low.
 
