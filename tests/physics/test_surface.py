@@ -10,6 +10,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.contact_field import contact_field
 from lambda_core.physics.equilibrium import solve
 from lambda_core.physics.surface import longest_step
 from lambda_core.plugins import NoParameters, model
@@ -87,3 +88,17 @@ def test_a_surface_that_refuses_is_named() -> None:
         m.evaluate(m.vector(m.at_rest()))
     for words in ("surface/unmapped (scans 1.2)", "the scan ends here", "inner"):
         assert words in str(found.value)
+
+
+def test_a_view_inside_the_contact_sees_the_same_surface() -> None:
+    """The field of one contact, looked up in plain Python, has the load that the run had."""
+    m = machine(*STILL, *WAVES)
+    state = m.at_rest()
+    state.balls[0, L.BR] -= 10e-6
+    state.shared[0, L.STHETA] = 0.3
+    state.balls[:, L.BVT], state.balls[:, L.BWX] = 2.0, 150.0
+    y = m.vector(state)
+    field = contact_field(m.assembly, state.balls[0], m.shared_state(y, 0.0)[0], "inner")
+    pressure, nominal = (float(each.observe(y)["max_pressure"][0, 0]) for each in (m, machine(*STILL)))
+    assert float(field.pressure.max()) == pytest.approx(pressure, rel=0.01)
+    assert pressure != pytest.approx(nominal, rel=1e-3)
