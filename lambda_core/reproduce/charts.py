@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -60,15 +61,20 @@ def sensitivity_chart(found: Table4) -> ViewData:
     def effect(s: Sensitivity) -> float:
         return max(abs(s.low_change_pct), abs(s.high_change_pct))
 
+    def high(s: Sensitivity) -> float:
+        return math.nan if s.low == s.high else s.high_change_pct  # the only other law has one bar
+
     shown = [s for s in found.sensitivities if effect(s) >= _SEEN]
     rest = [s.short for s in found.sensitivities if effect(s) < _SEEN]
     place = np.arange(len(shown), dtype=np.float64)
     series = (
-        Series("at the low end", place, _array([s.low_change_pct for s in shown]), "bars", "inner"),
-        Series("at the high end", place, _array([s.high_change_pct for s in shown]), "bars", "outer"),
+        Series(
+            "at the low end, or with the other law", place, _array([s.low_change_pct for s in shown]), "bars", "inner"
+        ),
+        Series("at the high end", place, _array([high(s) for s in shown]), "bars", "outer"),
     )
     panel = Panel("", Axis("", categories=tuple(s.short for s in shown)), Axis("change", "%"), series)
-    notes = [f"{s.short}: {s.span}" for s in shown]
+    notes = ["; ".join(f"{s.short}: {s.span}" for s in shown)]
     if rest:
         notes.append(f"below {_SEEN:g} %: {', '.join(rest)}")
     title = "What every assumed parameter does to the torque"
@@ -129,9 +135,9 @@ def fig7_chart(found: Fig7) -> ViewData:
         mine = [c for c in found.contacts if c.ring == ring]
         load = _array([c.load_N for c in mine])
         series = (
-            Series("simulation", load, _array([c.hertz_pF for c in mine]), "line", ring),
+            Series("simulation", load, _array([c.hertz_pF for c in mine]), "line", "total"),
             Series("analytical, isothermal", load, _array([c.analytical_pF for c in mine]), "points", "reference"),
         )
-        axes = Axis("axial load", "N"), Axis("C_Hertz", "pF", low=0.0)
+        axes = Axis("axial load", "N", low=500.0, high=2200.0), Axis("C_Hertz", "pF", low=0.0, high=20.0)
         panels.append(Panel(f"{ring} ring contact", *axes, series))
     return ViewData("fig7", "Capacitance of the Hertzian contacts, 6208", f"after {PAPER}, Fig. 7", tuple(panels), 2)

@@ -65,6 +65,12 @@ class Sensitivity(Record):
         """Both ends of the range; the other law where there is one only."""
         return self.low if self.low == self.high else f"{self.low} to {self.high}"
 
+    @property
+    def effect(self) -> str:
+        """Change of the torque at both ends [%]; with the other law where there is one only."""
+        low, high = f"{self.low_change_pct:+.1f}", f"{self.high_change_pct:+.1f}"
+        return f"{low} % with {self.low}" if self.low == self.high else f"{low} to {high} %"
+
 
 def ends_of(entry: P.Entry) -> tuple[str, str]:
     """Return the two values at which a parameter is tried: a law without a second alternative counts once."""

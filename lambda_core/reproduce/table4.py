@@ -298,7 +298,7 @@ def _bars(
     ]
     if errors["blind"] >= 12.0:
         best = sorted(found, key=lambda s: -max(abs(s.low_change_pct), abs(s.high_change_pct)))[:3]
-        names = ", ".join(f"{s.name} ({s.low_change_pct:+.1f} to {s.high_change_pct:+.1f} %)" for s in best)
+        names = ", ".join(f"{s.name} ({s.effect})" for s in best)
         lines.append(f"the torque hangs most on: {names}; it is too low where these terms dominate")
     return lines
 
