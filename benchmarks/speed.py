@@ -16,7 +16,7 @@ from lambda_core import api
 from lambda_core.physics.equilibrium import Equilibrium, solve
 from lambda_core.physics.model import BearingModel
 
-LADDER = (3.0, 1.0, 0.3)  # times the default tolerance
+LADDER = (10.0, 3.0, 1.0)  # times the default tolerance
 REFERENCE = 1e-5  # tolerance of the run that the others are compared with
 _LIMIT = {cases.SLOW.name: 1.0, cases.MIDDLE.name: 1.0, cases.FINE.name: 2.0}  # s per simulated second
 

@@ -27,6 +27,8 @@ from lambda_core.registry.reach import Reach, UnreachableError, reach
 from lambda_core.registry.roles import ROLES
 
 Announce = Callable[[str], None]
+# What Numba says where memory would have to be managed, which machine code of kernels does not do.
+_ALLOCATES = ("NRT required", "Only accept returning of array passed into the function")
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 
@@ -168,6 +170,8 @@ def _gist(error: Exception) -> str:
     """Return the lines of a Numba error that speak about the plugin's own code."""
     lines = [line.strip() for line in _COLOUR.sub("", str(error)).splitlines()]
     place = next((line for line in reversed(lines) if line.startswith("File ")), "")
+    if any(words in str(error) for words in _ALLOCATES):
+        return f"it makes an array or a list: a kernel works in the arrays that it is given {place}".rstrip(" :")
     noise = ("Failed in", "File ", "File:", "During:", "<source", "^", "-", "There are", "With argument", "Overload ")
     said = [line.removeprefix(">>> ") for line in lines if line and not line.startswith(noise)]
     return f"{' '.join(said[:3])} {place}".rstrip(" :")

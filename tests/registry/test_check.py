@@ -129,6 +129,12 @@ def reads_its_output(Lambda, par, out):
     return 1
 
 
+def allocates(Lambda: float, par: Any, out: Any) -> int:
+    share = np.zeros(1)
+    out[0] = share[0]
+    return 1
+
+
 def uncompilable(Lambda, par, out):
     out[0] = 0.5 if Lambda < 1e9 else "thick"
     return 1
@@ -160,6 +166,7 @@ def uses_a_dict(Lambda, par, out):
         (writes_outside, "reads or writes outside its arrays: IndexError: index 1 is out of bounds"),
         (reads_its_output, "answers differently when called again"),
         (uncompilable, "cannot be compiled: Cannot unify float64"),
+        (allocates, "cannot be compiled: it makes an array or a list: a kernel works in the arrays that it is given"),
         (uses_a_dict, '"CACHED", used by uses_a_dict, is a dict'),
     ],
     ids=lambda value: getattr(value, "__name__", ""),
