@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from lambda_core.reproduce.boundary import CAGE, LIMITS, TURNS, Ray, Setting, excess, search
+from lambda_core.reproduce.boundary import CAGE, CASE, CRITERIA, LIMITS, TURNS, Ray, Setting, excess, search
 from lambda_core.reproduce.stability import Zone, half_zone, jackknife
-from lambda_core.reproduce.workshop import Answer, Job
+from lambda_core.reproduce.workshop import Answer, Job, Workshop
 
 
 def answer(s: float, t: float, error: float = 1e-6) -> Answer:
@@ -74,7 +75,6 @@ def test_the_load_zone_wraps_around() -> None:
 
 def test_the_motion_has_the_acceleration_that_was_asked_for() -> None:
     from lambda_core import api
-    from lambda_core.reproduce.boundary import CASE
 
     model = api.check(CASE, Setting("B", 2.0).changes(26.0, 9.0))
     for body in (model.inner_ring, model.outer_ring):
@@ -95,7 +95,6 @@ def test_natural_frequencies_of_what_centrifugal_force_holds() -> None:
     sqrt(5.93 x 25600/(0.263 + 5.93 x 0.0943))/(2 pi) = 68.1 Hz.
     """
     from lambda_core import api
-    from lambda_core.reproduce.boundary import CASE
     from lambda_core.reproduce.readings import axial_resonance
 
     found = axial_resonance(api.check(CASE, Setting("A", 5.0).changes()))
@@ -108,3 +107,17 @@ def test_half_the_load_zone() -> None:
     assert half_zone(20e-6, 20e-6) == pytest.approx(math.pi / 3.0)
     assert half_zone(5e-6, 20e-6) == 0.0
     assert half_zone(0.0, -1e-6) == math.pi
+
+
+@pytest.mark.slow
+def test_runs_lie_on_both_sides_of_the_boundary(tmp_path: Path) -> None:
+    """Variant A under 5 kN at 8.9 Hz: 20 m/s2 leave the running as it is, 80 m/s2 alter it by both criteria."""
+    ray = Ray(Setting("A", 5.0), 8.9)
+    with Workshop(tmp_path, 1) as workshop:
+        below, above = workshop.all([ray.job(20.0), ray.job(80.0)])
+        still = workshop.all([Job(CASE, ray.setting.changes(), "stability")])[0]
+    for criterion in CRITERIA:
+        assert excess(criterion, below, still) < 0.0
+        assert excess(criterion, above, still) > 0.0
+    assert above["S"] < still["S"]  # closer to the kinematic speed
+    assert not list(tmp_path.rglob("*.h5"))

@@ -71,3 +71,27 @@ def test_the_fit_stays_inside_the_published_range(monkeypatch: pytest.MonkeyPatc
 def test_the_machine_interface_of_a_point() -> None:
     names = ("load_N", "speed_rpm", "measured_Nmm", "simulated_Nmm", "calibrated_Nmm")
     assert tuple(OperatingPoint.model_fields) == names
+
+
+def test_a_law_without_a_second_alternative_is_shown_once() -> None:
+    from lambda_core.reproduce.sensitivity import Sensitivity, ends_of
+
+    law = P.entry("models.rolling_resistance")
+    first, last = ends_of(law)
+    assert first == last == "goksem-hargreaves"
+    found = Sensitivity(
+        name=law.label,
+        value=law.value,
+        low=first,
+        high=last,
+        low_change_pct=-10.0,
+        high_change_pct=-10.0,
+        low_error_pct=None,
+        high_error_pct=None,
+        published=True,
+        basis="",
+        source="",
+    )
+    assert found.span == "goksem-hargreaves"
+    assert found.effect == "-10.0 % with goksem-hargreaves"
+    assert ends_of(P.entry("parameters.traction.tau_eyring")) == ("4 MPa", "8 MPa")
