@@ -16,9 +16,7 @@ from lambda_core import api
 
 HERE = Path(__file__).parent
 KILLS = 5  # of one run and its continuations
-LONGEST = (
-    0.3  # from the first sign of life in the file to the kill [s]; the whole run takes longer
-)
+LONGEST = 0.3  # from the first sign of life in the file to the kill [s]; the whole run takes longer
 EARLY = 0.1  # share of processes that are killed before it, while they start
 
 Series = dict[str, np.ndarray]

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from collisions import no_collision
 
+from lambda_core.errors import UsageError
 from lambda_core.registry.chart import Panel, Series, ViewData
 from lambda_core.registry.manager import registry
 from lambda_core.registry.method import NotApplicable
@@ -151,3 +152,12 @@ def test_a_study_of_names_has_no_map() -> None:
     with pytest.raises(NotApplicable, match="two numeric parameters"):
         data(only, "study-map")
     assert [s.name for s in data(only, "study-curves").panels[0].series] == ["a", "b", "c"]
+
+
+def test_options_that_would_do_nothing_are_refused() -> None:
+    with pytest.raises(UsageError, match='"y" is not a known option'):
+        data(table(), "study-curves", y="loads.radial")
+    with pytest.raises(UsageError, match='"response" is not a known option'):
+        data(table(), "friction-stack", response="friction_torque_Nmm")
+    with pytest.raises(UsageError, match=r'"loads\.radal" is not a known parameter of this study; nearest: loads\.radial'):
+        data(table(), "study-map", x="loads.radal")

@@ -31,15 +31,29 @@ _STEADINESS = "cage_speed_deviation"  # the response that the stability map judg
 _MECHANISMS = (*PER_RING, *REST)
 
 
-class Choice(Options):
-    """What a study's view shows."""
+class Which(Options):
+    """Which response a view shows."""
 
-    response: str = Declared("", description="name of a response; empty: every one, or the first")
+    response: str = Declared("", description="name of a response; empty: every one")
+
+
+class Along(Options):
+    """Along which parameter a view goes."""
+
     x: str = Declared("", description="parameter of the first axis; empty: the first numeric one")
+
+
+class Curves(Along, Which):
+    """Which curves are shown."""
+
+
+class Surface(Curves):
+    """Which surfaces are shown."""
+
     y: str = Declared("", description="parameter of the second axis; empty: the next numeric one")
 
 
-class Threshold(Choice):
+class Threshold(Surface):
     """What the stability map shows."""
 
     response: str = Declared(_STEADINESS, description="name of the response that is judged")
@@ -96,7 +110,7 @@ def _cell(column: Column, row: int) -> str:
     return f"{column.label} {value:.4g} {column.unit}".strip()
 
 
-def study_curves(table: StudyTable, options: Choice) -> ViewData:
+def study_curves(table: StudyTable, options: Curves) -> ViewData:
     """Every response over one parameter, a curve for each combination of the others."""
     numeric = _numeric(table)
     if not numeric:
@@ -126,7 +140,7 @@ def _curve(x: Column, response: Column, rows: list[int], label: str) -> Series:
 
 
 def _surface(
-    table: StudyTable, options: Choice, response: Column
+    table: StudyTable, options: Surface, response: Column
 ) -> tuple[Column, Column, FloatArray, FloatArray, FloatArray]:
     """Return two parameters and the mesh of one response over them.
 
@@ -165,7 +179,7 @@ def _interpolated(px: FloatArray, py: FloatArray, values: FloatArray) -> tuple[F
     return mesh_x, mesh_y, mesh
 
 
-def study_map(table: StudyTable, options: Choice) -> ViewData:
+def study_map(table: StudyTable, options: Surface) -> ViewData:
     """Responses as a surface over two parameters."""
     panels = []
     for response in _responses(table, options.response):
@@ -197,7 +211,7 @@ def _levels(low: float, high: float) -> tuple[float, ...]:
     return tuple(float(value) for value in np.arange(np.ceil(low / step), np.floor(high / step) + 1.0) * step)
 
 
-def friction_stack(table: StudyTable, options: Choice) -> ViewData:
+def friction_stack(table: StudyTable, options: Along) -> ViewData:
     """Friction torque by mechanism, stacked over one parameter."""
     parts = [c for c in table.responses if c.name.startswith(_BREAKDOWN) and np.isfinite(c.numbers()).any()]
     if not parts:
@@ -254,7 +268,7 @@ def _levelled(panels: list[Panel]) -> tuple[Panel, ...]:
     return tuple(replace(panel, y=replace(panel.y, high=top)) for panel in panels)
 
 
-def sensitivity(table: StudyTable, options: Choice) -> ViewData:
+def sensitivity(table: StudyTable, options: Which) -> ViewData:
     """How much each parameter decides each response."""
     panels = []
     for response in _responses(table, options.response):
@@ -317,9 +331,9 @@ def _judged(name: str, x: FloatArray, y: FloatArray, chosen: NDArray[np.bool_], 
 
 
 VIEWS = (
-    View("study-curves", "responses over one parameter", "study", study_curves, Choice),
-    View("study-map", "responses as surfaces over two parameters", "study", study_map, Choice),
-    View("friction-stack", "friction by mechanism, stacked over one parameter", "study", friction_stack, Choice),
-    View("sensitivity", "how much each parameter decides each response", "study", sensitivity, Choice),
+    View("study-curves", "responses over one parameter", "study", study_curves, Curves),
+    View("study-map", "responses as surfaces over two parameters", "study", study_map, Surface),
+    View("friction-stack", "friction by mechanism, stacked over one parameter", "study", friction_stack, Along),
+    View("sensitivity", "how much each parameter decides each response", "study", sensitivity, Which),
     View("stability-map", "where a measure of unsteadiness stays below a limit", "study", stability_map, Threshold),
 )
