@@ -46,6 +46,15 @@ class BearingEngine:
     equilibrium : Equilibrium, optional
         Start from this instead of solving for it.
 
+    pushed : bool
+        Make room for a load from outside.
+
+    Attributes
+    ----------
+    external_load : float64[:]
+        With `pushed` a load on the inner ring beside those of the case, which may be written to between two calls of
+        :meth:`advance`: force x, y, z [N], moment about y, z [N m], shape (5,). Without it empty.
+
     Raises
     ------
     SolverError
@@ -55,12 +64,18 @@ class BearingEngine:
     channels = CHANNELS
 
     def __init__(
-        self, model: BearingModel, announce: A.Announce = None, equilibrium: Equilibrium | None = None
+        self,
+        model: BearingModel,
+        announce: A.Announce = None,
+        equilibrium: Equilibrium | None = None,
+        *,
+        pushed: bool = False,
     ) -> None:
         self.model = model
         self._equilibrium = equilibrium or solve(model, announce=announce, strict=False)
         self._core = core(announce)
         self._assembly = self._equilibrium.assembly
+        self.external_load = _room_for_load(self._assembly) if pushed else np.zeros(0)
         self._balls = model.geometry.ball_count
         start = initial_state(self._equilibrium)
         active = self._assembly.bundle.active
@@ -135,20 +150,6 @@ class BearingEngine:
         """Empty the buffer of samples without looking at them."""
         self._memory.count[bdf.SAMPLES] = 0
         self._drained.clear()
-
-    def external_load(self) -> FloatArray:
-        """Return a load on the inner ring that may be written to between two calls of :meth:`advance`; zero at first.
-
-        It adds to the loads of the case: force x, y, z [N], moment about y, z [N m], shape (5,). To be asked for before
-        the first advance.
-        """
-        channels = [L.CH_FORCE, L.CH_FORCE + 1, L.CH_FORCE + 2, L.CH_MOMENT + 1, L.CH_MOMENT + 2]
-        rows = np.zeros((len(channels), 8))
-        rows[:, 0], rows[:, 1] = channels, L.TF_CONSTANT
-        bundle = self._assembly.bundle
-        self._assembly.bundle = bundle._replace(terms=np.concatenate([bundle.terms, rows]))
-        load: FloatArray = self._assembly.bundle.terms[-len(channels) :, 2]
-        return load
 
     def buffered(self) -> tuple[FloatArray, FloatArray]:
         """Return times and states of the samples that no one has taken yet, shapes (n,) [s] and (n, size)."""
@@ -333,6 +334,16 @@ def _channels(
     for i, name in enumerate(CONTACT_CHANNELS):
         channels[name] = contacts[:, :, :, i].copy()
     return channels
+
+
+def _room_for_load(assembly: A.Assembly) -> FloatArray:
+    """Add constant loads on the inner ring to the time functions of an assembly; returns a view of their values."""
+    channels = [L.CH_FORCE, L.CH_FORCE + 1, L.CH_FORCE + 2, L.CH_MOMENT + 1, L.CH_MOMENT + 2]
+    rows = np.zeros((len(channels), 8))
+    rows[:, 0], rows[:, 1] = channels, L.TF_CONSTANT
+    assembly.bundle = assembly.bundle._replace(terms=np.concatenate([assembly.bundle.terms, rows]))
+    load: FloatArray = assembly.bundle.terms[-len(channels) :, 2]
+    return load
 
 
 def initial_state(equilibrium: Equilibrium) -> FloatArray:

@@ -79,8 +79,8 @@ class Stepping(Iterator[Step]):
         if interval is not None and interval < model.solver.max_step:
             model = replace(model, solver=replace(model.solver, max_step=interval))
         self.model = model
-        self._engine = BearingEngine(model, announce)
-        self._load = self._engine.external_load()
+        self._engine = BearingEngine(model, announce, pushed=True)
+        self._load = self._engine.external_load
         self.interval = interval or self._engine.sample_interval
         self._end = model.solver.duration or model.solver.max_duration
         self._before = self._spent()
