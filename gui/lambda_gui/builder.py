@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from copy import deepcopy
 from typing import TYPE_CHECKING, ClassVar
 
@@ -17,7 +18,7 @@ from textual.widgets import Footer, Static, Tree
 
 from lambda_core.errors import LambdaError, Problem
 from lambda_gui.around import CaseAround
-from lambda_gui.checking import Check, Checker, belongs, node_of
+from lambda_gui.checking import Check, Checker, belongs, node_of, plugin_faults
 from lambda_gui.derived import Derived
 from lambda_gui.forms import NodeForm
 from lambda_gui.helper import Estimator
@@ -83,6 +84,7 @@ class BuilderScreen(Screen[None]):
         self._check_timer: Timer | None = None
         self._form_timer: Timer | None = None
         self._wanted: Keys | None = None
+        self._has_told_faults = False
 
     # -- layout --
 
@@ -252,6 +254,13 @@ class BuilderScreen(Screen[None]):
         found = self._checker.check(self.draft.tables, self.draft.folder)
         took = time.perf_counter() - begin
         self.app.call_from_thread(self._checked, found, took)
+        if not self._has_told_faults:
+            self._has_told_faults = True
+            self.app.call_from_thread(self._tell_faults, plugin_faults())
+
+    def _tell_faults(self, faults: Sequence[str]) -> None:
+        for fault in faults:
+            self.notify(fault, title="not in use", severity="warning", timeout=12)
 
     def _checked(self, found: Check, took: float) -> None:
         # The check may come back while the screen is taken down.

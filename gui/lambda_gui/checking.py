@@ -60,6 +60,13 @@ class Checker:
                 self._catalogue = None
 
 
+def plugin_faults() -> list[str]:
+    """Return a sentence for each plugin that is broken; one that was switched off on purpose is none."""
+    from lambda_core.registry.manager import registry
+
+    return [f"{fault.distribution}: {fault.message}" for fault in registry().faults if fault.is_broken]
+
+
 def _order(problem: Problem) -> int:
     """Return the place of a problem's table in the case, so that mistakes come in the order of the tree."""
     names = list(Case.model_fields)

@@ -12,7 +12,6 @@ from driving import HAND_WRITTEN, LARGE, SMALL, builder, checked, focused_place,
 from lambda_gui import recovery
 from lambda_gui.app import BuilderApp
 from lambda_gui.checking import Checker
-from lambda_gui.derived import Derived
 from lambda_gui.dialogs import Ask
 from lambda_gui.help import HelpScreen
 from lambda_gui.tree import ModelTree
@@ -327,18 +326,3 @@ async def test_themes_and_resizing(hand_written: Path) -> None:
             await pilot.resize_terminal(*size)
             await pilot.pause(0.1)
             assert "drive-end.toml" in screen_text(pilot.app)
-
-
-async def test_numbers_that_follow_are_shown(hand_written: Path, estimates: None) -> None:
-    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
-        await checked(pilot)
-        shown = ""
-
-        def done() -> bool:
-            nonlocal shown
-            shown = str(pilot.app.screen.query_one(Derived).visual)
-            return "friction torque" in shown
-
-        await wait_for(pilot, done, 240.0)
-        for word in ("pitch diameter", "radial clearance", "largest pressure", "Lambda", "rating life", "run takes"):
-            assert word in shown

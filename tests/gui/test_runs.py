@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import resource
 import time
@@ -223,6 +224,59 @@ async def test_a_full_disk_loses_nothing(hand_written: Path) -> None:
         assert [path.name for path in hand_written.parent.iterdir()] == [hand_written.name]
         pilot.app.save_case()
         assert api.case(hand_written).loads.radial == 9000.0
+
+
+async def test_a_disk_that_fills_up_during_a_run_is_said(hand_written: Path, shared_compiled_code: None) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, hard))  # the run inherits it
+        try:
+            await pilot.press("f5")
+            await wait_for(pilot, lambda: pilot.app.queue.runs)
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+        run = pilot.app.queue.runs[0]
+        await wait_for(pilot, lambda: run.state not in ("waiting", "running"), 250.0)
+        assert run.state == "failed"
+        assert "File too large" in run.message or "cannot write" in run.message
+        await wait_for(pilot, lambda: run.message[:30] in screen_text(pilot.app))
+        await pilot.press("escape")
+        assert not builder(pilot).check.problems
+
+
+async def test_a_run_does_not_keep_one_from_working(hand_written: Path, shared_compiled_code: None) -> None:
+    """The longest piece of work in the event loop while the solver runs and is watched, in seconds of the processor."""
+    longest = 0.0
+
+    async def probe() -> None:
+        nonlocal longest
+        before = time.thread_time()
+        while True:
+            await asyncio.sleep(0.005)
+            now = time.thread_time()
+            longest, before = max(longest, now - before), now
+
+    async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        builder(pilot).draft.set("solver", "duration", value="0.4 s")
+        await checked(pilot)
+        await pilot.press("f5")
+        queue = pilot.app.queue
+        await wait_for(pilot, lambda: queue.runs and queue.runs[0].history, 250.0)
+        task = asyncio.create_task(probe())
+        await pilot.press("escape")
+        await go_to(pilot, "loads.axial")
+        await pilot.press("ctrl+a", "ctrl+k")
+        await write(pilot, "250 N")
+        await checked(pilot)
+        assert builder(pilot).draft.get("loads", "axial") == "250 N"
+        await pilot.press("f7")
+        await wait_for(pilot, lambda: not queue.active, 120.0)
+        task.cancel()
+        assert queue.runs[0].state == "done", queue.runs[0].message
+    print(f"longest piece of work: {1e3 * longest:.0f} ms")
+    assert longest < 0.35
 
 
 @pytest.mark.skipif(os.name != "posix", reason="needs file modes")

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import importlib
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from driving import LARGE, SMALL, builder, checked, screen_text
+from driving import LARGE, SMALL, builder, checked, focused_place, go_to, screen_text, wait_for
 from lambda_gui.app import BuilderApp
 
 from lambda_core.registry import manager
@@ -53,6 +54,73 @@ async def test_a_broken_plugin_is_left_out(hand_written: Path, monkeypatch: pyte
             await checked(pilot)
             assert not builder(pilot).check.problems
             assert "ready" in screen_text(pilot.app)
+            await wait_for(pilot, lambda: pilot.app._notifications)
+            (said,) = (note.message for note in pilot.app._notifications)
+            assert said.startswith("broken-plugin 0.1: cannot be imported")
+            assert "this plugin is broken" in said
+    finally:
+        manager.registry.cache_clear()
+
+
+THIRD_PARTY = """
+import math
+
+from pydantic import BaseModel, Field
+
+from lambda_core.plugins import hookimpl, model
+
+
+class Parameters(BaseModel):
+    limit_share: float = Field(0.07, gt=0.0, le=0.3, description="limiting shear stress over pressure, measured by us")
+
+
+def traction(slip, p, T, ln_eta, h, par, tau):
+    for i in range(slip.size):
+        newtonian = math.exp(min(ln_eta[i], 40.0)) * slip[i] / h
+        limit = par[0] * p[i]
+        tau[i] = newtonian * limit / (newtonian + limit + 1e-300)
+    return 1
+
+
+@hookimpl
+def lambda_models(register):
+    register(model("traction", "hyperbolic-limit", traction, Parameters, reference="Own work 2026, eq. 7"))
+"""
+
+
+async def test_a_law_of_a_plugin_has_its_form_without_any_code_for_it(
+    hand_written: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    (tmp_path / "third_party_law.py").write_text(THIRD_PARTY, encoding="utf-8")
+    monkeypatch.syspath_prepend(str(tmp_path))
+
+    def load() -> object:
+        return importlib.import_module("third_party_law")
+
+    sources = [*manager.installed(), manager.Source("third-party-law", "0.3", "main", load)]
+    monkeypatch.setattr(manager, "installed", lambda group=manager.GROUP: sources)
+    manager.registry.cache_clear()
+    try:
+        async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
+            await checked(pilot)
+            await go_to(pilot, "models.traction")
+            await pilot.press("enter")
+            await wait_for(pilot, lambda: "hyperbolic-limit  (third-party-law 0.3)" in screen_text(pilot.app))
+            await pilot.press("end")
+            await wait_for(pilot, lambda: "Own work 2026, eq. 7" in screen_text(pilot.app))
+            await pilot.press("enter")
+            await checked(pilot)
+            assert builder(pilot).draft.get("models", "traction") == "hyperbolic-limit"
+            await pilot.press("down")
+            assert focused_place(pilot) == ("parameters", "traction", "limit_share")
+            assert "measured by us" in screen_text(pilot.app)
+            assert "allowed > 0 and <= 0.3" in screen_text(pilot.app)
+            await pilot.press(*"0.5")
+            await checked(pilot)
+            assert [p.where for p in builder(pilot).check.problems] == ["parameters.traction.limit_share"]
+            await pilot.press("ctrl+a", "ctrl+k", *"0.09")
+            await checked(pilot)
+            assert not builder(pilot).check.problems
     finally:
         manager.registry.cache_clear()
 

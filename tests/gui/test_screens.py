@@ -1,0 +1,116 @@
+"""What a person sees: colours that can be read, nothing cut, help everywhere."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from driving import LARGE, SMALL, checked, go_to, screen_text, wait_for
+from lambda_gui.app import BuilderApp
+from lambda_gui.axes import HEIGHT, WIDTH, axes_sketch
+from lambda_gui.derived import Derived
+from lambda_gui.help import ABOUT, HelpScreen
+from lambda_gui.option_help import OptionHelp
+from lambda_gui.plots import labels_of, series_colour
+from lambda_gui.sketch import drawn, section_of_geometry
+from lambda_gui.theme import DARK, LIGHT
+from textual.color import Color
+from textual.screen import Screen
+from textual.theme import Theme
+
+from lambda_core import api
+
+
+def contrast(one: str, other: str) -> float:
+    """Return the contrast ratio of WCAG 2.2, section 1.4.3."""
+
+    def luminance(colour: Color) -> float:
+        parts = (part / 255.0 for part in colour.rgb)
+        red, green, blue = (p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts)
+        return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+    low, high = sorted((luminance(Color.parse(one)), luminance(Color.parse(other))))
+    return (high + 0.05) / (low + 0.05)
+
+
+@pytest.mark.parametrize("theme", [DARK, LIGHT], ids=lambda theme: theme.name)
+def test_words_can_be_read_on_every_ground(theme: Theme) -> None:
+    """4.5 is what WCAG 2.2 asks for text (level AA)."""
+    for ground in (theme.background, theme.surface, theme.panel):
+        for colour in (theme.foreground, theme.primary, theme.accent, theme.error, theme.success, theme.warning):
+            assert contrast(str(colour), str(ground)) >= 4.5, (colour, ground)
+
+
+def test_series_differ_in_colour() -> None:
+    colours = {**{n: str(getattr(DARK, n)) for n in ("primary", "accent", "success", "error", "warning", "secondary")}}
+    colours["background"] = str(DARK.background)
+    assert len({series_colour(colours, number) for number in range(12)}) == 12
+
+
+def test_ticks_have_as_many_decimals() -> None:
+    assert labels_of([1.0, 1.002, 1.004]) == ["1.000", "1.002", "1.004"]
+    assert labels_of([0.0, 500.0, 1000.0]) == ["0", "500", "1000"]
+
+
+def test_the_section_is_to_scale() -> None:
+    geometry = api.check("6208-axial-1300").geometry
+    colours = {"background": "#000000", "secondary": "#0000ff", "accent": "#ff0000"}
+    lines = drawn(section_of_geometry(geometry), 20, 80, colours).plain.splitlines()
+    rows = [line for line in lines if "▀" in line]
+    high = 0.5e3 * (geometry.outside_diameter - geometry.bore_diameter)
+    assert rows[0].count("▀") / (2 * len(rows)) == pytest.approx(1e3 * geometry.width / high, rel=0.05)
+
+
+def test_axes_stand_inside_their_sketch() -> None:
+    lines = axes_sketch({"secondary": "", "accent": "", "primary": ""}).plain.splitlines()
+    assert len(lines) == HEIGHT
+    assert max(map(len, lines)) <= WIDTH
+    assert any("y  0°" in line for line in lines)
+    assert "270° down" in lines[-1]
+
+
+def test_every_screen_has_its_own_help() -> None:
+    from lambda_gui import catalogue, choice, dialogs, own_row, results_screen, run_screen
+
+    found = {
+        name
+        for module in (catalogue, choice, dialogs, own_row, results_screen, run_screen)
+        for name, thing in vars(module).items()
+        if isinstance(thing, type) and issubclass(thing, Screen) and thing.__module__ == module.__name__
+    }
+    assert found | {"BuilderScreen"} == set(ABOUT)
+
+
+async def test_help_of_a_field_is_told_whole(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        await go_to(pilot, "models.traction")
+        await pilot.press("down")
+        short = pilot.app.screen.query_one(OptionHelp)
+        await wait_for(pilot, lambda: "F1 shows the rest" in str(short.visual))
+        await pilot.press("f1")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, HelpScreen))
+        shown = screen_text(pilot.app)
+        assert "limit ratio" in shown
+        assert "parameters.traction.limit_ratio" in shown
+
+
+@pytest.mark.parametrize("size", [SMALL, LARGE])
+async def test_all_numbers_that_follow_fit(hand_written: Path, estimates: None, size: tuple[int, int]) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=size) as pilot:
+        await checked(pilot)
+        derived = pilot.app.screen.query_one(Derived)
+        await wait_for(pilot, lambda: derived.is_current, 240.0)
+        assert len(str(derived.visual).splitlines()) <= derived.size.height
+        last = "run takes" if size == LARGE else "run ≈"
+        await wait_for(pilot, lambda: last in screen_text(pilot.app))
+
+
+async def test_colours_follow_the_theme(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        await wait_for(pilot, lambda: "ready" in screen_text(pilot.app))
+        assert str(DARK.success) in pilot.app.export_screenshot().lower()
+        await pilot.press("f9")
+        await wait_for(pilot, lambda: str(LIGHT.success) in pilot.app.export_screenshot().lower())
+        assert str(DARK.success) not in pilot.app.export_screenshot().lower()
