@@ -74,6 +74,7 @@ _REFACTOR = 0.41  # relative change of gamma beyond which M is factored anew; no
 _SLOW = 0.3  # convergence rate beyond which the Jacobian is renewed for the balls that are to blame
 _WORN = 0.5  # convergence rate at the end of a step beyond which it is renewed for all
 _SHARE = 0.05  # of the squared last change, from which a ball's part of the Jacobian is renewed
+_FIRST_ORDER = 0.03  # largest change of a power, over itself, that a linearisation is trusted with
 _SAFETY = 0.7  # of the step that the error would just allow
 _GROWTH = 1.7  # of the step, at most; BDF2 is stable up to 2.4
 _SWING = 0.04  # share of its square by which a correction turns round before the secant is taken
@@ -269,12 +270,13 @@ def _correct_power(b, bundle, bl, mem):
     """Bring the power of what holds or drives a ring from the last iterate to the result, to first order.
 
     Tractions change steeply with slip: an error of the iterate that no loss would feel is felt by the torque times
-    the speed of the ring. Supports hold (forces.body_rates) what is not free.
+    the speed of the ring. Supports hold (forces.body_rates) what is not free. A change that is large beside the power
+    itself is none to first order (friction at rest is nearly a sign function of slip) and is left out.
     """
     system = bundle.system[0]
     o, d = NS * b, 6 * b
     shared, rates = bundle.scratch[SHARED], mem.new_rates
-    power = 0.0
+    power, drive = 0.0, 0.0
     for i in range(3):
         if system.mode[d + i] != FREE and shared[o + SVX + i] != 0.0:
             power -= _force_change(b, i, bl, mem) * shared[o + SVX + i]
@@ -282,8 +284,11 @@ def _correct_power(b, bundle, bl, mem):
         ay, az = shared[o + SAY], shared[o + SAZ]
         about = _force_change(b, 3, bl, mem) * axis_x(ay, az)
         about += _force_change(b, 4, bl, mem) * ay + _force_change(b, 5, bl, mem) * az
-        rates[I_DRIVE] -= about * shared[o + SSIGMA]
-        power -= about * shared[o + SSIGMA]
+        drive = -about * shared[o + SSIGMA]
+        power += drive
+    if abs(power) > _FIRST_ORDER * abs(rates[I_INPUT]):
+        return
+    rates[I_DRIVE] += drive
     rates[I_INPUT] += power
     rates[I_INPUT_ABS] = abs(rates[I_INPUT])
 
