@@ -32,6 +32,18 @@ def numbers(folder: Path) -> list[dict[str, Any]]:
     return api.study_table(folder).rows()
 
 
+def differences(found: list[dict[str, Any]], expected: list[dict[str, Any]]) -> list[str]:
+    """Return every place where two tables differ, so that a failure says more than that they do."""
+    if len(found) != len(expected):
+        return [f"{len(found)} rows in place of {len(expected)}"]
+    return [
+        f"row {row}, {name}: {one.get(name)} in place of {other.get(name)}"
+        for row, (one, other) in enumerate(zip(found, expected, strict=True))
+        for name in {**one, **other}
+        if one.get(name) != other.get(name)
+    ]
+
+
 @pytest.fixture(scope="module")
 def reference(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[dict[str, Any]]]:
     """Tables of a small map and of a few runs, computed one after the other in this process."""
@@ -114,7 +126,7 @@ def killed_and_resumed(path: Path, folder: Path, kills: int, seed: int) -> None:
 def test_a_killed_study_goes_on_to_the_same_table(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
     folder = tmp_path / "killed"
     killed_and_resumed(write(RUNS.format(duration="0.02 s", speeds=2, loads=3)), folder, 1, seed=1)
-    assert numbers(folder) == reference["runs"]
+    assert differences(numbers(folder), reference["runs"]) == []
 
 
 @pytest.mark.slow
@@ -153,7 +165,7 @@ def test_a_lost_worker_loses_no_point(write: Write, tmp_path: Path, reference: d
     finally:
         if study.poll() is None:
             os.killpg(study.pid, signal.SIGKILL)
-    assert numbers(folder) == reference["runs"]
+    assert differences(numbers(folder), reference["runs"]) == []
     assert study.returncode == 5  # runs of 20 ms have not converged, and the exit code says so
 
 
@@ -206,7 +218,7 @@ def test_a_lost_dask_worker_loses_no_point(write: Write, tmp_path: Path, referen
         thread.start()
         api.study_run(path, folder, executor=cluster.scheduler_address, workers=2)
         thread.join()
-    assert numbers(folder) == reference["runs"]
+    assert differences(numbers(folder), reference["runs"]) == []
 
 
 def deadly(task: Any) -> Any:
