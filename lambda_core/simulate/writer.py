@@ -23,6 +23,10 @@ from lambda_core.simulate.provenance import Provenance
 from lambda_core.simulate.status import Rows, Status
 
 
+# Bytes of chunks kept in memory per dataset: rows are only added at the end, HDF5's own 8 MiB would fill up in vain.
+_CACHE = 2**17
+
+
 class DiskError(PartialResultError):
     """A result file cannot be written any further."""
 
@@ -80,7 +84,7 @@ class ResultWriter:
                 files.reserve(file, 0)
                 layout.create(file, provenance, channels)
             # Under its name only when SWMR is on: from its first moment it can be read, whatever happens.
-            writer = cls(h5py.File(made, "r+", libver="latest"), path, channels, status)
+            writer = cls(h5py.File(made, "r+", libver="latest", rdcc_nbytes=_CACHE), path, channels, status)
             _publish(made, path, force)
             return writer
         except (OSError, RuntimeError) as error:
@@ -94,7 +98,7 @@ class ResultWriter:
         The file is copied first: one whose writer was killed can be read, not written.
         """
         made = files.copy(path, status.rows, compress=False)
-        writer = cls(h5py.File(made, "r+", libver="latest"), path, channels, status)
+        writer = cls(h5py.File(made, "r+", libver="latest", rdcc_nbytes=_CACHE), path, channels, status)
         os.replace(made, path)
         return writer
 
