@@ -22,7 +22,6 @@ from lambda_core.simulate.checkpoint import Checkpoint
 from lambda_core.simulate.provenance import Provenance
 from lambda_core.simulate.status import Rows, Status
 
-
 # Bytes of chunks kept in memory per dataset: rows are only added at the end, HDF5's own 8 MiB would fill up in vain.
 _CACHE = 2**17
 
