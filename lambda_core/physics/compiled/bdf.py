@@ -74,7 +74,7 @@ _REFACTOR = 0.41  # relative change of gamma beyond which M is factored anew; no
 _SLOW = 0.3  # convergence rate beyond which the Jacobian is renewed for the balls that are to blame
 _WORN = 0.5  # convergence rate at the end of a step beyond which it is renewed for all
 _SHARE = 0.05  # of the squared last change, from which a ball's part of the Jacobian is renewed
-_FIRST_ORDER = 0.03  # largest change of a power, over itself, that a linearisation is trusted with
+_FIRST_ORDER = 1.0  # largest change of a power, over itself, that a linearisation is trusted with
 _SAFETY = 0.7  # of the step that the error would just allow
 _GROWTH = 1.7  # of the step, at most; BDF2 is stable up to 2.4
 _SWING = 0.04  # share of its square by which a correction turns round before the secant is taken
@@ -270,7 +270,7 @@ def _correct_power(b, bundle, bl, mem):
     """Bring the power of what holds or drives a ring from the last iterate to the result, to first order.
 
     Tractions change steeply with slip: an error of the iterate that no loss would feel is felt by the torque times
-    the speed of the ring. Supports hold (forces.body_rates) what is not free. A change that is large beside the power
+    the speed of the ring. Supports hold (forces.body_rates) what is not free. A change that is larger than the power
     itself is none to first order (friction at rest is nearly a sign function of slip) and is left out.
     """
     system = bundle.system[0]
@@ -344,8 +344,9 @@ def _newton(evaluate, jacobian, t, gamma, bundle, bl, fa, mem):
         # Secants hide the rate of convergence.
         rate = 1.0 if careful else control[RATE]
         if size * min(1.0, rate) <= _NEWTON_TOLERANCE:
-            for b in range(2):
-                _correct_power(b, bundle, bl, mem)
+            if count[CAREFUL] == 0:
+                for b in range(2):
+                    _correct_power(b, bundle, bl, mem)
             return 1
         if iteration > 0 and not careful and size > _SLOW * before:
             if _mark_slow(bl, mem, size) == 0:
