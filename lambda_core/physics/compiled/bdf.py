@@ -344,9 +344,8 @@ def _newton(evaluate, jacobian, t, gamma, bundle, bl, fa, mem):
         # Secants hide the rate of convergence.
         rate = 1.0 if careful else control[RATE]
         if size * min(1.0, rate) <= _NEWTON_TOLERANCE:
-            if count[CAREFUL] == 0:
-                for b in range(2):
-                    _correct_power(b, bundle, bl, mem)
+            for b in range(2):
+                _correct_power(b, bundle, bl, mem)
             return 1
         if iteration > 0 and not careful and size > _SLOW * before:
             if _mark_slow(bl, mem, size) == 0:
