@@ -88,7 +88,14 @@ def test_a_scheduler_that_does_not_answer_is_named(write: Write, tmp_path: Path)
 def started(path: Path, folder: Path, *options: str) -> subprocess.Popen[bytes]:
     """Start a study in a session of its own, so that it can be killed with everything that it started."""
     command = [sys.executable, "-m", "lambda_cli", "study", "run", str(path), "--out", str(folder), "--quiet", *options]
-    return subprocess.Popen(command, start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    # A shell that started the tests in the background has told them to ignore Ctrl+C, and children inherit that.
+    return subprocess.Popen(
+        command,
+        start_new_session=True,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
 
 
 def wait_for(condition: Callable[[], bool], seconds: float = 120.0) -> None:
