@@ -187,7 +187,7 @@ def _body_text(body: Body) -> str:
             text += " on a support"
         by_mode.setdefault(state.mode, []).append(text)
     parts = [f"{mode} {', '.join(texts)}" for mode, texts in by_mode.items()]
-    return f"{_value_text(body.mass, 'mass')}; {'; '.join(parts)}"
+    return f"{show(body.mass, 'mass', 4)}; {'; '.join(parts)}"
 
 
 def _value_text(value: float | str, quantity: str) -> str:
