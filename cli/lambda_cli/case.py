@@ -26,7 +26,7 @@ def init(
     bearing: Annotated[
         str | None,
         typer.Option(
-            "--bearing", metavar="DESIGNATION", help='Start from a bearing of the catalogue: "6208" or "SKF 6208".'
+            "--bearing", metavar="DESIGNATION", help='Start from a bearing of the catalogue: "SKF 6208-2RS1/C3".'
         ),
     ] = None,
     out: Annotated[

@@ -90,7 +90,7 @@ def show(
     with _opened() as (catalogue, models):
         row = find(catalogue, name, maker)
         if isinstance(row, BearingRow):
-            show_bearing(catalogue, row, json)
+            show_bearing(catalogue, name, row, json)
         elif isinstance(row, LubricantRow):
             show_lubricant(row, models, temperature, pressure, rheology, json)
         else:

@@ -79,11 +79,12 @@ def list_lubricants(rows: list[LubricantRow], json: bool) -> None:
     _print(table)
 
 
-def show_bearing(catalogue: SqlCatalogue, row: BearingRow, json: bool) -> None:
-    """Print a bearing: values with sources, candidate designs, clearance classes and a section to scale."""
+def show_bearing(catalogue: SqlCatalogue, name: str, row: BearingRow, json: bool) -> None:
+    """Print a bearing: values with sources, candidate designs, clearance classes, suffixes and a section to scale."""
     from lambda_db.drawing import cross_section
-    from lambda_db.presentation import candidate_lines, clearance_lines, values_of
+    from lambda_db.presentation import candidate_lines, clearance_lines, suffix_lines, values_of
 
+    suffixes = suffix_lines(catalogue, name)
     values, candidates, clearances = values_of(row), candidate_lines(row), clearance_lines(catalogue, row)
     if json:
         print_json(
@@ -96,6 +97,7 @@ def show_bearing(catalogue: SqlCatalogue, row: BearingRow, json: bool) -> None:
             values={value.pop("name"): value for value in values},
             candidates=candidates,
             clearances=clearances,
+            suffixes=suffixes,
         )
         return
     whose = "" if row.layer == "core" else f"   ({row.layer} row)"
@@ -114,6 +116,8 @@ def show_bearing(catalogue: SqlCatalogue, row: BearingRow, json: bool) -> None:
     _print("")
     classes = "   ".join(f"{c['class']} {c['minimum_um']:g}-{c['maximum_um']:g}" for c in clearances)
     _print(f"radial internal clearance, um   {classes or 'not tabulated for this bore'}")
+    for line in suffixes:
+        _print(f"suffix {line['suffix']:<8} {line['meaning']}")
     _print("")
     _print(cross_section(row))
 

@@ -11,6 +11,7 @@ from sqlalchemy.orm import Session
 
 from lambda_core.errors import CatalogueError, Problem, unknown_name
 from lambda_core.registry.catalogue import BearingRow, CageRow, ClearanceRow, LubricantRow, MaterialRow
+from lambda_core.registry.designation import without_suffixes
 from lambda_db import build, rows
 from lambda_db.engine import file_uri, sqlite_engine
 from lambda_db.models import (
@@ -132,8 +133,9 @@ class SqlCatalogue:
 
     def bearings(self, text: str = "", limit: int = 50) -> list[BearingRow]:
         """Return the bearings that match `text` (:mod:`lambda_db.search`), best first."""
+        plain = without_suffixes(text, self.names("bearing"))
         with self._session() as session:
-            return self._bearing_rows(session, list(session.scalars(bearing_query(text, limit))))
+            return self._bearing_rows(session, list(session.scalars(bearing_query(plain, limit))))
 
     def _named_row(self, session: Session, kind: str, name: str) -> Any:
         """Return a row by name or alias, case ignored."""

@@ -9,7 +9,8 @@ from typing import Any
 from pydantic import BaseModel
 
 from lambda_core.errors import CatalogueError, Problem, UsageError, unknown_name
-from lambda_core.registry.catalogue import BearingRow, CageRow, LubricantRow, MaterialRow, Value, bearing_named
+from lambda_core.registry.catalogue import BearingRow, CageRow, LubricantRow, MaterialRow, Value
+from lambda_core.registry.designation import designated, read_designation
 from lambda_core.schema.units import from_si, parse
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.units import PROPERTIES
@@ -171,6 +172,15 @@ def lubricant_summary(row: LubricantRow) -> dict[str, Any]:
     }
 
 
+def suffix_lines(catalogue: SqlCatalogue, name: str) -> list[dict[str, str]]:
+    """Return what the suffixes of a bearing's designation mean, and what a case takes from each."""
+    read = read_designation(name, catalogue.names("bearing"))
+    return [
+        {"suffix": written, "meaning": suffix.meaning, "decides": "" if suffix.kind == "note" else suffix.kind}
+        for written, suffix in (read.suffixes if read else ())
+    ]
+
+
 def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> BearingRow | LubricantRow | MaterialRow | CageRow:
     """Find what a name stands for: a bearing, else a lubricant, material or cage.
 
@@ -179,11 +189,9 @@ def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> BearingRow | 
     CatalogueError
         With the nearest names of all kinds, or with the makers to choose from.
     """
-    if maker is not None:
-        return catalogue.bearing(name, maker)
     bearings = catalogue.names("bearing")
-    if {word.casefold() for word in name.split()} & {known.casefold() for known in bearings}:
-        return bearing_named(catalogue, name)
+    if maker is not None or read_designation(name, bearings) is not None:
+        return designated(catalogue, name, maker)[0]
     others: tuple[Callable[[str], LubricantRow | MaterialRow | CageRow], ...]
     others = (catalogue.lubricant, catalogue.material, catalogue.cage)
     for look_up in others:

@@ -98,7 +98,7 @@ def init_case(
     overwrite : bool
         Replace a file that stands there.
     bearing : str, optional
-        Instead of `start`: a bearing of the catalogue, "6208" or "SKF 6208".
+        Instead of `start`: a bearing of the catalogue, "6319", "SKF 6208" or "SKF 6208-2RS1/C3".
 
     Returns
     -------
@@ -125,11 +125,11 @@ def init_case(
     if start is not None:
         raise UsageError("a new case starts from a case or from a bearing, not from both")
     from lambda_core.physics.fresh_case import fresh_case
-    from lambda_core.registry.catalogue import bearing_named
+    from lambda_core.registry.designation import designated
     from lambda_core.schema.case_io import parse_case
 
     with closing(catalogue()) as opened:
-        text = fresh_case(name, bearing_named(opened, bearing))
+        text = fresh_case(name, *designated(opened, bearing))
     return write_new(parse_case(text, f"case {name}"), text, target, overwrite)
 
 

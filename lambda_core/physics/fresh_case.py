@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from lambda_core.registry.catalogue import BearingRow
+    from lambda_core.registry.designation import Designation
 
 _TEXT = """\
 # Deep-groove ball bearing {designation} of {maker}: change what differs on your machine.
@@ -15,7 +16,7 @@ description = "{designation} ({maker}), radial {load}, 1500 rpm"
 [bearing]
 designation = "{designation}"
 maker = "{maker}"
-clearance = "CN"          # class of ISO 5753-1, or a measured value such as "14 um"
+{clearance}
 clearance_pick = "middle"
 
 [lubricant]
@@ -32,14 +33,23 @@ speed = "1500 rpm"        # inner ring; the outer ring stands still
 _NO_RATING = 1000.0  # [N], where the catalogue has no rating to take a tenth of
 
 
-def fresh_case(name: str, bearing: BearingRow) -> str:
-    """Write the text of a case for a bearing: a tenth of its dynamic rating as radial load, everything else default."""
+_CLASS = 'clearance = "CN"          # class of ISO 5753-1, or a measured value such as "14 um"'
+_CLASS_OF_SUFFIX = '# clearance = "{}"        # stands in the designation; a measured value such as "14 um" would win'
+
+
+def fresh_case(name: str, bearing: BearingRow, read: Designation) -> str:
+    """Write the text of a case for a bearing: a tenth of its dynamic rating as radial load, everything else default.
+
+    Suffixes of the designation stay in it and decide what they stand for.
+    """
+    classes = [written for written, suffix in read.suffixes if suffix.kind == "clearance"]
     rating = bearing.dynamic_rating
     load = f"{(0.1 * rating.value if rating else _NO_RATING) / 1e3:.4g} kN"
     why = f"a tenth of C = {rating.value / 1e3:.4g} kN" if rating else "the catalogue has no load rating"
     return _TEXT.format(
         name=name,
-        designation=bearing.designation,
+        designation=read.text,
+        clearance=_CLASS_OF_SUFFIX.format(classes[0]) if classes else _CLASS,
         maker=bearing.maker,
         load=load,
         why=why,

@@ -27,7 +27,8 @@ from lambda_core.physics.resolve_bodies import (
     shaft_inertia,
 )
 from lambda_core.physics.resolve_clearance import clearance_in_operation
-from lambda_core.physics.resolve_geometry import bearing_row, check_clearance, resolve_geometry, with_clearance
+from lambda_core.physics.resolve_designation import resolve_designation
+from lambda_core.physics.resolve_geometry import check_clearance, resolve_geometry, with_clearance
 from lambda_core.physics.resolve_laws import LawResolver, ModelSource
 from lambda_core.physics.resolve_materials import resolve_lubricant, resolve_material
 from lambda_core.physics.time_functions import highest_frequency, peak, time_function
@@ -63,8 +64,8 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingM
     CaseError
         With everything that is unknown, missing, contradictory or impossible.
     """
-    ledger = Ledger(assumptions=list(case.assumptions))
-    row = bearing_row(case.bearing, catalogue, ledger)
+    ledger, written = Ledger(assumptions=list(case.assumptions)), case
+    row, designation, case = resolve_designation(written, catalogue, ledger)
     known = row is not None or (case.bearing.designation is None and case.bearing.geometry is not None)
     bare = resolve_geometry(case.bearing, row, catalogue, ledger) if known else None
     parts = {part: resolve_material(part, case, catalogue, ledger) for part in ("inner", "outer", "balls")}
@@ -90,7 +91,7 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingM
     ledger.check(case.name)
     return BearingModel(
         name=case.name,
-        title=_title(case, row),
+        title=_title(case, row, designation),
         geometry=geometry,
         ball_material=materials["balls"],
         inner_material=materials["inner"],
@@ -111,7 +112,7 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingM
         output=Output(case.output.interval or 0.0, case.output.checkpoint_interval),
         values=tuple(ledger.values),
         assumptions=tuple(ledger.assumptions),
-        case_toml=standalone_toml(case),
+        case_toml=standalone_toml(written),
         plugins=_distributions(laws),
         markers={name: Marker(m.body, (m.x, m.y, m.z)) for name, m in case.markers.items()},
     )
@@ -123,11 +124,11 @@ def _distributions(laws: Mapping[str, Mapping[str, Law]]) -> tuple[str, ...]:
     return tuple(sorted(found - {""}))
 
 
-def _title(case: Case, row: BearingRow | None) -> str:
+def _title(case: Case, row: BearingRow | None, designation: str) -> str:
     if row is None:
-        return f"{case.bearing.designation or case.name} (geometry of the case)"
+        return f"{designation or case.name} (geometry of the case)"
     edited = ", geometry edited" if case.bearing.geometry else ""
-    return f"{row.designation} ({row.maker}{edited})"
+    return f"{designation} ({row.maker}{edited})"
 
 
 def _check_temperature(case: Case, cage: CageRow, ledger: Ledger) -> None:

@@ -42,7 +42,7 @@ def clearance_as_bought(
     both_inline = bool(inline and inline.race_diameter_inner and inline.race_diameter_outer)
     text = bearing.clearance or ("geometry" if both_inline else "CN")
     from_races = races[1] - races[0] - 2.0 * ball if races[0] and races[1] else math.nan
-    if text in CLEARANCE_CLASSES:
+    if text[:2] in CLEARANCE_CLASSES:
         return _from_class(bearing, text, bore, catalogue, ledger)
     if text == "geometry":
         if math.isnan(from_races):
@@ -59,16 +59,47 @@ def clearance_as_bought(
 
 
 def _from_class(bearing: Bearing, name: str, bore: float, catalogue: Catalogue, ledger: Ledger) -> Limits | None:
-    row = None if math.isnan(bore) else ledger.ask(PATH, lambda: catalogue.clearance(bore, name))
+    row = None if math.isnan(bore) else ledger.ask(PATH, lambda: catalogue.clearance(bore, name[:2]))
     if row is None:
         return None
-    limits, pick = Limits(row.minimum, row.maximum), bearing.clearance_pick
+    limits = Limits(row.minimum, row.maximum)
+    if name[2:]:
+        above = _class_above(name, bore, catalogue, ledger) if name.endswith("P") else limits
+        if above is None:
+            return None
+        limits = part_of_class(limits, above, name[2:])
+    pick = bearing.clearance_pick
     clearance = picked(limits, pick)
     ledger.record(PATH, clearance, "small_length", f"{pick} of {name}: {row.source}", "assumed", row.grade)
     stated = "" if bearing.clearance else "class not stated, "
-    span = f"{row.minimum * 1e6:.4g} to {row.maximum * 1e6:.4g} um"
+    span = f"{limits.minimum * 1e6:.4g} to {limits.maximum * 1e6:.4g} um"
     ledger.assume(f"clearance {show(clearance, 'small_length', 4)}: {stated}{pick} of {name} ({span})")
     return limits
+
+
+def _class_above(name: str, bore: float, catalogue: Catalogue, ledger: Ledger) -> Limits | None:
+    index = CLEARANCE_CLASSES.index(name[:2]) + 1
+    if index == len(CLEARANCE_CLASSES):
+        ledger.problem(PATH, f'"{name}" reaches into the class above {name[:2]}, and there is none')
+        return None
+    row = ledger.ask(PATH, lambda: catalogue.clearance(bore, CLEARANCE_CLASSES[index]))
+    return Limits(row.minimum, row.maximum) if row else None
+
+
+def part_of_class(limits: Limits, above: Limits, part: str) -> Limits:
+    """Return the part of a clearance class that a letter behind it stands for.
+
+    L lower half, H upper half, M the two middle quarters, P the upper half and the lower half of the next class
+    (`above`); the convention of SKF's supplementary designations.
+    """
+    quarter = 0.25 * (limits.maximum - limits.minimum)
+    middle = limits.minimum + 2.0 * quarter
+    return {
+        "L": Limits(limits.minimum, middle),
+        "H": Limits(middle, limits.maximum),
+        "M": Limits(middle - quarter, middle + quarter),
+        "P": Limits(middle, 0.5 * (above.minimum + above.maximum)),
+    }[part]
 
 
 def picked(limits: Limits, pick: str) -> float:

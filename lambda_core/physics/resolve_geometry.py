@@ -70,20 +70,6 @@ class Picker:
         return value
 
 
-def bearing_row(bearing: Bearing, catalogue: Catalogue, ledger: Ledger) -> BearingRow | None:
-    """Look the bearing up; None when it is written inline or unknown (then a problem is noted)."""
-    if bearing.designation is None:
-        if bearing.geometry is None:
-            ledger.problem("bearing.designation", "is required, or write the geometry in [bearing.geometry]")
-        return None
-    designation, maker = bearing.designation, bearing.maker
-    known = ledger.ask("bearing.", lambda: catalogue.bearing(designation, maker))
-    if known is not None:
-        ledger.given("bearing.designation", known.designation)
-        ledger.record("bearing.maker", known.maker, "", "case" if maker else "only maker", "given")
-    return known
-
-
 def resolve_geometry(
     bearing: Bearing, row: BearingRow | None, catalogue: Catalogue, ledger: Ledger
 ) -> tuple[Geometry, Limits] | None:

@@ -165,20 +165,3 @@ class Catalogue(Protocol):
 
     def close(self) -> None:
         """Release the files behind the catalogue."""
-
-
-def bearing_named(catalogue: Catalogue, text: str) -> BearingRow:
-    """Return the bearing that "6208", "SKF 6208" or "6208 SKF" stands for.
-
-    Raises
-    ------
-    CatalogueError
-        When it is unknown, or stands in the catalogue from several makers.
-    """
-    words = text.split()
-    known = {name.casefold() for name in catalogue.names("bearing")}
-    whole = " ".join(words).casefold() in known
-    for index, word in enumerate(words):
-        if not whole and word.casefold() in known:
-            return catalogue.bearing(word, " ".join(words[:index] + words[index + 1 :]))
-    return catalogue.bearing(text)

@@ -23,6 +23,8 @@ from lambda_core.schema.units import (
 )
 
 CLEARANCE_CLASSES = ("C2", "CN", "C3", "C4", "C5")
+# Behind a class: its lower half, its upper half, its middle, or its upper half with the lower half of the next class.
+CLEARANCE_PARTS = "LHMP"
 
 
 class InlineGeometry(Section):
@@ -78,13 +80,18 @@ class PartTemperatures(Section):
 class Bearing(Section):
     """Which bearing it is, and its clearance."""
 
-    designation: str | None = option(None, 'catalogue designation, for example "6208"', min_length=1)
+    designation: str | None = option(
+        None,
+        'catalogue designation, for example "6208"; suffixes ("6208-2RS1/C3") decide what the case leaves open',
+        min_length=1,
+    )
     maker: str | None = option(None, "whose design, where several makers are in the catalogue", min_length=1)
     geometry: InlineGeometry | None = option(None, "inner geometry written here")
     clearance: str | None = option(
         None,
-        'radial internal clearance (diametral measure): a class ("CN"), a value ("14 um") or "geometry" '
-        "(follows from the raceway diameters)",
+        'radial internal clearance (diametral measure): a class ("CN"; "C3L", "C3H", "C3M", "C3P": lower half, upper '
+        'half, middle, upper half and lower half of the next), a value ("14 um") or "geometry" (follows from the '
+        "raceway diameters); absent: the class of the designation, CN where it has none",
         reference="ISO 5753-1 for the classes",
     )
     clearance_pick: Literal["minimum", "middle", "maximum"] = option("middle", "which value of a clearance class")
@@ -101,6 +108,8 @@ class Bearing(Section):
         folded = text.strip().upper()
         if folded in (*CLEARANCE_CLASSES, "C0"):
             return "CN" if folded == "C0" else folded
+        if folded[:2] in CLEARANCE_CLASSES and len(folded) == 3 and folded[2] in CLEARANCE_PARTS:
+            return folded
         if text.strip().casefold() == "geometry":
             return "geometry"
         if not re.search(r"\d", text) or re.fullmatch(r"\s*[Cc]\d+\s*", text):
