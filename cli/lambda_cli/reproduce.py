@@ -38,4 +38,4 @@ def reproduce(
         typer.echo(found.text())
         return
     data = found.model_dump(mode="json")
-    typer.echo(json.dumps(data if what == "all" else data[what] | {"files": data["files"]}, indent=2))
+    typer.echo(json.dumps(data if what == "all" else data[what] | {"files": data["files"], "effort": data["effort"]}, indent=2))

@@ -17,7 +17,7 @@ STEP = 2.0  # factor to the next amplitude while a ray has no bracket
 ENDS = (0.5, 500.0)  # amplitudes between which a boundary is looked for [m/s2]
 CASE = "6220-excited"
 # Cage turns averaged, those of the run without excitation that every ray is compared with, and those before.
-TURNS, STILL_TURNS, DISCARDED = 10.0, 40.0, 1.0
+TURNS, STILL_TURNS, DISCARDED = 30.0, 120.0, 1.0
 CAGE = "steel-ribbon"  # what the designation 6220 without a suffix stands for (SKF); others have one, as M for brass
 _GAMMA = 25.4 / 140.0  # of the 6220, for the nominal cage speed
 
@@ -79,6 +79,25 @@ class Setting:
         )
 
 
+@dataclass(frozen=True)
+class Boundary:
+    """Where a criterion is just met on a ray, and how well that is known.
+
+    Attributes
+    ----------
+    acceleration : float
+        Amplitude [m/s2].
+    own_error : float
+        Standard error of its logarithm, from the runs at both ends of the bracket.
+    still_error : float
+        The same from the run without excitation, which all rays of a setting share.
+    """
+
+    acceleration: float
+    own_error: float
+    still_error: float
+
+
 @dataclass
 class Ray:
     """Growing excitation at one frequency: what was tried, and the bracket of each criterion."""
@@ -108,17 +127,31 @@ class Ray:
             return low * STEP if low * STEP <= ENDS[1] else None
         return high / STEP if high / STEP >= ENDS[0] else None
 
-    def boundary(self, criterion: str, still: Answer) -> float | None:
-        """Return the amplitude at which a criterion is just met [m/s2], None when it never is.
+    def boundary(self, criterion: str, still: Answer) -> Boundary | None:
+        """Return the amplitude at which a criterion is just met, None when it never is.
 
-        Between the ends of the bracket the excess is interpolated linearly over the logarithm.
+        Between the ends of the bracket the excess is interpolated linearly over the logarithm; the standard errors
+        of S and T in the three runs are carried over to it to first order.
         """
         low, high = self.bracket(criterion, still)
         if low is None or high is None:
             return None
-        below, above = (excess(criterion, self.tried[a], still) for a in (low, high))
-        share = -below / (above - below) if above > below else 0.5
-        return float(low * (high / low) ** min(max(share, 0.0), 1.0))
+        runs = self.tried[low], self.tried[high]
+        below, above = (excess(criterion, run, still) for run in runs)
+        rise, step = above - below, math.log(high / low)
+        share = -below / rise if rise > 0.0 else 0.5
+        scale = still["S"] if criterion == "S" else 1.0
+        # The larger the excess at the other end, the more an end's own error moves the boundary.
+        moved = [(1.0 - share) * runs[0][f"{criterion}_error"], share * runs[1][f"{criterion}_error"]]
+        # S over S_0 at the boundary, by which S_0's own error counts.
+        falls = math.copysign(1.0, still["S"] - runs[1]["S"])
+        at_boundary = 1.0 - falls * LIMITS["S"] if criterion == "S" else 1.0
+        per_excess = step / rise if rise > 0.0 else math.inf
+        return Boundary(
+            acceleration=float(low * (high / low) ** min(max(share, 0.0), 1.0)),
+            own_error=per_excess * math.hypot(*moved) / scale,
+            still_error=per_excess * at_boundary * still[f"{criterion}_error"] / scale,
+        )
 
 
 def excess(criterion: str, answer: Answer, still: Answer) -> float:

@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.registry.chart import Axis, Mark, Panel, Series, ViewData
-from lambda_core.reproduce.fig5 import BoundaryPoint, Fig5
+from lambda_core.reproduce.fig5 import Fig5
 from lambda_core.reproduce.fig7 import Fig7
 from lambda_core.reproduce.published import METHODS, PAPER, POINTS, SPEEDS, TABLE_4
 from lambda_core.reproduce.sensitivity import Sensitivity
 from lambda_core.reproduce.table4 import Table4
+from lambda_core.reproduce.trends import BoundaryPoint
 
 FloatArray = NDArray[np.float64]
 _TOP = 2600.0  # of both panels of the torque [N mm]

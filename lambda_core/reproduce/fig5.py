@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
 
-import numpy as np
 from pydantic import Field
 
 from lambda_core.reproduce.apart import Apart, apart
@@ -21,6 +19,7 @@ from lambda_core.reproduce.boundary import (
     Setting,
     search,
 )
+from lambda_core.reproduce.trends import BoundaryPoint, Line, Step, bars, lines, steps
 from lambda_core.reproduce.workshop import Answer, Job, Workshop
 from lambda_core.simulate.record import Record
 
@@ -35,7 +34,6 @@ VARIANTS = {
 FREQUENCIES = (5.0, 6.7, 8.9, 12.0, 16.0)  # [Hz]
 BEYOND = (24.0, 40.0)  # [Hz] what follows above, on the map but in no slope
 QUICK_FREQUENCIES = (6.0, 14.0)
-QUARTER = 4.0  # resonance over the upper end of the declared range, at least
 RATIO, QUICK_RATIO = 1.2, 1.5  # of a bracket's ends
 MIDDLE = 8.9  # [Hz] frequency at which the assumptions are varied
 VARIATIONS: dict[str, tuple[Setting, ...]] = {
@@ -51,32 +49,6 @@ VARIATIONS: dict[str, tuple[Setting, ...]] = {
         Setting("A", 5.0, extra=(f"bodies.cage.type={cage}",)) for cage in ("brass-machined", "pa66")
     ),
 }
-
-
-class BoundaryPoint(Record):
-    """One point of a boundary."""
-
-    variant: str
-    load_N: float
-    criterion: str
-    frequency_Hz: float
-    velocity_m_per_s: float | None = Field(description="velocity amplitude of the excitation; null: none found")
-    acceleration_m_per_s2: float | None
-    low_m_per_s: float | None = Field(description="largest amplitude that was simulated and left the running unaltered")
-    high_m_per_s: float | None = Field(description="smallest amplitude that altered it")
-    runs: int
-    declared: bool = Field(description="inside the declared range, so part of the slope")
-
-
-class Line(Record):
-    """One boundary over frequency."""
-
-    variant: str
-    load_N: float
-    criterion: str
-    slope: float | None = Field(description="of log velocity over log frequency in the declared range, least squares")
-    slope_beyond: float | None = Field(description="the same from its upper end to the highest frequency")
-    falls: bool = Field(description="monotonically over all frequencies")
 
 
 class Resonance(Record):
@@ -105,6 +77,7 @@ class Fig5(Record):
     resonances: list[Resonance]
     points: list[BoundaryPoint]
     lines: list[Line]
+    steps: list[Step]
     variations: list[Variation]
     still: dict[str, dict[str, float]] = Field(description="S_0 and T_0 without excitation")
     apart: list[Apart] = Field(description="variant A, 5 kN, 8.9 Hz: dynamic over quasi-static; empty when quick")
@@ -132,16 +105,16 @@ def fig5(workshop: Workshop, *, quick: bool = False) -> Fig5:
     still = search(workshop, [*rays, *varied], ratio)
     top = declared[-1]
     points = [_point(ray, criterion, still[ray.setting], top) for ray in rays for criterion in CRITERIA]
-    lines = _lines(points)
     return Fig5(
         frequency_range_Hz=(declared[0], declared[-1]),
         resonances=resonances,
         points=points,
-        lines=lines,
+        lines=lines(points),
+        steps=steps(points),
         variations=_variations(points, varied, still) if varied else [],
         still={_name(setting): {c: answer[c] for c in CRITERIA} for setting, answer in still.items()},
         apart=[] if quick else apart(workshop),
-        bars=_bars(points, lines, resonances, declared),
+        bars=bars(points, resonances, declared),
         notes=_notes(quick, ratio),
     )
 
@@ -177,42 +150,15 @@ def _point(ray: Ray, criterion: str, still: Answer, top: float) -> BoundaryPoint
         load_N=1e3 * ray.setting.load,
         criterion=criterion,
         frequency_Hz=ray.frequency,
-        velocity_m_per_s=velocity(found),
-        acceleration_m_per_s2=found,
+        velocity_m_per_s=velocity(found.acceleration if found else None),
+        acceleration_m_per_s2=found.acceleration if found else None,
+        own_error=found.own_error if found else None,
+        still_error=found.still_error if found else None,
         low_m_per_s=velocity(low),
         high_m_per_s=velocity(high),
         runs=len(ray.tried),
         declared=ray.frequency <= top,
     )
-
-
-def _lines(points: Sequence[BoundaryPoint]) -> list[Line]:
-    keys = dict.fromkeys((p.variant, p.load_N, p.criterion) for p in points)
-    return [_line(key, [p for p in points if (p.variant, p.load_N, p.criterion) == key]) for key in keys]
-
-
-def _line(key: tuple[str, float, str], points: Sequence[BoundaryPoint]) -> Line:
-    inside = [p for p in points if p.declared]
-    beyond = [inside[-1], *(p for p in points if not p.declared)]
-    velocities = [p.velocity_m_per_s for p in points]
-    falls = all(a is not None and b is not None and b < a for a, b in pairwise(velocities))
-    return Line(
-        variant=key[0],
-        load_N=key[1],
-        criterion=key[2],
-        slope=_slope(inside),
-        slope_beyond=_slope(beyond) if len(beyond) > 1 else None,
-        falls=falls,
-    )
-
-
-def _slope(points: Sequence[BoundaryPoint]) -> float | None:
-    """Return the slope of log velocity over log frequency, None where a boundary was not found."""
-    pairs = [(p.frequency_Hz, p.velocity_m_per_s) for p in points if p.velocity_m_per_s is not None]
-    if len(pairs) < len(points):
-        return None
-    frequency, velocity = np.log(np.array(pairs)).T
-    return float(np.polyfit(frequency, velocity, 1)[0])
 
 
 def _variations(
@@ -228,74 +174,9 @@ def _variations(
                 if (p.variant, p.load_N, p.criterion, p.frequency_Hz) == ("A", 5e3, criterion, MIDDLE)
             )
             values = [ray.boundary(criterion, still[ray.setting]) for ray in pair]
-            ratios = [None if value is None or base is None else value / base for value in values]
+            ratios = [None if value is None or base is None else value.acceleration / base for value in values]
             found.append(Variation(what=what, criterion=criterion, ratios=ratios))
     return found
-
-
-def _bars(
-    points: Sequence[BoundaryPoint],
-    lines: Sequence[Line],
-    resonances: Sequence[Resonance],
-    frequencies: Sequence[float],
-) -> list[str]:
-    """Say which of the paper's trends are met, line by line where not."""
-
-    def name(line: Line) -> str:
-        return f"{line.variant} {line.load_N / 1e3:g} kN {line.criterion}"
-
-    lowest = min(min(r.frequency_Hz, r.cage_Hz, r.ball_Hz) for r in resonances)
-    ring = min(r.frequency_Hz for r in resonances)
-    below = QUARTER * frequencies[-1] <= lowest
-
-    def verdict(wrong: Sequence[str], what: str) -> str:
-        return f"missed: {what}: {'; '.join(wrong)}" if wrong else f"met: {what}"
-
-    def slope(criterion: str) -> str:
-        mine = [line for line in lines if line.criterion == criterion]
-        slopes = [line.slope for line in mine if line.slope is not None]
-        wrong = [f"{name(x)} {_number(x.slope)}" for x in mine if x.slope is None or abs(x.slope + 1.0) > 0.25]
-        found = f"{min(slopes):.2f} to {max(slopes):.2f}" if slopes else "none"
-        return verdict(wrong, f"criterion {criterion}: log-log slope within -1 +- 0.25, found {found}")
-
-    return [
-        verdict([name(line) for line in lines if not line.falls], "every boundary falls monotonically with frequency"),
-        *(slope(criterion) for criterion in CRITERIA),
-        *(_with_load(points, criterion) for criterion in CRITERIA),
-        f"{'met' if below else 'missed'}: {frequencies[0]:g} to {frequencies[-1]:g} Hz, the declared range of the "
-        f"slopes, end below a quarter of the lowest axial resonance, {lowest:.0f} Hz (cage); rings: {ring:.0f} Hz",
-    ]
-
-
-def _number(value: float | None) -> str:
-    return "none" if value is None else f"{value:.2f}"
-
-
-def _with_load(points: Sequence[BoundaryPoint], criterion: str) -> str:
-    """Say whether the boundary over the declared range moves up with the load, and which single points do not.
-
-    The boundary is compared by the geometric mean of its accelerations: one point is uncertain by some per cent.
-    """
-    mine = [p for p in points if p.criterion == criterion and p.declared]
-    loads = sorted({p.load_N for p in mine})
-    rises, means, against = True, [], []
-    for variant in dict.fromkeys(p.variant for p in mine):
-        rows = [
-            [p.acceleration_m_per_s2 or math.nan for p in mine if (p.variant, p.load_N) == (variant, load)]
-            for load in loads
-        ]
-        mean = np.exp(np.log(rows).mean(axis=1))
-        rises = rises and bool(np.all(np.diff(mean) > 0.0))
-        means.append(f"{variant} {', '.join(f'{value:.1f}' for value in mean)} m/s2")
-        frequencies = [p.frequency_Hz for p in mine if (p.variant, p.load_N) == (variant, loads[0])]
-        for frequency, values in zip(frequencies, np.transpose(rows), strict=True):
-            worst = float(np.min(values[1:] / values[:-1]))
-            if not worst > 1.0:
-                against.append(f"{variant} {frequency:g} Hz ({100.0 * (worst - 1.0):.0f} %)")
-    text = f"criterion {criterion}: the boundary moves up with the load, on the mean {'; '.join(means)}"
-    if against:
-        text += f"; single points do not: {', '.join(against)}"
-    return f"{'met' if rises else 'missed'}: {text}"
 
 
 def _notes(quick: bool, ratio: float) -> list[str]:

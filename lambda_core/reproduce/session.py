@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Literal, get_args
@@ -15,12 +16,22 @@ from lambda_core.reproduce.fig5 import Fig5, fig5
 from lambda_core.reproduce.fig7 import Fig7, fig7
 from lambda_core.reproduce.page import Chapter, write
 from lambda_core.reproduce.table4 import Table4, table4
-from lambda_core.reproduce.workshop import Report, Workshop
+from lambda_core.reproduce.workshop import Answer, Report, Workshop
 from lambda_core.simulate.record import Record
 from lambda_core.study.executors import usable_cores
 
 What = Literal["table4", "fig5", "fig7", "all"]
 MOST_WORKERS = 4
+
+
+class Effort(Record):
+    """What an experiment took."""
+
+    experiment: str
+    jobs: int = Field(description="runs and quasi-static solutions that were asked for, each counted once")
+    computed: int = Field(description="of these by this call; the others stood in the folder already")
+    processor_s: float = Field(description="processor time of all of them, whenever they were computed")
+    wall_s: float = Field(description="of this call")
 
 
 class Reproduction(Record):
@@ -33,11 +44,24 @@ class Reproduction(Record):
     unconverged: dict[str, list[str]] = Field(
         description="by experiment: runs whose torque or energy balance has not converged, with reasons"
     )
+    effort: list[Effort] = Field(description="processor and wall time by experiment")
+    workers: int
 
     def text(self) -> str:
         """Return bars, tables and notes for people."""
         parts = [text.plain(c.title, c.bars, c.tables, c.notes) for c in chapters(self)]
-        return "\n\n".join([*parts, *(f"written: {name}" for name in self.files)])
+        return "\n\n".join([*parts, *(f"written: {name}" for name in self.files), self.spent()])
+
+    def spent(self) -> str:
+        """Return what it took, in words."""
+        single = [
+            f"{e.experiment} {e.processor_s:.0f} s ({e.computed} of {e.jobs} jobs computed now)" for e in self.effort
+        ]
+        processor, wall = (sum(getattr(e, name) for e in self.effort) for name in ("processor_s", "wall_s"))
+        return (
+            f"processor time {processor:.0f} s: {', '.join(single)}; "
+            f"wall time of this call {wall:.0f} s with {self.workers} workers"
+        )
 
 
 def reproduce(
@@ -62,16 +86,32 @@ def reproduce(
     say = announce or (lambda sentence: None)
     found: dict[str, Table4 | Fig5 | Fig7] = {}
     unconverged: dict[str, list[str]] = {}
-    with Workshop(folder, workers or min(usable_cores(), MOST_WORKERS), progress) as workshop:
+    effort: list[Effort] = []
+    workers = workers or min(usable_cores(), MOST_WORKERS)
+    with Workshop(folder, workers, progress) as workshop:
         for name, run in (("table4", table4), ("fig7", fig7), ("fig5", fig5)):
             if what in (name, "all"):
                 say(f"repeating {name}")
-                before = len(workshop.failures)
+                before, known, started = len(workshop.failures), set(workshop.answers), time.monotonic()
                 found[name] = run(workshop, quick=quick)
+                new = [answer for job, answer in workshop.answers.items() if job not in known]
+                effort.append(_effort(name, new, time.monotonic() - started))
                 unconverged[name] = workshop.failures[before:]
-        result = Reproduction.model_validate({**found, "files": [], "unconverged": unconverged})
+        result = Reproduction.model_validate(
+            {**found, "files": [], "unconverged": unconverged, "effort": effort, "workers": workers}
+        )
     files = [str(path) for path in write(registry, chapters(result), folder)]
     return result.model_copy(update={"files": files})
+
+
+def _effort(name: str, answers: Sequence[Answer], wall: float) -> Effort:
+    return Effort(
+        experiment=name,
+        jobs=len(answers),
+        computed=sum(answer.fresh for answer in answers),
+        processor_s=sum(answer.processor_s for answer in answers),
+        wall_s=wall,
+    )
 
 
 def chapters(found: Reproduction) -> list[Chapter]:

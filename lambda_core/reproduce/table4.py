@@ -5,20 +5,21 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from lambda_core.reproduce import parameters as P
-from lambda_core.reproduce.published import LOADS, METHODS, POINTS, TABLE_4, Point, mean_absolute_error
+from lambda_core.reproduce.calibration import TAU, Calibration, by_law, calibration, torques
+from lambda_core.reproduce.published import LOADS, METHODS, POINTS, TABLE_4, mean_absolute_error
 from lambda_core.reproduce.readings import MECHANISMS
 from lambda_core.reproduce.sensitivity import Sensitivity, sensitivities
 from lambda_core.reproduce.workshop import Answer, Job, Workshop
 from lambda_core.simulate.record import Record
 
-TAU = "parameters.traction.tau_eyring"
+FloatArray = NDArray[np.float64]
+
 TEMPERATURES = (55.0, 60.0, 62.5, 65.0, 70.0)  # of the oil [degC]
 SAMPLES, QUICK_SAMPLES = 200, 40
-# Beyond the published range too, only to say where a free fit would end.
-_TAU_GRID = (4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0)  # [MPa]
 BAND = (5.0, 95.0)  # percentiles
 LAWS = {"houpert": ("elastic_hysteresis", "houpert"), "none": ("elastic_hysteresis", "none")}
 OTHER_ROLLING = "goksem-hargreaves"
@@ -58,20 +59,6 @@ class Law(Record):
     simulated: bool = Field(description="by runs; otherwise quasi-static plus the blind runs' difference")
 
 
-class Calibration(Record):
-    """tau_e alone fitted on one row of the table, the other row predicted."""
-
-    fitted_on: str
-    tau_e_MPa: float = Field(description="within the published 4 to 8 MPa")
-    at_limit: bool
-    free_tau_e_MPa: float = Field(description="where the fit would end without the published limits; used for nothing")
-    torque_Nmm: list[float]
-    simulated: bool
-    six_points_pct: float
-    fitted_row_pct: float
-    predicted_row_pct: float
-
-
 class Table4(Record):
     """The whole comparison."""
 
@@ -82,6 +69,7 @@ class Table4(Record):
     inside_band: int = Field(description="measurements inside the 90 % band, of six")
     laws: list[Law]
     calibrations: list[Calibration]
+    calibrations_by_law: list[Calibration] = Field(description="every law of hysteresis and of rolling resistance")
     sensitivities: list[Sensitivity]
     temperatures: list[dict[str, float]] = Field(description="oil temperature [degC] and error [%]")
     bars: list[str]
@@ -107,7 +95,8 @@ def table4(workshop: Workshop, *, quick: bool = False) -> Table4:
     offset = np.array(blind) - [s["torque"] for s in static]
     low, high, samples = _band(workshop, offset, QUICK_SAMPLES if quick else SAMPLES)
     laws = _laws(workshop, offset, quick)
-    calibrations = _calibrations(workshop, offset, quick)
+    every_law = by_law(workshop, offset)
+    calibrations = _calibrations(workshop, offset, every_law[: len(LOADS)], quick)
     temperatures = _temperatures(workshop, offset)
     found = sensitivities(workshop, static, runs, quick)
     calibrated = calibrations[0]
@@ -136,6 +125,7 @@ def table4(workshop: Workshop, *, quick: bool = False) -> Table4:
         inside_band=inside,
         laws=laws,
         calibrations=calibrations,
+        calibrations_by_law=every_law,
         sensitivities=found,
         temperatures=temperatures,
         bars=_bars(points, errors, inside, calibrations, details, found),
@@ -148,33 +138,29 @@ def _halves(answers: Sequence[Answer]) -> tuple[list[Answer], list[Answer]]:
     return list(answers[:half]), list(answers[half:])
 
 
-def _torques(answers: Sequence[Answer]) -> list[float]:
-    return [answer["torque"] for answer in answers]
-
-
-def _band(workshop: Workshop, offset: np.ndarray, count: int) -> tuple[list[float], list[float], int]:
+def _band(workshop: Workshop, offset: FloatArray, count: int) -> tuple[list[float], list[float], int]:
     """Return 5 % and 95 % of the sampled torques at each point, and the number of samples that have a solution."""
     jobs = [job for replaced in P.samples(count) for job in jobs_of(replaced)]
     answers = workshop.all(jobs)
     rows = [answers[i : i + len(POINTS)] for i in range(0, len(answers), len(POINTS))]
     solved = [row for row in rows if all(answer.state == "done" for answer in row)]
-    torque = np.array([_torques(row) for row in solved]) + offset
+    torque = np.array([torques(row) for row in solved]) + offset
     low, high = np.percentile(torque, BAND, axis=0)
     return low.tolist(), high.tolist(), len(solved)
 
 
 def _simulated(
-    workshop: Workshop, offset: np.ndarray, sets: Sequence[Mapping[str, str | None]], quick: bool
+    workshop: Workshop, offset: FloatArray, sets: Sequence[Mapping[str, str | None]], quick: bool
 ) -> list[list[float]]:
     """Return the six torques of each parameter set: by runs, or when `quick` quasi-static plus the offset."""
     kind = "friction" if quick else "torque"
     answers = workshop.all([job for replaced in sets for job in jobs_of(replaced, kind)])
     shift = offset if quick else np.zeros(len(POINTS))
-    rows = [_torques(answers[i : i + len(POINTS)]) for i in range(0, len(answers), len(POINTS))]
+    rows = [torques(answers[i : i + len(POINTS)]) for i in range(0, len(answers), len(POINTS))]
     return [(np.array(row) + shift).tolist() for row in rows]
 
 
-def _laws(workshop: Workshop, offset: np.ndarray, quick: bool) -> list[Law]:
+def _laws(workshop: Workshop, offset: FloatArray, quick: bool) -> list[Law]:
     chosen = [*LAWS.values(), ("rolling_resistance", OTHER_ROLLING)]
     found = _simulated(workshop, offset, [P.with_law(role, law) for role, law in chosen], quick)
     return [
@@ -183,61 +169,26 @@ def _laws(workshop: Workshop, offset: np.ndarray, quick: bool) -> list[Law]:
     ]
 
 
-def _calibrations(workshop: Workshop, offset: np.ndarray, quick: bool) -> list[Calibration]:
-    """Fit tau_e on one row by least squares of the relative errors, on the quasi-static curve through a grid."""
-    answers = workshop.all([job for tau in _TAU_GRID for job in jobs_of({TAU: f"{tau:g} MPa"})])
-    grid = np.array(_torques(answers)).reshape(len(_TAU_GRID), len(POINTS)) + offset
-    fits = [(load, *fitted(grid, load)) for load in LOADS]
-    rows = _simulated(workshop, offset, [{TAU: f"{tau:.4g} MPa"} for _, tau, _, _ in fits], quick)
-    return [_calibration(*fit, row, not quick) for fit, row in zip(fits, rows, strict=True)]
+def _calibrations(
+    workshop: Workshop, offset: FloatArray, fits: Sequence[Calibration], quick: bool
+) -> list[Calibration]:
+    """Return the calibrations with the blind laws, by runs at the fitted tau_e unless `quick`."""
+    if quick:
+        return list(fits)
+    rows = _simulated(workshop, offset, [{TAU: f"{fit.tau_e_MPa:.4g} MPa"} for fit in fits], quick)
+    return [
+        calibration(
+            (fit.elastic_hysteresis, fit.rolling_resistance),
+            load,
+            (fit.tau_e_MPa, fit.at_limit, fit.free_tau_e_MPa),
+            row,
+            simulated=True,
+        )
+        for fit, load, row in zip(fits, LOADS, rows, strict=True)
+    ]
 
 
-def fitted(grid: np.ndarray, load: str) -> tuple[float, bool, float]:
-    """Return tau_e [MPa] fitted on the points of one load, whether it stands at a limit, and the free optimum.
-
-    Parameters
-    ----------
-    grid : float64[:, :], shape (len(_TAU_GRID), 6)
-        Torque at each tau_e of the grid and each point [N mm].
-    """
-    from scipy.interpolate import CubicSpline
-    from scipy.optimize import minimize_scalar
-
-    mine = [i for i, point in enumerate(POINTS) if point.load == load]
-    curve = CubicSpline(_TAU_GRID, grid[:, mine])
-    measured = np.array([POINTS[i].measured for i in mine])
-
-    def misfit(tau: float) -> float:
-        return float(np.sum((curve(tau) / measured - 1.0) ** 2))
-
-    def best(low: float, high: float) -> float:
-        return float(minimize_scalar(misfit, bounds=(low, high), method="bounded", options={"xatol": 1e-4}).x)
-
-    low, high = (float(end.split()[0]) for end in P.entry(TAU).range)
-    tau = round(best(low, high), 2)
-    return tau, tau in (low, high), best(_TAU_GRID[0], _TAU_GRID[-1])
-
-
-def _calibration(load: str, tau: float, at_limit: bool, free: float, row: list[float], simulated: bool) -> Calibration:
-    def error(keep: list[Point]) -> float:
-        chosen = [(value, point) for value, point in zip(row, POINTS, strict=True) if point in keep]
-        return mean_absolute_error([value for value, _ in chosen], tuple(point for _, point in chosen))
-
-    own = [point for point in POINTS if point.load == load]
-    return Calibration(
-        fitted_on=f"C/P = {load.removeprefix('cp')}",
-        tau_e_MPa=tau,
-        at_limit=at_limit,
-        free_tau_e_MPa=free,
-        torque_Nmm=row,
-        simulated=simulated,
-        six_points_pct=mean_absolute_error(row),
-        fitted_row_pct=error(own),
-        predicted_row_pct=error([point for point in POINTS if point not in own]),
-    )
-
-
-def _temperatures(workshop: Workshop, offset: np.ndarray) -> list[dict[str, float]]:
+def _temperatures(workshop: Workshop, offset: FloatArray) -> list[dict[str, float]]:
     sets = [{"lubricant.temperature": f"{value:g} degC"} for value in TEMPERATURES]
     rows = _simulated(workshop, offset, sets, quick=True)
     return [
@@ -308,6 +259,7 @@ def _notes(quick: bool) -> list[str]:
         "the blind set was written down before the first comparison (lambda_core/reproduce/blind.toml) and is the "
         "program's default for any case",
         "Scheuermann's hysteresis law is not shown: its constants are not published",
+        "calibrations with other laws are quasi-static plus what the blind runs add; they change no default",
         "quasi-static torques are means over half a ball pitch",
         "sensitivities to quasi-static parameters are differences of quasi-static solutions, those of the cage of runs",
     ]

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from lambda_core.report.page import Table
+from lambda_core.reproduce.calibration import TAU_GRID, Calibration
 from lambda_core.reproduce.fig5 import Fig5
 from lambda_core.reproduce.fig7 import STATED, Fig7
 from lambda_core.reproduce.parameters import blind_set
 from lambda_core.reproduce.published import POINTS
 from lambda_core.reproduce.table4 import Table4, rows_of
+from lambda_core.reproduce.trends import BoundaryPoint
 
 _NONE = "-"
 
@@ -21,6 +24,18 @@ def number(value: float | None, digits: int = 1) -> str:
 
 def _with_error(value: float, measured: float) -> str:
     return f"{value:.0f}" if value == measured else f"{value:.0f} ({100.0 * (value / measured - 1.0):+.0f} %)"
+
+
+def _tau(fit: Calibration) -> str:
+    return f"{fit.tau_e_MPa:.2f}{' (limit)' if fit.at_limit else ''}"
+
+
+def _free(tau: float) -> str:
+    """Write where a free fit of tau_e ends; the ends of its grid are no optimum."""
+    low, *_, high = TAU_GRID
+    if tau < low + 0.05:
+        return f"below {low:g}"
+    return f"above {high:g}" if tau > high - 0.05 else f"{tau:.1f}"
 
 
 def table4_tables(found: Table4) -> tuple[Table, ...]:
@@ -37,10 +52,15 @@ def table4_tables(found: Table4) -> tuple[Table, ...]:
         for d in found.details
     )  # fmt: skip
     fits = tuple(
-        (c.fitted_on, f"{c.tau_e_MPa:.2f}{' (limit)' if c.at_limit else ''}", number(c.free_tau_e_MPa),
+        (c.fitted_on, _tau(c), _free(c.free_tau_e_MPa),
          number(c.fitted_row_pct), number(c.predicted_row_pct), number(c.six_points_pct), "runs" if c.simulated else
          "quasi-static")
         for c in found.calibrations
+    )  # fmt: skip
+    by_law = tuple(
+        (c.elastic_hysteresis, c.rolling_resistance, c.fitted_on, _tau(c), _free(c.free_tau_e_MPa),
+         number(c.fitted_row_pct), number(c.predicted_row_pct), number(c.six_points_pct))
+        for c in found.calibrations_by_law
     )  # fmt: skip
     effects = tuple(
         (s.name, s.value, s.span, f"{s.low_change_pct:+.1f}", f"{s.high_change_pct:+.1f}",
@@ -62,6 +82,20 @@ def table4_tables(found: Table4) -> tuple[Table, ...]:
             fits,
         ),
         Table(
+            "tau_e alone fitted with every law of hysteresis and rolling resistance; errors [%], quasi-static",
+            (
+                "hysteresis",
+                "rolling",
+                "fitted on",
+                "tau_e MPa",
+                "free fit MPa",
+                "own row",
+                "predicted row",
+                "six points",
+            ),
+            by_law,
+        ),
+        Table(
             "sensitivities: change of the torque [%] and mean error [%] at the ends of each range",
             ("parameter", "blind", "range", "low", "high", "error low", "error high", "by"),
             effects,
@@ -76,6 +110,12 @@ def blind_table() -> Table:
     return Table("blind parameter set", ("option", "value", "range", "source"), rows)
 
 
+def _per_cent(point: BoundaryPoint) -> str:
+    if point.own_error is None or point.still_error is None:
+        return _NONE
+    return number(100.0 * math.hypot(point.own_error, point.still_error))
+
+
 def fig5_tables(found: Fig5) -> tuple[Table, ...]:
     """Resonances, boundaries with brackets, slopes, variations."""
     resonances = tuple(
@@ -85,13 +125,21 @@ def fig5_tables(found: Fig5) -> tuple[Table, ...]:
     )  # fmt: skip
     points = tuple(
         (p.variant, f"{p.load_N / 1e3:g}", p.criterion, f"{p.frequency_Hz:g}", number(p.velocity_m_per_s, 4),
-         f"{number(p.low_m_per_s, 4)} to {number(p.high_m_per_s, 4)}", number(p.acceleration_m_per_s2, 2), str(p.runs))
+         f"{number(p.low_m_per_s, 4)} to {number(p.high_m_per_s, 4)}", number(p.acceleration_m_per_s2, 2),
+         _per_cent(p), str(p.runs))
         for p in found.points
     )  # fmt: skip
     lines = tuple(
-        (line.variant, f"{line.load_N / 1e3:g}", line.criterion, number(line.slope, 2), number(line.slope_beyond, 2),
+        (line.variant, f"{line.load_N / 1e3:g}", line.criterion, number(line.slope, 2), number(line.slope_error, 2),
+         number(line.slope_beyond, 2),
          "yes" if line.falls else "no")
         for line in found.lines
+    )  # fmt: skip
+    rises = tuple(
+        (s.variant, s.criterion, f"{s.from_N / 1e3:g} to {s.to_N / 1e3:g}",
+         f"{s.mean_from_m_per_s2:.1f} to {s.mean_to_m_per_s2:.1f}", f"{s.rise_pct:+.1f}", number(s.error_pct),
+         f"{s.frequencies_up} of {s.frequencies}")
+        for s in found.steps
     )  # fmt: skip
     tables = [
         Table(
@@ -99,13 +147,28 @@ def fig5_tables(found: Fig5) -> tuple[Table, ...]:
         ),
         Table(
             "boundary of altered running",
-            ("variant", "F_stat kN", "criterion", "f Hz", "v_exc m/s", "bracket m/s", "acceleration m/s2", "runs"),
+            (
+                "variant",
+                "F_stat kN",
+                "criterion",
+                "f Hz",
+                "v_exc m/s",
+                "bracket m/s",
+                "acceleration m/s2",
+                "standard error %",
+                "runs",
+            ),
             points,
         ),
         Table(
             f"slope of log v_exc over log f, {found.frequency_range_Hz[0]:g} to {found.frequency_range_Hz[1]:g} Hz",
-            ("variant", "F_stat kN", "criterion", "slope", "above the range", "falls"),
+            ("variant", "F_stat kN", "criterion", "slope", "standard error", "above the range", "falls"),
             lines,
+        ),
+        Table(
+            "from load to load: rise of the boundary, geometric mean over the declared frequencies",
+            ("variant", "criterion", "F_stat kN", "m/s2", "rise %", "standard error %", "frequencies that rise"),
+            rises,
         ),
     ]
     if found.variations:

@@ -26,7 +26,7 @@ from lambda_core.study.task import Task, point_hash, resolve_point, work
 
 _DIGITS = 20  # of the hash in names of files
 READ_ONCE = {"stability"}  # hundreds of runs: their files go once their numbers are kept
-_FORMAT = 2  # of the kept numbers; raised when a reading changes its meaning
+_FORMAT = 3  # of the kept numbers; raised when a reading changes its meaning
 Report = Callable[[StudyProgress], None]
 
 
@@ -43,7 +43,8 @@ class Job:
 class Answer:
     """What a job has found.
 
-    `state` is "done", "partial" (a run that has not converged) or "failed"; the reason says why.
+    `state` is "done", "partial" (a run that has not converged) or "failed"; the reason says why. `processor_s` is the
+    time of the processor that it took when it was computed; `fresh` says that it was computed by this call.
     """
 
     state: str
@@ -51,7 +52,8 @@ class Answer:
     hash: str
     numbers: Numbers
     file: str = ""
-    seconds: float = 0.0
+    processor_s: float = 0.0
+    fresh: bool = False
 
     def __getitem__(self, name: str) -> float:
         """Return one number; SolverError where there is none."""
@@ -63,7 +65,7 @@ class Answer:
 
 def do(job: Job, folder: str) -> Answer:
     """Do one job in `folder`, or read what was found before."""
-    started = time.perf_counter()
+    started = time.process_time()
     try:
         model = resolve_point(case_text(job.case), job.changes)
         hash_ = point_hash(model)
@@ -74,14 +76,14 @@ def do(job: Job, folder: str) -> Answer:
         answer = _run(job, hash_, folder) if dynamic else Answer("done", "", hash_, STATIC[job.kind](model))
     except LambdaError as error:
         return Answer("failed", str(error), "", {})
-    answer = Answer(**{**asdict(answer), "seconds": time.perf_counter() - started})
+    answer = replace(answer, processor_s=time.process_time() - started)
     if answer.state == "failed":
         return answer
     read = job.kind in READ_ONCE
     _keep(kept, replace(answer, file="") if read else answer)
     if read:
         (Path(folder) / answer.file).unlink()
-    return answer
+    return replace(answer, fresh=True)
 
 
 @lru_cache(maxsize=16)
@@ -127,6 +129,7 @@ class Workshop:
     workers: int
     report: Report | None = None
     failures: list[str] = field(default_factory=list)
+    answers: dict[Job, Answer] = field(default_factory=dict)  # everything that was asked for
     _pool: Pool | None = None
     _total: int = 0
     _done: int = 0
@@ -168,6 +171,7 @@ class Workshop:
             if answer.state != "done":
                 self.failures.append(f"{job.case} {job.kind}: {answer.state}: {answer.reason}")
             self._say()
+        self.answers |= found
         return [found[job] for job in jobs]
 
     def _say(self) -> None:

@@ -47,7 +47,9 @@ def test_bisection_finds_both_boundaries(critical: dict[str, float], frequency: 
         assert high is not None
         assert low <= value <= high <= 1.2 * low
         # The excess is linear in the amplitude here, not in its logarithm: half a per cent within such a bracket.
-        assert ray.boundary(criterion, still[ray.setting]) == pytest.approx(value, rel=0.01)
+        found = ray.boundary(criterion, still[ray.setting])
+        assert found is not None
+        assert found.acceleration == pytest.approx(value, rel=0.01)
     assert known.runs < 25
 
 
@@ -55,6 +57,35 @@ def test_a_change_within_three_standard_errors_alters_nothing() -> None:
     assert excess("S", answer(0.007, 0.0, error=0.002), answer(0.010, 0.0, error=0.0)) < 0.0
     assert excess("S", answer(0.007, 0.0, error=0.0005), answer(0.010, 0.0, error=0.0)) > 0.0
     assert excess("T", answer(0.01, 0.03), answer(0.01, 0.0)) < 0.0
+
+
+@pytest.mark.parametrize("criterion", CRITERIA)
+def test_errors_of_the_runs_are_carried_over_to_the_boundary(criterion: str) -> None:
+    """Against 4000 noisy copies of three runs; the noise is small, so that first order is enough."""
+    s, t, error = (0.0100, 0.0085, 0.0075), (0.0, 0.03, 0.08), {"S": 5e-5, "T": 2e-3}
+    random = np.random.default_rng(3)
+    runs = [
+        Answer("done", "", "", {"S": a, "S_error": error["S"], "T": b, "T_error": error["T"]})
+        for a, b in zip(s, t, strict=True)
+    ]
+
+    def at(answers: list[Answer]) -> float:
+        ray = Ray(Setting("A", 5.0), 10.0, {40.0: answers[1], 48.0: answers[2]})
+        found = ray.boundary(criterion, answers[0])
+        assert found is not None
+        return math.log(found.acceleration)
+
+    def noisy(which: tuple[int, ...]) -> float:
+        copies = []
+        for i, run in enumerate(runs):
+            moved = {c: run[c] + (error[c] * random.standard_normal() if i in which else 0.0) for c in CRITERIA}
+            copies.append(Answer("done", "", "", {**run.numbers, **moved}))
+        return at(copies)
+
+    boundary = Ray(Setting("A", 5.0), 10.0, {40.0: runs[1], 48.0: runs[2]}).boundary(criterion, runs[0])
+    assert boundary is not None
+    assert boundary.own_error == pytest.approx(np.std([noisy((1, 2)) for _ in range(4000)]), rel=0.1)
+    assert boundary.still_error == pytest.approx(np.std([noisy((0,)) for _ in range(4000)]), rel=0.1)
 
 
 def test_jackknife_of_a_mean_is_its_standard_error() -> None:

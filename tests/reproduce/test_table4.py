@@ -7,9 +7,10 @@ import pytest
 
 from lambda_core import api
 from lambda_core.reproduce import parameters as P
+from lambda_core.reproduce.calibration import TAU_GRID, fitted, laws_of
 from lambda_core.reproduce.published import POINTS
 from lambda_core.reproduce.readings import friction
-from lambda_core.reproduce.table4 import _TAU_GRID, OperatingPoint, fitted
+from lambda_core.reproduce.table4 import OperatingPoint
 
 
 @pytest.fixture(scope="module")
@@ -47,11 +48,11 @@ def test_quasi_static_torque_meets_a_run() -> None:
 
 @pytest.mark.parametrize("true", [4.6, 6.0, 7.7])
 def test_the_fit_finds_the_tau_that_made_the_measurement(true: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    from lambda_core.reproduce import table4
+    from lambda_core.reproduce import calibration
 
-    curve = np.array([[100.0 * i + 10.0 * tau + tau**2 for i in range(6)] for tau in (*_TAU_GRID, true)])
+    curve = np.array([[100.0 * i + 10.0 * tau + tau**2 for i in range(6)] for tau in (*TAU_GRID, true)])
     points = tuple(type(point)(point.load, point.speed, float(curve[-1, i])) for i, point in enumerate(POINTS))
-    monkeypatch.setattr(table4, "POINTS", points)
+    monkeypatch.setattr(calibration, "POINTS", points)
     tau, at_limit, free = fitted(curve[:-1], "cp10")
     assert tau == pytest.approx(true, abs=0.01)
     assert free == pytest.approx(true, abs=0.01)
@@ -59,11 +60,11 @@ def test_the_fit_finds_the_tau_that_made_the_measurement(true: float, monkeypatc
 
 
 def test_the_fit_stays_inside_the_published_range(monkeypatch: pytest.MonkeyPatch) -> None:
-    from lambda_core.reproduce import table4
+    from lambda_core.reproduce import calibration
 
     points = tuple(type(point)(point.load, point.speed, 1e4) for point in POINTS)
-    monkeypatch.setattr(table4, "POINTS", points)
-    tau, at_limit, free = fitted(np.array([[100.0 * tau] * 6 for tau in _TAU_GRID]), "cp6.5")
+    monkeypatch.setattr(calibration, "POINTS", points)
+    tau, at_limit, free = fitted(np.array([[100.0 * tau] * 6 for tau in TAU_GRID]), "cp6.5")
     assert (tau, at_limit) == (8.0, True)
     assert free > 11.9
 
@@ -95,3 +96,13 @@ def test_a_law_without_a_second_alternative_is_shown_once() -> None:
     assert found.span == "goksem-hargreaves"
     assert found.effect == "-10.0 % with goksem-hargreaves"
     assert ends_of(P.entry("parameters.traction.tau_eyring")) == ("4 MPa", "8 MPa")
+
+
+def test_every_law_without_constants_of_the_user_is_calibrated() -> None:
+    """Scheuermann's law has no published constants; without rolling resistance there is nothing to compare."""
+    assert laws_of("elastic_hysteresis")[0] == "loss-factor"
+    assert {"loss-factor", "houpert", "none"} <= set(laws_of("elastic_hysteresis"))
+    assert "scheuermann" not in laws_of("elastic_hysteresis")
+    assert laws_of("rolling_resistance")[0] == "biboulet-houpert"
+    assert "goksem-hargreaves" in laws_of("rolling_resistance")
+    assert "none" not in laws_of("rolling_resistance")
