@@ -38,4 +38,6 @@ def reproduce(
         typer.echo(found.text())
         return
     data = found.model_dump(mode="json")
-    typer.echo(json.dumps(data if what == "all" else data[what] | {"files": data["files"], "effort": data["effort"]}, indent=2))
+    if what != "all":
+        data = data[what] | {name: data[name] for name in ("files", "effort")}
+    typer.echo(json.dumps(data, indent=2))
