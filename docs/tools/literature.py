@@ -60,7 +60,18 @@ def lines() -> list[str]:
         raise RuntimeError(f"the literature suite checks {len(rows)} values, at least {AT_LEAST} are promised")
     sources = {source for source, *_ in rows}
     head = [f"{len(rows)} values of {len(sources)} sources.", ""]
-    return head + table(("source", "value (SI)", "tolerance", "reason"), [[cell(part) for part in row] for row in rows])
+    return head + table(("source", "values (SI)", "tolerance", "reason"), _by_source(rows))
+
+
+def _by_source(rows: list[tuple[str, str, str, str]]) -> list[list[str]]:
+    """Put values of one source that share tolerance and reason into one line, in order of size."""
+    together: dict[tuple[str, str, str], list[str]] = {}
+    for source, value, allowed, reason in rows:
+        together.setdefault((source, allowed, reason), []).append(value)
+    return [
+        [cell(part) for part in (source, ", ".join(sorted(values, key=float)), allowed, reason)]
+        for (source, allowed, reason), values in together.items()
+    ]
 
 
 def main(arguments: list[str]) -> int:

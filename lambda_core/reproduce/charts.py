@@ -22,6 +22,7 @@ _BESIDE = 55.0  # by which the points of each further method stand beside their 
 _SEEN = 0.3  # change of the torque that a bar shows [%]
 _ROWS = {"C/P = 10": slice(0, 3), "C/P = 6.5": slice(3, 6)}
 _CRITERIA = {"S": "speed of unloaded balls (S)", "T": "contacts outside the zone (T)"}
+_WIDTH = 2.0  # of the bands [standard errors]
 _SPEEDS = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0)  # numbers at the axis [m/s]
 
 
@@ -91,15 +92,9 @@ def fig5_chart(found: Fig5) -> ViewData:
         for load in dict.fromkeys(p.load_N for p in mine):
             line = [p for p in mine if p.load_N == load]
             frequency = _array([p.frequency_Hz for p in line])
-            low, mid, high = (
-                _array([np.nan if v is None else v for v in values])
-                for values in (
-                    [p.low_m_per_s for p in line],
-                    [p.velocity_m_per_s for p in line],
-                    [p.high_m_per_s for p in line],
-                )
-            )
-            series.append(Series(f"{load / 1e3:g} kN", frequency, mid, "line", "", low, high, "bracket"))
+            mid = _array([np.nan if p.velocity_m_per_s is None else p.velocity_m_per_s for p in line])
+            wide = np.exp(_WIDTH * _array([np.nan if p.error is None else p.error for p in line]))
+            series.append(Series(f"{load / 1e3:g} kN", frequency, mid, "line", "", mid / wide, mid * wide, "95 %"))
         series.append(_slope_of_one(mine))
         title = f"Variant {variant}: {_CRITERIA[criterion]}"
         axes = (
@@ -111,7 +106,7 @@ def fig5_chart(found: Fig5) -> ViewData:
     rings, cage = (min(values) for values in zip(*((r.frequency_Hz, r.cage_Hz) for r in found.resonances), strict=True))
     low_end, high_end = found.frequency_range_Hz
     notes = (
-        f"bands: the bisection's brackets; slopes: {low_end:g} to {high_end:g} Hz, left of the dotted line",
+        f"bands: two standard errors; slopes: {low_end:g} to {high_end:g} Hz, left of the dotted line",
         f"lowest axial resonance of the cage on the unloaded balls {cage:.0f} Hz, of the rings {rings:.0f} Hz",
         *found.notes[:1],
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 from lambda_core.report.page import Table
@@ -12,7 +11,6 @@ from lambda_core.reproduce.fig7 import STATED, Fig7
 from lambda_core.reproduce.parameters import blind_set
 from lambda_core.reproduce.published import POINTS
 from lambda_core.reproduce.table4 import Table4, rows_of
-from lambda_core.reproduce.trends import BoundaryPoint
 
 _NONE = "-"
 
@@ -110,12 +108,6 @@ def blind_table() -> Table:
     return Table("blind parameter set", ("option", "value", "range", "source"), rows)
 
 
-def _per_cent(point: BoundaryPoint) -> str:
-    if point.own_error is None or point.still_error is None:
-        return _NONE
-    return number(100.0 * math.hypot(point.own_error, point.still_error))
-
-
 def fig5_tables(found: Fig5) -> tuple[Table, ...]:
     """Resonances, boundaries with brackets, slopes, variations."""
     resonances = tuple(
@@ -126,7 +118,7 @@ def fig5_tables(found: Fig5) -> tuple[Table, ...]:
     points = tuple(
         (p.variant, f"{p.load_N / 1e3:g}", p.criterion, f"{p.frequency_Hz:g}", number(p.velocity_m_per_s, 4),
          f"{number(p.low_m_per_s, 4)} to {number(p.high_m_per_s, 4)}", number(p.acceleration_m_per_s2, 2),
-         _per_cent(p), str(p.runs))
+         number(None if p.error is None else 100.0 * p.error), str(p.runs))
         for p in found.points
     )  # fmt: skip
     lines = tuple(

@@ -38,6 +38,13 @@ class BoundaryPoint(Record):
     runs: int
     declared: bool = Field(description="inside the declared range, so part of the slope")
 
+    @property
+    def error(self) -> float | None:
+        """Standard error of the logarithm, both parts together."""
+        return (
+            None if self.own_error is None or self.still_error is None else math.hypot(self.own_error, self.still_error)
+        )
+
 
 class Line(Record):
     """One boundary over frequency."""
