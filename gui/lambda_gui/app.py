@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -33,6 +34,8 @@ class BuilderApp(App[None]):
     ----------
     case : str, optional
         Case file or built-in name; without one the builder asks.
+    is_alone : bool
+        Whether nothing else runs in this process.
     """
 
     TITLE = "lambda-bearing"
@@ -54,9 +57,10 @@ class BuilderApp(App[None]):
         text-style: bold; background-tint: $foreground 0%; }
     """
 
-    def __init__(self, case: str | None = None) -> None:
+    def __init__(self, case: str | None = None, *, is_alone: bool = False) -> None:
         super().__init__()
         self._start = case
+        self._is_alone = is_alone
         self.queue = Queue(self._run_ended)
 
     def on_mount(self) -> None:
@@ -83,6 +87,13 @@ class BuilderApp(App[None]):
     def builder(self) -> BuilderScreen:
         """The screen of the case."""
         return next(screen for screen in self.screen_stack if isinstance(screen, BuilderScreen))
+
+    def stands(self) -> None:
+        """Take what is loaded as there to stay: looking through it for rubbish stops the picture for 0.1 s."""
+        if self._is_alone:
+            gc.collect()
+            gc.freeze()
+            self._is_alone = False
 
     def open(self, source: str) -> None:
         """Work on a case file, a copy of a built-in case, or ("") an empty model."""
@@ -359,4 +370,4 @@ class BuilderApp(App[None]):
 
 def main(case: str | None = None) -> None:
     """Run the builder in this terminal."""
-    BuilderApp(case).run()
+    BuilderApp(case, is_alone=True).run()

@@ -53,17 +53,19 @@ class Branch(Row):
         """Make the rows under the head anew."""
         self._shape = self.shape()
         below = self.query_one(".twigs", Vertical)
+        for row in below.query(Row):
+            row.stands = False  # it goes: whoever finds it meanwhile shall leave it alone
         with self.app.batch_update():
             below.remove_children()
             below.mount(*self.twigs())
         for row in self.query(".twigs > Row").results(Row):
             row.fit(self._width)
 
-    def fit(self, width: int) -> None:
+    def fit(self, width: int, *, short: bool = False) -> None:
         """Give the labels under the head the same room too."""
-        super().fit(width)
+        super().fit(width, short=short)
         for row in self.query(".twigs > Row").results(Row):
-            row.fit(width)
+            row.fit(width, short=short)
 
     def on_edited(self, event: Edited) -> None:
         """Mark the head too when a row under it changes."""

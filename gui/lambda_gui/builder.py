@@ -41,7 +41,7 @@ _KEEP_AFTER = 2.0  # of unsaved work [s]
 class BuilderScreen(Screen[None]):
     """One case."""
 
-    HORIZONTAL_BREAKPOINTS = [(0, "-narrow"), (112, "-wide")]  # noqa: RUF012
+    HORIZONTAL_BREAKPOINTS = [(0, "-narrow"), (140, "-wide")]  # noqa: RUF012
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("f1", "app.help", "Help", priority=True),
         Binding("f2", "catalogue", "Catalogue", priority=True),
@@ -58,13 +58,13 @@ class BuilderScreen(Screen[None]):
     BuilderScreen { layout: vertical; background: $background; }
     BuilderScreen #head { height: 1; width: 1fr; background: $panel; padding: 0 1; }
     BuilderScreen #body { height: 1fr; }
-    BuilderScreen #tree { width: 37; height: 1fr; border-right: vkey $border-blurred; }
+    BuilderScreen #tree { width: 40; height: 1fr; border-right: vkey $border-blurred; }
     BuilderScreen #tree:focus { border-right: vkey $border; }
     BuilderScreen #right { width: 1fr; height: 1fr; background: $background; }
     BuilderScreen #side { height: 10; width: 1fr; border-top: hkey $border-blurred; }
     BuilderScreen #help { height: 4; }
     BuilderScreen #sketch { display: none; }
-    BuilderScreen.-wide #tree { width: 44; }
+    BuilderScreen.-wide #tree { width: 49; }
     BuilderScreen.-wide #right { layout: horizontal; }
     BuilderScreen.-wide #side { width: 46; height: 1fr; border-top: none; border-left: vkey $border-blurred; }
     BuilderScreen.-wide #help { height: 10; border-bottom: hkey $border-blurred; }
@@ -150,30 +150,26 @@ class BuilderScreen(Screen[None]):
         if node is not None:
             self._form_timer = self.set_timer(0.04, lambda: self.show_node(node))
 
-    def show_node(self, node: Node) -> None:
-        """Put the form of a node in place."""
-        right = self.query_one("#right", Vertical)
-        if self.form is not None and self.form.node is node:
-            return
-        self.query("#right > NodeForm").remove()
-        form = NodeForm(node, self.draft, self.around)
-        right.mount(form, before="#side")
-        self._show_node_help(node)
-        self.query_one(Sketch).show_node(node)
+    async def show_node(self, node: Node) -> None:
+        """Put the form of a node in place, in one picture with what is written and what is wrong."""
+        if self.form is None or self.form.node is not node:
+            form = NodeForm(node, self.draft, self.around)
+            async with self.batch():
+                if self.form is not None:
+                    self.form.is_ready = False  # what checks come in meanwhile must not reach into it
+                gone = self.query("#right > NodeForm").remove()
+                await self.query_one("#right", Vertical).mount(form, before="#side")
+                await gone
+                form.reload(self.check.problems)
+                self._show_node_help(node)
+                self.query_one(Sketch).show_node(node)
+        if self._wanted is not None and self.form is not None:
+            self.form.show(self._wanted)
+            self._wanted = None
 
     def _show_node_help(self, node: Node) -> None:
         words = node.help[:1].upper() + node.help[1:]
         self.query_one(OptionHelp).show(Text.assemble((node.heading, "bold"), f"  {words}"))
-
-    def on_node_form_ready(self) -> None:
-        """Fill the form once its rows stand."""
-        form = self.form
-        if form is None or not form.is_ready:
-            return
-        form.reload(self.check.problems)
-        if self._wanted is not None:
-            form.show(self._wanted)
-            self._wanted = None
 
     @property
     def form(self) -> NodeForm | None:
@@ -259,6 +255,7 @@ class BuilderScreen(Screen[None]):
             self.app.call_from_thread(self._tell_faults, plugin_faults())
 
     def _tell_faults(self, faults: Sequence[str]) -> None:
+        self.app.stands()  # type: ignore[attr-defined]
         for fault in faults:
             self.notify(fault, title="not in use", severity="warning", timeout=12)
 

@@ -28,7 +28,7 @@ _COLUMNS: dict[Kind, tuple[str, ...]] = {
     "lubricant": ("name", "base", "ν40 mm2/s", "ν100 mm2/s", "α40 1/GPa", "rheology"),
 }
 _HINT: dict[Kind, str] = {
-    "bearing": 'designation, maker, series or a dimension; "d=40", "C>30"',
+    "bearing": 'name, maker, series, a dimension, "d=40" or "C>30"',
     "lubricant": "name, base oil, law",
 }
 

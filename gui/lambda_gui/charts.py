@@ -65,7 +65,7 @@ class PanelPlot(Plot):
             self._polar(panel)
         else:
             self._curves(panel)
-            self.plt.xlabel(panel.x.text)
+            self.name_x(panel.x.text)
         self.refresh()
 
     def _polar(self, panel: Panel) -> None:

@@ -22,11 +22,18 @@ from textual.widgets.option_list import Option
 
 @dataclass(frozen=True)
 class Entry:
-    """One entry of a choice: what is written, how it reads, what it means."""
+    """One entry of a choice: what is written, how it reads in the list, what it means, how it reads when chosen."""
 
     value: str
     label: str
     help: str = ""
+    shown: str = ""
+
+
+def unset(known: str, otherwise: str = "default") -> Entry:
+    """Return the entry for nothing written: in grey it reads as the value that holds then, as in a field."""
+    label = f"default ({known})" if known else otherwise
+    return Entry("", label, "as when nothing is written", known or otherwise)
 
 
 class PickList(ModalScreen[str | None]):
@@ -38,12 +45,12 @@ class PickList(ModalScreen[str | None]):
     ]
     DEFAULT_CSS = """
     PickList { background: $background 30%; }
-    PickList > Vertical { max-width: 96%; height: auto; max-height: 80%; background: $panel; border: round $border;
+    PickList > Vertical { max-width: 96%; height: auto; max-height: 100%; background: $panel; border: round $border;
         padding: 0; }
     PickList OptionList { width: 1fr; height: auto; max-height: 14; background: $panel; border: none; padding: 0 1; }
     PickList OptionList:focus { border: none; }
-    PickList Static { width: 1fr; height: auto; max-height: 7; color: $text-muted; padding: 0 1;
-        border-top: hkey $border-blurred; display: none; }
+    PickList Static { width: 1fr; color: $text-muted; padding: 0 1;
+        border-top: hkey $border-blurred; }
     """
 
     def __init__(self, entries: Sequence[Entry], value: str, at: Offset) -> None:
@@ -60,7 +67,12 @@ class PickList(ModalScreen[str | None]):
         """Start at the present value, near the field."""
         widest = max(len(entry.label) for entry in self._entries) + 6
         has_help = any(entry.help for entry in self._entries)
-        self.query_one(Vertical).styles.width = max(widest, 64 if has_help else 24)
+        width = min(max(widest, 64 if has_help else 24), self.size.width - 4)
+        self.query_one(Vertical).styles.width = width
+        # as high as the longest help: the list must not move under the cursor
+        told = self.query_one(Static)
+        told.display = has_help
+        told.styles.height = 1 + max(len(Text(e.help).wrap(self.app.console, width - 4)) for e in self._entries)
         options = self.query_one(OptionList)
         options.highlighted = next((i for i, e in enumerate(self._entries) if e.value == self._value), 0)
         self.call_after_refresh(self._place)
@@ -74,11 +86,7 @@ class PickList(ModalScreen[str | None]):
 
     def on_option_list_option_highlighted(self, event: OptionList.OptionHighlighted) -> None:
         """Say what the entry is."""
-        text = self._entries[event.option_index].help
-        line = self.query_one(Static)
-        line.update(text)
-        line.display = bool(text)
-        self.call_after_refresh(self._place)
+        self.query_one(Static).update(self._entries[event.option_index].help)
 
     def on_option_list_option_selected(self, event: OptionList.OptionSelected) -> None:
         """Take the entry."""
@@ -146,7 +154,7 @@ class Choice(Widget, can_focus=True):
 
     def render(self) -> Text:
         """Draw the present entry and an arrow."""
-        known = {entry.value: entry.label for entry in self.entries}
+        known = {entry.value: entry.shown or entry.label for entry in self.entries}
         label = known.get(self.value, self.value)
         style = "dim" if self.value == "" else ""
         room = max(1, self.size.width - 2)

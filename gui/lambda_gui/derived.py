@@ -62,18 +62,24 @@ class Derived(Static):
                 self.update(self._inline(geometry[1:], numbers))  # the balls stand in the tree
 
     def _mistakes(self, check: Check) -> Text:
-        text = Text()
-        room = max(self.size.height, 1)
-        shown = check.problems if len(check.problems) <= room else check.problems[: room - 1]
-        for problem in shown:
-            text.append("▲ ", style=self.app.theme_variables["error"])
-            line = Text(f"{problem.where}  {problem.message}" if problem.where else problem.message)
-            if 3 * len(check.problems) > room:
-                line.truncate(max(10, self.size.width - 3), overflow="ellipsis")
-            text.append_text(line).append("\n")
-        if len(shown) < len(check.problems):
-            text.append(f"and {len(check.problems) - len(shown)} more", style="dim")
-        return text
+        """Write as many mistakes as there is room for, each as a whole; F8 goes to the others."""
+        width, room = max(20, self.size.width), max(self.size.height, 1)
+        shown: list[Text] = []
+        used = 0
+        for number, problem in enumerate(check.problems):
+            where = f"{problem.where}  " if problem.where else ""
+            line = Text.assemble(("▲ ", self.app.theme_variables["error"]), f"{where}{problem.message}")
+            lines = len(line.wrap(self.app.console, width))
+            is_last = number == len(check.problems) - 1
+            if used + lines > room - (0 if is_last else 1):
+                break
+            shown.append(line)
+            used += lines
+        left = len(check.problems) - len(shown)
+        if left:
+            more = f"and {left} more: F8" if shown else f"▲ {left} mistake{'s' * (left > 1)}: F8"
+            shown.append(Text(more, style="dim"))
+        return Text("\n").join(shown)
 
     def _style(self) -> str:
         return "" if self.is_current else "dim"

@@ -19,7 +19,7 @@ _BOX = """
     {name} > Vertical {{ width: {width}; max-width: 96%; height: auto; max-height: 94%; background: $surface;
         border: round $border; padding: 0 2; }}
     {name} .buttons {{ height: 1; margin: 1 0 0 0; }}
-    {name} Button {{ margin-right: 2; }}
+    {name} Button {{ margin-right: 2; min-width: 4; }}
 """
 
 

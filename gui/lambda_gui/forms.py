@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
+from rich.console import Group, RenderableType
+from rich.table import Table
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
@@ -18,11 +20,12 @@ from lambda_core.schema.problems import members
 from lambda_gui.around import CaseAround
 from lambda_gui.checking import for_place
 from lambda_gui.choice import Entry as ChoiceEntry
+from lambda_gui.fields import ChoiceRow, ParagraphRow, TextRow, row_for
 from lambda_gui.laws import LawRow, law_choice_row, law_choices
 from lambda_gui.outline import DOFS, Keys, Node, table_model
 from lambda_gui.parts import FreedomRow, MaterialRow
 from lambda_gui.places import Option
-from lambda_gui.rows import ChoiceRow, Row, TextRow, row_for
+from lambda_gui.rows import Row
 from lambda_gui.signals import SignalRow
 
 if TYPE_CHECKING:
@@ -30,6 +33,9 @@ if TYPE_CHECKING:
     from lambda_core.schema.draft import Draft
 
 _NAMES = {"bearing.designation": "bearing", "lubricant.name": "lubricant"}
+
+_ROOMY = 56  # width of a form from which on nothing is shortened
+_LABEL, _LABEL_NARROW = 30, 17  # most room for labels; 20 columns are left for values on a form at 80 columns
 
 _STRANGER = FieldCard(
     name="",
@@ -57,6 +63,8 @@ def row_at(draft: Draft, keys: Keys, around: CaseAround) -> Row:
         return ChoiceRow(place, card, around, lambda: [ChoiceEntry(name, name) for name in around.names("cage")])
     if keys == ("lubricant", "properties", "rheology"):
         return ChoiceRow(place, card, around, lambda: law_choices("rheology")[1:])
+    if keys == ("description",):
+        return ParagraphRow(place, card, around)
     if card.kind == "signal":
         return SignalRow(place, card, around, list(members(annotation)))
     if card.kind == "text":
@@ -73,11 +81,11 @@ class NodeForm(VerticalScroll, can_focus=False):
         Binding("escape", "leave", "Back to the tree", show=False),
     ]
     DEFAULT_CSS = """
-    NodeForm { height: 1fr; padding: 0 1; scrollbar-size-vertical: 1; }
+    NodeForm { height: 1fr; padding: 0 1; scrollbar-size-vertical: 1; scrollbar-gutter: stable; }
     NodeForm > .title { width: 1fr; height: auto; margin-bottom: 1; }
     NodeForm > .group { width: 1fr; height: 1; color: $primary; margin-top: 1; }
-    NodeForm > .in-effect { width: 1fr; height: auto; margin-top: 1; color: $text-muted; text-wrap: nowrap;
-        text-overflow: ellipsis; }
+    NodeForm > .in-effect { width: 1fr; height: auto; margin-top: 1; color: $text-muted; }
+    NodeForm > .about { width: 1fr; height: auto; color: $text-muted; padding-left: 2; }
     NodeForm .buttons { height: 1; margin-top: 1; }
     NodeForm Button { margin-right: 2; }
     NodeForm > Input { margin-top: 1; width: 32; }
@@ -85,9 +93,6 @@ class NodeForm(VerticalScroll, can_focus=False):
 
     class Left(Message):
         """The person goes back to the tree."""
-
-    class Ready(Message):
-        """All rows stand."""
 
     class Opened(Message):
         """A button asks for something: "catalogue", "add-marker NAME", "remove-marker NAME", "node KEY"."""
@@ -109,13 +114,28 @@ class NodeForm(VerticalScroll, can_focus=False):
         yield Static(classes="in-effect")
 
     def on_mount(self) -> None:
-        """Give all labels the same room."""
-        rows = list(self.query(Row))
-        width = min(24, max((len(row.label) + (2 if row.has_class("-deep") else 0) for row in rows), default=0) + 2)
-        for row in rows:
-            row.fit(max(width, 14))
+        """Take the rows in."""
         self.is_ready = True
-        self.post_message(self.Ready())
+        self._fit()
+
+    def on_resize(self) -> None:
+        """Fit labels and values in effect to the new width."""
+        self._fit()
+        self.query_one(".in-effect", Static).update(self._in_effect())
+
+    @property
+    def _room(self) -> int:
+        """Width before the form is laid out: that of its place, less its edges."""
+        return self.parent.size.width - 3 if isinstance(self.parent, Widget) else 0
+
+    def _fit(self) -> None:
+        """Give all labels the same room; the longest are wrapped where their values need it."""
+        is_narrow = (self.size.width or self._room) < _ROOMY
+        rows = list(self.query(Row))
+        lengths = [len(row.short if is_narrow else row.label) + 2 * row.has_class("-deep") for row in rows]
+        width = max(14, min(_LABEL_NARROW if is_narrow else _LABEL, max(lengths, default=0) + 3))
+        for row in rows:
+            row.fit(width, short=is_narrow)
 
     def _rows(self) -> Iterator[Widget]:
         node = self.node
@@ -132,7 +152,7 @@ class NodeForm(VerticalScroll, can_focus=False):
             yield from self._strangers(group.table)
         if not (node.groups or node.kind in ("role", "roles", "markers")):
             for child in node.children:
-                yield _Link(child)
+                yield from _link(child)
 
     def _strangers(self, table: Keys) -> Iterator[Widget]:
         """Yield a row for each key of a hand-written file that is no option, so that it can be taken out."""
@@ -150,7 +170,7 @@ class NodeForm(VerticalScroll, can_focus=False):
                 yield Button("F2  choose from the catalogue", id="catalogue", compact=True)
         if node.kind == "markers":
             for child in node.children:
-                yield _Link(child)
+                yield from _link(child)
             yield Input(placeholder="name of a new marker, then Enter", compact=True, id="marker-name")
         if node.kind == "marker":
             with Horizontal(classes="buttons"):
@@ -167,25 +187,27 @@ class NodeForm(VerticalScroll, can_focus=False):
             first = False
         self.query_one(".in-effect", Static).update(self._in_effect())
 
-    def _in_effect(self) -> Text:
+    def _in_effect(self) -> RenderableType:
         """Say what the case takes from elsewhere for this node, with grades and sources."""
-        text = Text()
-        if self.node.key in ("bearing", "lubricant"):
-            text.append("from the catalogue or derived; grade\n", style="italic")
-            head = len(text)
-            own = {row.place.keys[-1] for row in self.query(Row)}
-            for value in self._around.table(self.node.key):
-                name = value.path.rpartition(".")[2]
-                if name in own or value.source == "case":
-                    continue
-                mark = "≈ " if value.status in ("derived", "assumed") else ""
-                source = f"  {value.source}" if self.size.width >= 60 else ""
-                text.append(f"{name.replace('_', ' '):<24}").append(f"{mark}{value.text}".ljust(14), style="not dim")
-                text.append(f" {value.grade or '-'}{source}\n")
-            if len(text) == head:
-                return Text()
-        text.no_wrap, text.overflow = True, "ellipsis"
-        return text
+        own = {row.place.keys[-1] for row in self.query(Row)}
+        found = [
+            value
+            for value in (self._around.table(self.node.key) if self.node.key in ("bearing", "lubricant") else ())
+            if value.path.rpartition(".")[2] not in own and value.source != "case"
+        ]
+        if not found:
+            return Text()
+        table = Table.grid(padding=(0, 1, 0, 0), expand=False)
+        table.add_column(style="dim", max_width=24)
+        table.add_column(no_wrap=True)
+        table.add_column(no_wrap=True, style="dim")
+        table.add_column(style="dim")
+        for value in found:
+            mark = "≈ " if value.status in ("derived", "assumed") else ""
+            source = value.source if self.size.width >= _ROOMY else ""
+            name = value.path.rpartition(".")[2].replace("_", " ")
+            table.add_row(name, f"{mark}{value.text}", value.grade or "-", source)
+        return Group(Text("from the catalogue or derived; grade", style="italic"), table)
 
     def show(self, keys: Keys) -> None:
         """Bring one option into view and to the keyboard: the row that is most about it."""
@@ -244,10 +266,16 @@ class _Link(Button):
     """
 
     def __init__(self, node: Node) -> None:
-        super().__init__(f"▸ {node.title}  {node.help}", compact=True)
+        super().__init__(f"▸ {node.title}", compact=True)
         self._node = node
 
     def press(self) -> _Link:
         """Open the node."""
         self.post_message(NodeForm.Opened(f"node {self._node.key}"))
         return self
+
+
+def _link(node: Node) -> Iterator[Widget]:
+    """Yield a way to a node below, and what it is about."""
+    yield _Link(node)
+    yield Static(node.help, classes="about", markup=False)

@@ -14,12 +14,13 @@ from lambda_core.registry.roles import DEFAULT_MODELS
 from lambda_core.schema.cards import FieldCard, field_card
 from lambda_core.schema.modelling import Models
 from lambda_gui.branch import Branch
-from lambda_gui.choice import Choice
+from lambda_gui.choice import Choice, unset
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.entry import text_of
+from lambda_gui.fields import ChoiceRow, row_for
 from lambda_gui.outline import Node
 from lambda_gui.places import Option
-from lambda_gui.rows import ChoiceRow, Left, Surroundings, row_for
+from lambda_gui.rows import Left, Surroundings
 
 if TYPE_CHECKING:
     from lambda_core.registry.survey import ModelCard
@@ -55,7 +56,7 @@ def law_card(role: str) -> FieldCard:
 def law_choice_row(draft: Draft, node: Node, around: Surroundings) -> ChoiceRow:
     """Return a row that only chooses the model."""
     place = Option(draft, node.law_places[0])
-    return ChoiceRow(place, law_card(node.role), around, lambda: law_choices(node.role))
+    return ChoiceRow(place, law_card(node.role), around, lambda: law_choices(node.role), short=node.short)
 
 
 class LawRow(Branch):
@@ -77,8 +78,7 @@ class LawRow(Branch):
 
     def _entries(self) -> list[ChoiceEntry]:
         known = self.around.resolved(self.place.keys) or DEFAULT_MODELS[self._node.role]
-        unset = ChoiceEntry("", f"default ({known})", "as when nothing is written")
-        return [unset, *law_choices(self._node.role)]
+        return [unset(known), *law_choices(self._node.role)]
 
     def _model(self) -> str:
         """Return the name of the model in effect, as far as it is known."""

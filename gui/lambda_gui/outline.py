@@ -32,6 +32,20 @@ ELEMENTS = {
     "fluid_drag": "Oil on the balls",
 }
 
+# Titles of roles where the tree is narrow: one word beside the name of the law
+SHORT = {
+    "normal_contact": "contact",
+    "film_thickness": "film",
+    "thermal_correction": "thermal",
+    "contact_temperature": "temperature",
+    "rolling_resistance": "rolling",
+    "elastic_hysteresis": "hysteresis",
+    "asperity_load": "asperities",
+    "boundary_friction": "boundary",
+    "cage_contact": "cage",
+    "fluid_drag": "drag",
+}
+
 
 @dataclass(frozen=True)
 class Group:
@@ -61,6 +75,8 @@ class Node:
         Of a node for one role: which, and of which force element ("" for all of them).
     heading : str
         Over the form; the title where nothing else is given.
+    short : str
+        Title where the tree is narrow; the title where nothing else is given.
     """
 
     key: str
@@ -72,9 +88,11 @@ class Node:
     role: str = ""
     element: str = ""
     heading: str = ""
+    short: str = ""
 
     def __post_init__(self) -> None:
         self.heading = self.heading or self.title
+        self.short = self.short or self.title
 
     def walk(self) -> Iterator[Node]:
         """Yield this node and all below it."""
@@ -176,7 +194,8 @@ def _role(element: str, role: str) -> Node:
     key = f"forces.{element}.{role}" if element else f"models.{role}"
     title = role.replace("_", " ")
     heading = f"{ELEMENTS.get(element, 'All elements')} · {title}"
-    return Node(key, title, ROLES[role].summary, kind="role", role=role, element=element, heading=heading)
+    about = ROLES[role].summary
+    return Node(key, title, about, kind="role", role=role, element=element, heading=heading, short=SHORT.get(role, ""))
 
 
 def _loads() -> Node:

@@ -17,9 +17,10 @@ from lambda_core.errors import LambdaError
 from lambda_core.registry.catalogue import BearingRow, LubricantRow
 from lambda_core.schema.cards import FieldCard, Kind
 from lambda_core.schema.units import UNITS
+from lambda_gui.fields import row_for
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.outline import Keys
-from lambda_gui.rows import Row, Surroundings, row_for
+from lambda_gui.rows import Row, Surroundings
 
 
 class Cell:

@@ -11,11 +11,12 @@ from lambda_core.schema.cards import FieldCard, field_card
 from lambda_core.schema.parts import InlineMaterial
 from lambda_core.schema.problems import members
 from lambda_gui.branch import Branch
-from lambda_gui.choice import Choice
+from lambda_gui.choice import Choice, unset
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.entry import text_of
+from lambda_gui.fields import row_for
 from lambda_gui.places import Option
-from lambda_gui.rows import Left, Surroundings, row_for
+from lambda_gui.rows import Left, Surroundings
 from lambda_gui.signals import SignalRow
 
 _EMPTY = {"youngs_modulus": ""}  # begins a table of one's own where nothing is known
@@ -113,10 +114,9 @@ class MaterialRow(Branch):
 
     def _entries(self) -> list[ChoiceEntry]:
         known = self.card.default or self.around.resolved(self.place.keys)
-        unset = f"default ({known})" if known else "that of the cage type"
         names = [ChoiceEntry(name, name) for name in self.around.names("material")]
         own = ChoiceEntry(self._OWN, self._OWN, "write the properties here")
-        return [ChoiceEntry("", unset, "as when nothing is written"), *names, own]
+        return [unset(known, "that of the cage"), *names, own]
 
     def _chosen(self) -> str:
         value = self.place.get()

@@ -26,10 +26,18 @@ class Plot(PlotextPlot):
     Plot { background: $background; }
     """
 
+    words: list[str] = []  # noqa: RUF012 - title, axis and names of series; each drawing has its own
+
     def clear(self, title: str = "") -> None:
         """Begin anew."""
         self.plt.clear_figure()
         self.plt.title(title)
+        self.words = [title]
+
+    def name_x(self, name: str) -> None:
+        """Write the name of the horizontal axis."""
+        self.plt.xlabel(name)
+        self.words.append(name)
 
     def colour(self, name: str) -> Colour:
         """Return a colour of the theme."""

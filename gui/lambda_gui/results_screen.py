@@ -59,7 +59,7 @@ class ResultsScreen(Screen[None]):
     ResultsScreen #views { height: 1fr; background: $background; border: none; padding: 0 1;
         border-top: hkey $border-blurred; scrollbar-size-vertical: 1; }
     ResultsScreen #views:focus { border: none; border-top: hkey $border; }
-    ResultsScreen #title { height: 2; padding: 0 1; width: 1fr; text-wrap: nowrap; text-overflow: ellipsis; }
+    ResultsScreen #title { height: auto; padding: 0 1; width: 1fr; }
     ResultsScreen #content { height: 1fr; padding: 0 1; scrollbar-size-vertical: 1; }
     ResultsScreen #content Static { width: auto; height: auto; }
     ResultsScreen .row { width: 1fr; }
@@ -115,7 +115,7 @@ class ResultsScreen(Screen[None]):
 
     def _title(self, words: str = "") -> None:
         names = "  ".join(path.name for path in self._chosen())
-        text = Text(names or "no result files here", style="bold", no_wrap=True, overflow="ellipsis")
+        text = Text(names or "no result files here", style="bold")
         self.query_one("#title", Static).update(text.append(f"\n{words}", style="dim not bold"))
 
     # -- files --

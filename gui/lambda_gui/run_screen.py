@@ -11,13 +11,15 @@ from textual.containers import Horizontal, Vertical
 from textual.screen import Screen
 from textual.widgets import DataTable, Footer, Static
 
-from lambda_gui.derived import duration, grouped
+from lambda_core.simulate.text import plus_minus
+from lambda_gui.derived import duration
 from lambda_gui.traces import CageTrace, LoadTrace, TorqueTrace, Trace
 
 if TYPE_CHECKING:
     from lambda_gui.runs import Queue, Run
 
-_MARK = {"waiting": "…", "running": "▶", "done": "✔", "stopped": "■", "failed": "✘"}
+_COLUMNS = (("", 1), ("case", 24), ("progress", 12), ("time left", 9), ("torque N mm", 16))
+_MARK = {"waiting": "○", "running": "▶", "done": "✔", "stopped": "■", "failed": "✘"}
 
 
 class RunScreen(Screen[None]):
@@ -35,7 +37,7 @@ class RunScreen(Screen[None]):
     DEFAULT_CSS = """
     RunScreen { background: $background; }
     RunScreen DataTable { height: 5; background: $background; scrollbar-size-vertical: 1; }
-    RunScreen #state { height: 3; padding: 0 1; text-wrap: nowrap; text-overflow: ellipsis; }
+    RunScreen #state { height: auto; min-height: 3; padding: 0 1; }
     RunScreen #plots { height: 1fr; }
     RunScreen #right { width: 1fr; }
     RunScreen.-wide DataTable { height: 10; }
@@ -61,8 +63,8 @@ class RunScreen(Screen[None]):
     def on_mount(self) -> None:
         """Show the queue and follow it."""
         table = self.query_one(DataTable)
-        for title, width in (("", 1), ("case", 24), ("progress", 12), ("time left", 9), ("torque N mm", 16)):
-            table.add_column(title, width=width)
+        for title, width in _COLUMNS:
+            table.add_column(title, width=width, key=title)
         table.focus()
         self.follow()
         if self._first in self._queue.runs:
@@ -70,7 +72,11 @@ class RunScreen(Screen[None]):
         self.call_after_refresh(self._draw)
 
     def on_resize(self) -> None:
-        """Draw for the new size."""
+        """Give the names what room there is, and draw for the new size."""
+        table = self.query_one(DataTable)
+        if table.columns:
+            others = sum(width for title, width in _COLUMNS if title != "case")
+            table.ordered_columns[1].width = max(12, self.size.width - others - 2 * len(_COLUMNS) - 2)
         self.call_after_refresh(self._draw)
 
     @property
@@ -155,9 +161,7 @@ def _cells(run: Run) -> list[Text]:
         bar = run.state
     torque = ""
     if last is not None and last.friction_torque_Nmm is not None:
-        torque = grouped(last.friction_torque_Nmm)
-        if last.friction_torque_ci_Nmm:
-            torque += f" ± {last.friction_torque_ci_Nmm:.2g}"
+        torque = plus_minus(last.friction_torque_Nmm, last.friction_torque_ci_Nmm)
     time_left = duration(left) if run.is_active and left is not None else ""
     cells = (_MARK[run.state], run.name, bar, time_left, torque)
     return [Text(cell, no_wrap=True, overflow="ellipsis") for cell in cells]
@@ -170,7 +174,7 @@ def _bar(percent: float, width: int) -> str:
 
 def _state(run: Run, width: int) -> Text:
     """Say where the run stands, in three lines."""
-    text, last = Text(no_wrap=True, overflow="ellipsis"), run.last
+    text, last = Text(), run.last
     if run.state == "waiting":
         text.append(f"{_MARK[run.state]} {run.name}  waits for the runs above it", style="bold")
     elif last is not None and run.state in ("running", "stopped"):

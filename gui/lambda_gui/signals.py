@@ -19,8 +19,9 @@ from lambda_gui.branch import Branch
 from lambda_gui.choice import Choice
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.entry import Entry, text_of, value_of
+from lambda_gui.fields import LinesRow, row_for
 from lambda_gui.places import Option, Part
-from lambda_gui.rows import Left, LinesRow, Surroundings, row_for
+from lambda_gui.rows import Left, Surroundings
 
 _SIGNALS = {
     "value": "the same at all times",
@@ -36,7 +37,7 @@ class SignalRow(Branch):
     """A load, speed or motion over time: a value or one of the time functions."""
 
     DEFAULT_CSS = """
-    SignalRow > .line > Choice { width: 12; margin-right: 1; }
+    SignalRow > .line > Choice { width: 10; margin-right: 1; }
     SignalRow > .line > Entry { width: 1fr; }
     """
 
@@ -51,12 +52,10 @@ class SignalRow(Branch):
     def compose(self) -> ComposeResult:
         """Lay out kind, value and what follows."""
         with Horizontal(classes="line"):
-            yield Static(self.label, classes="label", markup=False)
+            yield Static(self.words, classes="label", markup=False)
             kinds = ["value", *(kind for kind in KINDS if kind in self._tables)]
             yield Choice([ChoiceEntry(kind, kind, _SIGNALS[kind]) for kind in kinds], self._kind())
             yield Entry(self._plain)
-            yield Static(classes="mark")
-        yield Static(classes="mistake", markup=False)
         with Vertical(classes="twigs"):
             yield from self.twigs()
 

@@ -41,8 +41,10 @@ class Sketch(Static):
 
     def show_node(self, node: Node) -> None:
         """Take the node whose form is shown."""
-        self._is_about_axes = node.key.split(".")[0] in _WITH_AXES
-        self.draw()
+        is_about_axes = node.key.split(".")[0] in _WITH_AXES
+        if is_about_axes != self._is_about_axes:
+            self._is_about_axes = is_about_axes
+            self.draw()
 
     def on_resize(self) -> None:
         """Draw for the new size."""
@@ -51,13 +53,14 @@ class Sketch(Static):
     def draw(self) -> None:
         """Draw section or axes, in the colours of the theme."""
         colours = self.app.theme_variables
+        if self.size.height < 6:  # a narrow screen has no room for it
+            return
         if self._is_about_axes:
             self.update(axes_sketch(colours).append(f"\n{SIGNS}", style="dim"))
-            return
-        if self._section is None or self.size.height < 6:
+        elif self._section is None:
             self.update("")
-            return
-        self.update(drawn(self._section, min(self.size.height - 2, 22), self.size.width - 2, colours))
+        else:
+            self.update(drawn(self._section, min(self.size.height - 2, 22), self.size.width - 2, colours))
 
 
 def section_of_geometry(geometry: Geometry) -> Section:

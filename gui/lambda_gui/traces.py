@@ -50,7 +50,7 @@ class Trace(Plot):
         last = history[-1]
         end = max(last.cage_revolutions_wanted, last.cage_revolutions, 1e-6)
         self.ticks(0.0, end, "x", max(2, self.size.width // 12))
-        self.plt.xlabel("cage revolutions")
+        self.name_x("cage revolutions")
 
 
 class TorqueTrace(Trace):
@@ -102,5 +102,5 @@ class LoadTrace(Trace):
         balls = [float(ball) for ball in range(1, len(loads) + 1)]
         self.plt.bar(balls, loads, color=self.colour("accent"), marker="sd", width=0.6)
         self.plt.xticks(balls, [f"{ball:.0f}" for ball in balls])
-        self.plt.xlabel("ball")
+        self.name_x("ball")
         self.ticks(0.0, 1.05 * max(*loads, 1.0), "y", max(2, self.size.height // 4))

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from lambda_core.schema.draft import Draft
     from lambda_gui.around import CaseAround
 
+_ROOMY = 44  # width of the tree from which on roles have their full names
+_NARROW = 38
+_COLUMN, _COLUMN_ROOMY = 17, 25  # where what is set stands, as far as there is room
 _OPEN = ("bearing", "bodies", "motion", "lubricant", "markers")
 
 
@@ -33,7 +36,7 @@ class ModelTree(Tree[Node]):
         Binding("space", "toggle_node", "Open or close", show=False),
     ]
     DEFAULT_CSS = """
-    ModelTree { background: $background; padding: 0 0 0 1; scrollbar-size-vertical: 1; scrollbar-size-horizontal: 0; }
+    ModelTree { background: $background; padding: 0; scrollbar-size-vertical: 1; scrollbar-size-horizontal: 0; }
     """
 
     class Entered(Message):
@@ -93,21 +96,23 @@ class ModelTree(Tree[Node]):
         depth, above = 0, line.parent
         while above is not None and above is not self.root:
             depth, above = depth + 1, above.parent
-        room = max(12, (self.size.width or 31) - 2 * depth - 3)
+        arrow = 2 if node.children else 0
+        width = self.size.width - 1 if self.size else _NARROW  # a column is left for the scroll bar
+        room = max(12, width - 2 * depth - arrow)
         colours = self.app.theme_variables
         marks = Text()
         if changed:
             marks.append(" ●", style=colours["accent"])
         if wrong:
             marks.append(f" ▲{wrong}", style=colours["error"])
-        text = Text(node.title, style="bold" if depth == 0 else "")
+        text = Text(node.title if width >= _ROOMY else node.short, style="bold" if depth == 0 else "")
         words = summary(node, self.draft, self._around)
         if words:
-            arrow = 2 if node.children else 0
-            column = max(1, 17 - 2 * depth - arrow - len(node.title))
-            left = room - arrow - len(marks) - len(text) - column
-            text.append(" " * column + _fitting(words.split("\t"), left), style="dim not bold")
-        text.truncate(room - len(marks) - (2 if node.children else 0), overflow="ellipsis", pad=True)
+            left = room - len(marks) - len(text)
+            column = max(1, (_COLUMN_ROOMY if width >= _ROOMY else _COLUMN) - 2 * depth - arrow - len(text))
+            words = _fitting(words.split("\t"), left - column)
+            text.append(" " * max(1, min(column, left - len(words))) + words, style="dim not bold")
+        text.truncate(room - len(marks), overflow="ellipsis", pad=True)
         return text.append_text(marks)
 
     def wrong_nodes(self) -> list[str]:

@@ -62,11 +62,13 @@ class Solver(Section):
     """Integrator and averages."""
 
     tolerance: float = option(1e-3, "error tolerance per step, on the absolute scales of the states", gt=0.0, le=0.1)
-    duration: Time | None = option(None, "simulated time; absent: until the averages have converged", gt=0.0)
+    duration: Time | None = option(None, "simulated time; absent: until converged", gt=0.0)
     max_duration: Time | None = option(None, "longest simulated time; absent: 30 turns of the cage", gt=0.0)
     discard_revolutions: float = option(1.0, "cage revolutions before averaging starts", ge=0.0)
     average_revolutions: float = option(4.0, "cage revolutions that are averaged at least", gt=0.0)
-    max_step: Time | None = option(None, "longest step; absent: 1/400 of a cage turn, 1/20 of an excitation", gt=0.0)
+    max_step: Time | None = option(
+        None, "longest step; by default 1/20 of an excitation at most; absent: 1/400 of a cage turn", gt=0.0
+    )
     max_wall: Time | None = option(None, "wall time after which a run stops with what it has; absent: none", gt=0.0)
 
 

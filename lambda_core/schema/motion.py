@@ -88,7 +88,7 @@ class InnerSpin(_Dof):
 
 
 class _Body(Section):
-    mass: Mass | None = option(None, "mass; absent: estimated from the geometry", gt=0.0)
+    mass: Mass | None = option(None, "mass; absent: from the geometry", gt=0.0)
     transverse_inertia: Inertia | None = option(None, "moment of inertia about a diameter; absent: estimated", gt=0.0)
     polar_inertia: Inertia | None = option(None, "moment of inertia about the axis; absent: estimated", gt=0.0)
     unbalance: Unbalance = option("0 g mm", "mass times eccentricity of the centre of mass", ge=0.0)
@@ -98,8 +98,8 @@ class InnerRing(_Body):
     """The inner ring with its shaft."""
 
     shaft_mass: Mass = option("0 kg", "mass of the shaft that moves with the inner ring", ge=0.0)
-    shaft_transverse_inertia: Inertia | None = option(None, "of the shaft; absent: a bar as thick as the bore", ge=0.0)
-    shaft_polar_inertia: Inertia | None = option(None, "of the shaft; absent: a bar as thick as the bore", ge=0.0)
+    shaft_transverse_inertia: Inertia | None = option(None, "of the shaft; absent: bar filling the bore", ge=0.0)
+    shaft_polar_inertia: Inertia | None = option(None, "of the shaft; absent: bar filling the bore", ge=0.0)
     x: Translation = option("free", "axial")
     y: Translation = option("free", "horizontal")
     z: Translation = option("free", "vertical")

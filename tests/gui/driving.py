@@ -74,15 +74,21 @@ async def write(pilot: Pilot[None], text: str) -> None:
 
 
 async def go_to(pilot: Pilot[None], path: str) -> None:
-    """Go to an option by its name, through the command palette."""
+    """Go to an option, as an entry of the command palette does."""
+    keys = tuple(path.split("."))
+    builder(pilot).go_to(keys)
+    await wait_for(pilot, lambda: focused_place(pilot) == keys)
+
+
+async def find(pilot: Pilot[None], path: str, begin: str = "") -> None:
+    """Go to an option by keyboard: type its name, or the beginning of it, into the command palette."""
     await pilot.press("ctrl+p")
     await wait_for(pilot, lambda: isinstance(pilot.app.screen, CommandPalette))
-    await write(pilot, path)
+    await write(pilot, begin or path)
     hits = pilot.app.screen.query_one(CommandList)
     await wait_for(pilot, lambda: hits.option_count and path in str(hits.get_option_at_index(0).prompt))
     await pilot.press("enter")
-    keys = tuple(path.split("."))
-    await wait_for(pilot, lambda: focused_place(pilot) == keys)
+    await wait_for(pilot, lambda: focused_place(pilot) == tuple(path.split(".")))
 
 
 def focused_place(pilot: Pilot[None]) -> tuple[str, ...]:

@@ -8,7 +8,19 @@ import time
 from pathlib import Path
 
 import pytest
-from driving import HAND_WRITTEN, LARGE, SMALL, builder, checked, focused_place, go_to, screen_text, wait_for, write
+from driving import (
+    HAND_WRITTEN,
+    LARGE,
+    SMALL,
+    builder,
+    checked,
+    find,
+    focused_place,
+    go_to,
+    screen_text,
+    wait_for,
+    write,
+)
 from lambda_gui import recovery
 from lambda_gui.app import BuilderApp
 from lambda_gui.checking import Checker
@@ -28,7 +40,7 @@ def changed_lines(before: str, after: str) -> list[str]:
 async def test_a_load_of_a_hand_written_case_is_changed_in_one_line(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
-        await go_to(pilot, "loads.radial")
+        await find(pilot, "loads.radial")
         await pilot.press("ctrl+a", "ctrl+k")
         await write(pilot, "1800")
         await pilot.press("enter")
@@ -217,7 +229,7 @@ async def test_every_form_opens_and_nothing_changes_by_looking(hand_written: Pat
         screen = builder(pilot)
         nodes = pilot.app.screen.query_one(ModelTree).all_nodes()
         for node in (node for node in nodes if not (node.kind == "role" and node.element)):
-            screen.show_node(node)
+            await screen.show_node(node)
             await pilot.pause()
             form = screen.form
             assert form is not None

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from driving import LARGE, SMALL, builder, checked, go_to, screen_text, wait_for, write
+from driving import LARGE, SMALL, builder, checked, find, go_to, screen_text, wait_for, write
 from lambda_gui import runs
 from lambda_gui.app import BuilderApp
 from lambda_gui.catalogue import CatalogueScreen
@@ -83,11 +83,11 @@ async def test_from_an_empty_model_to_a_result_by_keyboard(work_folder: Path, sh
             ("lubricant.temperature", "40"),
             ("solver.duration", "5 m"),
         ):
-            await go_to(pilot, path)
+            await find(pilot, path)
             await write(pilot, text)
             await pilot.press("enter")
         for path, text in (("loads.axial", "1300"), ("operation.speed", "2750")):
-            await go_to(pilot, path)
+            await find(pilot, path)
             await write(pilot, text)
             await pilot.press("enter")
         await checked(pilot)

@@ -1,0 +1,259 @@
+"""Every screen is read at 80 x 24 and at 120 x 40: nothing on it is cut."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import pytest
+from driving import SMALL, builder, checked, wait_for
+from lambda_gui.app import BuilderApp
+from lambda_gui.catalogue import CatalogueScreen
+from lambda_gui.choice import Choice, PickList
+from lambda_gui.dialogs import Ask, AskText, OpenCase
+from lambda_gui.help import ABOUT, HelpScreen
+from lambda_gui.outline import Node
+from lambda_gui.own_row import OwnRow
+from lambda_gui.results_screen import ResultsScreen
+from lambda_gui.run_screen import RunScreen
+from lambda_gui.runs import Run
+from lambda_gui.tree import ModelTree
+from reading import cut_on
+from textual.command import CommandList
+from textual.geometry import Offset
+from textual.pilot import Pilot
+from textual.widgets import DataTable, Input, OptionList
+
+from lambda_core import api
+from lambda_core.simulate.progress import Progress
+from lambda_core.simulate.results import Result
+
+MIDDLE = (120, 40)
+SIZES = pytest.mark.parametrize("size", [SMALL, MIDDLE], ids=["80x24", "120x40"])
+FIRST, *OTHERS = api.builtin_cases()
+
+
+def nothing(found: list[str]) -> None:
+    """Nothing may be cut."""
+    assert not found, "\n".join(["cut:", *dict.fromkeys(found)])
+
+
+def read(pilot: Pilot[None], where: str) -> list[str]:
+    """Return what is cut on the screen, each with where that is."""
+    return [f"{where}: {what}" for what in cut_on(pilot.app)]  # type: ignore[arg-type]
+
+
+async def read_forms(pilot: Pilot[None], wanted: Callable[[Node], bool]) -> list[str]:
+    """Read the form of each node, and the lists of its choices."""
+    screen, tree = builder(pilot), pilot.app.screen.query_one(ModelTree)
+    for line in list(tree._tree_nodes.values()):
+        line.expand()
+    await pilot.pause()
+    found, lists = read(pilot, "tree"), set[tuple[str, ...]]()
+    for node in filter(wanted, tree.all_nodes()):
+        await screen.show_node(node)
+        await pilot.pause()
+        found += read(pilot, node.key)
+        for choice in screen.query(Choice):
+            labels = tuple(entry.label for entry in choice.entries)
+            if labels in lists:
+                continue
+            lists.add(labels)
+            found += await read_list(pilot, choice, f"{node.key}, a list")
+    assert not screen.draft.is_changed()
+    return found
+
+
+async def read_list(pilot: Pilot[None], choice: Choice, where: str) -> list[str]:
+    """Open the list of a choice and go through its entries."""
+    await pilot.app.push_screen(PickList(choice.entries, choice.value, Offset(60, 10)))
+    found = []
+    options = pilot.app.screen.query_one(OptionList)
+    for number in range(options.option_count):
+        options.highlighted = number
+        await pilot.pause()
+        found += read(pilot, f"{where}, {choice.entries[number].label}")
+    pilot.app.pop_screen()
+    return found
+
+
+def is_of_one_element(node: Node) -> bool:
+    """Tell whether a form is that of all elements again, for one of them."""
+    return node.kind == "role" and bool(node.element)
+
+
+@SIZES
+async def test_every_form_of_a_case(size: tuple[int, int]) -> None:
+    async with BuilderApp(FIRST).run_test(size=size) as pilot:
+        await checked(pilot)
+        nothing(await read_forms(pilot, lambda node: not is_of_one_element(node)))
+
+
+@SIZES
+@pytest.mark.parametrize("case", OTHERS)
+async def test_forms_of_the_other_cases(case: str, size: tuple[int, int]) -> None:
+    """Those with something written in the case: the others are as in the first."""
+    async with BuilderApp(case).run_test(size=size) as pilot:
+        await checked(pilot)
+        draft = builder(pilot).draft
+        nothing(await read_forms(pilot, lambda node: any(draft.get(*place) is not None for place in node.places)))
+
+
+@pytest.mark.slow
+@SIZES
+@pytest.mark.parametrize("case", [FIRST, *OTHERS])
+async def test_every_form_of_every_case(case: str, size: tuple[int, int]) -> None:
+    async with BuilderApp(case).run_test(size=size) as pilot:
+        await checked(pilot)
+        nothing(await read_forms(pilot, lambda node: True))
+
+
+@SIZES
+async def test_an_empty_model_and_what_it_asks(work_folder: Path, size: tuple[int, int]) -> None:
+    (work_folder / "a-case-with-quite-a-long-name-of-its-own.toml").write_text("", encoding="utf-8")
+    found = []
+    async with BuilderApp().run_test(size=size) as pilot:
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, OpenCase))
+        found += read(pilot, "which case")
+        await pilot.press("enter")
+        await checked(pilot)
+        found += read(pilot, "mistakes")
+        await pilot.press("f8")
+        await pilot.pause(0.2)
+        found += read(pilot, "a required field")
+        await pilot.press("ctrl+p", *"ball")
+        await wait_for(pilot, lambda: pilot.app.screen.query_one(CommandList).option_count > 3)
+        found += read(pilot, "palette")
+        await pilot.press("escape")
+        for question in (
+            Ask("drive-end-of-the-fan.toml has unsaved changes.", ["save", "discard the changes", "go back"]),
+            Ask("1 run going on, 2 waiting (these would not be started).", ["let them go on", "stop them", "go back"]),
+            Ask(
+                "drive-end.toml has been changed by another program since it was opened here.",
+                ["save under another name", "overwrite", "go back"],
+            ),
+            Ask("There is unsaved work on drive-end.toml from 12 minutes ago.", ["recover", "discard", "decide later"]),
+            AskText("Save the case as", "drive-end.toml"),
+            *(HelpScreen(screen) for screen in ABOUT),
+        ):
+            await pilot.app.push_screen(question)
+            await pilot.pause()
+            found += read(pilot, str(question))
+            pilot.app.pop_screen()
+    nothing(found)
+
+
+@SIZES
+async def test_the_catalogue(size: tuple[int, int]) -> None:
+    found = []
+    async with BuilderApp(FIRST).run_test(size=size) as pilot:
+        await checked(pilot)
+        for key, most in (("f2", 12), ("f2", 100)):
+            await pilot.press(key)
+            await wait_for(pilot, lambda: isinstance(pilot.app.screen, CatalogueScreen))
+            await pilot.pause()
+            screen = pilot.app.screen
+            assert isinstance(screen, CatalogueScreen)
+            rows = screen.query_one(DataTable)
+            for number in range(min(most, rows.row_count)):
+                rows.move_cursor(row=number)
+                await pilot.pause()
+                found += read(pilot, f"{screen._kind} {number}")
+            await pilot.press("f4")
+            await wait_for(pilot, lambda: isinstance(pilot.app.screen, OwnRow))
+            await pilot.pause(0.1)
+            found += read(pilot, f"own {screen._kind}")
+            await pilot.press("escape")
+            await wait_for(pilot, lambda: isinstance(pilot.app.screen, CatalogueScreen))
+        for text in ("6208 skf", "6319", "nothing of this name"):
+            screen._kind = "bearing"
+            screen._show_kind()
+            screen.query_one(Input).value = text
+            screen.find()
+            await pilot.pause()
+            found += read(pilot, text)
+    nothing(found)
+
+
+def runs_of_every_kind(folder: Path) -> Iterable[Run]:
+    """Return runs in every state, with names and messages as long as they come."""
+    history = [
+        Progress(
+            time_s=0.01 * n,
+            percent=0.5 * n,
+            cage_revolutions=0.02 * n,
+            cage_revolutions_wanted=20.0,
+            averaged=0,
+            friction_torque_Nmm=12345.6,
+            friction_torque_ci_Nmm=123.4,
+            friction_torque_now_Nmm=12300.0 + 10 * (n % 7),
+            cage_speed_ratio=0.4,
+            energy_residual=-1.2e-5,
+            inner_loads_N=[12345.0] * 9,
+            wall_s=0.1 * n,
+            left_s=4000.0,
+        )
+        for n in range(150)
+    ]
+    long = (
+        "balls do not touch their rings: the load of 16 N is too small for a ring that turns at 15 000 1/min; "
+        "add an axial load"
+    )
+    for state, message in (
+        ("waiting", ""),
+        ("running", "running"),
+        ("done", "converged"),
+        ("done", "not converged within 30 turns of the cage: the confidence interval of the friction torque is 4 %"),
+        ("stopped", "stopped; what it has is kept"),
+        ("failed", long),
+    ):
+        run = Run("6319-cp6.5-3000-with-more", folder / f"{state}.h5", folder, state=state, message=message)  # type: ignore[arg-type]
+        run.history = history if state != "waiting" else []
+        yield run
+
+
+@SIZES
+async def test_runs(work_folder: Path, size: tuple[int, int]) -> None:
+    async with BuilderApp(FIRST).run_test(size=size) as pilot:
+        await checked(pilot)
+        await pilot.press("f7")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, RunScreen))
+        found = read(pilot, "no runs")
+        screen = pilot.app.screen
+        assert isinstance(screen, RunScreen)
+        pilot.app.queue.poll = lambda: False
+        pilot.app.queue.runs += runs_of_every_kind(work_folder)
+        screen.follow()
+        for number, run in enumerate(pilot.app.queue.runs):
+            screen.query_one(DataTable).move_cursor(row=number)
+            await pilot.pause(0.1)
+            found += read(pilot, f"{run.state} {run.message[:20]}")
+        pilot.app.queue.runs.clear()
+    nothing(found)
+
+
+@SIZES
+async def test_results(
+    work_folder: Path, combined_run: Result, shared_compiled_code: None, size: tuple[int, int]
+) -> None:
+    for name in ("6319-cp6.5-3000", "6208-axial-1300"):
+        shutil.copy(combined_run.path, work_folder / f"{name}.h5")
+    found = []
+    async with BuilderApp(FIRST).run_test(size=size) as pilot:
+        await checked(pilot)
+        await pilot.press("f6")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, ResultsScreen))
+        screen = pilot.app.screen
+        views = screen.query_one("#views", OptionList)
+        for marked in (0, 2):
+            if marked:
+                await pilot.press("tab", *["space", "down"] * marked, "tab")
+                await pilot.pause(0.3)
+            await wait_for(pilot, lambda: views.option_count > 1)
+            for number in range(views.option_count):
+                views.highlighted = number
+                await wait_for(pilot, lambda: not any(worker.is_running for worker in pilot.app.workers))
+                await pilot.pause(0.2)
+                found += read(pilot, f"{marked} marked, {views.get_option_at_index(number).id}")
+    nothing(found)
