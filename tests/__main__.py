@@ -5,6 +5,7 @@ Style, types, layers, then the tests on two processes. Each part runs whatever t
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import time
@@ -12,6 +13,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
 PYTHON = sys.executable
+# Where tests/conftest.py keeps compiled code.
+CACHE = ROOT / ".pytest_cache" / "d" / "lambda-bearing"
 
 
 def parts(arguments: list[str]) -> dict[str, list[str]]:
@@ -22,6 +25,8 @@ def parts(arguments: list[str]) -> dict[str, list[str]]:
         "format": [PYTHON, "-m", "ruff", "format", "--check", "."],
         "mypy": [PYTHON, "-m", "mypy"],
         "layers": [layers],
+        # Once, before two processes of tests would do it side by side.
+        "compile": [PYTHON, "-m", "lambda_cli", "warmup", "--quiet"],
         # One file stays in one process: what a file prepares for its tests is prepared once.
         "pytest": [PYTHON, "-m", "pytest", "-n", "2", "--dist", "loadfile", *arguments],
     }
@@ -33,7 +38,8 @@ def main() -> int:
     for name, command in parts(sys.argv[1:]).items():
         print(f"== {name}: {' '.join(command[1:] if name != 'layers' else command)}", flush=True)
         start = time.monotonic()
-        code = subprocess.run(command, cwd=ROOT, stdin=subprocess.DEVNULL, check=False).returncode
+        environment = os.environ | {"LAMBDA_BEARING_CACHE": str(CACHE)}
+        code = subprocess.run(command, cwd=ROOT, env=environment, stdin=subprocess.DEVNULL, check=False).returncode
         print(f"== {name}: {'ok' if code == 0 else f'FAILED ({code})'} in {time.monotonic() - start:.0f} s", flush=True)
         if code != 0:
             failed.append(name)

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
+# Helpers of all tests are modules beside this file.
+sys.path.insert(0, str(Path(__file__).parent))
+
 if TYPE_CHECKING:
     from lambda_db.catalogue import SqlCatalogue
+    from warm import Warm
 
     from lambda_core.simulate.results import Result
 
@@ -45,6 +50,18 @@ def catalogue(user_folder: Path) -> Iterator[SqlCatalogue]:
     opened = open_catalogue()
     yield opened
     opened.close()
+
+
+@pytest.fixture(scope="session")
+def warm(own_folders: Path) -> Iterator[Warm]:
+    """Start programs without waiting for their imports."""
+    from warm import Warm
+
+    folder = own_folders / "warm"
+    folder.mkdir()
+    server = Warm(folder)
+    yield server
+    server.close()
 
 
 @pytest.fixture(scope="session")

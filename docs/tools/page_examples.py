@@ -24,6 +24,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 DOCS = Path(__file__).parents[1]
+PROGRAMS = Path(sys.executable).parent
 ELSEWHERE = {"plugins.md"}  # followed by tests of its own
 _BLOCK = re.compile(
     r"(?:^<!-- before: (?P<before>.+?) -->$)|(?:^(?P<head>[^\n]*)\n+)?^```(?P<language>\w*)\n(?P<body>.*?)^```$",
@@ -110,17 +111,20 @@ def _commands(body: str) -> Iterator[tuple[str, list[str]]]:
         yield command, lines
 
 
-def follow(path: Path, folder: Path, slow: bool) -> list[Difference]:
+def follow(path: Path, folder: Path, slow: bool, programs: Path = PROGRAMS) -> list[Difference]:
     """Do everything that a page says in `folder`; return where it did not turn out as printed.
 
     Parameters
     ----------
     slow : bool
         Whether to go on where the slow part begins.
+    programs : Path
+        Folder of the program and of Python.
     """
     differences: list[Difference] = []
     todo = [step for step in steps(path) if slow or not step.slow]
-    python = Interpreter(folder)
+    environment = _environment(folder, programs)
+    python = Interpreter(folder, environment)
     last = 0
     for index, step in enumerate(todo):
         if step.kind == "file":
@@ -130,7 +134,7 @@ def follow(path: Path, folder: Path, slow: bool) -> list[Difference]:
         if step.text == _ASK:
             last, said = 0, f"{last}\n"
         elif step.kind == "command":
-            last, said = _type(step.text, folder)
+            last, said = _type(step.text, folder, environment)
         else:
             last, said = python.run(step.text)
         asked = index + 1 < len(todo) and todo[index + 1].text == _ASK
@@ -159,11 +163,11 @@ class Interpreter:
         "    print(json.dumps([code, said.getvalue()]), flush=True)\n"
     )
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, environment: dict[str, str]) -> None:
         self._process = subprocess.Popen(
-            [sys.executable, "-c", self._LOOP],
+            ["bash", "-c", 'exec python -c "$0"', self._LOOP],
             cwd=folder,
-            env=_environment(folder),
+            env=environment,
             text=True,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -183,9 +187,9 @@ class Interpreter:
         self._process.communicate()
 
 
-def _environment(folder: Path) -> dict[str, str]:
+def _environment(folder: Path, programs: Path) -> dict[str, str]:
     return os.environ | {
-        "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
+        "PATH": os.pathsep.join([str(programs), str(PROGRAMS), os.environ["PATH"]]),
         "NO_COLOR": "1",
         "COLUMNS": "100",
         "LAMBDA_BEARING_DATA": str(folder / ".data"),
@@ -193,12 +197,12 @@ def _environment(folder: Path) -> dict[str, str]:
     }
 
 
-def _type(command: str, folder: Path) -> tuple[int, str]:
+def _type(command: str, folder: Path, environment: dict[str, str]) -> tuple[int, str]:
     """Run a command line; return its exit code and what it said on both streams."""
     done = subprocess.run(
         ["bash", "-c", command],
         cwd=folder,
-        env=_environment(folder),
+        env=environment,
         text=True,
         check=False,
         stdout=subprocess.PIPE,

@@ -237,8 +237,12 @@ def report(source: str | Path, out: str | Path | None = None, *, overwrite: bool
 
 
 def _refuse_existing(path: Path, overwrite: bool) -> None:
+    """Say before the work what would stop it at its end."""
     if path.exists() and not overwrite:
         raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
+    folder = path.absolute().parent
+    if not folder.is_dir():
+        raise UsageError(f"cannot write {path}: the folder {folder} does not exist")
 
 
 def subject_of(source: str | Path | Sequence[str | Path]) -> tuple[Any, Subject]:

@@ -114,12 +114,10 @@ class Director:
 
     def _again(self, task: Task) -> Outcome:
         for _ in range(_TRIES):
-            self._executor = None
             try:
                 return self._submit(task).result()
             except BrokenProcessPool:
-                continue
-        self._executor = None
+                self._executor = None
         return _lost(task, "the worker process died on this point (killed, or out of memory)")
 
     def _take(self, outcome: Outcome) -> None:

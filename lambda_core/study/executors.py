@@ -18,6 +18,7 @@ from typing import Any
 
 from lambda_core.errors import UsageError
 
+_PATIENCE = 20.0  # with a scheduler that does not answer [s]
 _ONE_THREAD = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -126,9 +127,9 @@ class Dask(Pool):
         options: dict[str, Any] = {"set_as_default": False}
         try:
             if address.endswith(".json"):
-                self._client: Any = distributed.Client(scheduler_file=address, timeout=20, **options)
+                self._client: Any = distributed.Client(scheduler_file=address, timeout=_PATIENCE, **options)
             elif address:
-                self._client = distributed.Client(address, timeout=20, **options)
+                self._client = distributed.Client(address, timeout=_PATIENCE, **options)
             else:
                 self._cluster = distributed.LocalCluster(
                     n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=40

@@ -5,16 +5,19 @@ from __future__ import annotations
 import json
 import os
 import signal
-import subprocess
-import sys
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 from lambda_cli.main import main
+from warm import PROGRAM
 
 from lambda_core import api
+
+if TYPE_CHECKING:
+    from warm import Started, Warm
 
 CASE = "6208-axial-700"
 SHORT = ["--duration", "5 ms"]
@@ -38,12 +41,7 @@ def same(one: dict[str, np.ndarray], other: dict[str, np.ndarray]) -> None:
         assert values.tobytes() == other[name].tobytes(), name
 
 
-def start(*arguments: str) -> subprocess.Popen[str]:
-    command = [sys.executable, "-m", "lambda_cli", *arguments]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-
-
-def wait_for_samples(path: Path, process: subprocess.Popen[str]) -> None:
+def wait_for_samples(path: Path, process: Started) -> None:
     """Wait until a run has put something on disk."""
     while not path.exists() or api.result(path).status().rows.samples < 2:
         assert process.poll() is None, process.communicate()
@@ -101,13 +99,12 @@ def test_progress_as_json_is_one_object_per_line(capsys: pytest.CaptureFixture[s
 
 
 @pytest.mark.parametrize("colour", [True, False])
-def test_a_terminal_shows_a_bar_with_the_time_left(colour: bool, in_folder: Path) -> None:
+def test_a_terminal_shows_a_bar_with_the_time_left(colour: bool, warm: Warm) -> None:
     """Through a pseudo-terminal; NO_COLOR leaves the movement and takes the colours."""
     pty = pytest.importorskip("pty")
     terminal, end = pty.openpty()
     environment = {**os.environ, "TERM": "xterm", "COLUMNS": "100"} | ({} if colour else {"NO_COLOR": "1"})
-    command = [sys.executable, "-m", "lambda_cli", "run", CASE, "--duration", "30 ms"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=end, env=environment)
+    process = warm.start(PROGRAM, "run", CASE, "--duration", "30 ms", env=environment, stderr=end)
     os.close(end)
     seen = b""
     while True:
@@ -127,7 +124,7 @@ def test_a_terminal_shows_a_bar_with_the_time_left(colour: bool, in_folder: Path
     assert "cage rev" in text
     assert ("\x1b[38;5;" in text or "\x1b[38;2;" in text or "\x1b[3" in text) is colour
     assert "6208 (Syla2026)" in text
-    assert b"\x1b" not in out
+    assert "\x1b" not in out
 
 
 def test_results_are_numbered_and_never_overwritten(capsys: pytest.CaptureFixture[str], in_folder: Path) -> None:
@@ -210,10 +207,11 @@ def test_resume_refuses_what_would_be_another_run(
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
-def test_an_interrupted_run_is_readable_and_goes_on_bit_for_bit(number: int, in_folder: Path) -> None:
+def test_an_interrupted_run_is_readable_and_goes_on_bit_for_bit(number: int, warm: Warm, in_folder: Path) -> None:
     """A long run in a process of its own, interrupted on its way, goes on for another 5 ms."""
     path = in_folder / "part.h5"
-    process = start("run", CASE, "--duration", "5 s", "--set", "output.checkpoint_interval=0.05 s", "--out", str(path))
+    options = ("--duration", "5 s", "--set", "output.checkpoint_interval=0.05 s", "--out", str(path))
+    process = warm.start(PROGRAM, "run", CASE, *options)
     wait_for_samples(path, process)
     os.kill(process.pid, number)
     out, err = process.communicate()

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import page_examples as examples
 import pytest
 
 from lambda_core import api
+
+if TYPE_CHECKING:
+    from warm import Warm
 
 DOCS = examples.DOCS
 PAGES = examples.pages()
@@ -17,27 +21,26 @@ NOT_RUN = {"quickstart.md": 1, "contributing.md": 2}
 
 
 @pytest.fixture(scope="module")
-def compiled() -> None:
+def programs(warm: Warm) -> Path:
     """Everything is compiled beforehand: no page shows the sentence that announces it."""
     api.warmup()
+    return warm.ready().path
 
 
-@pytest.mark.usefixtures("compiled")
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("name", NAMES)
-def test_the_page_is_right(name: str, tmp_path: Path) -> None:
-    differences = examples.follow(DOCS / name, tmp_path, slow=False)
+def test_the_page_is_right(name: str, programs: Path, tmp_path: Path) -> None:
+    differences = examples.follow(DOCS / name, tmp_path, False, programs)
     assert not differences, "\n\n".join(map(str, differences))
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("compiled")
 @pytest.mark.timeout(1800)
 @pytest.mark.parametrize(
     "name", [n for n, p in zip(NAMES, PAGES, strict=True) if any(s.slow for s in examples.steps(p))]
 )
-def test_the_whole_page_is_right(name: str, tmp_path: Path) -> None:
-    differences = examples.follow(DOCS / name, tmp_path, slow=True)
+def test_the_whole_page_is_right(name: str, programs: Path, tmp_path: Path) -> None:
+    differences = examples.follow(DOCS / name, tmp_path, True, programs)
     assert not differences, "\n\n".join(map(str, differences))
 
 

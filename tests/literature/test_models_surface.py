@@ -145,7 +145,7 @@ def test_a_defect_is_struck_at_the_ball_pass_frequency(ring: str) -> None:
     """BPFO = Z f_c, BPFI = Z (f_i - f_c) (Harris and Kotzalas 2006, section 8.3): all lines of the axial vibration."""
     found = vibration(
         ring, "models.surface=defect", "parameters.surface.width=0.6 mm", "parameters.surface.azimuth=30 deg",
-        duration=0.5,
+        duration=0.3,
     )  # fmt: skip
     passing = found.balls * (found.cage if ring == "outer" else found.inner - found.cage)
     harmonic = found.strongest(0) / passing

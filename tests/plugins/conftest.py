@@ -6,12 +6,13 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
+from warm import PROGRAM, Warm
 
 PYPROJECT = """
 [build-system]
@@ -65,11 +66,12 @@ class Answer:
 class Installation:
     """A folder with installed third-party packages, seen by new processes."""
 
-    target: Path
+    path: str  # where Python finds them
+    warm: Warm
 
     def python(self, code: str, *arguments: str, **environment: str) -> Answer:
         """Run Python code in a new process that sees the packages."""
-        env = os.environ | {"PYTHONPATH": str(self.target)} | environment
+        env = os.environ | {"PYTHONPATH": self.path} | environment
         done = subprocess.run(
             [sys.executable, "-c", code, *arguments], env=env, capture_output=True, text=True, check=False
         )
@@ -77,17 +79,25 @@ class Installation:
         return Answer(done.returncode, done.stdout, done.stderr)
 
     def program(self, *arguments: str, **environment: str) -> Answer:
-        """Run ``lambda-bearing`` in a new process that sees the packages."""
-        return self.python("from lambda_cli.main import main; raise SystemExit(main())", *arguments, **environment)
+        """Run ``lambda-bearing`` in a process of its own that sees the packages."""
+        process = self.warm.start(PROGRAM, *arguments, env=environment)
+        out, said = process.communicate()
+        assert "Traceback" not in said, said
+        return Answer(process.returncode, out, said)
 
 
 @pytest.fixture(scope="session")
-def install(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Sequence[Path]], Installation]:
+def install(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[Sequence[Path]], Installation]]:
     """Install packages into a new folder."""
+    servers = []
 
     def installed(sources: Sequence[Path]) -> Installation:
         target = tmp_path_factory.mktemp("site")
         pip_install(target, sources)
-        return Installation(target)
+        path = os.pathsep.join([str(target), *filter(None, [os.environ.get("PYTHONPATH")])])
+        servers.append(Warm(tmp_path_factory.mktemp("warm"), {"PYTHONPATH": path}))
+        return Installation(path, servers[-1])
 
-    return installed
+    yield installed
+    for server in servers:
+        server.close()

@@ -12,6 +12,7 @@ import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,9 @@ from lambda_core.simulate.provenance import Provenance
 
 FloatArray = NDArray[np.float64]
 MakeProvenance = Callable[..., Provenance]
+# The engine in a process of its own: what fake_run.py does.
+_HERE = str(Path(__file__).parent)
+FAKE_RUN = f"import sys; sys.path.insert(0, {_HERE!r}); from fake_run import main; raise SystemExit(main())"
 
 
 @dataclass(frozen=True)

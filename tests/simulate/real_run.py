@@ -9,7 +9,7 @@ from lambda_core import api
 from lambda_core.physics.compiled.entry import core
 
 CASE = "6208-axial-700"
-DURATION = 2.0  # [s]
+DURATION = 0.8  # [s]
 CHANGES = (f"solver.duration={DURATION} s", "output.checkpoint_interval=0.02 s")
 
 

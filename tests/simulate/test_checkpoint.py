@@ -11,11 +11,12 @@ import sys
 import time
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import h5py
 import numpy as np
 import pytest
-from fake_engine import FakeEngine, MakeProvenance, Truth
+from fake_engine import FAKE_RUN, FakeEngine, MakeProvenance, Truth
 
 from lambda_core.errors import UsageError
 from lambda_core.simulate import layout
@@ -24,7 +25,9 @@ from lambda_core.simulate.results import Result, ResultError
 from lambda_core.simulate.run import resume, run
 from lambda_core.simulate.status import Rows
 
-HERE = Path(__file__).parent
+if TYPE_CHECKING:
+    from warm import Started, Warm
+
 SLOW = Truth(noise=0.5, slowness=2e-4)
 DURATION = 0.35
 WANTED = {"truth": {"noise": 0.5, "slowness": 2e-4}, "solver": {"duration": DURATION}, "checkpoint_interval": 0.01}
@@ -54,20 +57,18 @@ def undisturbed(resolved, tmp_path_factory: pytest.TempPathFactory) -> dict[str,
     return growing(path)
 
 
-def start(verb: str, path: Path, wanted: dict[str, object] = WANTED) -> subprocess.Popen[str]:
+def start(warm: Warm, verb: str, path: Path, wanted: dict[str, object] = WANTED) -> Started:
     """Start a run in a process of its own and wait until it is about to integrate."""
-    command = [sys.executable, str(HERE / "fake_run.py"), verb, str(path), json.dumps(wanted)]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert process.stdout is not None
+    process = warm.start(FAKE_RUN, verb, str(path), json.dumps(wanted))
     assert process.stdout.readline() == "ready\n"
     return process
 
 
-def kill_and_resume(path: Path, delays: list[float], reference: dict[str, np.ndarray]) -> None:
+def kill_and_resume(warm: Warm, path: Path, delays: list[float], reference: dict[str, np.ndarray]) -> None:
     """Kill a run and its continuations after the given times, then let one finish."""
     verb = "run"
     for delay in delays:
-        process = start(verb, path)
+        process = start(warm, verb, path)
         time.sleep(delay)
         process.kill()
         process.communicate()
@@ -76,7 +77,7 @@ def kill_and_resume(path: Path, delays: list[float], reference: dict[str, np.nda
             if Result(path).status().state == "finished":
                 break
     if verb == "run" or Result(path).status().state != "finished":
-        process = start(verb, path)
+        process = start(warm, verb, path)
         _, errors = process.communicate()
         assert process.returncode == 0, errors
     same(path, reference)
@@ -84,21 +85,21 @@ def kill_and_resume(path: Path, delays: list[float], reference: dict[str, np.nda
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_kill_at_random_moments(seed: int, tmp_path: Path, undisturbed: dict[str, np.ndarray]) -> None:
+def test_kill_at_random_moments(seed: int, warm: Warm, tmp_path: Path, undisturbed: dict[str, np.ndarray]) -> None:
     chance = random.Random(seed)
-    kill_and_resume(tmp_path / "r.h5", [chance.uniform(0.0, 0.35) for _ in range(4)], undisturbed)
+    kill_and_resume(warm, tmp_path / "r.h5", [chance.uniform(0.0, 0.35) for _ in range(4)], undisturbed)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(100, 125))
-def test_kill_a_hundred_times(seed: int, tmp_path: Path, undisturbed: dict[str, np.ndarray]) -> None:
+def test_kill_a_hundred_times(seed: int, warm: Warm, tmp_path: Path, undisturbed: dict[str, np.ndarray]) -> None:
     chance = random.Random(seed)
-    kill_and_resume(tmp_path / "r.h5", [chance.uniform(0.0, 0.35) for _ in range(4)], undisturbed)
+    kill_and_resume(warm, tmp_path / "r.h5", [chance.uniform(0.0, 0.35) for _ in range(4)], undisturbed)
 
 
-def test_a_killed_run_is_readable_and_not_alive(tmp_path: Path) -> None:
+def test_a_killed_run_is_readable_and_not_alive(warm: Warm, tmp_path: Path) -> None:
     path = tmp_path / "r.h5"
-    process = start("run", path)
+    process = start(warm, "run", path)
     time.sleep(0.3)
     assert Result(path).status().alive()
     with pytest.raises(ResultError, match=f"still being written by process {process.pid}"):
@@ -117,10 +118,10 @@ def test_a_killed_run_is_readable_and_not_alive(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_ctrl_c_keeps_a_readable_result_that_continues(
-    number: int, tmp_path: Path, undisturbed: dict[str, np.ndarray]
+    number: int, warm: Warm, tmp_path: Path, undisturbed: dict[str, np.ndarray]
 ) -> None:
     path = tmp_path / "r.h5"
-    process = start("run", path, {**WANTED, "checkpoint_interval": 1e9})
+    process = start(warm, "run", path, {**WANTED, "checkpoint_interval": 1e9})
     time.sleep(0.25)
     os.kill(process.pid, number)
     _, errors = process.communicate()
@@ -130,7 +131,7 @@ def test_ctrl_c_keeps_a_readable_result_that_continues(
     assert "stopped by" in result.summary().reasons[0]
     with h5py.File(path) as file:  # closed and compressed like any finished result
         assert file["load"].compression == "gzip"
-    process = start("resume", path)
+    process = start(warm, "resume", path)
     _, errors = process.communicate()
     assert process.returncode == 0, errors
     same(path, undisturbed)

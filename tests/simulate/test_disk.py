@@ -4,64 +4,64 @@ from __future__ import annotations
 
 import json
 import random
-import subprocess
-import sys
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
+from fake_engine import FAKE_RUN
 
 from lambda_core.simulate.results import Result
 
-HERE = Path(__file__).parent
+if TYPE_CHECKING:
+    from warm import Warm
+
 # The first object of a result file to the last sample of this run span this many bytes.
 LIMITS = [3_000, 1_100_000, *sorted(random.Random(1).sample(range(1_200_000, 12_000_000), 4))]
 WANTED = {"solver": {"duration": 1.2}, "checkpoint_interval": 0.03}
 
 
-def run(verb: str, path: Path, **wanted: object) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, str(HERE / "fake_run.py"), verb, str(path), json.dumps(wanted)]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
+def run(warm: Warm, verb: str, path: Path, **wanted: object) -> tuple[int | None, str]:
+    """Run or resume; return the exit code and what was said."""
+    process = warm.start(FAKE_RUN, verb, str(path), json.dumps(wanted))
+    _, said = process.communicate()
+    return process.returncode, said
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> Result:
+def whole(warm: Warm, tmp_path_factory: pytest.TempPathFactory) -> Result:
     """The same run with room enough."""
     path = tmp_path_factory.mktemp("whole") / "r.h5"
-    assert run("run", path, **WANTED).returncode == 0
+    assert run(warm, "run", path, **WANTED) == (0, "")
     return Result(path)
 
 
 @pytest.mark.parametrize("limit", LIMITS)
-def test_a_full_disk_at_any_point(limit: int, tmp_path: Path, whole: Result) -> None:
+def test_a_full_disk_at_any_point(limit: int, warm: Warm, tmp_path: Path, whole: Result) -> None:
     path = tmp_path / "r.h5"
-    done = run("run", path, limit=limit, **WANTED)
-    assert "Traceback" not in done.stderr
+    code, said = run(warm, "run", path, limit=limit, **WANTED)
+    assert "Traceback" not in said
     assert [p.name for p in tmp_path.iterdir()] in ([], ["r.h5"])  # no half-written copies
-    if done.returncode == 2:  # not even the frame of the file had room
-        assert f"cannot write {path}: File too large" in done.stderr
+    if code == 2:  # not even the frame of the file had room
+        assert f"cannot write {path}: File too large" in said
         assert not path.exists()
         return
-    assert done.returncode == 5, done.stderr
-    assert f"cannot write {path}: File too large; what was written before is kept" in done.stderr
+    assert code == 5, said
+    assert f"cannot write {path}: File too large; what was written before is kept" in said
     result = Result(path)
     status = result.status()
     for channel in result.channels:
         assert len(result[channel.name]) == status.rows.samples
     assert status.state == "stopped"
-    resumed = run("resume", path, **WANTED)  # with room again
-    assert resumed.returncode == 0, resumed.stderr
+    assert run(warm, "resume", path, **WANTED) == (0, "")  # with room again
     for channel in result.channels:
         assert Result(path)[channel.name].tobytes() == whole[channel.name].tobytes()
 
 
-def test_a_result_deleted_during_the_run_is_said(tmp_path: Path) -> None:
+def test_a_result_deleted_during_the_run_is_said(warm: Warm, tmp_path: Path) -> None:
     path = tmp_path / "r.h5"
-    command = [sys.executable, str(HERE / "fake_run.py"), "run", str(path)]
     wanted = {"solver": {"duration": 0.2}, "truth": {"slowness": 1e-3}}
-    process = subprocess.Popen(
-        [*command, json.dumps(wanted)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
+    process = warm.start(FAKE_RUN, "run", str(path), json.dumps(wanted))
     while not path.exists():
         assert process.poll() is None
     time.sleep(0.2)

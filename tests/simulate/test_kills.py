@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import random
-import subprocess
-import sys
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 from real_run import CASE, CHANGES
 
 from lambda_core import api
+
+if TYPE_CHECKING:
+    from warm import Started, Warm
 
 HERE = Path(__file__).parent
 KILLS = 5  # of one run and its continuations
@@ -36,16 +38,14 @@ def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Series:
     return growing(path)
 
 
-def start(verb: str, path: Path) -> subprocess.Popen[str]:
+def start(warm: Warm, verb: str, path: Path) -> Started:
     """Start a process and wait until it is about to begin."""
-    command = [sys.executable, str(HERE / "real_run.py"), verb, str(path)]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert process.stdout is not None
+    process = warm.start((HERE / "real_run.py").read_text(encoding="utf-8"), verb, str(path))
     assert process.stdout.readline() == "ready\n", process.communicate()[1]
     return process
 
 
-def wait_for_life(path: Path, process: subprocess.Popen[str]) -> None:
+def wait_for_life(path: Path, process: Started) -> None:
     """Wait until the process has the file in its hands, or has ended."""
     while process.poll() is None:
         if path.exists():
@@ -63,14 +63,14 @@ def is_beginning_of(found: Series, whole: Series) -> None:
     assert found["integrals"][:-1].tobytes() == whole["integrals"][: len(found["integrals"]) - 1].tobytes()
 
 
-def kill_and_resume(path: Path, chance: random.Random, whole: Series) -> tuple[int, int]:
+def kill_and_resume(warm: Warm, path: Path, chance: random.Random, whole: Series) -> tuple[int, int]:
     """Kill a run and its continuations, look at what each leaves, let the last one finish.
 
     Returns the number of kills, and of those that struck between the first sample and the end.
     """
     verb, kills, midway = "run", 0, 0
     for _ in range(KILLS):
-        process = start(verb, path)
+        process = start(warm, verb, path)
         if chance.random() > EARLY:
             wait_for_life(path, process)
         time.sleep(chance.uniform(0.0, LONGEST))
@@ -85,7 +85,7 @@ def kill_and_resume(path: Path, chance: random.Random, whole: Series) -> tuple[i
                 break
             midway += status.rows.samples > 1
     if verb == "run" or api.result(path).status().state != "finished":
-        process = start(verb, path)
+        process = start(warm, verb, path)
         _, errors = process.communicate()
         assert process.returncode == 0, errors
     found = growing(path)
@@ -96,17 +96,17 @@ def kill_and_resume(path: Path, chance: random.Random, whole: Series) -> tuple[i
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_twenty_kills(seed: int, tmp_path: Path, undisturbed: Series) -> None:
-    _, midway = kill_and_resume(tmp_path / "r.h5", random.Random(seed), undisturbed)
+def test_twenty_kills(seed: int, warm: Warm, tmp_path: Path, undisturbed: Series) -> None:
+    _, midway = kill_and_resume(warm, tmp_path / "r.h5", random.Random(seed), undisturbed)
     assert midway > 0
 
 
 @pytest.mark.slow
 @pytest.mark.timeout(1800)
-def test_a_hundred_kills(tmp_path: Path, undisturbed: Series) -> None:
+def test_a_hundred_kills(warm: Warm, tmp_path: Path, undisturbed: Series) -> None:
     counts, seed = np.zeros(2, dtype=int), 1000
     while counts[0] < 100:
-        counts += kill_and_resume(tmp_path / f"{seed}.h5", random.Random(seed), undisturbed)
+        counts += kill_and_resume(warm, tmp_path / f"{seed}.h5", random.Random(seed), undisturbed)
         seed += 1
     assert counts[1] >= 50, counts  # the others struck before the first sample, or after the end
     print(f"{counts[0]} kills, {counts[1]} of them between the first sample and the end")

@@ -17,6 +17,7 @@ from typing import Any
 
 import pytest
 from studies import MAP, RUNS
+from warm import PROGRAM, Warm
 
 from lambda_core import api
 from lambda_core.errors import UsageError
@@ -76,8 +77,11 @@ def test_a_dask_cluster_gives_the_same_table(write: Write, tmp_path: Path, refer
     assert numbers(tmp_path / "map") == reference["map"]
 
 
-def test_a_scheduler_that_does_not_answer_is_named(write: Write, tmp_path: Path) -> None:
+def test_a_scheduler_that_does_not_answer_is_named(
+    write: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     pytest.importorskip("distributed")
+    monkeypatch.setattr("lambda_core.study.executors._PATIENCE", 2.0)
     path = write(MAP.replace("points = 3", "points = 2"))
     with pytest.raises(UsageError, match="no dask scheduler answers at"):
         api.study_run(path, tmp_path / "map", executor="tcp://127.0.0.1:9")
@@ -85,17 +89,17 @@ def test_a_scheduler_that_does_not_answer_is_named(write: Write, tmp_path: Path)
         api.study_run(path, tmp_path / "other", executor="slurm")
 
 
-def started(path: Path, folder: Path, *options: str) -> subprocess.Popen[bytes]:
-    """Start a study in a session of its own, so that it can be killed with everything that it started."""
-    command = [sys.executable, "-m", "lambda_cli", "study", "run", str(path), "--out", str(folder), "--quiet", *options]
-    # A shell that started the tests in the background has told them to ignore Ctrl+C, and children inherit that.
-    return subprocess.Popen(
-        command,
-        start_new_session=True,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )
+Start = Callable[..., Any]
+
+
+@pytest.fixture
+def start(warm: Warm) -> Start:
+    """Start a command of studies in a session of its own, so that it can be killed with everything that it started."""
+
+    def started(verb: str, what: Path, *options: str) -> Any:
+        return warm.start(f"import os; os.setsid(); {PROGRAM}", "study", verb, str(what), "--quiet", *options)
+
+    return started
 
 
 def wait_for(condition: Callable[[], bool], seconds: float = 120.0) -> None:
@@ -109,38 +113,39 @@ def files(folder: Path) -> int:
     return len(list((folder / "runs").glob("[!.]*.h5"))) if (folder / "runs").is_dir() else 0
 
 
-def _further(folder: Path, runs: int, study: subprocess.Popen[bytes]) -> bool:
+def _further(folder: Path, runs: int, study: Any) -> bool:
     return files(folder) > runs or study.poll() is not None
 
 
-def killed_and_resumed(path: Path, folder: Path, kills: int, seed: int) -> None:
+def killed_and_resumed(start: Start, path: Path, folder: Path, kills: int, seed: int) -> None:
     """Kill a study at random moments, everything that belongs to it at once, and go on each time."""
     chance = random.Random(seed)
-    study = started(path, folder, "--workers", "2")
+    study = start("run", path, "--out", str(folder), "--workers", "2")
     for kill in range(kills):
         wait_for(partial(_further, folder, kill, study))
         time.sleep(chance.uniform(0.0, 0.4))
         os.killpg(study.pid, signal.SIGKILL)
         study.wait()
         if kill < kills - 1:
-            command = [sys.executable, "-m", "lambda_cli", "study", "resume", str(folder), "--quiet", "--workers", "2"]
-            study = subprocess.Popen(
-                command, start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-            )
+            study = start("resume", folder, "--workers", "2")
     api.study_resume(folder, workers=2)
 
 
-def test_a_killed_study_goes_on_to_the_same_table(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
+def test_a_killed_study_goes_on_to_the_same_table(
+    start: Start, write: Write, tmp_path: Path, reference: dict[str, Any]
+) -> None:
     folder = tmp_path / "killed"
-    killed_and_resumed(write(RUNS.format(duration="0.02 s", speeds=2, loads=3)), folder, 1, seed=1)
+    killed_and_resumed(start, write(RUNS.format(duration="0.02 s", speeds=2, loads=3)), folder, 1, seed=1)
     assert differences(numbers(folder), reference["runs"]) == []
 
 
 @pytest.mark.slow
-def test_24_runs_killed_three_times_end_with_the_same_table(write: Write, tmp_path: Path, inline: Executor) -> None:
+def test_24_runs_killed_three_times_end_with_the_same_table(
+    start: Start, write: Write, tmp_path: Path, inline: Executor
+) -> None:
     path = write(RUNS.format(duration="0.05 s", speeds=4, loads=6))
     api.study_run(path, tmp_path / "undisturbed", executor=inline)
-    killed_and_resumed(path, tmp_path / "killed", 3, seed=24)
+    killed_and_resumed(start, path, tmp_path / "killed", 3, seed=24)
     assert numbers(tmp_path / "killed") == numbers(tmp_path / "undisturbed")
     assert len(numbers(tmp_path / "killed")) == 24
 
@@ -160,15 +165,16 @@ def children(pid: int) -> list[int]:
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks for workers in /proc")
-def test_a_lost_worker_loses_no_point(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
+def test_a_lost_worker_loses_no_point(start: Start, write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
     folder = tmp_path / "lost"
-    study = started(write(RUNS.format(duration="0.02 s", speeds=2, loads=3)), folder, "--workers", "2")
+    path = write(RUNS.format(duration="0.02 s", speeds=2, loads=3))
+    study = start("run", path, "--out", str(folder), "--workers", "2")
     try:
         wait_for(lambda: files(folder) > 0 or study.poll() is not None)
         workers = children(study.pid)
         assert workers
         os.kill(workers[0], signal.SIGKILL)
-        study.wait(timeout=200)
+        assert study.wait(timeout=200) is not None
     finally:
         if study.poll() is None:
             os.killpg(study.pid, signal.SIGKILL)
@@ -177,9 +183,10 @@ def test_a_lost_worker_loses_no_point(write: Write, tmp_path: Path, reference: d
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks for workers in /proc")
-def test_workers_do_not_outlive_their_director(write: Write, tmp_path: Path) -> None:
+def test_workers_do_not_outlive_their_director(start: Start, write: Write, tmp_path: Path) -> None:
     folder = tmp_path / "orphans"
-    study = started(write(RUNS.format(duration="5 s", speeds=2, loads=1).replace("points = 1", "points = 2")), folder)
+    path = write(RUNS.format(duration="5 s", speeds=2, loads=1).replace("points = 1", "points = 2"))
+    study = start("run", path, "--out", str(folder), "--workers", "2")
     wait_for(lambda: files(folder) > 0 or study.poll() is not None)
     workers = children(study.pid)
     assert workers
@@ -189,10 +196,10 @@ def test_workers_do_not_outlive_their_director(write: Write, tmp_path: Path) -> 
     assert api.study_status(folder).pending == 4
 
 
-def test_ctrl_c_stops_the_runs_in_hand_and_begins_no_other(write: Write, tmp_path: Path) -> None:
+def test_ctrl_c_stops_the_runs_in_hand_and_begins_no_other(start: Start, write: Write, tmp_path: Path) -> None:
     folder = tmp_path / "stopped"
     text = RUNS.format(duration="5 s", speeds=2, loads=2)
-    study = started(write(text), folder, "--workers", "1")
+    study = start("run", write(text), "--out", str(folder), "--workers", "1")
     wait_for(lambda: files(folder) > 0 or study.poll() is not None)
     time.sleep(1.0)  # the run is under way
     begin = time.monotonic()
@@ -270,8 +277,9 @@ def test_a_map_of_500_points_within_30_seconds_on_two_cores(tmp_path: Path) -> N
     path = Path(__file__).parents[2] / "examples" / "studies" / "friction-map.toml"
     api.study_check(path)  # compiled beforehand, as by `lambda-bearing warmup`
     begin, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
-    study = started(path, tmp_path / "map", "--workers", "2")
-    assert study.wait(timeout=200) == 0
+    command = [sys.executable, "-m", "lambda_cli", "study", "run", str(path), "--quiet", "--workers", "2"]
+    done = subprocess.run([*command, "--out", str(tmp_path / "map")], capture_output=True, check=False)
+    assert done.returncode == 0
     seconds, after = time.perf_counter() - begin, resource.getrusage(resource.RUSAGE_CHILDREN)
     if os.getloadavg()[0] > (os.cpu_count() or 1):
         seconds = 0.5 * (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)

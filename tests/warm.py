@@ -1,0 +1,246 @@
+"""A loaded interpreter that forks: tests that start the program many times wait for its imports once.
+
+Every process is one of its own all the same: with its own number, folder, environment, streams, signals and exit code.
+Tests of the start itself (what is imported, how long it takes, other caches) start Python afresh.
+
+``python warm.py SOCKET`` is the server; :class:`Warm` starts it and asks it.
+"""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import gc
+import importlib
+import json
+import os
+import select
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import types
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+PROGRAM = "from lambda_cli.main import main; raise SystemExit(main())"
+_LOADED = """
+numba numpy scipy.integrate scipy.optimize h5py sqlalchemy.orm typer rich.progress
+matplotlib.figure matplotlib.backends.backend_svg matplotlib.backends.backend_agg
+lambda_cli.commands lambda_core.api lambda_core.simulate.run lambda_core.simulate.results lambda_db.catalogue
+"""
+_HAS_FORK = sys.platform == "linux"
+# Stands in for the installed command and for `python -c`: hands everything that makes a process to the server.
+_SHIM = """#!{python} -IS
+import json, os, socket, sys
+name, *words = os.path.basename(sys.argv[0]), *sys.argv[1:]
+if name == "python" and words[:1] != ["-c"]:
+    os.execv({python!r}, ["python", *words])
+code = words.pop(1) if name == "python" else {program!r}
+request = dict(code=code, argv=words if name == "python" else [name, *words], cwd=os.getcwd(), env=dict(os.environ))
+with socket.socket(socket.AF_UNIX) as server:
+    server.connect({address!r})
+    text = json.dumps(request).encode()
+    socket.send_fds(server, [len(text).to_bytes(8, "big")], [0, 1, 2])
+    server.sendall(text)
+    answers = server.makefile("r")
+    answers.readline()
+    code = int(answers.readline() or 1)
+sys.exit(code if code >= 0 else 128 - code)
+"""
+
+
+class Started:
+    """A process of the server, as :class:`subprocess.Popen` has them: output in a pipe, errors in a file."""
+
+    def __init__(self, connection: socket.socket, stdout: int, errors: Any) -> None:
+        self._answers = connection.makefile("r")
+        self._connection, self._errors = connection, errors
+        self.stdout = os.fdopen(stdout, "r", encoding="utf-8")
+        self.pid = int(self._answers.readline())
+        self.returncode: int | None = None
+
+    def poll(self) -> int | None:
+        """Return the exit code, None while it runs."""
+        return self.wait(0.0) if self.returncode is None else self.returncode
+
+    def wait(self, timeout: float | None = None) -> int | None:
+        """Wait for the end; return the exit code, negative for a signal, None when it still runs."""
+        if self.returncode is None and select.select([self._connection], [], [], timeout)[0]:
+            self.returncode = int(self._answers.readline())
+        return self.returncode
+
+    def kill(self) -> None:
+        """End it without a word."""
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self.pid, signal.SIGKILL)
+
+    def communicate(self) -> tuple[str, str]:
+        """Wait for the end; return what it still had to say."""
+        with self.stdout:
+            out = self.stdout.read()
+        self.wait()
+        self._connection.close()
+        with self._errors:
+            self._errors.seek(0)
+            return out, self._errors.read()
+
+
+class Warm:
+    """The server, and the way to ask it; `path` is a folder of commands to put in front of PATH."""
+
+    def __init__(self, folder: Path, env: Mapping[str, str] | None = None) -> None:
+        self._address = str(folder / "warm")
+        self._own = dict(env or {})
+        self.path = folder / "bin"
+        self.path.mkdir()
+        self._server: subprocess.Popen[str] | None = None
+        if _HAS_FORK:
+            for name in ("lambda-bearing", "python"):
+                shim = self.path / name
+                shim.write_text(_SHIM.format(python=sys.executable, address=self._address, program=PROGRAM))
+                shim.chmod(0o755)
+
+    def ready(self) -> Warm:
+        """Start the server if it does not run yet."""
+        if _HAS_FORK and self._server is None:
+            self._server = subprocess.Popen(
+                [sys.executable, __file__, self._address],
+                env=os.environ | self._own | {"OPENBLAS_NUM_THREADS": "1"},
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                text=True,
+            )
+            assert self._server.stdout is not None
+            assert self._server.stdout.readline() == "ready\n"
+        return self
+
+    def start(
+        self,
+        code: str,
+        *arguments: str,
+        cwd: Path | None = None,
+        env: Mapping[str, str] | None = None,
+        stderr: int | None = None,
+    ) -> Any:
+        """Execute Python code in a process of its own, as ``python -c CODE ARGUMENTS`` would.
+
+        `stderr` is an open file; without one the errors come back from ``communicate``.
+        """
+        environment = os.environ | self._own | dict(env or {})
+        if not _HAS_FORK:
+            return subprocess.Popen(
+                [sys.executable, "-c", code, *arguments], cwd=cwd, env=environment, text=True,
+                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE if stderr is None else stderr,
+            )  # fmt: skip
+        self.ready()
+        connection = socket.socket(socket.AF_UNIX)
+        connection.connect(self._address)
+        request = {"code": code, "argv": ["-c", *arguments], "cwd": str(cwd or Path.cwd()), "env": environment}
+        text = json.dumps(request).encode()
+        reading, writing = os.pipe()
+        errors = tempfile.TemporaryFile("w+", encoding="utf-8")  # noqa: SIM115 - closed by whoever reads it
+        with open(os.devnull) as nothing:
+            fds = [nothing.fileno(), writing, errors.fileno() if stderr is None else stderr]
+            socket.send_fds(connection, [len(text).to_bytes(8, "big")], fds)
+        connection.sendall(text)
+        os.close(writing)
+        return Started(connection, reading, errors)
+
+    def close(self) -> None:
+        """End the server."""
+        if self._server is not None:
+            self._server.communicate()
+
+
+def serve(address: str) -> None:
+    """Fork a process for every request until the input is closed."""
+    for name in _LOADED.split():
+        importlib.import_module(name)
+    from lambda_core.physics.compiled.entry import core
+
+    core()
+    gc.freeze()
+    listener = socket.socket(socket.AF_UNIX)
+    listener.bind(address)
+    listener.listen()
+    waking, wake = os.pipe()
+    os.set_blocking(wake, False)
+    os.set_blocking(waking, False)
+    signal.set_wakeup_fd(wake)
+    signal.signal(signal.SIGCHLD, lambda *_: None)
+    children: dict[int, socket.socket] = {}
+    print("ready", flush=True)
+    while True:
+        known, _, _ = select.select([sys.stdin, listener, waking], [], [])
+        if waking in known:
+            with contextlib.suppress(BlockingIOError):
+                os.read(waking, 4096)
+        if listener in known:
+            connection = listener.accept()[0]
+            children[_fork(connection, [listener, *children.values()])] = connection
+        _bury(children)
+        if sys.stdin in known:
+            return
+
+
+def _fork(connection: socket.socket, others: list[socket.socket]) -> int:
+    size, fds, _, _ = socket.recv_fds(connection, 8, 3)
+    with connection.makefile("rb") as stream:
+        request = json.loads(stream.read(int.from_bytes(size, "big")))
+    pid = os.fork()
+    if pid == 0:
+        for other in (connection, *others):
+            other.close()
+        _become(request, fds)
+    for fd in fds:
+        os.close(fd)
+    connection.sendall(f"{pid}\n".encode())
+    return pid
+
+
+def _bury(children: dict[int, socket.socket]) -> None:
+    """Tell of every process that has ended how it did."""
+    for pid in list(children):
+        ended, status = os.waitpid(pid, os.WNOHANG)
+        if ended:
+            with contextlib.suppress(OSError), children.pop(pid) as connection:
+                connection.sendall(f"{os.waitstatus_to_exitcode(status)}\n".encode())
+
+
+def _become(request: dict[str, Any], fds: list[int]) -> None:
+    """Be the process that was asked for."""
+    signal.set_wakeup_fd(-1)
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    for target, fd in enumerate(fds):
+        os.dup2(fd, target)
+        os.close(fd)
+    sys.stdin, sys.stdout, sys.stderr = open(0), open(1, "w"), open(2, "w", buffering=1)  # noqa: SIM115
+    os.environ.clear()
+    os.environ.update(request["env"])
+    os.chdir(request["cwd"])
+    sys.argv = request["argv"]
+    sys.path[0] = ""
+    main = sys.modules["__main__"] = types.ModuleType("__main__")
+    code = 0
+    try:
+        exec(compile(request["code"], "<string>", "exec"), main.__dict__)
+    except SystemExit as end:
+        code = end.code if isinstance(end.code, int) else int(end.code is not None)
+    except BaseException:
+        sys.excepthook(*sys.exc_info())
+        code = 1
+    # The end of an interpreter, without taking apart all that is loaded.
+    threading._shutdown()  # type: ignore[attr-defined]
+    atexit._run_exitfuncs()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(code)
+
+
+if __name__ == "__main__":
+    serve(sys.argv[1])
