@@ -8,8 +8,8 @@ from functools import partial
 from benchmarks.cases import MIDDLE, Point
 from benchmarks.tables import Section, Table, Target
 from benchmarks.timing import Effort, best
-from lambda_core.physics.assembly import Kernels
 from lambda_core.physics.equilibrium import solve
+from lambda_core.physics.kernels import Kernels
 from lambda_core.physics.model import BearingModel
 from lambda_core.simulate.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.study.task import Task, work

@@ -55,7 +55,7 @@ def equilibrium_state(
 
 def comparison_inputs(equilibrium: Equilibrium, *, contamination: float | None = None) -> MethodInputs:
     """Collect what methods may look at of an equilibrium: loads, stiffness, oil, permittivity of the inner contact."""
-    from lambda_core.physics.assembly import build_context, prepare
+    from lambda_core.physics.law_inputs import build_context, prepare
     from lambda_core.physics.stiffness import stiffness_matrix
 
     assembly = equilibrium.assembly

@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.errors import SolverError
-from lambda_core.physics.assembly import Assembly, unit_grid
+from lambda_core.physics.assembly import Assembly
 from lambda_core.physics.channels import RINGS
-from lambda_core.physics.compiled import kinematics, raceway
 from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.compiled import probe
+from lambda_core.physics.contact_grid import unit_grid
 from lambda_core.physics.equilibrium import fault_sentence
 from lambda_core.registry.kernels import compile_host
 
@@ -116,20 +117,18 @@ def contact_field(
     """
     index, bundle, kernels = RINGS.index(which), assembly.bundle, assembly.kernels
     system: Any = bundle.system.view(np.recarray)[0]
-    kin = np.zeros(L.NKIN)
-    in_python = bundle._replace(system=bundle.system.view(np.recarray), laws=kernels.in_order("dispatcher"))
-    kinematics.surface_lift.py_func(ball, ring, index, in_python, kin)
-    if kinematics.contact_kinematics.py_func(ball, ring, index, system, kin) <= 0.0:
-        raise SolverError(f"the ball does not touch the {which} ring at this moment")
-    grid, laws = unit_grid(strips, rows), getattr(bundle.laws, which)
-    cells, scratch = np.zeros((L.N_CELL_ROWS, grid.shape[1])), np.zeros((L.N_SCRATCH, 64))
+    grid = unit_grid(strips, rows)
+    cells, scratch, losses = np.zeros((2, L.N_CELL_ROWS, grid.shape[1])), np.zeros_like(bundle.scratch), np.zeros(L.NL)
     scratch[L.FAULT, 0] = -1.0
-    scalars, wrench, losses = np.zeros(L.NC), np.zeros(64), np.zeros(L.NL)
-    run = compile_host(raceway.raceway_wrench, L.wrench_sig, Path(raceway.__file__).parent).dispatcher
-    if run(index, kin, laws, bundle.par, bundle.system, grid, cells, scratch, scalars, wrench) != 1:
+    finer = bundle._replace(grid=grid, cells=cells, scratch=scratch)
+    run = compile_host(probe.probe, probe.probe_sig, Path(probe.__file__).parent).dispatcher
+    status = run(np.ascontiguousarray(ball), np.ascontiguousarray(ring), index, finer, losses)
+    if status == -1:
+        raise SolverError(f"the ball does not touch the {which} ring at this moment")
+    if status != 1:
         bundle.scratch[L.FAULT] = scratch[L.FAULT]
         raise SolverError(fault_sentence(assembly))
-    raceway.raceway_losses.py_func(index, kin, system, grid, scalars, cells, losses)
+    scalars, cells = scratch[L.SCALARS], cells[0]
     a, b = float(scalars[L.C_A]), float(scalars[L.C_B])
 
     def mesh(values: FloatArray) -> FloatArray:

@@ -14,14 +14,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from lambda_core.errors import SolverError
-from lambda_core.physics import assembly as A
+from lambda_core.physics.assembly import Assembly, FloatArray, assemble
 from lambda_core.physics.compiled import layout as L
 from lambda_core.physics.compiled.arrow import make_factors
 from lambda_core.physics.compiled.entry import Core, core
+from lambda_core.physics.kernels import Announce, Kernels, check_laws, derive_oil
+from lambda_core.physics.law_inputs import ContactFrame, guides
 from lambda_core.physics.model import DOFS, BearingModel
 from lambda_core.physics.time_functions import initial
-
-FloatArray = A.FloatArray
 
 _FRAME_ITERATIONS = 4
 _FRAME_TOLERANCE = 1e-4  # [rad] change of the frozen contact angle that ends the iteration
@@ -51,7 +51,7 @@ class Equilibrium:
         False where only the normal forces are in equilibrium and the balls roll kinematically.
     """
 
-    assembly: A.Assembly
+    assembly: Assembly
     state: FloatArray
     contacts: FloatArray
     losses: FloatArray
@@ -69,8 +69,8 @@ class Equilibrium:
 
 def solve(
     model: BearingModel,
-    kernels: A.Kernels | None = None,
-    announce: A.Announce = None,
+    kernels: Kernels | None = None,
+    announce: Announce = None,
     *,
     strict: bool = True,
     phase: float = 0.0,
@@ -89,15 +89,15 @@ def solve(
     SolverError
         When there is none, with what was tried.
     """
-    kernels = kernels or A.Kernels(model, announce)
+    kernels = kernels or Kernels(model, announce)
     frame = _first_frame(model)
-    oil = A.derive_oil(model, kernels, frame)
+    oil = derive_oil(model, kernels, frame)
     # A law that breaks the rules is refused at once, not after the solver was compiled.
-    A.check_laws(model, kernels, frame, oil)
+    check_laws(model, kernels, frame, oil)
     compiled = core(announce)
     state: FloatArray | None = None
     for _ in range(_FRAME_ITERATIONS):
-        assembly = A.assemble(model, kernels, frame, oil)
+        assembly = assemble(model, kernels, frame, oil)
         if state is None:
             state = first_state(assembly, phase)
         _settle(compiled, assembly, state, friction=False)
@@ -107,7 +107,7 @@ def solve(
         frame = new
         if change < _FRAME_TOLERANCE:
             break
-    assembly = A.assemble(model, kernels, frame, oil)
+    assembly = assemble(model, kernels, frame, oil)
     assert state is not None
     _settle(compiled, assembly, state, friction=False)
     _roll(assembly, state)
@@ -126,14 +126,14 @@ def solve(
     return Equilibrium(assembly, state, contacts, losses, (x, y, z, tilt_y, tilt_z), orbit, iterations, converged)
 
 
-def _first_frame(model: BearingModel) -> A.ContactFrame:
+def _first_frame(model: BearingModel) -> ContactFrame:
     """Guess contact angle and load from the external loads at t = 0."""
     force = [initial(f) for f in model.inner_ring.force]
     force = [f + model.inner_ring.mass * a for f, a in zip(force, model.gravity, strict=True)]
     total = math.sqrt(sum(f * f for f in force))
     load = max(total * 3.0 / model.geometry.ball_count, 1.0)
     free = free_contact_angle(model) if abs(force[0]) > 0.1 * total else 0.0
-    return A.ContactFrame((free, free), (load, load))
+    return ContactFrame((free, free), (load, load))
 
 
 def free_contact_angle(model: BearingModel) -> float:
@@ -146,7 +146,7 @@ def free_contact_angle(model: BearingModel) -> float:
     return math.acos(max(-1.0, min(1.0, 1.0 - 0.5 * max(g.clearance, 0.0) / distance)))
 
 
-def first_state(assembly: A.Assembly, phase: float = 0.0) -> FloatArray:
+def first_state(assembly: Assembly, phase: float = 0.0) -> FloatArray:
     """Return balls evenly spaced, one of them lowest (moved on by `phase` pitches), the inner ring in contact."""
     model = assembly.model
     g = model.geometry
@@ -184,7 +184,7 @@ def first_state(assembly: A.Assembly, phase: float = 0.0) -> FloatArray:
     return y
 
 
-def _roll(assembly: A.Assembly, y: FloatArray) -> None:
+def _roll(assembly: Assembly, y: FloatArray) -> None:
     """Set orbital speeds and spins to pure rolling at the frozen contact angle, in place."""
     model = assembly.model
     g = model.geometry
@@ -199,7 +199,7 @@ def _roll(assembly: A.Assembly, y: FloatArray) -> None:
         y[o + L.BWX : o + 9] = spin * math.cos(angle), -spin * math.sin(angle), 0.0
 
 
-def _settle(compiled: Core, assembly: A.Assembly, state: FloatArray, *, friction: bool) -> FloatArray:
+def _settle(compiled: Core, assembly: Assembly, state: FloatArray, *, friction: bool) -> FloatArray:
     """Run the continuation from `state`, in place; returns its report."""
     system = assembly.bundle.system[0]
     system["friction_on"], system["guides_on"] = int(friction), 0
@@ -236,7 +236,7 @@ def _no_equilibrium(report: FloatArray, *, friction: bool) -> str:
     )
 
 
-def _contacts(compiled: Core, assembly: A.Assembly, state: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _contacts(compiled: Core, assembly: Assembly, state: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return contact channels (Z, 2, 16) and losses (16,) [W] at a state."""
     z, bundle = assembly.model.geometry.ball_count, assembly.bundle
     contacts, rates = np.zeros((1, z, 2, 16)), np.zeros((1, L.NI))
@@ -252,17 +252,17 @@ def _contacts(compiled: Core, assembly: A.Assembly, state: FloatArray) -> tuple[
     return contacts[0], rates[0, : L.NL].copy()
 
 
-def _frame_of(contacts: FloatArray, before: A.ContactFrame) -> A.ContactFrame:
+def _frame_of(contacts: FloatArray, before: ContactFrame) -> ContactFrame:
     """Return load-weighted contact angles (absolute) and mean loads of the loaded contacts."""
     angles, loads = [], []
     for i in range(2):
         load, angle = contacts[:, i, 0], np.abs(contacts[:, i, 1])
         angles.append(float(np.sum(load * angle) / np.sum(load)) if np.sum(load) > 0.0 else before.angles[i])
         loads.append(float(np.mean(load[load > 0.0])) if np.any(load > 0.0) else before.mean_loads[i])
-    return A.ContactFrame((angles[0], angles[1]), (loads[0], loads[1]))
+    return ContactFrame((angles[0], angles[1]), (loads[0], loads[1]))
 
 
-def fault_sentence(assembly: A.Assembly, time: float | None = None) -> str:
+def fault_sentence(assembly: Assembly, time: float | None = None) -> str:
     """Say which kernel refused, where, and with what inputs."""
     fault = assembly.bundle.scratch[L.FAULT]
     if fault[0] < 0.0:
@@ -272,7 +272,7 @@ def fault_sentence(assembly: A.Assembly, time: float | None = None) -> str:
     if role == "fluid_drag":
         element = "fluid_drag"
     elif role == "cage_contact":
-        element = {0: "cage_inner", 1: "cage_outer"}.get(which, A.guides(assembly.model)[0])
+        element = {0: "cage_inner", 1: "cage_outer"}.get(which, guides(assembly.model)[0])
     else:
         element = ("ball_inner", "ball_outer")[max(which, 0)]
     model = assembly.model.laws[element][role].model

@@ -22,8 +22,8 @@ from lambda_core.physics.assembly import Assembly
 from lambda_core.physics.compiled import bdf
 from lambda_core.physics.compiled import layout as L
 from lambda_core.physics.compiled.arrow import factors_t, make_factors
+from lambda_core.physics.compiled.blocks import blocks_t
 from lambda_core.physics.compiled.entry import core
-from lambda_core.physics.compiled.jacobian import blocks_t
 
 FloatArray = NDArray[np.float64]
 _FIELDS = (

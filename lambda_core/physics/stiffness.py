@@ -7,13 +7,11 @@ import dataclasses
 import numpy as np
 
 from lambda_core.errors import SolverError
-from lambda_core.physics import assembly as A
+from lambda_core.physics.assembly import Assembly, FloatArray, assemble
 from lambda_core.physics.compiled import layout as L
 from lambda_core.physics.compiled.entry import core
 from lambda_core.physics.equilibrium import Equilibrium, fault_sentence
 from lambda_core.physics.model import DofState
-
-FloatArray = A.FloatArray
 
 _FREED = ("x", "y", "z", "tilt_y", "tilt_z")
 # State that each displacement moves, and the sign: turning about +y moves a_z towards -, about +z moves a_y towards +.
@@ -47,7 +45,7 @@ def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
     model = found.model
     dofs = {**model.inner_ring.dofs, **dict.fromkeys(_FREED, DofState("free"))}
     freed = dataclasses.replace(model, inner_ring=dataclasses.replace(model.inner_ring, dofs=dofs))
-    assembly = A.assemble(freed, found.kernels, found.frame, found.oil)
+    assembly = assemble(freed, found.kernels, found.frame, found.oil)
     _forces_slope(assembly, _moved(equilibrium, assembly))
     try:
         matrix = _eliminated(assembly)
@@ -58,7 +56,7 @@ def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
     return tuple(tuple(float(value) for value in row) for row in matrix)
 
 
-def _moved(equilibrium: Equilibrium, assembly: A.Assembly) -> FloatArray:
+def _moved(equilibrium: Equilibrium, assembly: Assembly) -> FloatArray:
     """Return the equilibrium's state in the layout of the freed ring."""
     count = assembly.model.geometry.ball_count
     shared = np.zeros(3 * L.NS)
@@ -67,7 +65,7 @@ def _moved(equilibrium: Equilibrium, assembly: A.Assembly) -> FloatArray:
     return np.concatenate([equilibrium.state[: L.NB * count], shared[assembly.bundle.active]])
 
 
-def _forces_slope(assembly: A.Assembly, state: FloatArray) -> None:
+def _forces_slope(assembly: Assembly, state: FloatArray) -> None:
     """Fill the assembly's blocks with the Jacobian of the normal forces alone."""
     compiled, bundle = core(), assembly.bundle
     system = bundle.system[0]
@@ -79,7 +77,7 @@ def _forces_slope(assembly: A.Assembly, state: FloatArray) -> None:
     system["friction_on"], system["guides_on"] = 1, 1
 
 
-def _eliminated(assembly: A.Assembly) -> FloatArray:
+def _eliminated(assembly: Assembly) -> FloatArray:
     """Return the stiffness left when the balls' positions are eliminated, shape (5, 5)."""
     blocks, body = assembly.blocks, assembly.model.inner_ring
     index = blocks.index

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from lambda_core.physics.assembly import Assembly, max_speed
+from lambda_core.physics.assembly import Assembly
+from lambda_core.physics.law_inputs import max_speed
 
 _PLACES = 20_000  # azimuths at which a surface is looked at: 20 um apart on a raceway of 130 mm
 _STEPS = 4.0  # per length over which the surface changes, 25 per wave

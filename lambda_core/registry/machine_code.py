@@ -31,6 +31,7 @@ from numba.core.types.function_type import WrapperAddressProtocol
 from numba.extending import register_jitable
 
 from lambda_core.errors import UsageError
+from lambda_core.registry import inlined
 from lambda_core.registry.roles import Role
 
 _KEEP = 90.0 * 86400.0  # compiled code that was not used for this long is dropped [s]
@@ -51,7 +52,7 @@ def make_callable(helpers: tuple[FunctionType, ...]) -> None:
     """Let compiled kernels call plain Python functions; the functions themselves stay as they are."""
     for helper in helpers:
         if helper not in _known_helpers:
-            register_jitable(**OPTIONS)(helper)
+            register_jitable(**OPTIONS, **inlined.OPTIONS)(helper)
             _known_helpers.add(helper)
 
 
@@ -65,13 +66,14 @@ def environment_key() -> str:
     """Return a hash of what compiled code depends on beside its sources (hex, 16 characters).
 
     Versions of Python, numpy, Numba and llvmlite, the processor and its features, the
-    optimisation level, and the bounds-check flag, to which Numba's own cache is blind.
+    optimisation level, how code is made here, and the bounds-check flag, to which Numba's own cache is blind.
     """
     words: list[object] = [platform.python_implementation(), platform.python_version()]
     words += [importlib.metadata.version(name) for name in ("numpy", "numba", "llvmlite")]
     words += cpu_target.target_context.codegen().magic_tuple()
     words += [str(config.OPT), config.BOUNDSCHECK, config.DEBUGINFO_DEFAULT]
     words += [OPTIONS["error_model"], sorted(OPTIONS["fastmath"]), OPTIONS["_nrt"]]
+    words.append(Path(inlined.__file__).read_bytes())
     return hashlib.sha256(repr(words).encode()).hexdigest()[:16]
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.errors import SolverError
-from lambda_core.physics import assembly as A
+from lambda_core.physics.assembly import Assembly
 from lambda_core.physics.channels import CHANNELS, LOSSES
 from lambda_core.physics.compiled import bdf
 from lambda_core.physics.compiled import layout as L
@@ -18,6 +18,8 @@ from lambda_core.physics.compiled.arrow import make_factors
 from lambda_core.physics.compiled.entry import Core, core
 from lambda_core.physics.compiled.observe import CONTACT_CHANNELS
 from lambda_core.physics.equilibrium import Equilibrium, fault_sentence, solve
+from lambda_core.physics.kernels import Announce
+from lambda_core.physics.law_inputs import max_speed
 from lambda_core.physics.model import BearingModel
 from lambda_core.physics.surface import longest_step
 from lambda_core.simulate.engine import SAMPLES_PER_REVOLUTION, Advance
@@ -66,7 +68,7 @@ class BearingEngine:
     def __init__(
         self,
         model: BearingModel,
-        announce: A.Announce = None,
+        announce: Announce = None,
         equilibrium: Equilibrium | None = None,
         *,
         pushed: bool = False,
@@ -105,7 +107,7 @@ class BearingEngine:
     def _cage_speed(self) -> float:
         """Return the cage speed that samples are spaced for [rad/s]: the start's, or a much faster planned one."""
         start, g = abs(self._equilibrium.orbit), self.model.geometry
-        planned = 0.5 * (1.0 - g.ball_diameter / g.pitch_diameter) * A.max_speed(self.model)
+        planned = 0.5 * (1.0 - g.ball_diameter / g.pitch_diameter) * max_speed(self.model)
         return max(start if planned < _MUCH_FASTER * start else planned, _SPIN_FOR_SAMPLES)
 
     @property
@@ -276,14 +278,14 @@ class Scratch(NamedTuple):
     dydt: FloatArray
 
     @classmethod
-    def of(cls, n: int, assembly: A.Assembly) -> Scratch:
+    def of(cls, n: int, assembly: Assembly) -> Scratch:
         """Allocate for `n` samples."""
         z = assembly.model.geometry.ball_count
         shapes = ((n, z, 2, 16), (n, z, 3), (n, 2, 3), (n, L.NI + 2), (n, 3 * L.NS), (n, L.NI), (assembly.size,))
         return cls(*(np.zeros(shape) for shape in shapes))
 
 
-def observe(core_: Core, assembly: A.Assembly, times: FloatArray, states: FloatArray) -> dict[str, FloatArray]:
+def observe(core_: Core, assembly: Assembly, times: FloatArray, states: FloatArray) -> dict[str, FloatArray]:
     """Return every channel at given states.
 
     Parameters
@@ -302,7 +304,7 @@ def observe(core_: Core, assembly: A.Assembly, times: FloatArray, states: FloatA
 
 
 def _channels(
-    ok: int, assembly: A.Assembly, times: FloatArray, states: FloatArray, scratch: Scratch
+    ok: int, assembly: Assembly, times: FloatArray, states: FloatArray, scratch: Scratch
 ) -> dict[str, FloatArray]:
     """Return what was written about samples by the names of the channels."""
     if ok != 1:
@@ -336,7 +338,7 @@ def _channels(
     return channels
 
 
-def _room_for_load(assembly: A.Assembly) -> FloatArray:
+def _room_for_load(assembly: Assembly) -> FloatArray:
     """Add constant loads on the inner ring to the time functions of an assembly; returns a view of their values."""
     channels = [L.CH_FORCE, L.CH_FORCE + 1, L.CH_FORCE + 2, L.CH_MOMENT + 1, L.CH_MOMENT + 2]
     rows = np.zeros((len(channels), 8))

@@ -20,7 +20,7 @@ from lambda_core.simulate.dynamics import BearingEngine
 from lambda_core.simulate.run import next_multiple
 
 if TYPE_CHECKING:
-    from lambda_core.physics.assembly import Announce
+    from lambda_core.physics.kernels import Announce
     from lambda_core.physics.model import BearingModel
 
 FloatArray = NDArray[np.float64]

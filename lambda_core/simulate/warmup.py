@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from pydantic import Field
 
-from lambda_core.physics.compiled.entry import UNITS, core, missing
+from lambda_core.physics.compiled.entry import UNITS, begin, core, missing
 from lambda_core.registry.faults import PluginError
 from lambda_core.registry.kernels import cache_folder, compile_kernel
 from lambda_core.registry.registry import Registry
@@ -51,7 +51,7 @@ def warmup(models: Registry, announce: Callable[[str], None] | None = None) -> W
     """
     start = time.perf_counter()
     absent = missing()
-    core(announce)
+    begin(announce)
     said: list[str] = []  # one sentence per law that was not on disk
 
     def say(text: str) -> None:
@@ -68,6 +68,7 @@ def warmup(models: Registry, announce: Callable[[str], None] | None = None) -> W
             compiled += len(said) - before
         except PluginError as error:
             faults.append(str(error))
+    core(announce)
     return Warmup(
         folder=str(cache_folder()),
         solver_parts=len(UNITS),

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Literal
 from lambda_core.errors import LambdaError, SolverError, UsageError
 
 if TYPE_CHECKING:
-    from lambda_core.physics.assembly import Kernels
     from lambda_core.physics.equilibrium import Equilibrium
+    from lambda_core.physics.kernels import Kernels
     from lambda_core.physics.model import BearingModel
     from lambda_core.registry.catalogue import Catalogue
     from lambda_core.schema.case import Case
@@ -117,7 +117,7 @@ _kernels: dict[tuple[tuple[str, str, str], ...], Kernels] = {}
 
 def kernels_of(model: BearingModel) -> Kernels:
     """Return the compiled laws of a model; equal choices of laws are compiled once in a process."""
-    from lambda_core.physics.assembly import Kernels
+    from lambda_core.physics.kernels import Kernels
 
     key = tuple((e, r, law.model.label) for e, roles in model.laws.items() for r, law in roles.items())
     if key not in _kernels:

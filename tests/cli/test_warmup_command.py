@@ -29,8 +29,9 @@ def test_after_it_nothing_is_left_to_compile(capsys: pytest.CaptureFixture[str])
 def test_what_is_compiled_is_announced(
     monkeypatch: pytest.MonkeyPatch, tmp_path: object, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """In an empty cache every law is compiled; the solver is left out here, it would take half a minute."""
+    """In an empty cache every law is compiled; the solver is left out here, it would take too long."""
     monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(tmp_path))
+    monkeypatch.setattr("lambda_core.simulate.warmup.begin", lambda announce: None)
     monkeypatch.setattr("lambda_core.simulate.warmup.core", lambda announce: None)
     monkeypatch.setattr("lambda_core.simulate.warmup.missing", list)
     wanted = ("damping", "asperity_load")

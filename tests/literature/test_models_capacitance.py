@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.special import roots_legendre
 
-from lambda_core.physics.compiled.observe import gap_capacitance
+from lambda_core.physics.compiled.electric import gap_capacitance
 from lambda_core.physics.hertz import hertz_contact
 from lambda_core.registry.probe import trial_context
 from lambda_core.testing import evaluate

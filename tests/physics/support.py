@@ -11,13 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core import api
-from lambda_core.physics import assembly as A
+from lambda_core.physics.assembly import Assembly, assemble
 from lambda_core.physics.channels import LOSSES
 from lambda_core.physics.compiled import bdf
 from lambda_core.physics.compiled import layout as L
 from lambda_core.physics.compiled.arrow import make_factors
 from lambda_core.physics.compiled.entry import core
 from lambda_core.physics.equilibrium import fault_sentence
+from lambda_core.physics.kernels import Kernels, derive_oil
+from lambda_core.physics.law_inputs import ContactFrame
 from lambda_core.physics.model import BearingModel
 from lambda_core.simulate.dynamics import observe
 
@@ -60,12 +62,12 @@ class Machine:
 
     model: BearingModel
     angle: float = 0.0  # contact angle at which the contacts' radii are frozen [rad]
-    assembly: A.Assembly = field(init=False)
+    assembly: Assembly = field(init=False)
 
     def __post_init__(self) -> None:
-        kernels = A.Kernels(self.model)
-        frame = A.ContactFrame((self.angle, self.angle), (1000.0, 1000.0))
-        self.assembly = A.assemble(self.model, kernels, frame, A.derive_oil(self.model, kernels, frame))
+        kernels = Kernels(self.model)
+        frame = ContactFrame((self.angle, self.angle), (1000.0, 1000.0))
+        self.assembly = assemble(self.model, kernels, frame, derive_oil(self.model, kernels, frame))
 
     @property
     def count(self) -> int:

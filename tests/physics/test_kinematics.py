@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from lambda_core.physics.assembly import unit_grid
 from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.contact_grid import unit_grid
 from lambda_core.physics.hertz import ball_raceway_radii
 
 from .support import (

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from lambda_core import api
-from lambda_core.physics import assembly as A
+from lambda_core.physics.assembly import assemble
 from lambda_core.physics.compiled import layout as L
 from lambda_core.physics.compiled.entry import core
 from lambda_core.physics.equilibrium import Equilibrium, _settle, solve
@@ -30,7 +30,7 @@ def load_at(found: Equilibrium, displacement: FloatArray) -> FloatArray:
     for name, value in zip(NAMES, displacement, strict=True):
         dofs[name] = DofState("prescribed", TimeFunction.constant(float(value)))
     held = dataclasses.replace(model, inner_ring=dataclasses.replace(model.inner_ring, dofs=dofs))
-    assembly = A.assemble(held, found.assembly.kernels, found.assembly.frame, found.assembly.oil)
+    assembly = assemble(held, found.assembly.kernels, found.assembly.frame, found.assembly.oil)
     count = model.geometry.ball_count
     state = np.zeros(assembly.size)
     state[: L.NB * count] = found.state[: L.NB * count]

@@ -7,14 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import types
 
-from lambda_core.physics.compiled.layout import (
-    NB,
-    array1,
-    array2,
-    array3,
-    helper,
-    iarray1,
-)
+from lambda_core.physics.compiled.layout import NB, array1, array2, array3, helper, iarray1
 
 
 class Factors(NamedTuple):

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from lambda_core.physics.compiled.faults import report
 from lambda_core.physics.compiled.kinematics import axis_x
 from lambda_core.physics.compiled.layout import (
     BPSI,
@@ -32,7 +33,6 @@ from lambda_core.physics.compiled.layout import (
     SZ,
     helper,
 )
-from lambda_core.physics.compiled.raceway import report
 
 # Rows of a guide record: r, v_rel, omega_rel (in the frame), frame axes (3x3, inertial), origin.
 G_R, G_V, G_W, G_E1, G_E2, G_E3, G_O = 0, 3, 6, 9, 12, 15, 18
@@ -62,16 +62,8 @@ def _frame(ax, ay, az, phi, g):
     z0, z1, z2 = -az, -ay * az / c1, 1.0 - az * az / c1
     c, s = math.cos(phi), math.sin(phi)
     g[G_E1], g[G_E1 + 1], g[G_E1 + 2] = ax, ay, az
-    g[G_E2], g[G_E2 + 1], g[G_E2 + 2] = (
-        c * y0 + s * z0,
-        c * y1 + s * z1,
-        c * y2 + s * z2,
-    )
-    g[G_E3], g[G_E3 + 1], g[G_E3 + 2] = (
-        -s * y0 + c * z0,
-        -s * y1 + c * z1,
-        -s * y2 + c * z2,
-    )
+    g[G_E2], g[G_E2 + 1], g[G_E2 + 2] = (c * y0 + s * z0, c * y1 + s * z1, c * y2 + s * z2)
+    g[G_E3], g[G_E3 + 1], g[G_E3 + 2] = (-s * y0 + c * z0, -s * y1 + c * z1, -s * y2 + c * z2)
 
 
 @helper
@@ -236,11 +228,7 @@ def land_apply(cage, ring, g, out, cage_fm, ring_fm):
     p0 = g[G_O] + out[3] * g[G_E1] + out[4] * g[G_E2] + out[5] * g[G_E3]
     p1 = g[G_O + 1] + out[3] * g[G_E1 + 1] + out[4] * g[G_E2 + 1] + out[5] * g[G_E3 + 1]
     p2 = g[G_O + 2] + out[3] * g[G_E1 + 2] + out[4] * g[G_E2 + 2] + out[5] * g[G_E3 + 2]
-    c0, c1, c2 = (
-        p0 + ring[SX] - cage[SX],
-        p1 + ring[SY] - cage[SY],
-        p2 + ring[SZ] - cage[SZ],
-    )
+    c0, c1, c2 = (p0 + ring[SX] - cage[SX], p1 + ring[SY] - cage[SY], p2 + ring[SZ] - cage[SZ])
     cage_fm[0] += f0
     cage_fm[1] += f1
     cage_fm[2] += f2

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import gc
 import subprocess
 import sys
 from collections.abc import Callable
@@ -9,17 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from lambda_core.physics.compiled import (
-    bdf,
-    forces,
-    handle,
-    jacobian,
-    layout,
-    observe,
-    raceway,
-    statics,
-    tangent,
-)
+from lambda_core.physics.compiled import bdf, forces, handle, jacobian, layout, observe, raceway, statics, tangent
 from lambda_core.registry.kernels import compile_host, host_folder, host_key
 from lambda_core.registry.machine_code import Pointer
 
@@ -59,6 +51,13 @@ UNITS: dict[str, tuple[Any, Any]] = {
     "proceed": (handle.proceed, handle.proceed_sig),
     "look": (handle.look, handle.look_sig),
 }
+# What one process compiles: units that call the same functions share the work, and all take about as long.
+GROUPS = (
+    ("jacobian", "grasp", "proceed", "look"),
+    ("evaluate", "observe"),
+    ("settle",),
+    ("advance", "wrench", "tangent"),
+)
 # The equilibrium allocates its workspaces, a handle is allocated itself; all others run without reference counting.
 _OPTIONS: dict[str, dict[str, Any]] = {name: {"_nrt": True} for name in ("settle", "grasp", "proceed", "look")}
 
@@ -78,24 +77,37 @@ def build(name: str, announce: Callable[[str], None] | None = None) -> Any:
     return compile_host(function, signature, _FOLDER, announce, **_OPTIONS.get(name, {})).dispatcher
 
 
-def _build_side_by_side(names: list[str], announce: Callable[[str], None] | None) -> None:
-    """Compile units in processes of their own: machine code of one does not wait for another's.
+def build_group(names: str) -> None:
+    """Compile units, separated by commas, into the cache; the whole work of a process."""
+    gc.disable()  # most of what a compiler makes lives until it ends: looking for the rest takes a sixth of the time
+    for name in names.split(","):
+        build(name)
 
-    A unit whose process fails is compiled here afterwards, where its error is seen.
+
+def begin(announce: Callable[[str], None] | None = None) -> None:
+    """Begin to compile what is not on disk, in processes of their own; :func:`core` waits for them.
+
+    A unit whose process fails is compiled by :func:`core`, where its error is seen.
     """
+    absent = [] if _loaded or _workers else missing()
+    if len(absent) < 2:
+        return
     if announce is not None:
-        announce(f"compiling {len(names)} parts of the solver (once, about half a minute)")
-    code = "import sys; from lambda_core.physics.compiled.entry import build; build(sys.argv[1])"
-    workers = [
-        subprocess.Popen(
-            [sys.executable, "-W", "ignore", "-c", code, name],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        for name in names
-    ]
-    for worker in workers:
+        announce(f"compiling {len(absent)} parts of the solver (once, about a quarter of a minute)")
+    code = "import sys; from lambda_core.physics.compiled.entry import build_group; build_group(sys.argv[1])"
+    for group in GROUPS:
+        names = ",".join(name for name in group if name in absent)
+        if names:
+            command = [sys.executable, "-W", "ignore", "-c", code, names]
+            quiet = subprocess.DEVNULL
+            _workers.append(subprocess.Popen(command, stdin=quiet, stdout=quiet, stderr=quiet))
+    atexit.register(_stop)
+
+
+def _stop() -> None:
+    """End what still compiles: whoever needed it has gone."""
+    for worker in _workers:
+        worker.terminate()
         worker.wait()
 
 
@@ -109,9 +121,10 @@ def _call(dispatcher: Any, signature: Any) -> Any:
 
 
 def _load(announce: Callable[[str], None] | None) -> Core:
-    absent = missing()
-    if len(absent) > 1:
-        _build_side_by_side(absent, announce)
+    begin(announce)
+    for worker in _workers:
+        worker.wait()
+    _workers.clear()
     built = {name: build(name, announce) for name in UNITS}
     pointers = {
         f"{name}_pointer": Pointer(built[name], UNITS[name][1])
@@ -121,6 +134,7 @@ def _load(announce: Callable[[str], None] | None) -> Core:
     return Core(**pointers, **{name: _call(built[name], UNITS[name][1]) for name in names})
 
 
+_workers: list[subprocess.Popen[bytes]] = []
 _loaded: list[Core] = []
 
 

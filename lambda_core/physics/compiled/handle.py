@@ -13,7 +13,7 @@ from numba.experimental import structref
 
 from lambda_core.physics.compiled import bdf, observe
 from lambda_core.physics.compiled.arrow import factors_t
-from lambda_core.physics.compiled.jacobian import blocks_t
+from lambda_core.physics.compiled.blocks import blocks_t
 from lambda_core.physics.compiled.layout import array1, array2, array3, array4, bundle_t, f8, i8
 
 FIELDS = (

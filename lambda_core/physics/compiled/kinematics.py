@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 
+from lambda_core.physics.compiled.faults import report
 from lambda_core.physics.compiled.layout import (
     BPSI,
     BR,
@@ -58,7 +59,6 @@ from lambda_core.physics.compiled.layout import (
     SZ,
     helper,
 )
-from lambda_core.physics.compiled.raceway import report
 
 
 @helper

@@ -18,7 +18,9 @@ import numba
 import numpy as np
 from numba import types
 
-from lambda_core.registry.machine_code import OPTIONS
+from lambda_core.registry import inlined
+from lambda_core.registry.machine_code import OPTIONS, role_signature
+from lambda_core.registry.roles import ROLES
 
 NB = 9  # states of a ball
 NS = 12  # states of a shared body
@@ -34,35 +36,12 @@ W_FT, W_FS, W_FN, W_MT, W_MS, W_MN = range(6)
 NW = 6
 
 # Scalars of one contact, kept for output and for the tangent.
-(
-    C_LOAD,
-    C_A,
-    C_B,
-    C_PMAX,
-    C_DAMP,
-    C_HCEN,
-    C_HMIN,
-    C_LAMBDA,
-    C_PSI,
-    C_ROLL,
-    C_HYST,
-    C_UMEAN,
-    C_TMEAN,
-    C_CHANGE,
-    C_HISO,
-    C_WET,
-) = range(16)
+C_LOAD, C_A, C_B, C_PMAX, C_DAMP, C_HCEN, C_HMIN, C_LAMBDA = range(8)
+C_PSI, C_ROLL, C_HYST, C_UMEAN, C_TMEAN, C_CHANGE, C_HISO, C_WET = range(8, 16)
 NC = 16
 
 # Dissipators, in the order of lambda_core.physics.channels.LOSSES.
-(
-    L_SLIDE,
-    L_SPIN,
-    L_BOUNDARY,
-    L_ROLL,
-    L_HYST,
-    L_DAMP,
-) = (0, 2, 4, 6, 8, 10)  # + ring
+L_SLIDE, L_SPIN, L_BOUNDARY, L_ROLL, L_HYST, L_DAMP = range(0, 12, 2)  # + ring
 L_POCKET, L_LAND, L_DRAG, L_SUPPORT = 12, 13, 14, 15
 NL = 16
 # Running integrals: the losses, then these.
@@ -94,24 +73,8 @@ RACEWAY_ROLES = (
     "cage_contact",
     "fluid_drag",
 )
-(
-    R_NORMAL,
-    R_DAMPING,
-    R_RHEOLOGY,
-    R_FILM,
-    R_THERMAL,
-    R_TEMPERATURE,
-    R_TRACTION,
-    R_ROLLING,
-    R_HYSTERESIS,
-    R_ASPERITY,
-    R_BOUNDARY,
-    R_PERMITTIVITY,
-    R_CAPACITANCE,
-    R_SURFACE,
-    R_CAGE,
-    R_DRAG,
-) = range(16)
+R_NORMAL, R_DAMPING, R_RHEOLOGY, R_FILM, R_THERMAL, R_TEMPERATURE, R_TRACTION, R_ROLLING = range(8)
+R_HYSTERESIS, R_ASPERITY, R_BOUNDARY, R_PERMITTIVITY, R_CAPACITANCE, R_SURFACE, R_CAGE, R_DRAG = range(8, 16)
 
 # Constants of the system, one record. [2]: inner, outer. [3]: inner ring, outer ring, cage.
 SYSTEM = np.dtype(
@@ -122,11 +85,7 @@ SYSTEM = np.dtype(
         ("ball_radius", np.float64),  # [m]
         ("ball_mass", np.float64),  # [kg]
         ("ball_inertia", np.float64),  # [kg m2]
-        (
-            "groove_circle",
-            np.float64,
-            (2,),
-        ),  # radius of the circle of groove centres [m]
+        ("groove_circle", np.float64, (2,)),  # radius of the circle of groove centres [m]
         ("groove_radius", np.float64, (2,)),  # [m]
         ("radius_x", np.float64, (2,)),  # reduced, along rolling [m]
         ("radius_y", np.float64, (2,)),  # reduced, across rolling [m]
@@ -154,19 +113,9 @@ SYSTEM = np.dtype(
         ("drag_on", np.int64),
         ("surface_on", np.int64, (2,)),  # 0: nominal raceway
         ("surfaces", np.int64),  # 0: both are nominal
-        (
-            "roll_floor",
-            np.float64,
-        ),  # width of the change of sign of rolling losses [m/s]
-        (
-            "slip_floor",
-            np.float64,
-        ),  # smallest slip that directions are computed with [m/s]
-        (
-            "par_start",
-            np.int64,
-            (40,),
-        ),  # where each kernel's parameters begin in Bundle.par
+        ("roll_floor", np.float64),  # width of the change of sign of rolling losses [m/s]
+        ("slip_floor", np.float64),  # smallest slip that directions are computed with [m/s]
+        ("par_start", np.int64, (40,)),  # where each kernel's parameters begin in Bundle.par
         ("friction_on", np.int64),  # 0: normal forces only (static equilibrium)
         ("guides_on", np.int64),  # 0: no cage forces, nominal raceways (quasi-static equilibrium)
     ],
@@ -181,12 +130,6 @@ array3 = types.float64[:, :, ::1]
 array4 = types.float64[:, :, :, ::1]
 iarray1 = types.int64[::1]
 system_t = types.Array(numba.from_dtype(SYSTEM), 1, "C")
-
-_S = {"f": f8, "a": array1}
-
-
-def _sig(spec: str) -> Any:
-    return i8(*(_S[c] for c in spec))
 
 
 class RacewayLaws(NamedTuple):
@@ -262,42 +205,13 @@ NKIN = NQ + 20
 X_RESULTS = 6
 N_CELL_ROWS = 13
 
-_raceway_sigs = [
-    _sig(s)
-    for s in (
-        "ffffaa",
-        "fffaa",
-        "aaaaa",
-        "ffffffffaa",
-        "fffffffaa",
-        "ffffaaaa",
-        "aaaafaa",
-        "fffffffffffaa",
-        "ffffffaa",
-        "faa",
-        "aaaa",
-        "aaaaa",
-        "ffffffffffaa",
-        "ffaa",
-    )
-]
-CAGE_SIG = _sig("aaafaa")
-DRAG_SIG = _sig("fffffaa")
-RACEWAY_SIGS = dict(zip(RacewayLaws._fields, _raceway_sigs, strict=True))
 
-raceway_laws_t = types.NamedTuple([types.FunctionType(s) for s in _raceway_sigs], RacewayLaws)
-_cage_t = types.FunctionType(CAGE_SIG)
-laws_t = types.NamedTuple(
-    [
-        raceway_laws_t,
-        raceway_laws_t,
-        _cage_t,
-        _cage_t,
-        _cage_t,
-        types.FunctionType(DRAG_SIG),
-    ],
-    Laws,
-)
+def _law_t(role: str) -> Any:
+    return types.FunctionType(role_signature(ROLES[role]))
+
+
+raceway_laws_t = types.NamedTuple([_law_t(role) for role in RacewayLaws._fields], RacewayLaws)
+laws_t = types.NamedTuple([raceway_laws_t, raceway_laws_t, *[_law_t("cage_contact")] * 3, _law_t("fluid_drag")], Laws)
 # One contact: (ring, q, laws, par, system, grid, cells, scratch, scalars, wrench) -> status
 wrench_sig = i8(i8, array1, raceway_laws_t, array1, system_t, array2, array2, array2, array1, array1)
 # Its tangent: (ring, q, laws, par, system, grid, cells, scratch, slope, wrench pointer) -> status
@@ -347,17 +261,17 @@ def vector_helper(function):
 
     Only the order of sums, fused multiply-adds and the sign of zero are set free: NaN and infinity keep their meaning.
     """
-    return numba.njit(**{**OPTIONS, "fastmath": {"reassoc", "contract", "nsz"}})(function)
+    return numba.njit(**{**OPTIONS, **inlined.OPTIONS, "fastmath": {"reassoc", "contract", "nsz"}})(function)
 
 
 def helper(function):
     """Compile a helper of the core; never cached by itself, its callers are."""
-    return numba.njit(**OPTIONS)(function)
+    return numba.njit(**OPTIONS, **inlined.OPTIONS)(function)
 
 
 def allocating_helper(function):
     """Compile a helper that makes arrays of its own, off the hot path."""
-    return numba.njit(**{**OPTIONS, "_nrt": True})(function)
+    return numba.njit(**{**OPTIONS, **inlined.OPTIONS, "_nrt": True})(function)
 
 
 @numba.njit(inline="always")  # a function of its own could not return a view without counting references

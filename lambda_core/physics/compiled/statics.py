@@ -15,33 +15,26 @@ import numpy as np
 
 from lambda_core.physics.compiled.arrow import arrow_factor, arrow_solve, factors_t
 from lambda_core.physics.compiled.bdf import evaluate_t, jacobian_t
-from lambda_core.physics.compiled.jacobian import blocks_t
+from lambda_core.physics.compiled.blocks import blocks_t
 from lambda_core.physics.compiled.kinematics import contact_kinematics
 from lambda_core.physics.compiled.layout import (
     BR,
     BVT,
-    BX,
-    CAGE,
     FAULT,
     INNER,
     KIN,
     NB,
     NI,
     NS,
-    SAY,
-    SAZ,
     SHARED,
-    allocating_helper,
     array1,
     bundle_t,
     helper,
     i8,
 )
+from lambda_core.physics.compiled.pseudo_transient import mask, residual
 
 settle_sig = i8(evaluate_t, jacobian_t, bundle_t, blocks_t, factors_t, array1, array1, array1, i8)
-
-_MOBILITY = 1e-4  # [s2] turns an acceleration into the rate of a position
-_HOLD = 1e4  # [1/s] rate at which an unloaded ball takes the speed of the others
 _LARGEST_MOVE = 0.2  # of the states' scales (10 um) per iteration, so that no iterate jumps through a contact
 _LARGEST_CHANGE = 0.1  # of a ball's rolling speeds per iteration
 _FIRST_STEP, _LAST_STEP = 1e-6, 1e6  # [s] of pseudo-time
@@ -49,101 +42,6 @@ _CONVERGED = 1e-7  # last Newton step over the states' scales
 _TOLERATED_RISE = 1.5
 _CALM = 0.1  # shortening of the pseudo-time step when a step undoes the one before
 _GRIP = 0.02  # share of the largest ball load below which the cage sets a ball's orbital speed
-
-
-@helper
-def _ball_row(state, held, friction_on):
-    """Return which acceleration drives a ball state: row index, or -1 when it is fixed."""
-    if state in (BX, BR):
-        return 3 + state
-    if friction_on == 1 and (state >= 6 or (state == BVT and not held)):
-        return state
-    return -1
-
-
-@helper
-def _shared_row(state):
-    """Return the acceleration that drives a shared position, its sign, or (-1, 0) when fixed."""
-    body, c = state // NS, state % NS
-    if body == CAGE:
-        return -1, 0.0
-    if c < 3:
-        return NS * body + 6 + c, 1.0
-    # The axis leans to a_y when turned about +z and to -a_z when turned about +y.
-    if c == SAY:
-        return NS * body + 10, 1.0
-    if c == SAZ:
-        return NS * body + 9, -1.0
-    return -1, 0.0
-
-
-@helper
-def _residual(bundle, index, y, dydt, held, orbit, f):
-    """Write the rates of the pseudo-transient system."""
-    system = bundle.system[0]
-    z = system.balls
-    f[:] = 0.0
-    for j in range(z):
-        for i in range(NB):
-            row = _ball_row(i, held[j], system.friction_on)
-            if row >= 0:
-                scale = _MOBILITY if i < 3 else 1.0
-                f[NB * j + i] = scale * dydt[NB * j + row]
-        if held[j] and system.friction_on == 1:
-            f[NB * j + BVT] = _HOLD * (orbit * y[NB * j + BR] - y[NB * j + BVT])
-    active = bundle.active
-    for k in range(active.size):
-        row, sign = _shared_row(active[k])
-        if row >= 0 and index[row] >= 0:
-            f[NB * z + k] = _MOBILITY * sign * dydt[NB * z + index[row]]
-
-
-@allocating_helper
-def _mask(bundle, bl, held):
-    """Turn the blocks of dy/dt into those of the pseudo-transient system, in place."""
-    system = bundle.system[0]
-    z, n = system.balls, bl.d.shape[0]
-    active = bundle.active
-    column_on = np.zeros(n, dtype=np.int64)
-    for k in range(n):
-        row, sign = _shared_row(active[k])
-        column_on[k] = 1 if row >= 0 and bl.index[row] >= 0 else 0
-    a2, b2 = np.zeros((NB, NB)), np.zeros((NB, n))
-    for j in range(z):
-        a, b = bl.a[j], bl.b[j]
-        a2[:, :] = 0.0
-        b2[:, :] = 0.0
-        for i in range(NB):
-            row = _ball_row(i, held[j], system.friction_on)
-            if row < 0:
-                continue
-            scale = _MOBILITY if i < 3 else 1.0
-            for c in range(NB):
-                if _ball_row(c, held[j], system.friction_on) >= 0 or (c == BVT and system.friction_on == 1):
-                    a2[i, c] = scale * a[row, c]
-            for k in range(n):
-                b2[i, k] = scale * b[row, k] * column_on[k]
-        if held[j] and system.friction_on == 1:
-            a2[BVT, BVT] = -_HOLD
-        a[:, :] = a2
-        b[:, :] = b2
-    d2, c2 = np.zeros((n, n)), np.zeros((n, NB))
-    for k in range(n):
-        row, sign = _shared_row(active[k])
-        if column_on[k] == 1:
-            for m in range(n):
-                d2[k, m] = _MOBILITY * sign * bl.d[bl.index[row], m] * column_on[m]
-    bl.d[:, :] = d2
-    for j in range(z):
-        c = bl.c[j]
-        c2[:, :] = 0.0
-        for k in range(n):
-            row, sign = _shared_row(active[k])
-            if column_on[k] == 1:
-                for i in range(NB):
-                    if _ball_row(i, held[j], system.friction_on) >= 0 or (i == BVT and system.friction_on == 1):
-                        c2[k, i] = _MOBILITY * sign * c[bl.index[row], i]
-        c[:, :] = c2
 
 
 @helper
@@ -260,13 +158,7 @@ def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations
     """
     system, scratch = bundle.system[0], bundle.scratch
     n = y.size
-    dydt, f, step, trial, rates = (
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros(n),
-        np.zeros(NI),
-    )
+    dydt, f, step, trial, rates = (np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(NI))
     held, share = np.zeros(system.balls, dtype=np.bool_), np.zeros(system.balls)
     last = np.zeros(n)
     new, dt = np.zeros(n), _FIRST_STEP
@@ -275,7 +167,7 @@ def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations
     _load_shares(y, bundle, share)
     _hold(share, held)
     orbit = _orbit(y, share, held)
-    _residual(bundle, bl.index, y, dydt, held, orbit, f)
+    residual(bundle, bl.index, y, dydt, held, orbit, f)
     merit = _merit(f, weight)
     speed, spin = 1e-3, 1e-1  # of a ball that rests, so that it can start to move
     for j in range(system.balls):
@@ -284,7 +176,7 @@ def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations
     for iteration in range(max_iterations):
         if jacobian(0.0, y, bundle, bl) != 1:
             return -1
-        _mask(bundle, bl, held)
+        mask(bundle, bl, held)
         tries = 0
         while True:
             for i in range(n):
@@ -293,16 +185,13 @@ def settle(evaluate, jacobian, bundle, bl, fa, y, weight, report, max_iterations
                 arrow_solve(fa, step)
                 size = _merit(step, weight)
                 clipped = system.friction_on == 1 and _clip_speeds(step, speed, spin, system.balls)
-                shrink = min(
-                    1.0,
-                    _LARGEST_MOVE / (_largest_move(step, weight, system.balls) + 1e-300),
-                )
+                shrink = min(1.0, _LARGEST_MOVE / (_largest_move(step, weight, system.balls) + 1e-300))
                 for i in range(n):
                     trial[i] = y[i] + shrink * step[i]
                 if size < np.inf and evaluate(0.0, trial, bundle, dydt, rates, 0) == 1:
                     _load_shares(trial, bundle, share)
                     orbit = _orbit(trial, share, held)
-                    _residual(bundle, bl.index, trial, dydt, held, orbit, new)
+                    residual(bundle, bl.index, trial, dydt, held, orbit, new)
                     found = _merit(new, weight)
                     # Overdamped motion may pass through states of larger residual, but not by much.
                     if found < _TOLERATED_RISE * merit or dt <= _FIRST_STEP or size < _CONVERGED:

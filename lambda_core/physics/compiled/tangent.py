@@ -54,14 +54,10 @@ from lambda_core.physics.compiled.layout import (
     par_of,
     vector_helper,
 )
-from lambda_core.physics.compiled.raceway import (
-    _CELL_VARIANCE,
-    film_stage,
-    pipeline,
-    rolling_speeds,
-    shear_stage,
-    sum_wrench,
-)
+from lambda_core.physics.compiled.raceway import pipeline
+from lambda_core.physics.compiled.resultant import rolling_speeds, sum_wrench
+from lambda_core.physics.compiled.scalar_stages import film_stage
+from lambda_core.physics.compiled.shear import CELL_VARIANCE, shear_stage
 
 _RELATIVE = 1e-5  # relative step of the small differences; the laws are smooth at this scale
 
@@ -80,7 +76,7 @@ def _slip_column(a, b, curvature, along, across, spread, grid, cells, tau2, step
     t0, t1, t2 = along
     s0, s1, s2 = across
     p0, p1, p2, p3 = spread
-    width_s, width_t = _CELL_VARIANCE * a * a, _CELL_VARIANCE * b * b
+    width_s, width_t = CELL_VARIANCE * a * a, CELL_VARIANCE * b * b
     sum_t, sum_s, sum_mt, sum_ms, sum_mn = 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(tau.size):
         s, t = a * grid_s[i], b * grid_t[i]
@@ -135,44 +131,37 @@ def rolling_columns(which, q, system, scalars, slope):
     slope[W_MS, Q_WS] -= 2.0 * rx * droll * rx + dbend * rx
 
 
-def contact_tangent(which, q, laws, par, systems, grid, blocks, scratch, slope):
-    """Write d(wrench)/dq, shape (6, 9), and the wrench itself; an entry point of its own, called by pointer.
+@helper
+def _damping_column(which, q, laws, par, system, scratch, slope):
+    """Write d(wrench)/d(V_n), which the damping law alone depends on."""
+    scalars, out = scratch[SCALARS], scratch[OUT]
+    step = 1e-4 * abs(q[Q_VN]) + 1e-6
+    out[0] = 0.0
+    par_damping = par_of(par, system, RACEWAY_KERNELS * which + R_DAMPING)
+    laws.damping(q[Q_DELTA], q[Q_VN] + step, scalars[C_LOAD], par_damping, out)
+    slope[W_FN, Q_VN] = -(max(out[0], -scalars[C_LOAD]) - scalars[C_DAMP]) / step
 
-    Runs the pipeline at q into scratch[SCALARS], scratch[WRENCH] and blocks[0], then at neighbours of q.
 
-    Left out: the effect of slip on the thermal film factor and of the smaller component of entrainment, both
-    small; the integrator's Newton iteration only needs the slope, not its last digit.
-    """
-    system, out, fault = systems[0], scratch[OUT], scratch[FAULT]
-    scalars, cells, wrench = scratch[SCALARS], blocks[0], scratch[WRENCH]
-    scalars2, cells2, wrench2 = scratch[SCALARS2], blocks[1], scratch[WRENCH2]
-    if pipeline(which, q, laws, par, systems, grid, cells, scratch, scalars, wrench) != 1:
-        return 0
-    slope[:, :] = 0.0
-    if system.guides_on == 1:
-        step = 1e-4 * abs(q[Q_VN]) + 1e-6
-        out[0] = 0.0
-        laws.damping(
-            q[Q_DELTA],
-            q[Q_VN] + step,
-            scalars[C_LOAD],
-            par_of(par, system, RACEWAY_KERNELS * which + R_DAMPING),
-            out,
-        )
-        slope[W_FN, Q_VN] = -(max(out[0], -scalars[C_LOAD]) - scalars[C_DAMP]) / step
-    # Penetration.
-    delta = q[Q_DELTA]
+@helper
+def _penetration_column(which, q, laws, par, systems, grid, cells, scratch, slope):
+    """Write d(wrench)/d(penetration) from the whole pipeline at a slightly larger one."""
+    wrench, wrench2, delta = scratch[WRENCH], scratch[WRENCH2], q[Q_DELTA]
     step = _RELATIVE * delta + 1e-13
     q[Q_DELTA] = delta + step
-    ok = pipeline(which, q, laws, par, systems, grid, cells2, scratch, scalars2, wrench2)
+    ok = pipeline(which, q, laws, par, systems, grid, cells, scratch, scratch[SCALARS2], wrench2)
     q[Q_DELTA] = delta
     if ok != 1:
         return 0
     for i in range(NW):
         slope[i, Q_DELTA] = (wrench2[i] - wrench[i]) / step
-    if system.friction_on == 0:
-        return 1
-    # Entrainment: along rolling, or across it where a ball at rest is pushed sideways.
+    return 1
+
+
+@helper
+def _entrainment_column(which, q, laws, par, system, grid, blocks, scratch, slope):
+    """Write d(wrench)/d(entrainment): along rolling, or across it where a ball at rest is pushed sideways."""
+    scalars, scalars2, fault = scratch[SCALARS], scratch[SCALARS2], scratch[FAULT]
+    wrench, wrench2, cells, cells2 = scratch[WRENCH], scratch[WRENCH2], blocks[0], blocks[1]
     column = Q_UT if abs(q[Q_UT]) >= abs(q[Q_UT + 1]) else Q_UT + 1
     entrainment = q[column]
     step = (_RELATIVE * abs(entrainment) + 1e-8) * (1.0 if entrainment >= 0.0 else -1.0)
@@ -182,7 +171,7 @@ def contact_tangent(which, q, laws, par, systems, grid, blocks, scratch, slope):
     for row in range(X_P, cells.shape[0]):  # pressure and slip do not change with entrainment
         for i in range(cells.shape[1]):
             cells2[row, i] = cells[row, i]
-    ok = film_stage(which, q, laws, par, system, scalars2, out, fault)
+    ok = film_stage(which, q, laws, par, system, scalars2, scratch[OUT], fault)
     if ok == 1:
         ok = shear_stage(which, laws, par, system, grid, scalars2, cells2, fault)
     if ok == 1:
@@ -192,12 +181,36 @@ def contact_tangent(which, q, laws, par, systems, grid, blocks, scratch, slope):
         return 0
     for i in range(NW):
         slope[i, column] = (wrench2[i] - wrench[i]) / step
+    return 1
+
+
+def contact_tangent(which, q, laws, par, systems, grid, blocks, scratch, slope):
+    """Write d(wrench)/dq, shape (6, 9), and the wrench itself; an entry point of its own, called by pointer.
+
+    Runs the pipeline at q into scratch[SCALARS], scratch[WRENCH] and blocks[0], then at neighbours of q.
+
+    Left out: the effect of slip on the thermal film factor and of the smaller component of entrainment, both
+    small; the integrator's Newton iteration only needs the slope, not its last digit.
+    """
+    system, scalars, scalars2 = systems[0], scratch[SCALARS], scratch[SCALARS2]
+    cells, cells2 = blocks[0], blocks[1]
+    if pipeline(which, q, laws, par, systems, grid, cells, scratch, scalars, scratch[WRENCH]) != 1:
+        return 0
+    slope[:, :] = 0.0
+    if system.guides_on == 1:
+        _damping_column(which, q, laws, par, system, scratch, slope)
+    if _penetration_column(which, q, laws, par, systems, grid, cells2, scratch, slope) != 1:
+        return 0
+    if system.friction_on == 0:
+        return 1
+    if _entrainment_column(which, q, laws, par, system, grid, blocks, scratch, slope) != 1:
+        return 0
     # Slip: the same cells at slightly larger slip.
     for i in range(grid.shape[1]):
         cells2[X_SLIP, i] = cells[X_SLIP, i] * (1.0 + _RELATIVE)
     for i in range(NC):
         scalars2[i] = scalars[i]
-    if shear_stage(which, laws, par, system, grid, scalars2, cells2, fault) != 1:
+    if shear_stage(which, laws, par, system, grid, scalars2, cells2, scratch[FAULT]) != 1:
         return 0
     slip_columns(which, q, system, grid, scalars, cells, cells2[X_TAU], _RELATIVE, slope)
     rolling_columns(which, q, system, scalars, slope)
