@@ -54,6 +54,9 @@ CHANNELS: tuple[Channel, ...] = (
     Channel("body_position", ("body", "axis"), "m", "position of each body's centre, inertial frame"),
     Channel("body_velocity", ("body", "axis"), "m/s", "velocity of each body's centre, inertial frame"),
     Channel("body_tilt", ("body", "tilt"), "rad", "tilt of each body's axis about y and z"),
+    Channel(
+        "body_tilt_velocity", ("body", "tilt"), "rad/s", "angular velocity of each body across its axis, about y and z"
+    ),
     Channel("body_spin_angle", ("body",), "rad", "angle of rotation about each body's own axis"),
     Channel("body_spin", ("body",), "rad/s", "angular speed about each body's own axis"),
     Channel("ball_axial", ("ball",), "m", "axial position of each ball's centre"),

@@ -90,6 +90,7 @@ def contact_state(sample: Mapping[str, FloatArray], ball: int, ring: str) -> tup
     other = np.zeros(L.NS)
     other[L.SX : L.SX + 3] = sample["body_position"][body]
     other[L.SAZ], other[L.SAY] = -sample["body_tilt"][body][0], sample["body_tilt"][body][1]
+    other[L.SWY : L.SWY + 2] = sample["body_tilt_velocity"][body]
     other[L.STHETA] = sample["body_spin_angle"][body]
     other[L.SVX : L.SVX + 3] = sample["body_velocity"][body]
     other[L.SSIGMA] = sample["body_spin"][body]

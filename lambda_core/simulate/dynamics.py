@@ -318,6 +318,7 @@ def _channels(
         "body_position": shared[:, :, L.SX : L.SX + 3],
         "body_velocity": shared[:, :, L.SVX : L.SVX + 3],
         "body_tilt": np.stack([-shared[:, :, L.SAZ], shared[:, :, L.SAY]], axis=2),
+        "body_tilt_velocity": shared[:, :, L.SWY : L.SWY + 2],
         "body_spin_angle": shared[:, :, L.STHETA],
         "body_spin": shared[:, :, L.SSIGMA],
         "ball_axial": balls[:, :, L.BX].copy(),

@@ -212,7 +212,7 @@ def test_the_ring_moves_with_the_balls_passing_the_outer_ring(radial_run: Result
     assert marks["BPFO"] == pytest.approx(4.5 * (1.0 - gamma) * 25.0, rel=1e-6)
     assert marks["BPFI"] == pytest.approx(4.5 * (1.0 + gamma) * 25.0, rel=1e-6)
     assert marks["FTF"] == pytest.approx(0.5 * (1.0 - gamma) * 25.0, rel=1e-6)
-    assert marks["BSF"] == pytest.approx(0.5 / gamma * (1.0 - gamma**2) * 25.0, rel=1e-6)
+    assert marks["BSF"] == pytest.approx(0.5 * cosine / gamma * (1.0 - gamma**2) * 25.0, rel=1e-6)
     across = series(panel, "y")
     step = across.x[1] - across.x[0]
     assert across.x[np.argmax(across.y)] == pytest.approx(marks["BPFO"], abs=1.5 * step)
@@ -278,7 +278,7 @@ def test_the_contact_field_carries_the_load_and_the_loss(radial_run: Result) -> 
         # The contact angles at which the radii are frozen are found again, to 1e-4 rad.
         assert same.load == pytest.approx(sample["load"][ball, index], rel=1e-6)
         assert same.film == pytest.approx(sample["film_central"][ball, index], rel=1e-5)
-        # Sliding is a small difference of large speeds, and the speed at which the ring tilts is left out.
+        # Sliding is a small difference of large speeds.
         assert same.loss == pytest.approx(sample["contact_loss"][ball, index], rel=1e-3)
         fine = contact_field(assembly, *state, ring, 81, 41)
         assert fine.loss == pytest.approx(same.loss, rel=0.03)

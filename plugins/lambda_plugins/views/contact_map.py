@@ -23,7 +23,7 @@ _REACH = 1.8  # semi-axes along rolling that the map of the film shows beyond th
 _INPUTS = ("geometry.", "ball_material.", "inner_material.", "outer_material.", "oil.", "roughness", "starvation")
 _CHANNELS = (
     "time", "ball_axial", "ball_radius", "ball_azimuth", "ball_velocity", "ball_spin", "body_position",
-    "body_velocity", "body_tilt", "body_spin", "body_spin_angle", "load", "film_central",
+    "body_velocity", "body_tilt", "body_tilt_velocity", "body_spin", "body_spin_angle", "load", "film_central",
 )  # fmt: skip
 
 
