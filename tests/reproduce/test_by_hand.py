@@ -7,21 +7,35 @@ import pytest
 from lambda_core import api
 from lambda_core.reproduce import parameters as P
 from lambda_core.reproduce.published import LOADS, POINTS, Point
-from lambda_core.reproduce.readings import friction
+from lambda_core.reproduce.readings import Numbers, friction
 
 from . import by_hand
 
-# Sliding: the program has a tenth of the cells, a rounded corner where the shear stress meets its limit, and closes the
-# loop of heat and viscosity in two sweeps. Rolling and hysteresis: gravity of the balls, and the oil's own slopes.
-TOLERANCE = {"sliding": 0.035, "rolling": 0.015, "hysteresis": 0.015}
+FINE = ("depth.strips=61", "depth.rows=15")
+
+
+def both(point: Point, *changes: str) -> tuple[Numbers, dict[str, float]]:
+    found = friction(api.check(point.case, (*P.changes(), *changes)))
+    return found, by_hand.torques(LOADS[point.load], float(point.speed))
 
 
 @pytest.mark.parametrize("point", [*POINTS[:3], POINTS[-1]], ids=lambda point: point.case)
 def test_parts_of_the_torque(point: Point) -> None:
-    found = friction(api.check(point.case, P.changes()))
-    hand = by_hand.torques(LOADS[point.load], float(point.speed))
-    for name, tolerance in TOLERANCE.items():
-        assert found[name] == pytest.approx(hand[name], rel=tolerance), name
+    """Within 1 %: the balls' gravity, and the program's rounded corner where the shear stress meets its limit."""
+    found, hand = both(point, *FINE)
+    for name, expected in hand.items():
+        assert found[name] == pytest.approx(expected, rel=0.01), name
+
+
+@pytest.mark.parametrize("point", [POINTS[0], POINTS[-1]], ids=lambda point: point.case)
+def test_one_cell_along_rolling_overestimates_sliding(point: Point) -> None:
+    """The default has slices, as the paper: the mean pressure of a strip in place of Hertz's along it.
+
+    The stress goes with ln(eta), which grows ever more slowly with pressure, so its mean over a strip lies below its
+    value at the mean pressure: by 2 to 3.5 %, 0.5 to 1.5 % of the torque.
+    """
+    found, hand = both(point)
+    assert 0.01 < (found["sliding"] or 0.0) / hand["sliding"] - 1.0 < 0.04
 
 
 def test_what_an_estimate_without_the_unloaded_balls_leaves_out(monkeypatch: pytest.MonkeyPatch) -> None:
