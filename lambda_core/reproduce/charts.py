@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -64,7 +63,7 @@ def sensitivity_chart(found: Table4) -> ViewData:
         return max(abs(s.low_change_pct), abs(s.high_change_pct))
 
     def high(s: Sensitivity) -> float:
-        return math.nan if s.low == s.high else s.high_change_pct  # the only other law has one bar
+        return 0.0 if s.low == s.high else s.high_change_pct  # the only other law has one bar
 
     shown = [s for s in found.sensitivities if effect(s) >= _SEEN]
     rest = [s.short for s in found.sensitivities if effect(s) < _SEEN]

@@ -17,6 +17,7 @@ from lambda_core.simulate.record import Record
 FloatArray = NDArray[np.float64]
 
 QUARTER = 4.0  # resonance over the upper end of the declared range, at least
+RESOLVED = 2.0  # standard errors by which a step is more than chance
 SLOPE, TOLERANCE = -1.0, 0.25  # what the acceleration alone would give, and the bar around it
 
 
@@ -213,5 +214,13 @@ def _load_bar(points: Sequence[BoundaryPoint], criterion: str) -> str:
 def _said(mine: Sequence[Step]) -> Iterator[str]:
     for variant in dict.fromkeys(step.variant for step in mine):
         of_variant = [step for step in mine if step.variant == variant]
-        rises = ", ".join(f"{with_error(s.rise_pct, s.error_pct, 0)} % to {s.to_N / 1e3:g} kN" for s in of_variant)
-        yield f"{variant} {of_variant[0].mean_from_m_per_s2:.1f} m/s2 under {of_variant[0].from_N / 1e3:g} kN, {rises}"
+        first = of_variant[0]
+        rises = ", ".join(_rise(step) for step in of_variant)
+        yield f"{variant} {first.mean_from_m_per_s2:.1f} m/s2 under {first.from_N / 1e3:g} kN, {rises}"
+
+
+def _rise(step: Step) -> str:
+    """Write a step with its standard error, and whether it is more than twice that."""
+    text = f"{with_error(step.rise_pct, step.error_pct, 1)} % to {step.to_N / 1e3:g} kN"
+    resolved = step.error_pct is None or abs(step.rise_pct) > RESOLVED * step.error_pct
+    return text if resolved else f"{text} (not resolved)"
