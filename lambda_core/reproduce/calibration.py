@@ -29,6 +29,7 @@ class Calibration(Record):
     elastic_hysteresis: str
     rolling_resistance: str
     fitted_on: str
+    unfitted_pct: float = Field(description="error of all six points with these laws and the blind tau_e, quasi-static")
     tau_e_MPa: float = Field(description="within the published 4 to 8 MPa")
     at_limit: bool
     free_tau_e_MPa: float = Field(
@@ -94,9 +95,16 @@ def _chosen(pair: tuple[str, ...]) -> dict[str, str | None]:
 def _on_curve(pair: tuple[str, ...], grid: FloatArray, load: str) -> Calibration:
     from scipy.interpolate import CubicSpline
 
-    tau, at_limit, free = fitted(grid, load)
-    row: list[float] = CubicSpline(TAU_GRID, grid)(tau).tolist()
-    return calibration(pair, load, (tau, at_limit, free), row, simulated=False)
+    fit, curve = fitted(grid, load), CubicSpline(TAU_GRID, grid)
+    unfitted = mean_absolute_error(curve(float(P.entry(TAU).value.split()[0])).tolist())
+    return calibration(pair, load, unfitted, fit, curve(fit[0]).tolist())
+
+
+def by_runs(fit: Calibration, load: str, row: list[float]) -> Calibration:
+    """Return a calibration with the torques of runs at its tau_e."""
+    pair = (fit.elastic_hysteresis, fit.rolling_resistance)
+    tau = (fit.tau_e_MPa, fit.at_limit, fit.free_tau_e_MPa)
+    return calibration(pair, load, fit.unfitted_pct, tau, row, simulated=True)
 
 
 def fitted(grid: FloatArray, load: str) -> tuple[float, bool, float]:
@@ -128,7 +136,13 @@ def fitted(grid: FloatArray, load: str) -> tuple[float, bool, float]:
 
 
 def calibration(
-    pair: tuple[str, ...], load: str, fit: tuple[float, bool, float], row: list[float], *, simulated: bool
+    pair: tuple[str, ...],
+    load: str,
+    unfitted: float,
+    fit: tuple[float, bool, float],
+    row: list[float],
+    *,
+    simulated: bool = False,
 ) -> Calibration:
     """Put a fit and the six torques that belong to it together with their errors."""
 
@@ -139,6 +153,7 @@ def calibration(
     own = [point for point in POINTS if point.load == load]
     return Calibration(
         **dict(zip(ROLES, pair, strict=True)),
+        unfitted_pct=unfitted,
         fitted_on=f"C/P = {load.removeprefix('cp')}",
         tau_e_MPa=fit[0],
         at_limit=fit[1],

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from lambda_core.reproduce import parameters as P
-from lambda_core.reproduce.calibration import TAU, Calibration, by_law, calibration, torques
+from lambda_core.reproduce.calibration import TAU, Calibration, by_law, by_runs, torques
 from lambda_core.reproduce.published import LOADS, METHODS, POINTS, TABLE_4, mean_absolute_error
 from lambda_core.reproduce.readings import MECHANISMS
 from lambda_core.reproduce.sensitivity import Sensitivity, sensitivities
@@ -176,16 +176,7 @@ def _calibrations(
     if quick:
         return list(fits)
     rows = _simulated(workshop, offset, [{TAU: f"{fit.tau_e_MPa:.4g} MPa"} for fit in fits], quick)
-    return [
-        calibration(
-            (fit.elastic_hysteresis, fit.rolling_resistance),
-            load,
-            (fit.tau_e_MPa, fit.at_limit, fit.free_tau_e_MPa),
-            row,
-            simulated=True,
-        )
-        for fit, load, row in zip(fits, LOADS, rows, strict=True)
-    ]
+    return [by_runs(*each) for each in zip(fits, LOADS, rows, strict=True)]
 
 
 def _temperatures(workshop: Workshop, offset: FloatArray) -> list[dict[str, float]]:

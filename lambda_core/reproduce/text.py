@@ -56,8 +56,8 @@ def table4_tables(found: Table4) -> tuple[Table, ...]:
         for c in found.calibrations
     )  # fmt: skip
     by_law = tuple(
-        (c.elastic_hysteresis, c.rolling_resistance, c.fitted_on, _tau(c), _free(c.free_tau_e_MPa),
-         number(c.fitted_row_pct), number(c.predicted_row_pct), number(c.six_points_pct))
+        (c.elastic_hysteresis, c.rolling_resistance, number(c.unfitted_pct), c.fitted_on, _tau(c),
+         _free(c.free_tau_e_MPa), number(c.fitted_row_pct), number(c.predicted_row_pct), number(c.six_points_pct))
         for c in found.calibrations_by_law
     )  # fmt: skip
     effects = tuple(
@@ -84,6 +84,7 @@ def table4_tables(found: Table4) -> tuple[Table, ...]:
             (
                 "hysteresis",
                 "rolling",
+                "not fitted",
                 "fitted on",
                 "tau_e MPa",
                 "free fit MPa",
