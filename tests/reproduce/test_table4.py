@@ -110,7 +110,7 @@ def test_every_law_without_constants_of_the_user_is_calibrated() -> None:
 
 
 class Invented:
-    """A workshop whose torque is the measured one at tau_e = 7 MPa with one pair of laws, and half of it with others."""
+    """A workshop whose torque is the measured one at 7 MPa with one pair of laws, half of it with others."""
 
     PAIR = ("models.elastic_hysteresis=houpert", "models.rolling_resistance=goksem-hargreaves")
 
