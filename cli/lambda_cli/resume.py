@@ -23,7 +23,8 @@ def resume(
     """Go on with a run from its last checkpoint, bit for bit as if it had not been interrupted.
 
     Works after Ctrl+C, a kill, a full disk or the limit of wall time. --duration makes a
-    finished run longer. Exit codes as for run.
+    finished run longer. --max-wall counts from now; the limit that the run began with is over.
+    Exit codes as for run.
     """
     from lambda_core import api
 

@@ -168,6 +168,8 @@ def resume(
 ) -> Result:
     """Go on with an interrupted run, bit for bit as if it had not been.
 
+    A limit of wall time holds for one start: the run goes on without the one that it began with.
+
     Parameters
     ----------
     path : path-like
@@ -192,7 +194,8 @@ def resume(
     from lambda_core.simulate.launch import relaunch
 
     text = result(path).case_toml
-    model = resolve(apply_overrides(parse_case(text, str(path)), overrides))
+    case = parse_case(text, str(path)).with_(solver={"max_wall": None})
+    model = resolve(apply_overrides(case, overrides))
     return relaunch(Path(path), model, report=progress, announce=announce)
 
 

@@ -69,7 +69,9 @@ class Solver(Section):
     max_step: Time | None = option(
         None, "longest step; by default 1/20 of an excitation at most; absent: 1/400 of a cage turn", gt=0.0
     )
-    max_wall: Time | None = option(None, "wall time after which a run stops with what it has; absent: none", gt=0.0)
+    max_wall: Time | None = option(
+        None, "wall time after which a run stops with what it has, resume goes on without it; absent: none", gt=0.0
+    )
 
 
 class Output(Section):

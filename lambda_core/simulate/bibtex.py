@@ -7,6 +7,8 @@ import unicodedata
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from lambda_core.simulate.titles import TITLES
+
 if TYPE_CHECKING:
     from lambda_core.simulate.citation import Citation
 
@@ -78,10 +80,13 @@ def read(reference: str) -> Entry | None:
     found = _BY_YEAR.match(reference.strip())
     if found is None:
         return None
-    fields = {"author": _authors(found["authors"]), "year": found["year"]}
+    fields = {"author": _authors(found["authors"]), "title": "", "year": found["year"]}
     rest = _PLACE.sub("", found["rest"]).strip(" ,:")
     rest = "" if rest.startswith(")") else rest  # "(after Larsson and Andersson 2000), about +-15 %"
     journal = _JOURNAL.match(rest)
+    first = fields["author"].split(" and ")[0]
+    fields["title"] = TITLES.get((first, fields["year"], journal["journal"] if journal else ""), "")
+    fields = {name: value for name, value in fields.items() if value}
     if journal:
         return Entry("article", fields | journal.groupdict())
     thesis = re.fullmatch(r"\(thesis, (.+)\)", rest)

@@ -188,13 +188,13 @@ class _Session:
         while not self._done():
             if stop:
                 return "interrupted", f"stopped by {stop.words()} at t = {self._engine.time:.6g} s"
-            wall = time.perf_counter() - self._started
-            if wall >= self._solver.max_wall:
-                return "stopped", f"the limit of wall time was reached at t = {self._engine.time:.6g} s"
             advance = self._advance()
             if not advance.ok:
                 return "failed", advance.message
             self._housekeeping()
+            # Looked at behind a step: however short the limit, every start gets on.
+            if time.perf_counter() - self._started >= self._solver.max_wall and not self._done():
+                return "stopped", f"the limit of wall time was reached at t = {self._engine.time:.6g} s"
         return "finished", ""
 
     def _advance(self) -> Advance:

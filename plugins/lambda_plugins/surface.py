@@ -122,7 +122,7 @@ def defect(azimuth: float, contact_angle: float, par: FloatArray, out: FloatArra
     """Gap in the raceway that a rigid ball crosses: it turns about the edge behind, then about the edge ahead.
 
     At the distance e from the nearer edge the ball's centre has dropped by e^2/(2 R_x), at most by the depth: geometry
-    of a circle on an edge, entry and exit of Sawalha and Randall 2008, Mech. Syst. Signal Process. 22, 1842. Floor,
+    of a circle on an edge, entry and exit of Sawalhi and Randall 2008, Mech. Syst. Signal Process. 22, 1924. Floor,
     and change of edge in the middle, where the ball is struck, are rounded. Across the groove the drop fades to the
     ends of the defect as (1 - s^2)^2.
     """
@@ -169,7 +169,7 @@ DEFECT = model(
     "defect",
     defect,
     Defect,
-    reference="geometry of a circle on an edge; Sawalha and Randall 2008, Mech. Syst. Signal Process. 22, 1842",
+    reference="geometry of a circle on an edge; Sawalhi and Randall 2008, Mech. Syst. Signal Process. 22, 1924",
     validity="gap longer along rolling than the contact ellipse; rigid edges",
     prepare=prepare_defect,
 )

@@ -54,7 +54,7 @@ def zhu_cheng(
     """Thermal film factor with pressure and slide-to-roll ratio, after Zhu and Cheng.
 
     Phi_T = [1 - 13.2 (p_0/E') L^0.42]/[1 + 0.213 (1 + 2.23 S^0.83) L^0.64], L = eta0 beta u_m^2/lambda, S = slide over
-    mean velocity. Gupta, Cheng, Zhu, Forster and Schrand 1992, Tribol. Trans. 35, 149; Wingertszahn et al. 2023,
+    mean velocity. Gupta, Cheng, Zhu, Forster and Schrand 1992, Tribol. Trans. 35, 269; Wingertszahn et al. 2023,
     Lubricants 11, 369, eq. 12. S is held at 2, pure sliding of one surface, beyond which there is no fit.
     """
     L = at_least(eta0 * beta * u_mean * u_mean / k_oil, 0.0)
@@ -94,7 +94,7 @@ ZHU_CHENG = model(
     "zhu-cheng",
     zhu_cheng,
     ZhuCheng,
-    reference="Gupta, Cheng, Zhu, Forster and Schrand 1992, Tribol. Trans. 35, 149",
+    reference="Gupta, Cheng, Zhu, Forster and Schrand 1992, Tribol. Trans. 35, 269",
     validity="slide-to-roll ratio 0..2; the fit's numerator limits the product of pressure and thermal parameter",
 )
 

@@ -192,6 +192,20 @@ def test_a_longer_duration_goes_on_bit_for_bit(capsys: pytest.CaptureFixture[str
     assert "nothing is left to do" in capsys.readouterr().err
 
 
+def test_a_limit_of_wall_time_holds_for_one_start(capsys: pytest.CaptureFixture[str]) -> None:
+    """The run that it stopped goes on without it, to its end or to a limit of its own, and is the undisturbed run."""
+    main(["run", CASE, "--duration", "12 ms", "--out", "whole.h5", "--quiet"])
+    options = ["--duration", "12 ms", "--max-wall", "1 us", "--out", "part.h5", "--quiet"]
+    assert main(["run", CASE, *options]) == 5
+    assert "the limit of wall time was reached at t = 0.00" in capsys.readouterr().err
+    assert main(["resume", "part.h5", "--max-wall", "1 us", "--quiet"]) == 5
+    assert api.result("part.h5").status().state == "stopped"
+    assert 0.0 < api.result("part.h5")["time"][-1] < 0.011
+    assert main(["resume", "part.h5", "--quiet"]) == 5  # 12 ms are not converged
+    assert api.result("part.h5").status().state == "finished"
+    same(growing("part.h5"), growing("whole.h5"))
+
+
 def test_resume_refuses_what_would_be_another_run(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

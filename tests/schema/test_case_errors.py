@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import VALID, Problems
+from almost_right import VALID, Problems
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 

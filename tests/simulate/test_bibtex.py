@@ -10,6 +10,7 @@ from lambda_core.registry.manager import registry
 from lambda_core.registry.roles import ROLES
 from lambda_core.simulate.bibtex import bibtex, read
 from lambda_core.simulate.citation import METHOD, PROGRAM, TITLE, Citation, DataReference, LawReference
+from lambda_core.simulate.titles import TITLES
 
 LAWS = [
     LawReference(law=f"{role}/{name}", elements=["ball_inner"], distribution=PROGRAM, reference=model.reference)
@@ -28,7 +29,13 @@ WITHOUT_YEAR = {
     "geometry of a circle on an edge",
 }
 
-OF_1977 = {"journal": "J. Lubr. Technol.", "volume": "99", "pages": "264"}
+OF_1977 = {
+    "title": "Isothermal Elastohydrodynamic Lubrication of Point Contacts: Part III - Fully Flooded Results",
+    "journal": "J. Lubr. Technol.",
+    "volume": "99",
+    "pages": "264",
+}
+THESIS = "Die Schmierfilmbildung in fettgeschmierten schnellaufenden Spindellagern"
 
 
 def citation(laws: list[LawReference], sources: tuple[str, ...] = ()) -> Citation:
@@ -87,7 +94,11 @@ def test_every_reference_of_every_law_is_an_entry_or_no_publication() -> None:
             "book",
             {"author": "Johnson", "title": "Contact Mechanics", "year": "1985"},
         ),
-        ("Barz 1996 (thesis, Hannover)", "phdthesis", {"author": "Barz", "year": "1996", "school": "Hannover"}),
+        (
+            "Barz 1996 (thesis, Hannover)",
+            "phdthesis",
+            {"author": "Barz", "title": THESIS, "year": "1996", "school": "Hannover"},
+        ),
         (
             "class value of the base stock (after Larsson and Andersson 2000), about +-15 %",
             "misc",
@@ -125,3 +136,36 @@ def test_what_is_no_publication_stands_as_a_comment() -> None:
     text = bibtex(citation([], ("handbook values",)))
     assert text.splitlines()[-1] == "% data: handbook values"
     assert set(entries(text)) == {"lambda-bearing", "syla2026"}
+
+
+@pytest.mark.parametrize(
+    ("reference", "kind", "title"),
+    [
+        ("Hamrock and Brewe 1983, J. Lubr. Technol. 105, 171", "article", "Simplified Solution for Stresses and"),
+        ("constants: Wingertszahn et al. 2023, Lubricants 11, 369, eq. 6", "article", "Predicting Friction of Tapered"),
+        ("Teutsch 2005 (thesis, TU Kaiserslautern)", "phdthesis", "Kontaktmodelle und Strategien zur Simulation von"),
+        ("thermal: Goksem and Hargreaves 1978", "misc", "The Effect of Viscous Shear Heating"),
+        ("Hamrock and Brewe 1983, J. Tribol. 105, 171", "article", ""),  # another journal: another paper
+        ("Somebody 1983, J. Lubr. Technol. 105, 171", "article", ""),
+    ],
+)
+def test_a_title_stands_where_it_is_known_for_certain(reference: str, kind: str, title: str) -> None:
+    entry = read(reference)
+    assert entry is not None
+    assert entry.kind == kind
+    assert entry.fields.get("title", "").startswith(title)
+    assert ("title" in entry.fields) == bool(title)
+
+
+def test_every_title_is_of_a_reference_of_some_law() -> None:
+    """No line of the table is dead: misspelt, or of a source that no law names any more."""
+    found = {TITLES.get(key) for law in LAWS for part in law.reference.split("; ") for key in _keys(part)}
+    assert set(TITLES.values()) <= found
+
+
+def _keys(reference: str) -> list[tuple[str, str, str]]:
+    entry = read(reference)
+    if entry is None or "author" not in entry.fields:
+        return []
+    author = entry.fields["author"].split(" and ")[0]
+    return [(author, entry.fields["year"], entry.fields.get("journal", ""))]
