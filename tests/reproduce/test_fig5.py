@@ -96,6 +96,21 @@ def test_the_error_of_a_step_holds_what_its_points_share() -> None:
         assert step.frequencies_up == step.frequencies == len(FREQUENCIES)
 
 
+def test_a_rise_within_two_standard_errors_is_missed_and_said() -> None:
+    wrong = [bar for bar in bars(points(by_load=1.02, own=0.03, still=0.02)) if bar.startswith("missed: ")]
+    assert len(wrong) == len(CRITERIA)
+    assert all("2.0 +- 3.5 % to 5 kN (not resolved)" in bar for bar in wrong)
+
+
+def test_single_points_against_the_load_are_named() -> None:
+    found = points()
+    i = next(i for i, p in enumerate(found) if (p.variant, p.load_N, p.criterion) == ("B", 10e3, "S"))
+    found[i] = found[i].model_copy(update={"acceleration_m_per_s2": 0.8 * (found[i].acceleration_m_per_s2 or 0.0)})
+    bar = next(bar for bar in bars(found) if "criterion S: the boundary moves" in bar)
+    assert bar.startswith("met: ")
+    assert bar.endswith(f"single points fall: B {FREQUENCIES[0]:g} Hz to 10 kN (-4 %)")
+
+
 def test_where_none_was_found_nothing_is_met() -> None:
     found = [p.model_copy(update={"velocity_m_per_s": None, "acceleration_m_per_s2": None}) for p in points()]
     assert all(bar.startswith("missed: ") for bar in bars(found)[:5])
