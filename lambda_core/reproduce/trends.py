@@ -191,7 +191,7 @@ def _slope_bar(found: Sequence[Line], criterion: str) -> str:
         if x.slope is None or abs(x.slope - SLOPE) > TOLERANCE
     ]
     span = f"{min(slopes):.2f} to {max(slopes):.2f}" if slopes else "none"
-    known = f", each known to {min(errors):.2f} to {max(errors):.2f}" if errors else ""
+    known = f", standard errors up to {max(errors):.2f}" if errors else ""
     return _verdict(wrong, f"criterion {criterion}: log-log slope within -1 +- 0.25, found {span}{known}")
 
 
