@@ -20,6 +20,9 @@ def test_fig7_meets_every_bar(folder: Path, capsys: pytest.CaptureFixture[str]) 
     found = json.loads(capsys.readouterr().out)
     assert all(bar.startswith("met: ") for bar in found["bars"]), found["bars"]
     assert len(found["contacts"]) == 6
+    (effort,) = found["effort"]
+    assert effort["computed"] == effort["jobs"] > 0
+    assert effort["processor_s"] > 0.0
     run = next(c for c in found["contacts"] if c["dynamic_hertz_pF"] is not None)
     # Under axial load every ball runs alike: a run adds nothing to the quasi-static contacts.
     assert run["dynamic_hertz_pF"] == pytest.approx(run["hertz_pF"], rel=0.01)
@@ -33,7 +36,9 @@ def test_a_second_call_computes_nothing_again(folder: Path, capsys: pytest.Captu
     before = {path: path.stat().st_mtime_ns for path in (folder / "work").rglob("*") if path.is_file()}
     assert before
     assert main(["reproduce", "fig7", "--quick", "--workers", "1", "--out", str(folder), "-q"]) == 0
-    assert "simulated pF" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "simulated pF" in said
+    assert "(0 of " in said.splitlines()[-1]  # jobs computed now
     assert {path: path.stat().st_mtime_ns for path in (folder / "work").rglob("*") if path.is_file()} == before
 
 

@@ -49,6 +49,17 @@ def test_equal_jobs_are_done_once(tmp_path: Path) -> None:
     assert len(kept(tmp_path)) == 1
 
 
+def test_what_was_found_before_keeps_the_time_that_it_took(tmp_path: Path) -> None:
+    with Workshop(tmp_path, 1) as workshop:
+        first = workshop.all(JOBS[:1])[0]
+        assert workshop.answers == {JOBS[0]: first}
+    with Workshop(tmp_path, 1) as workshop:
+        again = workshop.all(JOBS[:1])[0]
+    assert first.fresh
+    assert not again.fresh
+    assert first.processor_s == again.processor_s > 0.0
+
+
 def test_a_case_that_is_wrong_fails_alone(tmp_path: Path) -> None:
     """Nothing of it is kept, the others go on, and its number is asked for in vain with the reason."""
     with Workshop(tmp_path, 1) as workshop:
