@@ -176,8 +176,12 @@ class LawResolver:
         case_texts: Mapping[str, tuple[Any, str]],
     ) -> None:
         for problem in problems(error, chosen.parameters, dict(texts)):
-            key = problem.where.split(".")[0]
-            where = case_texts[key][1] if key in case_texts else f"parameters.{role}.{problem.where}".rstrip(".")
+            key, _, inside = problem.where.partition(".")
+            where = (
+                ".".join(filter(None, (case_texts[key][1], inside)))
+                if key in case_texts
+                else f"parameters.{role}.{problem.where}".rstrip(".")
+            )
             message = f"{role} {chosen.name}: {problem.message}"
             if key not in texts and self.lubricant is not None:
                 message = f"{role} {chosen.name} needs it, and the lubricant {self.lubricant.name} has no data for it"

@@ -11,13 +11,15 @@ from lambda_core.physics.law_inputs import max_speed
 
 _PLACES = 20_000  # azimuths at which a surface is looked at: 20 um apart on a raceway of 130 mm
 _STEPS = 4.0  # per length over which the surface changes, 25 per wave
+_COUNTS = 0.01  # share of the steepest slope from which on a single harmonic has to be resolved
 
 
 def longest_step(assembly: Assembly) -> float:
     """Return the longest step of time that resolves the raceways' surfaces [s]; inf for nominal raceways.
 
-    The length over which a surface changes is its height over its slope: 1/k of a radian for k waves. Balls pass it
-    with the speed of the cage relative to the ring, at most (1 + D_w/d_m)/2 of the highest planned speed.
+    The length over which a surface changes is its height over its slope: 1/k of a radian for k waves, and 1/k of every
+    harmonic that has 1 % of the slope, for a short wave on a long one. Balls pass it with the speed of the cage
+    relative to the ring, at most (1 + D_w/d_m)/2 of the highest planned speed.
     """
     model = assembly.model
     ratio = model.geometry.ball_diameter / model.geometry.pitch_diameter
@@ -33,11 +35,15 @@ def longest_step(assembly: Assembly) -> float:
 
 
 def _shortest(assembly: Assembly, element: str, angle: float) -> float:
-    """Return the angle over which the surface changes [rad]; inf where it is flat."""
+    """Return the angle over which the surface, or one of its harmonics, changes [rad]; inf where it is flat."""
     law = assembly.kernels.compiled[element, "surface"].dispatcher
     par = assembly.parameters(element, "surface")
     found = np.zeros((_PLACES, 3))
     for azimuth, out in zip(np.linspace(-math.pi, math.pi, _PLACES), found, strict=True):
         law(azimuth, angle, par, out)
     steepest = float(np.abs(found[:, 1]).max())
-    return 0.5 * float(np.ptp(found[:, 0])) / steepest if steepest > 0.0 else math.inf
+    if steepest == 0.0:
+        return math.inf
+    slopes = 2.0 / (_PLACES - 1) * np.abs(np.fft.rfft(found[:-1, 1]))
+    orders = np.flatnonzero(slopes[1:] > _COUNTS * steepest) + 1
+    return float(min(0.5 * np.ptp(found[:, 0]) / steepest, 1.0 / max(orders, default=1)))

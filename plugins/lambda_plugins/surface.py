@@ -31,13 +31,11 @@ def none(azimuth: float, contact_angle: float, par: FloatArray, out: FloatArray)
     return 1
 
 
-class Waviness(Parameters):
-    """Parameters of one harmonic of waviness."""
+class Harmonic(Parameters):
+    """One harmonic of waviness."""
 
-    amplitude: SmallLength = parameter(
-        "1 um", "amplitude of the wave, half its peak to valley", source=_MEASURED, status="assumed", ge=0.0
-    )
-    waves: int = parameter(8, "waves per circumference", source=_MEASURED, status="assumed", ge=1, le=2000)
+    waves: int = parameter(..., "waves per circumference", ge=1, le=2000)
+    amplitude: SmallLength = parameter(..., "amplitude of the wave, half its peak to valley", ge=0.0)
     phase: Angle = parameter("0 deg", "azimuth of a crest on the ring at the start", status="numerical")
     axial_share: float = parameter(
         0.0,
@@ -49,29 +47,50 @@ class Waviness(Parameters):
     )
 
 
+class Waviness(Harmonic):
+    """Parameters of waviness: a first harmonic, and any others beside it."""
+
+    amplitude: SmallLength = parameter(
+        "1 um", "amplitude of the wave, half its peak to valley", source=_MEASURED, status="assumed", ge=0.0
+    )
+    waves: int = parameter(8, "waves per circumference", source=_MEASURED, status="assumed", ge=1, le=2000)
+    harmonics: list[Harmonic] = parameter(
+        [],
+        'further harmonics, each { waves = 17, amplitude = "0.1 um", phase = "40 deg", axial_share = 0.0 }',
+        status="numerical",
+        max_length=100,
+    )
+
+
 def prepare_waviness(parameters: Waviness, context: Context) -> FloatArray:
-    """Return [radial amplitude, axial amplitude, waves, phase]."""
-    share, amplitude = parameters.axial_share, parameters.amplitude
-    radial = amplitude * math.sqrt(1.0 - share * share)
-    return np.array([radial, amplitude * share, float(parameters.waves), parameters.phase])
+    """Return [radial amplitude, axial amplitude, waves, phase] of every harmonic."""
+    numbers: list[float] = []
+    for wave in (parameters, *parameters.harmonics):
+        radial = wave.amplitude * math.sqrt(1.0 - wave.axial_share * wave.axial_share)
+        numbers += [radial, wave.amplitude * wave.axial_share, float(wave.waves), wave.phase]
+    return np.array(numbers)
 
 
 def waviness(azimuth: float, contact_angle: float, par: FloatArray, out: FloatArray) -> int:
-    """One harmonic of waviness, w = (A_r cos alpha + A_x sin alpha) cos k (psi - phase).
+    """Waviness of a raceway, w = sum over harmonics of (A_r cos alpha + A_x sin alpha) cos k (psi - phase).
 
     A groove whose section is displaced by A_r towards the balls and by A_x along the axis rises at contact angle alpha
     by the component along the normal: Wardle 1988, Proc. Instn Mech. Engrs 202 C5, 305 (which also gives the orders
     k = i Z and i Z +- 1 that move a ring); Harsha, Sandeep and Prakash 2004, J. Sound Vib. 272, 557. The contact
     ellipse is short against the wave.
     """
-    wave = par[2] * (azimuth - par[3])
-    c = math.cos(wave)
     cos_a = math.cos(contact_angle)
     sin_a = math.sin(contact_angle)
-    lift = par[0] * cos_a + par[1] * sin_a
-    out[0] = lift * c
-    out[1] = -lift * par[2] * math.sin(wave)
-    out[2] = (par[1] * cos_a - par[0] * sin_a) * c
+    out[0] = 0.0
+    out[1] = 0.0
+    out[2] = 0.0
+    for i in range(0, par.size, 4):
+        wave = par[i + 2] * (azimuth - par[i + 3])
+        c = math.cos(wave)
+        lift = par[i] * cos_a + par[i + 1] * sin_a
+        out[0] += lift * c
+        out[1] -= lift * par[i + 2] * math.sin(wave)
+        out[2] += (par[i + 1] * cos_a - par[i] * sin_a) * c
     return 1
 
 

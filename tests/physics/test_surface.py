@@ -64,6 +64,17 @@ def test_steps_of_time_resolve_the_waves(waves: int, expected: float) -> None:
     assert longest_step(machine().assembly) == math.inf
 
 
+def test_steps_of_time_see_a_short_wave_on_a_long_one() -> None:
+    def step(*choice: str) -> float:
+        options = (f"parameters.surface.{option}" for option in choice)
+        return longest_step(machine("models.surface=waviness", *options).assembly)
+
+    short = 'harmonics=[{ waves = 100, amplitude = "20 nm" }]'
+    alone = step("waves=100", "amplitude=20 nm")
+    assert step("waves=2", "amplitude=5 um", short) == pytest.approx(alone, rel=0.01)
+    assert step("waves=2", "amplitude=5 um") > 40.0 * alone
+
+
 def test_a_narrow_defect_is_not_stepped_over() -> None:
     """0.2 mm long on a raceway of 177.5 mm: at least ten steps from edge to edge."""
     m = machine("forces.ball_outer.models.surface=defect", "forces.ball_outer.parameters.surface.width=0.2 mm")
