@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
@@ -102,7 +102,17 @@ def node_of(problem: Problem, nodes: Iterable[Node]) -> Node | None:
     return best[1] if best else near or beside
 
 
-def for_place(problems: Iterable[Problem], place: Keys, *, first: bool = False) -> list[str]:
-    """Return the sentences about one option; `first` also takes those about its whole table."""
-    table = ".".join(place[:-1])
-    return [p.message for p in problems if belongs(p, place) or (first and p.where == table)]
+def by_place(problems: Iterable[Problem], places: Sequence[Keys]) -> list[list[str]]:
+    """Return the sentences about each of several options.
+
+    Each problem stands once: at the innermost of the places that it is about, and one about the whole table of the
+    first place at that one.
+    """
+    found: list[list[str]] = [[] for _ in places]
+    for problem in problems:
+        owners = [number for number, place in enumerate(places) if belongs(problem, place)]
+        if owners:
+            found[max(owners, key=lambda number: len(places[number]))].append(problem.message)
+        elif places and problem.where == ".".join(places[0][:-1]):
+            found[0].append(problem.message)
+    return found

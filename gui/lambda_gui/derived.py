@@ -111,6 +111,7 @@ class Derived(Static):
         return text
 
 
+_LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
 _LONG = {
     "pitch": "pitch diameter",
     "clearance": "radial clearance",
@@ -150,7 +151,8 @@ def _numbers(estimate: Estimate) -> Iterable[Fact]:
     if estimate.viscosity_ratio is not None:
         yield "κ", f"{estimate.viscosity_ratio:.1f}", ""
     if estimate.rating_life_h is not None:
-        yield "L10", grouped(float(f"{estimate.rating_life_h:.2g}")), "h"
+        life = float(f"{estimate.rating_life_h:.2g}")
+        yield "L10", grouped(life) if life < _LONG_LIFE else f"> {grouped(_LONG_LIFE)}", "h"
     if state.friction_torque_Nmm is not None:
         yield "M ≈", grouped(state.friction_torque_Nmm), "N mm"
     if estimate.run_s is not None:

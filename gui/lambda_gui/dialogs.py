@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import ClassVar
 
+from rich.table import Table
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
@@ -76,6 +77,7 @@ class AskText(ModalScreen[str | None]):
 
 
 EMPTY = ""
+_NAMES = 18  # columns for the names of cases; what is longer is wrapped
 
 
 class OpenCase(ModalScreen[str | None]):
@@ -89,7 +91,7 @@ class OpenCase(ModalScreen[str | None]):
     DEFAULT_CSS = (
         _BOX.format(name="OpenCase", width="100")
         + """
-    OpenCase OptionList { height: auto; max-height: 18; background: $surface; border: none; padding: 0;
+    OpenCase OptionList { height: auto; max-height: 65vh; background: $surface; border: none; padding: 0;
         margin: 1 0 0 0; }
     OpenCase Input { margin: 1 0 0 0; }
     """
@@ -98,7 +100,7 @@ class OpenCase(ModalScreen[str | None]):
     def __init__(self, folder: Path) -> None:
         super().__init__()
         self._folder = folder
-        self._offers: list[tuple[str, Text]] = []
+        self._offers: list[tuple[str, str, str]] = []  # what is opened, its name, what it is
 
     def compose(self) -> ComposeResult:
         """Lay out an entry over the list of cases at hand."""
@@ -111,25 +113,24 @@ class OpenCase(ModalScreen[str | None]):
         """Offer everything."""
         from lambda_core import api
 
-        def line(name: str, text: str) -> Text:
-            return Text.assemble((f"{name:<22} ", "bold"), (text, "dim"))
-
-        self._offers = [(EMPTY, line("empty model", "start from nothing"))]
+        self._offers = [(EMPTY, "empty model", "start from nothing")]
         for file in sorted(self._folder.glob("*.toml")):
             if not file.name.startswith(".") and file.name != "pyproject.toml":
-                self._offers.append((str(file), line(file.name, f"in {self._folder.name or self._folder}")))
-        self._offers += [(name, line(name, text)) for name, text in api.builtin_cases().items()]
+                self._offers.append((str(file), file.name, f"in {self._folder.name or self._folder}"))
+        self._offers += [(name, name, text) for name, text in api.builtin_cases().items()]
         self._filter("")
 
     def _filter(self, text: str) -> None:
         options = self.query_one(OptionList)
         options.clear_options()
         words = text.casefold().split()
-        for value, line in self._offers:
-            if all(word in line.plain.casefold() for word in words):
-                shown = line.copy()
-                shown.truncate(min(92, self.app.size.width - 10), overflow="ellipsis")
-                options.add_option(Option(shown, id=f"case-{value}"))
+        for value, name, about in self._offers:
+            if all(word in f"{name} {about}".casefold() for word in words):
+                line = Table.grid(padding=(0, 1, 0, 0))
+                line.add_column(style="bold", width=_NAMES, overflow="fold")
+                line.add_column(style="dim")
+                line.add_row(name, about)
+                options.add_option(Option(line, id=f"case-{value}"))  # type: ignore[arg-type]
         options.highlighted = 0 if options.option_count else None
 
     def on_input_changed(self, event: Input.Changed) -> None:

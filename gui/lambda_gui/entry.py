@@ -83,12 +83,19 @@ class Entry(Input):
         self._names = names
 
     def complete(self) -> None:
-        """Write out the unit or the name that is proposed."""
+        """Write out the unit, or the name that is meant but for capitals."""
         if self._card.units:
             self.value = completed(self.value, self._card.units)
         elif self._names is not None:
             folded = self.value.strip().casefold()
             self.value = next((name for name in self._names() if name.casefold() == folded), self.value)
+
+    def accept(self) -> None:
+        """Take what is proposed in grey."""
+        self.complete()
+        if self._names is not None and self.value and self.value not in self._names():
+            folded = self.value.strip().casefold()
+            self.value = next((name for name in self._names() if name.casefold().startswith(folded)), self.value)
 
     def on_blur(self) -> None:
         """Complete what was typed."""

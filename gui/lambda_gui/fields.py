@@ -66,8 +66,8 @@ class TextRow(Row):
     def on_input_submitted(self, event: Input.Submitted) -> None:
         """Go on to the next entry."""
         event.stop()
-        self.query_one(Entry).complete()
-        self.screen.focus_next()
+        self.query_one(Entry).accept()
+        self.post_message(self.Done(self))
 
     def on_descendant_blur(self) -> None:
         """End a series of changes."""

@@ -18,7 +18,7 @@ from textual.widgets import Button, Input, Static
 from lambda_core.schema.cards import FieldCard, field_card
 from lambda_core.schema.problems import members
 from lambda_gui.around import CaseAround
-from lambda_gui.checking import for_place
+from lambda_gui.checking import by_place
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.fields import ChoiceRow, ParagraphRow, TextRow, row_for
 from lambda_gui.laws import LawRow, law_choice_row, law_choices
@@ -180,11 +180,10 @@ class NodeForm(VerticalScroll, can_focus=False):
         """Show what is written and what is wrong with it."""
         if not self.is_ready:
             return
-        first = True
-        for row in self.query(Row):
+        rows = list(self.query(Row))
+        for row, mistakes in zip(rows, by_place(problems, [row.place.keys for row in rows]), strict=True):
             row.reload()
-            row.say(for_place(problems, row.place.keys, first=first))
-            first = False
+            row.say(mistakes)
         self.query_one(".in-effect", Static).update(self._in_effect())
 
     def _in_effect(self) -> RenderableType:
@@ -234,6 +233,17 @@ class NodeForm(VerticalScroll, can_focus=False):
             at = stops.index(self.screen.focused) + by
             if 0 <= at < len(stops):
                 stops[at].focus()
+
+    def on_row_done(self, event: Row.Done) -> None:
+        """Go on to what the next row is changed by."""
+        event.stop()
+        rows = list(self.query(Row))
+        later = rows[rows.index(event.row) + 1 :] if event.row in rows else []
+        entry = next((entry for row in later if (entry := row.entry()) is not None), None)
+        if entry is not None:
+            entry.focus()
+        else:
+            self.action_step(1)
 
     def action_leave(self) -> None:
         """Go back to the tree."""

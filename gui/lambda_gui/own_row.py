@@ -82,6 +82,10 @@ class OwnRow(ModalScreen[str | None]):
         if row is not None:
             self.query_one(OptionHelp).show(row.help())
 
+    def on_row_done(self, event: Row.Done) -> None:
+        """Go on to the next value."""
+        self.focus_next()
+
     def on_mount(self) -> None:
         """Remember what the copy began with."""
         self._first = dict(self._values)

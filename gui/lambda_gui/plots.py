@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     FloatArray = NDArray[np.float64]
 
 Colour = tuple[int, int, int]
+_MOST_TICKS = 8  # tried to find two round numbers within narrow limits
 CYCLE = ("primary", "accent", "success", "error", "warning", "secondary")
 
 
@@ -75,6 +76,8 @@ def round_numbers(low: float, high: float, wanted: int) -> list[float]:
     step = next((power * factor for factor in (1.0, 2.0, 2.5, 5.0, 10.0) if power * factor >= rough), 10.0 * power)
     first = math.ceil(low / step - 1e-9)
     last = math.floor(high / step + 1e-9)
+    if last <= first and wanted < _MOST_TICKS:  # one number tells no scale
+        return round_numbers(low, high, wanted + 1)
     return [step * number for number in range(first, last + 1)]
 
 

@@ -60,6 +60,12 @@ class Surroundings:
 class Row(Vertical):
     """One option. Subclasses bring the widget that is typed in or chosen from."""
 
+    @dataclass
+    class Done(Message):
+        """The person is done with the row and goes on to the next."""
+
+        row: Row
+
     DEFAULT_CSS = """
     Row { height: auto; width: 1fr; }
     Row > .line { height: auto; width: 1fr; }

@@ -40,6 +40,8 @@ class RunScreen(Screen[None]):
     RunScreen #state { height: auto; min-height: 3; padding: 0 1; }
     RunScreen #plots { height: 1fr; }
     RunScreen #right { width: 1fr; }
+    RunScreen CageTrace { height: 3fr; }
+    RunScreen LoadTrace { height: 2fr; }
     RunScreen.-wide DataTable { height: 10; }
     """
 
@@ -76,7 +78,7 @@ class RunScreen(Screen[None]):
         table = self.query_one(DataTable)
         if table.columns:
             others = sum(width for title, width in _COLUMNS if title != "case")
-            table.ordered_columns[1].width = max(12, self.size.width - others - 2 * len(_COLUMNS) - 2)
+            table.ordered_columns[1].width = min(60, max(12, self.size.width - others - 2 * len(_COLUMNS) - 2))
         self.call_after_refresh(self._draw)
 
     @property

@@ -27,9 +27,9 @@ _SIGNALS = {
     "value": "the same at all times",
     "constant": "the same at all times, written as a table",
     "ramp": "linear from one value to another, constant before and after",
-    "harmonic": "amplitude * sin(2 pi frequency t + phase)",
+    "harmonic": "amplitude * sin(2 pi frequency t + phase), about zero; with a constant part: a sum",
     "table": "points in time joined by a cubic spline, or a CSV file",
-    "sum": "several of these added",
+    "sum": "several of these added, for example a value and a harmonic",
 }
 
 
@@ -53,11 +53,16 @@ class SignalRow(Branch):
         """Lay out kind, value and what follows."""
         with Horizontal(classes="line"):
             yield Static(self.words, classes="label", markup=False)
-            kinds = ["value", *(kind for kind in KINDS if kind in self._tables)]
-            yield Choice([ChoiceEntry(kind, kind, _SIGNALS[kind]) for kind in kinds], self._kind())
+            yield Choice(self._kinds, self._kind())
             yield Entry(self._plain)
         with Vertical(classes="twigs"):
             yield from self.twigs()
+
+    def _kinds(self) -> list[ChoiceEntry]:
+        """Return the kinds; a constant, which is a value written at length, only where a file has it."""
+        now = self._kind()
+        kinds = [kind for kind in KINDS if kind in self._tables and (kind != "constant" or now == "constant")]
+        return [ChoiceEntry(kind, kind, _SIGNALS[kind]) for kind in ("value", *kinds)]
 
     def _kind(self) -> str:
         value = self.place.get()
@@ -134,8 +139,8 @@ class SignalRow(Branch):
     def on_input_submitted(self, event: Input.Submitted) -> None:
         """Go on to the next entry."""
         event.stop()
-        self.query_one(Entry).complete()
-        self.screen.focus_next()
+        self.query_one(Entry).accept()
+        self.post_message(self.Done(self))
 
     def on_button_pressed(self, event: Button.Pressed) -> None:
         """Add or remove a term."""

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from lambda_core.simulate.progress import Progress
 from lambda_gui.plots import Plot, padded
 
+_LEGEND = 12  # lines that a plot needs for a legend
 Points = Sequence[tuple[float, float]]
 
 
@@ -69,24 +70,27 @@ class TorqueTrace(Trace):
                 for edge, sign in zip(edges, (-1.0, 1.0), strict=True):
                     edge.append((p.cage_revolutions, p.friction_torque_Nmm + sign * p.friction_torque_ci_Nmm))
         self.line(now, "secondary", "now")
-        self.line(mean, "primary", "mean")
         self.line(edges[0], "accent", "95 %")
         self.line(edges[1], "accent")
+        self.line(mean, "primary", "mean")  # last: a narrow band must not hide it
         values = [y for points in (now, mean, *edges) for _, y in points]
         if values:
             self.axes(history, *padded(min(values), max(values), 0.02 * abs(values[-1])))
 
 
 class CageTrace(Trace):
-    """Cage speed over inner ring speed."""
+    """Cage speed over inner ring speed, and what it would be without slip."""
 
     def draw(self, history: Sequence[Progress]) -> None:
         """Draw."""
-        self.clear("cage speed / inner ring speed")
+        is_low = self.size.height < _LEGEND  # its legend would hide the lines
+        self.clear("cage / inner ring, grey: epicyclic" if is_low else "cage speed / inner ring speed")
         points = [(p.cage_revolutions, p.cage_speed_ratio) for p in history if p.cage_speed_ratio is not None]
-        self.line(points, "success")
-        if points:
-            ratios = [y for _, y in points]
+        reference = [(p.cage_revolutions, p.epicyclic_ratio) for p in history if p.epicyclic_ratio is not None]
+        self.line(reference, "secondary", "" if is_low else "epicyclic")
+        self.line(points, "success", "" if is_low else "cage")
+        ratios = [y for _, y in (*points, *reference)]
+        if ratios:
             self.axes(history, *padded(min(ratios), max(ratios), 0.004))
 
 

@@ -31,6 +31,14 @@ def cage_speed(inner_speed: float, outer_speed: float, gamma: float) -> float:
     return 0.5 * (inner_speed * (1.0 - gamma) + outer_speed * (1.0 + gamma))
 
 
+def epicyclic_ratio(ball_diameter: float, pitch_diameter: float, cos_angle: float) -> float:
+    """Cage speed over inner ring speed without slip, both against the outer ring: (1 - D_w cos(alpha)/d_m)/2.
+
+    Harris ch. 10; `cos_angle` is the mean over the loaded contacts.
+    """
+    return cage_speed(1.0, 0.0, ball_diameter * cos_angle / pitch_diameter)
+
+
 def ball_speed(
     inner_speed: float, outer_speed: float, ball_diameter: float, pitch_diameter: float, contact_angle: float = 0.0
 ) -> float:

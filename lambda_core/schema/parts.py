@@ -91,7 +91,7 @@ class Bearing(Section):
         None,
         'radial internal clearance (diametral measure): a class ("CN"; "C3L", "C3H", "C3M", "C3P": lower half, upper '
         'half, middle, upper half and lower half of the next), a value ("14 um") or "geometry" (follows from the '
-        "raceway diameters); absent: the class of the designation, CN where it has none",
+        "raceway diameters); absent: the suffix's, or CN",
         reference="ISO 5753-1 for the classes",
     )
     clearance_pick: Literal["minimum", "middle", "maximum"] = option("middle", "which value of a clearance class")

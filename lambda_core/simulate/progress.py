@@ -25,6 +25,7 @@ class Progress(BaseModel):
     friction_torque_ci_Nmm: float | None
     friction_torque_now_Nmm: float | None  # over the last record
     cage_speed_ratio: float | None  # over the last record
+    epicyclic_ratio: float | None = None  # the same without slip, at the contact angles of the last samples
     energy_residual: float | None
     inner_loads_N: tuple[float, ...]  # of each ball on the inner ring at the last sample
     wall_s: float

@@ -16,6 +16,7 @@ import numpy as np
 
 from lambda_core.errors import PartialResultError, SolverError, UsageError
 from lambda_core.physics.channels import RINGS
+from lambda_core.physics.kinematics import epicyclic_ratio
 from lambda_core.physics.model import BearingModel, Solver
 from lambda_core.physics.time_functions import peak
 from lambda_core.simulate.averages import COLUMNS, FloatArray, Interval, boundaries, finite, row
@@ -161,6 +162,8 @@ class _Session:
         self._off_grid = Rows()  # records and revolutions at the tail that a longer run would not have
         self._recent = Interval(last, last)
         self._loads: tuple[float, ...] = ()
+        self._geometry = model.geometry
+        self._epicyclic = math.nan
         self._from = engine.time
         self._started = time.perf_counter()
         self._flushed = self._saved = self._reported = self._started
@@ -250,7 +253,14 @@ class _Session:
         samples = self._engine.samples()
         if len(samples["time"]):
             self._loads = tuple(samples["load"][-1, :, RINGS.index("inner")].tolist())
+            self._epicyclic = self._without_slip(samples["load"], samples["contact_angle"])
         self._writer.add_samples(samples)
+
+    def _without_slip(self, load: FloatArray, angle: FloatArray) -> float:
+        """Return cage speed over inner ring speed without slip; contact angles are weighted by load."""
+        carried = float(load.sum())
+        mean = float((load * np.cos(angle)).sum()) / carried if carried > 0.0 else math.nan
+        return epicyclic_ratio(self._geometry.ball_diameter, self._geometry.pitch_diameter, mean)
 
     def _flush(self, state: State, message: str) -> None:
         self._collect()
@@ -293,6 +303,7 @@ class _Session:
             friction_torque_ci_Nmm=finite(1e3 * self._window.torque.half_width),
             friction_torque_now_Nmm=finite(1e3 * self._recent.torque()),
             cage_speed_ratio=finite(self._recent.ratio("cage_angle", "inner_angle")),
+            epicyclic_ratio=finite(self._epicyclic),
             energy_residual=finite(Interval(self._known[0], self._last).energy_residual()),
             inner_loads_N=self._loads,
             wall_s=status.wall,

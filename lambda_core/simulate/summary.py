@@ -13,6 +13,7 @@ from pydantic import Field
 
 from lambda_core.errors import UsageError
 from lambda_core.physics.channels import RINGS
+from lambda_core.physics.kinematics import epicyclic_ratio
 from lambda_core.physics.model import Solver
 from lambda_core.simulate.averages import Interval, finite
 from lambda_core.simulate.convergence import shortfalls, window
@@ -110,7 +111,9 @@ def summarise(result: Result) -> Summary:
     residual = whole.energy_residual()
     reasons = _reasons(status.state, status.message, shortfalls(settings, chosen, residual))
     extremes = _Span.of(result, float(chosen.interval.first[0]))
-    epicyclic = _epicyclic(result, extremes.cos_angle)
+    geometry = result.model["geometry"]
+    sizes = float(geometry["ball_diameter"]), float(geometry["pitch_diameter"])
+    epicyclic = epicyclic_ratio(*sizes, extremes.cos_angle)
     ratio = chosen.interval.ratio("cage_angle", "inner_angle")
     end = _sample(result, -1)
     edges = _edges(result)
@@ -204,17 +207,6 @@ def _edges(result: Result) -> list[Shoulder]:
 def _highest_pressure(result: Result) -> float:
     """Return the largest Hertzian pressure of the whole run [Pa]."""
     return max(float(block["max_pressure"].max()) for block in result.blocks(("max_pressure",)))
-
-
-def _epicyclic(result: Result, cos_angle: float) -> float:
-    """Return cage speed over inner ring speed in rolling without slip, both against the outer ring.
-
-    (1 - D_w cos(alpha)/d_m)/2, Harris and Kotzalas, Essential Concepts of Bearing Technology,
-    5th ed., ch. 10; alpha is the mean over the loaded contacts.
-    """
-    geometry = result.model["geometry"]
-    ratio = float(geometry["ball_diameter"] / geometry["pitch_diameter"])
-    return 0.5 * (1.0 - ratio * cos_angle)
 
 
 def contact_list(state: Mapping[str, NDArray[np.float64]]) -> list[Contact]:

@@ -101,7 +101,7 @@ async def test_a_load_over_time(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
         await go_to(pilot, "loads.radial")
-        await pilot.press("shift+tab", "enter", "down", "down", "enter")  # value, constant, ramp
+        await pilot.press("shift+tab", "enter", "down", "enter")  # value, ramp
         await pilot.pause(0.3)
         draft = builder(pilot).draft
         assert draft.get("loads", "radial") == {"kind": "ramp", "start": "1.5 kN", "end": "1.5 kN"}
@@ -129,7 +129,7 @@ async def test_a_sum_of_loads_and_a_table_of_points(hand_written: Path) -> None:
         await pilot.pause(0.3)
         assert draft.get("loads", "axial", "terms") == ["200 N", "0 N"]
         await go_to(pilot, "loads.radial")
-        await pilot.press("shift+tab", "enter", *["down"] * 4, "enter")
+        await pilot.press("shift+tab", "enter", *["down"] * 3, "enter")
         await pilot.pause(0.3)
         assert draft.get("loads", "radial") == {"kind": "table", "points": [["0 s", "1.5 kN"]]}
         await pilot.press("tab", "end", "enter")

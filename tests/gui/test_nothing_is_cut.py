@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import pytest
-from driving import SMALL, builder, checked, wait_for
+from driving import SMALL, builder, checked, screen_text, wait_for
 from lambda_gui.app import BuilderApp
 from lambda_gui.catalogue import CatalogueScreen
 from lambda_gui.choice import Choice, PickList
@@ -115,6 +115,8 @@ async def test_an_empty_model_and_what_it_asks(work_folder: Path, size: tuple[in
     found = []
     async with BuilderApp().run_test(size=size) as pilot:
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, OpenCase))
+        await wait_for(pilot, lambda: "6208-axial-1300" in screen_text(pilot.app))
+        await pilot.pause()
         found += read(pilot, "which case")
         await pilot.press("enter")
         await checked(pilot)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from lambda_gui.checking import Checker, for_place, node_of
+from lambda_gui.checking import Checker, by_place, node_of
 from lambda_gui.outline import Node, outline
 
 from lambda_core import api
@@ -88,8 +88,15 @@ def test_an_empty_model_says_what_it_needs() -> None:
         "lubricant.temperature",
         "operation.speed",
     ]  # option by option, in the order of the tree
-    assert for_place(found.problems, ("bearing", "designation"))
-    assert not for_place(found.problems, ("bearing", "maker"))
+    of_designation, of_maker = by_place(found.problems, [("bearing", "designation"), ("bearing", "maker")])
+    assert of_designation
+    assert not of_maker
+
+
+def test_a_mistake_stands_once_at_the_innermost_row() -> None:
+    problems = [Problem("loads.axial.frequency", "is required"), Problem("loads", "is odd"), Problem("solver", "no")]
+    places = [("loads", "radial"), ("loads", "axial"), ("loads", "axial", "frequency"), ("loads", "axial", "phase")]
+    assert by_place(problems, places) == [["is odd"], [], ["is required"], []]
 
 
 def test_a_good_case_resolves() -> None:
