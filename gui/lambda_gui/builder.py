@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Sequence
-from copy import deepcopy
 from typing import TYPE_CHECKING, ClassVar
 
 from rich.text import Text
-from textual import events, work
+from textual import events
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical
-from textual.screen import Screen
 from textual.timer import Timer
-from textual.widgets import Footer, Static, Tree
+from textual.widgets import Footer, Tree
 
-from lambda_core.errors import LambdaError, Problem
-from lambda_gui.around import CaseAround
-from lambda_gui.checking import Check, Checker, belongs, node_of, plugin_faults
+from lambda_core.errors import Problem
+from lambda_gui.checking import belongs, node_of
 from lambda_gui.derived import Derived
 from lambda_gui.forms import NodeForm
-from lambda_gui.helper import Estimator
+from lambda_gui.head import Head
+from lambda_gui.live_draft import LiveDraft
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.outline import Keys, Node
-from lambda_gui.recovery import Keeper
 from lambda_gui.rows import Edited, Left, Row
 from lambda_gui.sketch import Sketch
 from lambda_gui.tree import ModelTree
@@ -34,11 +29,8 @@ if TYPE_CHECKING:
     from lambda_core.simulate.estimate import Estimate
     from lambda_gui.catalogue import Taken
 
-_CHECK_AFTER = 0.1  # of quiet [s]
-_KEEP_AFTER = 2.0  # of unsaved work [s]
 
-
-class BuilderScreen(Screen[None]):
+class BuilderScreen(LiveDraft):
     """One case."""
 
     HORIZONTAL_BREAKPOINTS = [(0, "-narrow"), (140, "-wide")]  # noqa: RUF012
@@ -56,7 +48,6 @@ class BuilderScreen(Screen[None]):
     ]
     DEFAULT_CSS = """
     BuilderScreen { layout: vertical; background: $background; }
-    BuilderScreen #head { height: 1; width: 1fr; background: $panel; padding: 0 1; }
     BuilderScreen #body { height: 1fr; }
     BuilderScreen #tree { width: 40; height: 1fr; border-right: vkey $border-blurred; }
     BuilderScreen #tree:focus { border-right: vkey $border; }
@@ -73,24 +64,15 @@ class BuilderScreen(Screen[None]):
     """
 
     def __init__(self, draft: Draft) -> None:
-        super().__init__()
-        self.draft = draft
-        self.around = CaseAround(draft)
-        self.check = Check()
-        self.checked_in = 0.0  # how long the last check took [s]
-        self.keeper = Keeper()
-        self._estimator = Estimator(self._estimated)
-        self._checker = Checker()
-        self._check_timer: Timer | None = None
+        super().__init__(draft)
         self._form_timer: Timer | None = None
         self._wanted: Keys | None = None
-        self._has_told_faults = False
 
     # -- layout --
 
     def compose(self) -> ComposeResult:
         """Lay out head, tree, form and side."""
-        yield Static(id="head")
+        yield Head()
         with Horizontal(id="body"):
             yield ModelTree(self.draft, self.around)
             with Vertical(id="right"), Vertical(id="side"):
@@ -100,39 +82,18 @@ class BuilderScreen(Screen[None]):
         yield Footer()
 
     def on_mount(self) -> None:
-        """Check in the background once the first picture stands."""
-        self.set_interval(_KEEP_AFTER, self._keep)
+        """Show the case and begin to check it."""
         self.app.theme_changed_signal.subscribe(self, lambda _: self._recolour())
         self.query_one(ModelTree).focus()
         self._show_head()
-        self.call_after_refresh(self._check_now)
+        self.begin()
 
     def on_resize(self, event: events.Resize) -> None:
         """Fit the head."""
         self._show_head()
 
-    async def on_unmount(self) -> None:
-        """End the estimator's process and release the catalogue."""
-        await self._estimator.close()
-        self._checker.close()
-
     def _show_head(self) -> None:
-        name = self.draft.path.name if self.draft.path else f"{self.draft.get('name') or 'untitled'} (no file)"
-        left = Text.assemble((" λ ", "bold reverse"), " ", (name, "bold"))
-        if self.draft.is_changed():
-            left.append(" ● unsaved", style=self.app.theme_variables["accent"])
-        right = Text()
-        count = len(self.check.problems)
-        if count:
-            right.append(f"▲ {count} mistake{'s' * (count > 1)}  F8", style=self.app.theme_variables["error"])
-        elif self.check.model is not None:
-            right.append("ready", style=self.app.theme_variables["success"])
-            right.append(f"  {len(self.check.model.assumptions)} assumptions", style="dim")
-        running = self.app.run_words()  # type: ignore[attr-defined]
-        if running:
-            right = Text.assemble((running, "bold"), "   ", right)
-        left.pad_right(max(1, self.size.width - 2 - left.cell_len - right.cell_len))
-        self.query_one("#head", Static).update(left.append_text(right))
+        self.query_one(Head).show(self.draft, self.check, self.app.run_words())  # type: ignore[attr-defined]
 
     def _recolour(self) -> None:
         self._show_head()
@@ -240,41 +201,19 @@ class BuilderScreen(Screen[None]):
     def edited(self) -> None:
         """Mark the change and check soon."""
         self._show_head()
-        if self._check_timer is not None:
-            self._check_timer.stop()
-        self._check_timer = self.set_timer(_CHECK_AFTER, self._check_now)
+        super().edited()
 
-    @work(thread=True, exclusive=True, group="check")
-    def _check_now(self) -> None:
-        begin = time.perf_counter()
-        found = self._checker.check(self.draft.tables, self.draft.folder)
-        took = time.perf_counter() - begin
-        self.app.call_from_thread(self._checked, found, took)
-        if not self._has_told_faults:
-            self._has_told_faults = True
-            self.app.call_from_thread(self._tell_faults, plugin_faults())
-
-    def _tell_faults(self, faults: Sequence[str]) -> None:
-        self.app.stands()  # type: ignore[attr-defined]
-        for fault in faults:
-            self.notify(fault, title="not in use", severity="warning", timeout=12)
-
-    def _checked(self, found: Check, took: float) -> None:
-        # The check may come back while the screen is taken down.
-        if not self.is_attached or not self.query(ModelTree):
-            return
-        self.check, self.checked_in = found, took
-        self.around.learn(found.values)
-        self.query_one(ModelTree).refresh_marks(found.problems)
+    def show_check(self) -> None:
+        """Show what the last check found: marks in the tree, mistakes at their fields, what follows."""
+        self.query_one(ModelTree).refresh_marks(self.check.problems)
         if self.form is not None:
-            self.form.reload(found.problems)
-        self.query_one(Derived).show_check(found)
-        self.query_one(Sketch).show_model(found.model)
+            self.form.reload(self.check.problems)
+        self.query_one(Derived).show_check(self.check)
+        self.query_one(Sketch).show_model(self.check.model)
         self._show_head()
-        if found.model is not None:
-            self.run_worker(self._estimator.ask(deepcopy(self.draft.tables), self.draft.folder), group="estimate")
 
-    def _estimated(self, estimate: Estimate | None, say: str) -> None:
+    def show_estimate(self, estimate: Estimate | None, say: str) -> None:
+        """Show the numbers that follow."""
         if self.is_attached:
             self.query_one(Derived).show_estimate(estimate, say)
 
@@ -310,16 +249,6 @@ class BuilderScreen(Screen[None]):
 
     # -- file --
 
-    def _keep(self) -> None:
-        """Keep unsaved work aside, so that a crash loses seconds."""
-        try:
-            if self.draft.is_changed():
-                self.keeper.keep(self.draft)
-            else:
-                self.keeper.drop()
-        except LambdaError as error:
-            self.notify(f"unsaved work cannot be kept aside: {error}", severity="warning")
-
     def action_save(self) -> None:
         """Save, asking for a name where there is none."""
         self.app.save_case()  # type: ignore[attr-defined]
@@ -331,11 +260,6 @@ class BuilderScreen(Screen[None]):
         if self.form is not None:
             self.form.reload(self.check.problems)
         self._show_head()
-
-    def catalogue_changed(self) -> None:
-        """Look things up anew: rows may have been added."""
-        self.around.forget_names()
-        self._checker.close()
 
     def refresh_head(self) -> None:
         """Draw the head anew: a run has gone on."""

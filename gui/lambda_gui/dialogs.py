@@ -130,7 +130,7 @@ class OpenCase(ModalScreen[str | None]):
                 line.add_column(style="bold", width=_NAMES, overflow="fold")
                 line.add_column(style="dim")
                 line.add_row(name, about)
-                options.add_option(Option(line, id=f"case-{value}"))  # type: ignore[arg-type]
+                options.add_option(Option(line, id=f"case-{value}"))
         options.highlighted = 0 if options.option_count else None
 
     def on_input_changed(self, event: Input.Changed) -> None:

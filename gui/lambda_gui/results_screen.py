@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
@@ -11,24 +10,23 @@ from textual import work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical, VerticalScroll
-from textual.screen import Screen
 from textual.widgets import DataTable, Footer, OptionList, Static
 from textual.widgets.option_list import Option
 
 from lambda_core.errors import LambdaError
 from lambda_gui.charts import notes_text, shape_of, widget_for
 from lambda_gui.dialogs import AskText
-from lambda_gui.helper import Helper
+from lambda_gui.export import SUMMARY, ExportScreen
+from lambda_gui.result_files import results_in, stamp_of
 from lambda_gui.summary_view import summary_view
 
 if TYPE_CHECKING:
     from lambda_core.registry.chart import ViewData
 
-SUMMARY = "summary"
 _LIVE = 2.0  # how often a result that grows is read again [s]
 
 
-class ResultsScreen(Screen[None]):
+class ResultsScreen(ExportScreen):
     """Result files of a folder.
 
     Parameters
@@ -68,13 +66,11 @@ class ResultsScreen(Screen[None]):
     """
 
     def __init__(self, folder: Path, shown: Path | None = None) -> None:
-        super().__init__()
-        self._folder, self._first = folder, shown
+        super().__init__(folder)
+        self._first = shown
         self._files: list[Path] = []
         self._more: list[Path] = [shown] if shown is not None else []
         self._marked: set[Path] = set()
-        self._helper = Helper(self._say)
-        self._view = SUMMARY
         self._stamp: object = None
         self._data: ViewData | None = None
 
@@ -109,12 +105,9 @@ class ResultsScreen(Screen[None]):
         if self._data is not None:
             self._show_data(self._data)
 
-    def _say(self, text: str) -> None:
-        if self.is_attached:
-            self._title(text)
-
-    def _title(self, words: str = "") -> None:
-        names = "  ".join(path.name for path in self._chosen())
+    def say(self, words: str = "") -> None:
+        """Write over the content what is shown, and what is being done."""
+        names = "  ".join(path.name for path in self.chosen())
         text = Text(names or "no result files here", style="bold")
         self.query_one("#title", Static).update(text.append(f"\n{words}", style="dim not bold"))
 
@@ -122,7 +115,7 @@ class ResultsScreen(Screen[None]):
 
     def _list(self, keep: Path | None) -> None:
         table = self.query_one("#files", DataTable)
-        found = {path.resolve(): None for path in (*self._more, *_results_in(self._folder))}
+        found = {path.resolve(): None for path in (*self._more, *results_in(self._folder))}
         self._files = [path for path in found if path.exists()]
         table.clear()
         for path in self._files:
@@ -130,14 +123,15 @@ class ResultsScreen(Screen[None]):
         if keep is not None and keep.resolve() in self._files:
             table.move_cursor(row=self._files.index(keep.resolve()))
 
-    def _current(self) -> Path | None:
+    def current(self) -> Path | None:
+        """Return the result under the cursor."""
         at = self.query_one("#files", DataTable).cursor_row
         return self._files[at] if 0 <= at < len(self._files) else None
 
-    def _chosen(self) -> list[Path]:
+    def chosen(self) -> list[Path]:
         """Return the marked results, else the one under the cursor."""
         marked = [path for path in self._files if path in self._marked]
-        current = self._current()
+        current = self.current()
         return marked or ([current] if current is not None else [])
 
     def on_data_table_row_highlighted(self, event: DataTable.RowHighlighted) -> None:
@@ -146,7 +140,7 @@ class ResultsScreen(Screen[None]):
 
     def action_mark(self) -> None:
         """Mark a result; two or more are compared."""
-        path = self._current()
+        path = self.current()
         if path is None:
             return
         self._marked ^= {path}
@@ -189,7 +183,7 @@ class ResultsScreen(Screen[None]):
     @work(exclusive=True, group="views")
     async def _fill_views(self) -> None:
         """List the views of one result, or of several."""
-        many = len(self._chosen()) > 1
+        many = len(self.chosen()) > 1
         try:
             cards = await self._helper.ask("views", subject="results" if many else "result")
         except LambdaError as error:
@@ -214,39 +208,39 @@ class ResultsScreen(Screen[None]):
 
     def _refresh_live(self) -> None:
         """Read a result again that has grown; take in files that came or went."""
-        known = {path.resolve() for path in (*self._more, *_results_in(self._folder)) if path.exists()}
+        known = {path.resolve() for path in (*self._more, *results_in(self._folder)) if path.exists()}
         if known != set(self._files):
             self._marked &= known
-            self._list(self._current())
+            self._list(self.current())
             self._show()
-        elif _stamp(self._chosen()) != self._stamp:
+        elif stamp_of(self.chosen()) != self._stamp:
             self._show()
 
     @work(exclusive=True, group="show")
     async def _show(self) -> None:
-        paths = self._chosen()
-        self._title("reading ..." if paths else "Esc, then F5 runs the case; o opens a result from elsewhere")
+        paths = self.chosen()
+        self.say("reading ..." if paths else "Esc, then F5 runs the case; o opens a result from elsewhere")
         if not paths:
             await self.query_one("#content", VerticalScroll).remove_children()
             return
-        self._stamp = _stamp(paths)
+        self._stamp = stamp_of(paths)
         try:
             if self._view == SUMMARY:
                 found = [await self._helper.ask("summary", path=str(path)) for path in paths]
                 self._data = None
                 await self._put(*(Static(summary_view(summary, self.app.theme_variables)) for summary in found))
-                self._title("   ".join(summary.state for summary in found))
+                self.say("   ".join(summary.state for summary in found))
                 return
             self._data = await self._helper.ask("view", sources=[str(path) for path in paths], name=self._view)
         except LambdaError as error:
             self._data = None
             await self._put(Static(Text(str(error), style="bold")))
-            self._title()
+            self.say()
             return
         self._show_data(self._data)
 
     def _show_data(self, data: ViewData) -> None:
-        self._title(f"{data.title}   {data.source}")
+        self.say(f"{data.title}   {data.source}")
         content = self.query_one("#content", VerticalScroll)
         side, height = shape_of(data.panels, data.columns, content.size.width, content.size.height)
         rows = []
@@ -264,84 +258,3 @@ class ResultsScreen(Screen[None]):
         for widget in widgets:
             if isinstance(widget, Static):
                 widget.styles.width = "1fr"
-
-    # -- export --
-
-    def action_figure(self) -> None:
-        """Write the view as SVG and PNG."""
-        if self._view == SUMMARY:
-            self.notify("choose a view first; the summary goes into the report", severity="warning")
-        else:
-            self._export("draw", "figures into the folder", sources=True)
-
-    def action_report(self) -> None:
-        """Write a report of the results."""
-        self._export("report", "report into the file", sources=True)
-
-    def action_case(self) -> None:
-        """Write the case of the result, complete, into a file."""
-        path = self._current()
-        if path is not None:
-            self._ask_case(path)
-
-    @work
-    async def _ask_case(self, path: Path) -> None:
-        from lambda_core.schema.case_writer import save_text
-
-        try:
-            text = await self._helper.ask("case_text", path=str(path))
-        except LambdaError as error:
-            self.notify(str(error), severity="error")
-            return
-        answer = await self.app.push_screen_wait(AskText("Write the case as", str(path.with_suffix(".toml"))))
-        if answer is None:
-            return
-        target = Path(answer).expanduser()
-        if target.exists():
-            self.notify(f"{target} exists: choose another name", severity="error")
-            return
-        try:
-            save_text(text, target)
-        except LambdaError as error:
-            self.notify(str(error), severity="error")
-            return
-        self.notify(f"wrote {target}")
-
-    @work
-    async def _export(self, what: str, words: str, *, sources: bool) -> None:
-        paths = [str(path) for path in self._chosen()]
-        if not paths:
-            return
-        proposal = self._folder if what == "draw" else Path(paths[0]).with_suffix(".html")
-        answer = await self.app.push_screen_wait(AskText(f"Write the {words}", str(proposal)))
-        if answer is None:
-            return
-        target = str(Path(answer).expanduser())
-        more = {"name": self._view, "folder": target} if what == "draw" else {"target": target}
-        try:
-            written: Sequence[str] = await self._helper.ask(what, sources=paths, **more)
-        except LambdaError as error:
-            self.notify(str(error), severity="error", timeout=10)
-            return
-        self.notify("wrote " + ", ".join(written), timeout=8)
-        self._title()
-
-
-def _results_in(folder: Path) -> list[Path]:
-    """Return the result files of a folder, the newest first."""
-    try:
-        return sorted(folder.glob("*.h5"), key=lambda path: -path.stat().st_mtime)
-    except OSError:
-        return []
-
-
-def _stamp(paths: Sequence[Path]) -> object:
-    """Return what changes when one of the files does."""
-    found = []
-    for path in paths:
-        try:
-            status = path.stat()
-            found.append((path, status.st_size, status.st_mtime_ns))
-        except OSError:
-            found.append((path, 0, 0))
-    return found

@@ -1,0 +1,106 @@
+"""What can be written from results: figures, reports, the case."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from textual import work
+from textual.screen import Screen
+
+from lambda_core.errors import LambdaError
+from lambda_gui.dialogs import AskText
+from lambda_gui.helper import Helper
+
+SUMMARY = "summary"
+
+
+class ExportScreen(Screen[None]):
+    """A screen with results that are chosen and a view that is shown.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        Where figures are proposed to go.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__()
+        self._folder = folder
+        self._helper = Helper(self._say)
+        self._view = SUMMARY
+
+    def _say(self, text: str) -> None:
+        if self.is_attached:
+            self.say(text)
+
+    def say(self, words: str = "") -> None:
+        """Say what is going on."""
+        raise NotImplementedError
+
+    def current(self) -> Path | None:
+        """Return the result under the cursor."""
+        raise NotImplementedError
+
+    def chosen(self) -> list[Path]:
+        """Return the results that are shown."""
+        raise NotImplementedError
+
+    def action_figure(self) -> None:
+        """Write the view as SVG and PNG."""
+        if self._view == SUMMARY:
+            self.notify("choose a view first; the summary goes into the report", severity="warning")
+        else:
+            self._export("draw", "figures into the folder", sources=True)
+
+    def action_report(self) -> None:
+        """Write a report of the results."""
+        self._export("report", "report into the file", sources=True)
+
+    def action_case(self) -> None:
+        """Write the case of the result, complete, into a file."""
+        path = self.current()
+        if path is not None:
+            self._ask_case(path)
+
+    @work
+    async def _ask_case(self, path: Path) -> None:
+        from lambda_core.schema.case_writer import save_text
+
+        try:
+            text = await self._helper.ask("case_text", path=str(path))
+        except LambdaError as error:
+            self.notify(str(error), severity="error")
+            return
+        answer = await self.app.push_screen_wait(AskText("Write the case as", str(path.with_suffix(".toml"))))
+        if answer is None:
+            return
+        target = Path(answer).expanduser()
+        if target.exists():
+            self.notify(f"{target} exists: choose another name", severity="error")
+            return
+        try:
+            save_text(text, target)
+        except LambdaError as error:
+            self.notify(str(error), severity="error")
+            return
+        self.notify(f"wrote {target}")
+
+    @work
+    async def _export(self, what: str, words: str, *, sources: bool) -> None:
+        paths = [str(path) for path in self.chosen()]
+        if not paths:
+            return
+        proposal = self._folder if what == "draw" else Path(paths[0]).with_suffix(".html")
+        answer = await self.app.push_screen_wait(AskText(f"Write the {words}", str(proposal)))
+        if answer is None:
+            return
+        target = str(Path(answer).expanduser())
+        more = {"name": self._view, "folder": target} if what == "draw" else {"target": target}
+        try:
+            written: Sequence[str] = await self._helper.ask(what, sources=paths, **more)
+        except LambdaError as error:
+            self.notify(str(error), severity="error", timeout=10)
+            return
+        self.notify("wrote " + ", ".join(written), timeout=8)
+        self.say()

@@ -1,0 +1,111 @@
+"""A screen over a draft: it is checked, estimated and kept aside as it changes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from copy import deepcopy
+from typing import TYPE_CHECKING
+
+from textual import work
+from textual.screen import Screen
+from textual.timer import Timer
+
+from lambda_core.errors import LambdaError
+from lambda_gui.around import CaseAround
+from lambda_gui.checking import Check, Checker, plugin_faults
+from lambda_gui.helper import Estimator
+from lambda_gui.recovery import Keeper
+
+if TYPE_CHECKING:
+    from lambda_core.schema.draft import Draft
+    from lambda_core.simulate.estimate import Estimate
+
+_CHECK_AFTER = 0.1  # of quiet [s]
+_KEEP_AFTER = 2.0  # of unsaved work [s]
+
+
+class LiveDraft(Screen[None]):
+    """Checks in a thread, estimates in a process, and keeps unsaved work aside.
+
+    Parameters
+    ----------
+    draft : Draft
+        The case.
+    """
+
+    def __init__(self, draft: Draft) -> None:
+        super().__init__()
+        self.draft = draft
+        self.around = CaseAround(draft)
+        self.check = Check()
+        self.checked_in = 0.0  # how long the last check took [s]
+        self.keeper = Keeper()
+        self._estimator = Estimator(self.show_estimate)
+        self._checker = Checker()
+        self._check_timer: Timer | None = None
+        self._has_told_faults = False
+
+    def begin(self) -> None:
+        """Check in the background once the first picture stands."""
+        self.set_interval(_KEEP_AFTER, self._keep)
+        self.call_after_refresh(self._check_now)
+
+    async def on_unmount(self) -> None:
+        """End the estimator's process and release the catalogue."""
+        await self._estimator.close()
+        self._checker.close()
+
+    def edited(self) -> None:
+        """Check a change soon."""
+        if self._check_timer is not None:
+            self._check_timer.stop()
+        self._check_timer = self.set_timer(_CHECK_AFTER, self._check_now)
+
+    def catalogue_changed(self) -> None:
+        """Look things up anew: rows may have been added."""
+        self.around.forget_names()
+        self._checker.close()
+
+    def show_check(self) -> None:
+        """Show what the last check found."""
+        raise NotImplementedError
+
+    def show_estimate(self, estimate: Estimate | None, say: str) -> None:
+        """Show an estimate, or what is being done about it."""
+        raise NotImplementedError
+
+    @work(thread=True, exclusive=True, group="check")
+    def _check_now(self) -> None:
+        begin = time.perf_counter()
+        found = self._checker.check(self.draft.tables, self.draft.folder)
+        took = time.perf_counter() - begin
+        self.app.call_from_thread(self._checked, found, took)
+        if not self._has_told_faults:
+            self._has_told_faults = True
+            self.app.call_from_thread(self._tell_faults, plugin_faults())
+
+    def _tell_faults(self, faults: Sequence[str]) -> None:
+        self.app.stands()  # type: ignore[attr-defined]
+        for fault in faults:
+            self.notify(fault, title="not in use", severity="warning", timeout=12)
+
+    def _checked(self, found: Check, took: float) -> None:
+        # The check may come back while the screen is taken down.
+        if not self.is_attached or not self.children:
+            return
+        self.check, self.checked_in = found, took
+        self.around.learn(found.values)
+        self.show_check()
+        if found.model is not None:
+            self.run_worker(self._estimator.ask(deepcopy(self.draft.tables), self.draft.folder), group="estimate")
+
+    def _keep(self) -> None:
+        """Keep unsaved work aside, so that a crash loses seconds."""
+        try:
+            if self.draft.is_changed():
+                self.keeper.keep(self.draft)
+            else:
+                self.keeper.drop()
+        except LambdaError as error:
+            self.notify(f"unsaved work cannot be kept aside: {error}", severity="warning")
