@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, ClassVar
 
 from rich.text import Text
@@ -184,9 +185,11 @@ class BuilderScreen(LiveDraft):
         self._wanted = keys
         tree.go_to(node.key)
 
-    def has_option(self, path: str) -> bool:
-        """Tell whether an option stands on some node."""
-        return self.query_one(ModelTree).node_at(tuple(path.split("."))) is not None
+    def those_on_nodes(self, paths: Iterable[str]) -> list[str]:
+        """Return the options that stand on some node."""
+        places = {place for node in self.query_one(ModelTree).all_nodes() for place in node.places}
+        split = ((path, tuple(path.split("."))) for path in paths)
+        return [path for path, keys in split if any(keys[: n + 1] in places for n in range(len(keys)))]
 
     # -- changes --
 

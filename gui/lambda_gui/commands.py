@@ -10,28 +10,30 @@ from lambda_core.schema.case import Case
 from lambda_core.schema.problems import field_at, option_paths
 from lambda_gui.builder import BuilderScreen
 
-_LINE = 70  # characters that fit under a hit on a narrow screen
-
-
-def _in_one_line(text: str) -> str:
-    return text if len(text) <= _LINE else f"{text[: _LINE - 1].rstrip()}…"
-
 
 class OptionSearch(Provider):
     """Go to an option."""
+
+    _options: list[tuple[str, str, str]] = []  # noqa: RUF012 - path, path in words, what it is; found at each opening
+
+    async def startup(self) -> None:
+        """Find the options that stand on some node."""
+        if isinstance(self.screen, BuilderScreen):
+            self._options = [
+                (path, path.replace("_", " "), (info.description if (info := field_at(Case, path)) else "") or "")
+                for path in self.screen.those_on_nodes(option_paths(Case))
+            ]
 
     async def search(self, query: str) -> Hits:
         """Yield the options that match."""
         if not isinstance(self.screen, BuilderScreen):
             return
         matcher = self.matcher(query)
-        for path in option_paths(Case):
-            info = field_at(Case, path)
-            about = info.description if info is not None else ""
-            score = max(matcher.match(path), matcher.match(path.replace("_", " ")), 0.8 * matcher.match(about or ""))
-            if score > 0.0 and self.screen.has_option(path):
+        for path, spoken, about in self._options:
+            score = max(matcher.match(path), matcher.match(spoken), 0.8 * matcher.match(about))
+            if score > 0.0:
                 go = partial(self.screen.go_to, tuple(path.split(".")))
-                yield Hit(score, matcher.highlight(path), go, help=_in_one_line(about or ""))
+                yield Hit(score, matcher.highlight(path), go, help=about)
 
     async def discover(self) -> Hits:
         """Yield the options that are changed most often."""
