@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -38,15 +37,7 @@ def quiet_estimator(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPa
 
 
 @pytest.fixture
-def shared_compiled_code() -> Iterator[None]:
-    """Use the user's compiled code: its folders are named by content."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.delenv("LAMBDA_BEARING_CACHE", raising=False)
-        yield
-
-
-@pytest.fixture
-def estimates(shared_compiled_code: None) -> None:
+def estimates() -> None:
     """Let the estimator work in this test."""
 
 

@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 Cut = str
 
 
-def cut_on(app: BuilderApp) -> list[Cut]:
-    """Return a sentence for each piece of text on the screen that is not there as a whole."""
+def cut_on(app: BuilderApp, within: Widget | None = None) -> list[Cut]:
+    """Return a sentence for each piece of text on the screen, or within a widget, that is not there as a whole."""
     found = [f"ellipsis: {line.strip()}" for line in screen_text(app).splitlines() if "…" in line]
-    for widget in app.screen.query("*").results(Widget):
+    for widget in (within or app.screen).query("*").results(Widget):
         if not widget.is_attached or not all(above.display for above in widget.ancestors_with_self):
             continue
         try:

@@ -64,7 +64,7 @@ def settle(queue: Queue, run: Run, seconds: float = 30.0) -> None:
         time.sleep(0.02)
 
 
-async def test_from_an_empty_model_to_a_result_by_keyboard(work_folder: Path, shared_compiled_code: None) -> None:
+async def test_from_an_empty_model_to_a_result_by_keyboard(work_folder: Path) -> None:
     """The paper's 6208 under 1300 N (Syla et al. 2026, Fig. 7), run for 5 ms."""
     async with BuilderApp().run_test(size=SMALL) as pilot:
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, OpenCase))
@@ -77,17 +77,15 @@ async def test_from_an_empty_model_to_a_result_by_keyboard(work_folder: Path, sh
         await wait_for(pilot, lambda: pilot.app.screen.query_one(DataTable).row_count == 1)
         await pilot.press("enter")
         await pilot.pause(0.3)
-        for path, text in (
-            ("bearing.clearance", "14 um"),
-            ("lubricant.name", "bode-mineral"),
-            ("lubricant.temperature", "40"),
-            ("solver.duration", "5 m"),
+        for path, begin, text in (
+            ("bearing.clearance", "bearing.cl", "14 um"),
+            ("lubricant.name", "lubricant.n", "bode-m"),  # Enter takes the name that is proposed
+            ("lubricant.temperature", "lubricant.t", "40"),
+            ("solver.duration", "solver.d", "5 m"),
+            ("loads.axial", "loads.a", "1300"),
+            ("operation.speed", "operation.s", "2750"),
         ):
-            await find(pilot, path)
-            await write(pilot, text)
-            await pilot.press("enter")
-        for path, text in (("loads.axial", "1300"), ("operation.speed", "2750")):
-            await find(pilot, path)
+            await find(pilot, path, begin)
             await write(pilot, text)
             await pilot.press("enter")
         await checked(pilot)
@@ -226,7 +224,7 @@ async def test_a_full_disk_loses_nothing(hand_written: Path) -> None:
         assert api.case(hand_written).loads.radial == 9000.0
 
 
-async def test_a_disk_that_fills_up_during_a_run_is_said(hand_written: Path, shared_compiled_code: None) -> None:
+async def test_a_disk_that_fills_up_during_a_run_is_said(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
         soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
@@ -245,7 +243,7 @@ async def test_a_disk_that_fills_up_during_a_run_is_said(hand_written: Path, sha
         assert not builder(pilot).check.problems
 
 
-async def test_a_run_does_not_keep_one_from_working(hand_written: Path, shared_compiled_code: None) -> None:
+async def test_a_run_does_not_keep_one_from_working(hand_written: Path) -> None:
     """The longest piece of work in the event loop while the solver runs and is watched, in seconds of the processor."""
     longest = 0.0
 
@@ -259,7 +257,7 @@ async def test_a_run_does_not_keep_one_from_working(hand_written: Path, shared_c
 
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
-        builder(pilot).draft.set("solver", "duration", value="0.4 s")
+        builder(pilot).draft.set("solver", "duration", value="0.2 s")
         await checked(pilot)
         await pilot.press("f5")
         queue = pilot.app.queue

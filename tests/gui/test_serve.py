@@ -31,7 +31,7 @@ def test_only_this_machine_unless_told_otherwise() -> None:
 
 
 @pytest.fixture
-def served(work_folder: Path, shared_compiled_code: None) -> Iterator[int]:
+def served(work_folder: Path) -> Iterator[int]:
     """Serve the builder without a case; gives the port."""
     with socket.socket() as found:
         found.bind(("127.0.0.1", 0))
@@ -109,7 +109,7 @@ async def build_and_run(browser: Browser) -> None:
     await browser.press("enter")
     await browser.until("untitled.toml", without="unsaved")
     await browser.press("f5")
-    await browser.until("untitled                  done", seconds=200.0)
+    await browser.until("✔  untitled", seconds=200.0)
 
 
 def saw_to_it(folder: Path) -> None:

@@ -28,7 +28,7 @@ Timed("6208-axial-1300").run(headless=True, size=(80, 24))
 
 def test_the_first_picture_stands_within_a_second_and_a_half() -> None:
     taken = []
-    for _ in range(3):
+    for _ in range(2):
         done = subprocess.run([sys.executable, "-c", FIRST_PAINT], capture_output=True, text=True, timeout=60)
         assert done.returncode == 0, done.stderr
         taken.append(float(done.stdout.split()[0]))
