@@ -12,16 +12,18 @@ if TYPE_CHECKING:
     from lambda_core.registry.catalogue import BearingRow, Catalogue, LubricantRow
 
 
-class _Sources:
+class Sources:
     """Sources are numbered where they are used and written out at the end."""
 
     def __init__(self) -> None:
         self._numbers: dict[str, int] = {}
 
     def number(self, source: str) -> int:
+        """Return the number of a source."""
         return self._numbers.setdefault(source, len(self._numbers) + 1)
 
     def write(self, text: Text) -> None:
+        """Append the sources with their numbers."""
         for source, number in self._numbers.items():
             text.append(f"\n{number:>2} ", style="not bold").append(source, style="not bold dim")
 
@@ -30,7 +32,7 @@ def bearing_text(row: BearingRow, catalogue: Catalogue) -> Text:
     """Return everything about a bearing."""
     from lambda_db.presentation import candidate_lines, clearance_lines, values_of
 
-    sources = _Sources()
+    sources = Sources()
     text = Text(f"{row.designation}  {row.maker}", style="bold")
     about = "  ".join(filter(None, (f"series {row.series}" if row.series else "", row.rating_type)))
     text.append(f"  {about}\n", style="not bold dim")
@@ -57,7 +59,7 @@ def lubricant_text(row: LubricantRow) -> Text:
     """Return everything about a lubricant."""
     from lambda_db.presentation import parameters_of, values_of
 
-    sources = _Sources()
+    sources = Sources()
     text = Text(row.name, style="bold").append(f"   {row.base_type}   {row.note}\n", style="not bold dim")
     _values(text, values_of(row), sources, 25)
     heading = ""
@@ -71,7 +73,7 @@ def lubricant_text(row: LubricantRow) -> Text:
     return text
 
 
-def _values(text: Text, values: list[dict[str, Any]], sources: _Sources, name_width: int = 21) -> None:
+def _values(text: Text, values: list[dict[str, Any]], sources: Sources, name_width: int = 21) -> None:
     """Append values one per line: ≈ where estimated, grade, number of the source."""
     for value in values:
         mark = "≈" if value["status"] != "published" else " "

@@ -89,7 +89,7 @@ class OpenCase(ModalScreen[str | None]):
         Binding("down", "into_list", show=False),
     ]
     DEFAULT_CSS = (
-        _BOX.format(name="OpenCase", width="100")
+        _BOX.format(name="OpenCase", width="114")
         + """
     OpenCase OptionList { height: auto; max-height: 65vh; background: $surface; border: none; padding: 0;
         margin: 1 0 0 0; }

@@ -20,6 +20,7 @@ from lambda_core.schema.problems import members
 from lambda_gui.around import CaseAround
 from lambda_gui.checking import by_place
 from lambda_gui.choice import Entry as ChoiceEntry
+from lambda_gui.details import Sources
 from lambda_gui.fields import ChoiceRow, ParagraphRow, TextRow, row_for
 from lambda_gui.laws import LawRow, law_choice_row, law_choices
 from lambda_gui.outline import DOFS, Keys, Node, table_model
@@ -196,17 +197,20 @@ class NodeForm(VerticalScroll, can_focus=False):
         ]
         if not found:
             return Text()
-        table = Table.grid(padding=(0, 1, 0, 0), expand=False)
+        table, sources = Table.grid(padding=(0, 1, 0, 0)), Sources()
         table.add_column(style="dim", max_width=24)
         table.add_column(no_wrap=True)
         table.add_column(no_wrap=True, style="dim")
-        table.add_column(style="dim")
+        table.add_column(no_wrap=True, style="dim", justify="right")
         for value in found:
             mark = "≈ " if value.status in ("derived", "assumed") else ""
-            source = value.source if self.size.width >= _ROOMY else ""
+            number = str(sources.number(value.source)) if self.size.width >= _ROOMY and value.source else ""
             name = value.path.rpartition(".")[2].replace("_", " ")
-            table.add_row(name, f"{mark}{value.text}", value.grade or "-", source)
-        return Group(Text("from the catalogue or derived; grade", style="italic"), table)
+            table.add_row(name, f"{mark}{value.text}", value.grade or "-", number)
+        told = Text()
+        sources.write(told)
+        title = "from the catalogue or derived; grade" + (", source" if told else "")
+        return Group(Text(title, style="italic"), table, told)
 
     def show(self, keys: Keys) -> None:
         """Bring one option into view and to the keyboard: the row that is most about it."""
