@@ -15,7 +15,7 @@ from lambda_gui.choice import Choice, unset
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.entry import Entry, text_of, value_of
 from lambda_gui.places import Place
-from lambda_gui.rows import Left, Row, Surroundings
+from lambda_gui.rows import Left, Row, Stepped, Surroundings
 
 
 class TextRow(Row):
@@ -137,6 +137,24 @@ class FlagRow(Row):
         self.post_message(Left())
 
 
+class _Lines(TextArea):
+    """Lines of text that the arrow keys also lead out of."""
+
+    def action_cursor_down(self, select: bool = False) -> None:
+        """Go down a line, from the last one to the next entry."""
+        if not select and self.navigator.is_last_wrapped_line(self.cursor_location):
+            self.post_message(Stepped(1))
+        else:
+            super().action_cursor_down(select)
+
+    def action_cursor_up(self, select: bool = False) -> None:
+        """Go up a line, from the first one to the entry before."""
+        if not select and self.navigator.is_first_wrapped_line(self.cursor_location):
+            self.post_message(Stepped(-1))
+        else:
+            super().action_cursor_up(select)
+
+
 class LinesRow(Row):
     """Several texts, one per line."""
 
@@ -151,7 +169,7 @@ class LinesRow(Row):
 
     def control(self) -> Widget:
         """Return a text area."""
-        return TextArea(compact=True, show_line_numbers=False)
+        return _Lines(compact=True, show_line_numbers=False)
 
     def compose(self) -> ComposeResult:
         """Lay out the lines under their label, over the whole width."""

@@ -26,7 +26,7 @@ from lambda_gui.laws import LawRow, law_choice_row, law_choices
 from lambda_gui.outline import DOFS, Keys, Node, table_model
 from lambda_gui.parts import FreedomRow, MaterialRow
 from lambda_gui.places import Option
-from lambda_gui.rows import Row
+from lambda_gui.rows import Row, Stepped
 from lambda_gui.signals import SignalRow
 
 if TYPE_CHECKING:
@@ -237,6 +237,11 @@ class NodeForm(VerticalScroll, can_focus=False):
             at = stops.index(self.screen.focused) + by
             if 0 <= at < len(stops):
                 stops[at].focus()
+
+    def on_stepped(self, event: Stepped) -> None:
+        """Go to the next or previous entry."""
+        event.stop()
+        self.action_step(event.by)
 
     def on_row_done(self, event: Row.Done) -> None:
         """Go on to what the next row is changed by."""

@@ -33,6 +33,13 @@ class Left(Message):
     """An entry was left: the next change of the same place is undone on its own."""
 
 
+@dataclass
+class Stepped(Message):
+    """The person goes on to the next entry, or back to the one before."""
+
+    by: int
+
+
 class Surroundings:
     """What rows need of the case around them: resolved values, names of the catalogue, what has changed."""
 
