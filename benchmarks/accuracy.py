@@ -13,7 +13,8 @@ from lambda_core.physics.assembly import Assembly
 from lambda_core.physics.channels import LOSSES
 from lambda_core.physics.compiled import layout as L
 from lambda_core.physics.compiled.entry import core
-from lambda_core.simulate.dynamics import BearingEngine, observe
+from lambda_core.simulate.dynamics import BearingEngine
+from lambda_core.simulate.observation import observe
 
 # How close a run has to come to the reference to count, and how well its energy has to balance.
 RACEWAY, CAGE, ENERGY = 5e-3, 1e-3, 1e-3

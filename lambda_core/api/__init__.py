@@ -9,28 +9,22 @@ from lambda_core.api.cases import (
     builtin_cases,
     case,
     catalogue,
-    check,
-    describe,
     draft,
     init_case,
-    problems,
-    resolve,
     save,
     schema,
 )
+from lambda_core.api.models import check, describe, problems, resolve
 from lambda_core.api.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins
 from lambda_core.api.pictures import animate, draw, report, view, view_all, view_stem, views
+from lambda_core.api.results import cite, compare, result, summary
 from lambda_core.api.runs import (
-    cite,
-    compare,
     cross_check,
     estimate,
     iterate,
     quasistatic,
-    result,
     resume,
     run,
-    summary,
     warmup,
 )
 from lambda_core.api.studies import (

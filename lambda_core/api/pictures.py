@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.api.cases import resolve
-from lambda_core.api.runs import result
+from lambda_core.api.models import resolve
+from lambda_core.api.results import result
 from lambda_core.api.studies import study_status
 from lambda_core.errors import LambdaError, UsageError
 

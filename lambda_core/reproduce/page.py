@@ -12,7 +12,8 @@ from lambda_core.errors import UsageError
 from lambda_core.registry.chart import ViewData
 from lambda_core.registry.registry import Registry
 from lambda_core.registry.view import Figure, View
-from lambda_core.report.page import Table, write_page
+from lambda_core.report.page import write_page
+from lambda_core.report.tables import Table
 
 TEMPLATE = "page.html.jinja"
 _RESOLUTION = 160  # of PNG [dots per inch]

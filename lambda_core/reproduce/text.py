@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lambda_core.report.page import Table
+from lambda_core.report.tables import Table
 from lambda_core.reproduce.calibration import TAU_GRID, Calibration
 from lambda_core.reproduce.fig5 import Fig5
 from lambda_core.reproduce.fig7 import STATED, Fig7

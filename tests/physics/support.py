@@ -21,7 +21,7 @@ from lambda_core.physics.equilibrium import fault_sentence
 from lambda_core.physics.kernels import Kernels, derive_oil
 from lambda_core.physics.law_inputs import ContactFrame
 from lambda_core.physics.model import BearingModel
-from lambda_core.simulate.dynamics import observe
+from lambda_core.simulate.observation import observe
 
 FloatArray = NDArray[np.float64]
 CASE = "6319-cp10-1500"

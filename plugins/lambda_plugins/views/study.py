@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field as Declared
 
 from lambda_core.plugins import (
     Axis,
@@ -14,7 +13,6 @@ from lambda_core.plugins import (
     Field,
     Mark,
     NotApplicable,
-    Options,
     Panel,
     Series,
     StudyTable,
@@ -24,113 +22,47 @@ from lambda_core.plugins import (
 from lambda_core.study.sensitivity import Sensitivity, sensitivities
 from lambda_plugins.views.common import FloatArray
 from lambda_plugins.views.friction import PER_RING, REST
+from lambda_plugins.views.study_table import (
+    BREAKDOWN,
+    STEADINESS,
+    Along,
+    Curves,
+    Surface,
+    Threshold,
+    Which,
+    axis_of,
+    numeric_parameters,
+    responses,
+    rows_by_label,
+    source_line,
+    varied,
+)
 
 _CURVES = 9  # curves in a panel
-_BREAKDOWN = "friction_breakdown_Nmm."
-_STEADINESS = "cage_speed_deviation"  # the response that the stability map judges unless told otherwise
 _MECHANISMS = (*PER_RING, *REST)
-
-
-class Which(Options):
-    """Which response a view shows."""
-
-    response: str = Declared("", description="name of a response; empty: every one")
-
-
-class Along(Options):
-    """Along which parameter a view goes."""
-
-    x: str = Declared("", description="parameter of the first axis; empty: the first numeric one")
-
-
-class Curves(Along, Which):
-    """Which curves are shown."""
-
-
-class Surface(Curves):
-    """Which surfaces are shown."""
-
-    y: str = Declared("", description="parameter of the second axis; empty: the next numeric one")
-
-
-class Threshold(Surface):
-    """What the stability map shows."""
-
-    response: str = Declared(_STEADINESS, description="name of the response that is judged")
-    limit: float = Declared(0.2, description="largest value that counts as stable")
-
-
-def _source(table: StudyTable) -> str:
-    done = sum(state in ("done", "partial") for state in table.states)
-    return f"{table.title}   {table.mode}, {table.design}, {done} of {len(table)} points"
-
-
-def _axis(column: Column) -> Axis:
-    """Return the axis of a column; values that rise by factors are drawn on a logarithmic scale."""
-    values = column.numbers()
-    values = np.unique(values[np.isfinite(values)])
-    log = values.size > 3 and values[0] > 0.0 and np.ptp(np.diff(np.log(values))) < 0.1 * np.diff(np.log(values)).mean()
-    return Axis(column.label, column.unit, log=bool(log))
-
-
-def _varied(table: StudyTable) -> list[Column]:
-    """Return the parameters that take more than one value."""
-    return [column for column in table.parameters if len(set(column.values)) > 1]
-
-
-def _numeric(table: StudyTable) -> list[Column]:
-    return [column for column in _varied(table) if column.numeric]
-
-
-def _responses(table: StudyTable, name: str) -> list[Column]:
-    if name:
-        return [table.response(name)]
-    found = [
-        c for c in table.responses if c.numeric and not c.name.startswith(_BREAKDOWN) and np.isfinite(c.numbers()).any()
-    ]
-    if not found:
-        raise NotApplicable("no point of this study has a result yet")
-    return found
-
-
-def _groups(table: StudyTable, x: Column) -> dict[str, list[int]]:
-    """Return the rows that share the values of all parameters but `x`, by a label of these."""
-    others = [column for column in _varied(table) if column.name != x.name]
-    found: dict[str, list[int]] = {}
-    for row in range(len(table)):
-        label = ", ".join(_cell(column, row) for column in others)
-        found.setdefault(label, []).append(row)
-    return found
-
-
-def _cell(column: Column, row: int) -> str:
-    value = column.values[row]
-    if isinstance(value, str) or value is None:
-        return str(value)
-    return f"{column.label} {value:.4g} {column.unit}".strip()
 
 
 def study_curves(table: StudyTable, options: Curves) -> ViewData:
     """Every response over one parameter, a curve for each combination of the others."""
-    numeric = _numeric(table)
+    numeric = numeric_parameters(table)
     if not numeric:
         raise NotApplicable("no numeric parameter varies in this study")
     x = table.parameter(options.x) if options.x else numeric[0]
-    groups = _groups(table, x)
+    groups = rows_by_label(table, x)
     sampled = len(groups) > 0.5 * len(table)
     if not sampled and len(groups) > _CURVES:
         step = (len(groups) - 1) / (_CURVES - 1)
         kept = {round(index * step) for index in range(_CURVES)}
         groups = {label: rows for index, (label, rows) in enumerate(groups.items()) if index in kept}
     panels = []
-    for response in _responses(table, options.response):
+    for response in responses(table, options.response):
         if sampled:
             series: tuple[Series, ...] = (Series("points", x.numbers(), response.numbers(), "points", unlisted=True),)
         else:
             series = tuple(_curve(x, response, rows, label) for label, rows in groups.items())
-        panels.append(Panel("", _axis(x), Axis(response.label, response.unit), series))
+        panels.append(Panel("", axis_of(x), Axis(response.label, response.unit), series))
     notes = ("points: all other parameters vary too",) if sampled else ()
-    return ViewData("study-curves", "Responses over a parameter", _source(table), tuple(panels), 2, notes)
+    return ViewData("study-curves", "Responses over a parameter", source_line(table), tuple(panels), 2, notes)
 
 
 def _curve(x: Column, response: Column, rows: list[int], label: str) -> Series:
@@ -146,13 +78,13 @@ def _surface(
 
     A crossed study fills the mesh as it is; scattered points are interpolated linearly between neighbours.
     """
-    numeric = _numeric(table)
+    numeric = numeric_parameters(table)
     x = table.parameter(options.x) if options.x else (numeric[0] if numeric else None)
     y = table.parameter(options.y) if options.y else next((c for c in numeric if x is None or c.name != x.name), None)
     if x is None or y is None:
         raise NotApplicable("a map needs two numeric parameters that vary")
     px, py, values = x.numbers(), y.numbers(), response.numbers()
-    extra = [c.label for c in _varied(table) if c.name not in (x.name, y.name)]
+    extra = [c.label for c in varied(table) if c.name not in (x.name, y.name)]
     if extra and table.design == "crossed":
         raise NotApplicable(f"a map shows two parameters; {', '.join(extra)} varies too: choose it with x or y")
     gx, gy = np.unique(px), np.unique(py)
@@ -182,18 +114,18 @@ def _interpolated(px: FloatArray, py: FloatArray, values: FloatArray) -> tuple[F
 def study_map(table: StudyTable, options: Surface) -> ViewData:
     """Responses as a surface over two parameters."""
     panels = []
-    for response in _responses(table, options.response):
+    for response in responses(table, options.response):
         x, y, mesh_x, mesh_y, mesh = _surface(table, options, response)
         finite = mesh[np.isfinite(mesh)]
         if finite.size < 4 or np.ptp(finite) == 0.0:
             continue
         levels = _levels(float(finite.min()), float(finite.max()))
         field = Field(response.label, response.unit, mesh_x, mesh_y, mesh, levels=levels)
-        panels.append(Panel("", _axis(x), _axis(y), _failed(table, x, y), (), field))
+        panels.append(Panel("", axis_of(x), axis_of(y), _failed(table, x, y), (), field))
     if not panels:
         raise NotApplicable("no response varies over the points that have a result")
     notes = ("crosses: points without a result",) if any(panel.series for panel in panels) else ()
-    return ViewData("study-map", "Responses over two parameters", _source(table), tuple(panels), 2, notes)
+    return ViewData("study-map", "Responses over two parameters", source_line(table), tuple(panels), 2, notes)
 
 
 def _failed(table: StudyTable, x: Column, y: Column) -> tuple[Series, ...]:
@@ -213,14 +145,14 @@ def _levels(low: float, high: float) -> tuple[float, ...]:
 
 def friction_stack(table: StudyTable, options: Along) -> ViewData:
     """Friction torque by mechanism, stacked over one parameter."""
-    parts = [c for c in table.responses if c.name.startswith(_BREAKDOWN) and np.isfinite(c.numbers()).any()]
+    parts = [c for c in table.responses if c.name.startswith(BREAKDOWN) and np.isfinite(c.numbers()).any()]
     if not parts:
         raise NotApplicable('the study has no responses "friction_breakdown_Nmm": ask for them')
-    numeric = _numeric(table)
+    numeric = numeric_parameters(table)
     if not numeric:
         raise NotApplicable("no numeric parameter varies in this study")
     x = table.parameter(options.x) if options.x else numeric[0]
-    groups = _groups(table, x)
+    groups = rows_by_label(table, x)
     if len(groups) > 0.5 * len(table):
         raise NotApplicable("the points are scattered: a stack needs values along one parameter")
     panels = []
@@ -234,7 +166,7 @@ def friction_stack(table: StudyTable, options: Along) -> ViewData:
         order = np.argsort(places)
         merged: dict[str, FloatArray] = {}
         for part in parts:
-            name = part.name.removeprefix(_BREAKDOWN).removesuffix("_inner").removesuffix("_outer")
+            name = part.name.removeprefix(BREAKDOWN).removesuffix("_inner").removesuffix("_outer")
             values = np.nan_to_num(part.numbers()[rows][order])
             merged[name] = merged.get(name, 0.0) + values
         total = sum(merged.values())
@@ -246,7 +178,7 @@ def friction_stack(table: StudyTable, options: Along) -> ViewData:
         panels.append(
             Panel(
                 label or "friction torque",
-                _axis(x),
+                axis_of(x),
                 Axis("friction torque", parts[0].unit, low=0.0),
                 series,
                 stacked=True,
@@ -255,7 +187,7 @@ def friction_stack(table: StudyTable, options: Along) -> ViewData:
     if not panels:
         raise NotApplicable("fewer than two points along the parameter have a result")
     notes = (f"{left_out} points without a result are left out",) if left_out else ()
-    return ViewData("friction-stack", "Friction torque by mechanism", _source(table), _levelled(panels), 2, notes)
+    return ViewData("friction-stack", "Friction torque by mechanism", source_line(table), _levelled(panels), 2, notes)
 
 
 def _has_result(parts: list[Column], row: int) -> bool:
@@ -271,11 +203,11 @@ def _levelled(panels: list[Panel]) -> tuple[Panel, ...]:
 def sensitivity(table: StudyTable, options: Which) -> ViewData:
     """How much each parameter decides each response."""
     panels = []
-    for response in _responses(table, options.response):
+    for response in responses(table, options.response):
         found = sensitivities(table, response.name)
         panels.append(_tornado(response, found))
     notes = (_EXPLAINED[found.kind], *found.notes)
-    return ViewData("sensitivity", "Sensitivities", _source(table), tuple(panels), 2, notes)
+    return ViewData("sensitivity", "Sensitivities", source_line(table), tuple(panels), 2, notes)
 
 
 _EXPLAINED = {
@@ -299,7 +231,7 @@ def _tornado(response: Column, found: Sensitivity) -> Panel:
 
 def stability_map(table: StudyTable, options: Threshold) -> ViewData:
     """Where a measure of unsteadiness stays below a limit, over two parameters."""
-    if options.response == _STEADINESS and _STEADINESS not in table.units():
+    if options.response == STEADINESS and STEADINESS not in table.units():
         raise NotApplicable(f'the study has no response "{options.response}": choose another with response=NAME')
     response = table.response(options.response)
     x, y, mesh_x, mesh_y, mesh = _surface(table, options, response)
@@ -320,9 +252,14 @@ def stability_map(table: StudyTable, options: Threshold) -> ViewData:
         mesh - options.limit,
         f"limit {options.limit:g} {response.unit}".rstrip(),
     )
-    panel = Panel("", _axis(x), _axis(y), series, (), field)
+    panel = Panel("", axis_of(x), axis_of(y), series, (), field)
     return ViewData(
-        "stability-map", "Stability", _source(table), (panel,), 1, (f"stable: {response.label} <= {options.limit:g}",)
+        "stability-map",
+        "Stability",
+        source_line(table),
+        (panel,),
+        1,
+        (f"stable: {response.label} <= {options.limit:g}",),
     )
 
 

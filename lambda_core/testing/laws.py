@@ -1,15 +1,8 @@
-"""Checks for the tests of people who write plugins: one line tests a law against its role's contract.
-
-from lambda_core.testing import check_model
-
-def test_contract():
-    check_model("traction/hyperbolic-limit")
-"""
+"""Checks of laws: the contract of a role, single calls, limits, monotony and symmetry."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -21,26 +14,13 @@ from lambda_core.registry import check
 from lambda_core.registry.check import ModelReport
 from lambda_core.registry.kernels import compile_kernel
 from lambda_core.registry.manager import registry
-from lambda_core.registry.method import MethodInputs, NotApplicable
 from lambda_core.registry.model import Context, FloatArray, Model
 from lambda_core.registry.par import make_par
 from lambda_core.registry.probe import VECTORS, output_size, trial_context
 from lambda_core.registry.roles import ROLES
 from lambda_core.registry.survey import split_label
-from lambda_core.registry.view import RunData
 
 Parameters = BaseModel | Mapping[str, Any] | None
-
-__all__ = [
-    "ModelReport",
-    "assert_increasing",
-    "assert_limit",
-    "assert_symmetric",
-    "check_model",
-    "evaluate",
-    "method_inputs",
-    "run_data",
-]
 
 
 def _model(model: Model | str) -> Model:
@@ -150,97 +130,6 @@ def _along(model: Model | str, argument: str, values: ArrayLike, output: int, gi
         found = evaluate(model, **arguments)
         results.append(found[output][0] if isinstance(found, tuple) else found[min(output, found.size - 1)])
     return np.array(results)
-
-
-def method_inputs(**changes: Any) -> MethodInputs:
-    """Return what a comparison method sees of a 6208 at 40 degC, 2750 1/min and 2 kN radial load.
-
-    Parameters
-    ----------
-    **changes
-        Fields of :class:`lambda_core.plugins.MethodInputs` that differ, SI.
-
-    Returns
-    -------
-    MethodInputs
-        Plain numbers, SI.
-    """
-    inner = trial_context("ball_inner")
-    groove = inner.groove_radius
-    given: dict[str, Any] = {
-        "title": "6208 (trial)",
-        "series": inner.series,
-        "bore_diameter": inner.bore_diameter,
-        "outside_diameter": inner.outside_diameter,
-        "width": inner.width,
-        "ball_count": inner.ball_count,
-        "ball_diameter": inner.ball_diameter,
-        "pitch_diameter": inner.pitch_diameter,
-        "groove_radius_inner": groove,
-        "groove_radius_outer": groove,
-        "ball": inner.ball,
-        "inner_ring": inner.partner,
-        "outer_ring": inner.partner,
-        "oil": inner.oil,
-        "radial_load": 2000.0,
-        "axial_load": 0.0,
-        "inner_speed": inner.speed,
-        "outer_speed": 0.0,
-    }
-    return MethodInputs(**(given | changes))
-
-
-class TrialRun:
-    """A run made of given channels, for the tests of views (:class:`lambda_core.plugins.RunData`)."""
-
-    def __init__(self, channels: Mapping[str, ArrayLike], model: Mapping[str, Any] | None = None) -> None:
-        self._channels = {name: np.asarray(values, np.float64) for name, values in channels.items()}
-        self.path = Path("trial.h5")
-        self.title = self.headline = self.case = "trial"
-        self.case_toml = ""
-        self.model = dict(model or {})
-        self.kernel_keys: dict[str, str] = {}
-
-    def __getitem__(self, name: str) -> FloatArray:
-        """Return one channel, first axis time."""
-        return self._channels[name]
-
-    def blocks(self, names: Sequence[str], start: float = 0.0) -> Iterator[dict[str, FloatArray]]:
-        """Yield the channels from time `start` [s] on, in one block."""
-        keep = self._channels["time"] >= start
-        yield {name: self._channels[name][keep] for name in names}
-
-    def sample(self, row: int, names: Sequence[str]) -> dict[str, FloatArray]:
-        """Return the channels at one instant."""
-        return {name: self._channels[name][row] for name in names}
-
-    def integrals(self) -> FloatArray:
-        """Trial runs have none."""
-        raise NotApplicable("a trial run has no running integrals")
-
-    def revolutions(self) -> FloatArray:
-        """Trial runs have none."""
-        raise NotApplicable("a trial run has no whole cage revolutions")
-
-    def summary(self) -> Any:
-        """Trial runs have none."""
-        raise NotApplicable("a trial run has no summary")
-
-
-def run_data(**channels: ArrayLike) -> RunData:
-    """Return a run made of given channels, for the tests of views.
-
-    Parameters
-    ----------
-    **channels : array_like
-        Channels by name, each with time as its first axis, SI; ``time`` [s] is one of them.
-
-    Returns
-    -------
-    RunData
-        Without integrals and summary: asking for them raises NotApplicable.
-    """
-    return TrialRun(channels)
 
 
 def assert_increasing(model: Model | str, argument: str, values: ArrayLike, *, output: int = 0, **given: Any) -> None:

@@ -1,0 +1,156 @@
+"""Tables of a report: key figures, losses, contacts, points of a study, values and laws with their sources."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.registry.table import StudyTable
+from lambda_core.schema.units import show
+
+if TYPE_CHECKING:
+    from lambda_core.physics.model import ResolvedValue
+
+
+_ROWS = 1000  # of a study's table
+
+
+# Sections of a case whose entries are parts: materials.inner, forces.ball_inner ...
+_IN_PARTS = ("materials", "forces", "bodies")
+
+
+_CONTACT = "contacts at the end state"
+
+
+@dataclass(frozen=True)
+class Table:
+    """One table of a page: a caption, headings, rows of text."""
+
+    caption: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+def key_figures(summary: Any) -> list[tuple[str, str, str]]:
+    """Return what one looks for first: name, number, unit."""
+    torque = written(summary.friction_torque_Nmm)
+    if summary.friction_torque_ci_Nmm is not None:
+        torque += f" ± {summary.friction_torque_ci_Nmm:.2g}"
+    position = ", ".join(written(value) for value in summary.inner_ring_displacement_um)
+    return [
+        ("friction torque", torque, "N mm"),
+        ("input torque", written(summary.input_torque_Nmm), "N mm"),
+        ("cage over inner ring speed", written(summary.cage_speed_ratio), ""),
+        ("cage over kinematic speed", written(summary.cage_speed_over_epicyclic), ""),
+        ("largest pressure", written(summary.max_pressure_GPa), "GPa"),
+        ("smallest film", written(summary.min_film_um), "um"),
+        ("Lambda", "..".join(written(value) for value in summary.film_parameter), ""),
+        ("capacitance of the bearing", written(summary.bearing_capacitance_nF), "nF"),
+        ("inner ring x, y, z", position, "um"),
+        ("energy residual", written(summary.energy_residual), "of input"),
+        ("wall time per revolution", written(summary.wall_per_revolution_s), "s"),
+    ]
+
+
+def breakdown(summary: Any) -> Table:
+    total = summary.friction_torque_Nmm
+    rows = [
+        (name.replace("_", " "), written(value), f"{100.0 * value / total:.1f}" if total and value is not None else "")
+        for name, value in summary.friction_breakdown_Nmm.items()
+    ]
+    return Table("friction torque by mechanism", ("mechanism", "N mm", "%"), tuple(rows))
+
+
+def contacts(summary: Any) -> Table:
+    head = ("ball", "ring", "azimuth deg", "load N", "contact angle deg", "film um", "capacitance pF")
+    rows = tuple(
+        (
+            str(c.ball), c.ring, f"{c.azimuth_deg:.1f}", f"{c.load_N:.1f}", f"{c.contact_angle_deg:.2f}",
+            written(c.film_um), written(c.capacitance_pF),
+        )
+        for c in summary.contacts
+    )  # fmt: skip
+    return Table(_CONTACT, head, rows)
+
+
+def convergence(summary: Any) -> Table:
+    rows = [
+        ("simulated time", written(summary.simulated_s), "s"),
+        ("cage revolutions discarded", str(summary.revolutions_discarded), ""),
+        ("cage revolutions averaged", str(summary.revolutions_averaged), ""),
+        ("95 % half-width of the friction torque", written(summary.friction_torque_ci_Nmm), "N mm"),
+        ("energy residual", written(summary.energy_residual), "of input"),
+        ("wall time", written(summary.wall_s), "s"),
+        *((name.replace("_", " "), f"{count:.0f}", "") for name, count in summary.solver_statistics.items()),
+    ]
+    return Table("convergence", ("", "value", "unit"), tuple(rows))
+
+
+def study_points(table: StudyTable) -> Table:
+    columns = [*table.parameters, *(c for c in table.responses if "." not in c.name)]
+    head = ("point", *(f"{c.label} [{c.unit}]" if c.unit else c.label for c in columns), "state")
+    shown = table.rows()[:_ROWS]
+    rows = tuple(
+        (
+            str(row["point"]),
+            *(written(row[c.name]) for c in columns),
+            f"{row['state']}: {row['reason']}" if row["reason"] else row["state"],
+        )
+        for row in shown
+    )
+    left = f" (the first {_ROWS} of {len(table)})" if len(table) > _ROWS else ""
+    return Table(f"points{left}", head, rows)
+
+
+def value_tables(values: Iterable[ResolvedValue]) -> tuple[Table, ...]:
+    """Return the resolved values with their sources, a table for each section of the case.
+
+    What parts of a section share (the material of rings and balls, the laws of both raceways) stands there once.
+    """
+    sections: dict[str, dict[tuple[str, ...], list[str]]] = {}
+    for value in values:
+        section, _, name = value.path.partition(".")
+        part = ""
+        if section in _IN_PARTS:
+            part, _, name = name.partition(".")
+        row = (name or section.removesuffix("s"), _shown(value), value.status, value.source, value.grade)
+        sections.setdefault(section, {}).setdefault(row, []).append(part.replace("_", " "))
+    head = ("", "value", "status", "source", "grade")
+    return tuple(
+        Table(
+            section, ("", "of", *head[1:]), tuple((row[0], ", ".join(parts), *row[1:]) for row, parts in rows.items())
+        )
+        if section in _IN_PARTS
+        else Table(section, head, tuple(rows))
+        for section, rows in sections.items()
+    )
+
+
+def _shown(value: ResolvedValue) -> str:
+    if value.quantity and isinstance(value.value, float):
+        return show(value.value, value.quantity, 6)
+    return written(value.value)
+
+
+def law_table(laws: Sequence[Mapping[str, str]]) -> Table:
+    """Return every law with the force elements that use it and its parameters."""
+    import json
+
+    found: dict[tuple[str, str, str, str], list[str]] = {}
+    for row in laws:
+        found.setdefault((row["role"], row["model"], row["parameters"], row["distribution"]), []).append(row["element"])
+    rows = []
+    for (role, name, parameters, distribution), elements in found.items():
+        values = ", ".join(f"{key} {written(value)}" for key, value in json.loads(parameters).items())
+        rows.append((role, name, ", ".join(elements).replace("_", " "), values, distribution))
+    return Table("laws", ("role", "law", "force elements", "parameters (SI)", "package"), tuple(rows))
+
+
+def written(value: object) -> str:
+    """Write one entry of a table; a dash for what does not exist."""
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:.5g}" if isinstance(value, float) else str(value)

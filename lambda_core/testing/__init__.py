@@ -1,0 +1,24 @@
+"""Checks for the tests of people who write plugins: one line tests a law against its role's contract.
+
+from lambda_core.testing import check_model
+
+def test_contract():
+    check_model("traction/hyperbolic-limit")
+"""
+
+from __future__ import annotations
+
+from lambda_core.registry.check import ModelReport
+from lambda_core.testing.laws import assert_increasing, assert_limit, assert_symmetric, check_model, evaluate
+from lambda_core.testing.trials import method_inputs, run_data
+
+__all__ = [
+    "ModelReport",
+    "assert_increasing",
+    "assert_limit",
+    "assert_symmetric",
+    "check_model",
+    "evaluate",
+    "method_inputs",
+    "run_data",
+]

@@ -1,0 +1,102 @@
+"""What views of studies take from a table: axes, responses, groups of rows; and the options that choose them."""
+
+from __future__ import annotations
+
+import numpy as np
+from pydantic import Field as Declared
+
+from lambda_core.plugins import (
+    Axis,
+    Column,
+    NotApplicable,
+    Options,
+    StudyTable,
+)
+
+BREAKDOWN = "friction_breakdown_Nmm."
+
+
+STEADINESS = "cage_speed_deviation"  # the response that the stability map judges unless told otherwise
+
+
+class Which(Options):
+    """Which response a view shows."""
+
+    response: str = Declared("", description="name of a response; empty: every one")
+
+
+class Along(Options):
+    """Along which parameter a view goes."""
+
+    x: str = Declared("", description="parameter of the first axis; empty: the first numeric one")
+
+
+class Curves(Along, Which):
+    """Which curves are shown."""
+
+
+class Surface(Curves):
+    """Which surfaces are shown."""
+
+    y: str = Declared("", description="parameter of the second axis; empty: the next numeric one")
+
+
+class Threshold(Surface):
+    """What the stability map shows."""
+
+    response: str = Declared(STEADINESS, description="name of the response that is judged")
+    limit: float = Declared(0.2, description="largest value that counts as stable")
+
+
+def source_line(table: StudyTable) -> str:
+    """Return the line below the title: the study, its kind and how many points it has."""
+    done = sum(state in ("done", "partial") for state in table.states)
+    return f"{table.title}   {table.mode}, {table.design}, {done} of {len(table)} points"
+
+
+def axis_of(column: Column) -> Axis:
+    """Return the axis of a column; values that rise by factors are drawn on a logarithmic scale."""
+    values = column.numbers()
+    values = np.unique(values[np.isfinite(values)])
+    log = values.size > 3 and values[0] > 0.0 and np.ptp(np.diff(np.log(values))) < 0.1 * np.diff(np.log(values)).mean()
+    return Axis(column.label, column.unit, log=bool(log))
+
+
+def varied(table: StudyTable) -> list[Column]:
+    """Return the parameters that take more than one value."""
+    return [column for column in table.parameters if len(set(column.values)) > 1]
+
+
+def numeric_parameters(table: StudyTable) -> list[Column]:
+    """Return the numeric parameters that take more than one value."""
+    return [column for column in varied(table) if column.numeric]
+
+
+def responses(table: StudyTable, name: str) -> list[Column]:
+    """Return the response of that name, or every one that a view can show."""
+    if name:
+        return [table.response(name)]
+    found = [
+        c for c in table.responses if c.numeric and not c.name.startswith(BREAKDOWN) and np.isfinite(c.numbers()).any()
+    ]
+    if not found:
+        raise NotApplicable("no point of this study has a result yet")
+    return found
+
+
+def rows_by_label(table: StudyTable, x: Column) -> dict[str, list[int]]:
+    """Return the rows that share the values of all parameters but `x`, by a label of these."""
+    others = [column for column in varied(table) if column.name != x.name]
+    found: dict[str, list[int]] = {}
+    for row in range(len(table)):
+        label = ", ".join(cell(column, row) for column in others)
+        found.setdefault(label, []).append(row)
+    return found
+
+
+def cell(column: Column, row: int) -> str:
+    """Return one value of a column as a label has it."""
+    value = column.values[row]
+    if isinstance(value, str) or value is None:
+        return str(value)
+    return f"{column.label} {value:.4g} {column.unit}".strip()
