@@ -20,7 +20,7 @@ def animate(
     ] = None,
     turns: Annotated[float, typer.Option("--turns", metavar="N", help="Revolutions of the cage to show.")] = 1.0,
     start: Annotated[
-        float | None, typer.Option("--start", metavar="S", help="First moment [s]; default: the last turns of the run.")
+        float | None, typer.Option("--start", metavar="S", help="First moment in seconds; default: the last turns.")
     ] = None,
     frames: Annotated[int, typer.Option("--frames", metavar="N", help="Number of frames.")] = 120,
     fps: Annotated[float, typer.Option("--fps", metavar="N", help="Frames per second when played.")] = 25.0,
@@ -29,7 +29,7 @@ def animate(
 ) -> None:
     """Show balls, cage and load vectors in motion.
 
-    MP4 needs the extra lambda-bearing[animation], which brings an encoder; GIF and glTF (for viewers of three
+    MP4 needs the extra `animation`, which brings an encoder; GIF and glTF (for viewers of three
     dimensions) need nothing. Writes the file and prints its name.
     """
     from lambda_core import api

@@ -6,6 +6,7 @@ stdout carries data, stderr carries talk. Exit codes: 0 ok, 1 bug, 2 usage, 3 in
 
 from __future__ import annotations
 
+import inspect
 import os
 import sys
 from collections.abc import Sequence
@@ -47,7 +48,19 @@ def _command(entry: Entry) -> Any:
         loaded = application
     command = typer.main.get_command(loaded)
     command.name = entry.name
+    _for_reading(command)
     return command
+
+
+def _for_reading(command: Any) -> None:
+    """Let the terminal break the lines of a help, not the source; a switch takes no value, and its help shows none."""
+    paragraphs = inspect.cleandoc(command.help or "").split("\n\n")
+    command.help = "\n\n".join(" ".join(paragraph.split()) for paragraph in paragraphs)
+    for parameter in command.params:
+        if getattr(parameter, "is_flag", False) and parameter.metavar is None:
+            parameter.metavar = ""
+    for other in getattr(command, "commands", {}).values():
+        _for_reading(other)
 
 
 application = typer.Typer(cls=LazyGroup, name=PROGRAM, no_args_is_help=True)
@@ -64,7 +77,8 @@ def _version(wanted: bool) -> None:
 @application.callback()
 def _program(
     version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and stop.")
+        bool,
+        typer.Option("--version", metavar="", callback=_version, is_eager=True, help="Print the version and stop."),
     ] = False,
     no_plugin: Annotated[
         list[str] | None, typer.Option("--no-plugin", metavar="NAME", help="Switch a plugin off for this call.")

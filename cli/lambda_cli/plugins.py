@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from lambda_core.registry.survey import CheckCard, ModelCard
 
-app = typer.Typer(no_args_is_help=True, help="Models, methods and views that plugins bring.")
+app = typer.Typer(no_args_is_help=True, add_completion=False, help="Models, methods and views that plugins bring.")
 
 
 def _table(*columns: str) -> Table:

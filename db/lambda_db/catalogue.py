@@ -120,7 +120,8 @@ class SqlCatalogue:
                 if not found:
                     raise _error("maker", f'"{maker}" is not a maker of {wanted} in the catalogue; makers: {makers}')
             if len(found) > 1:
-                raise _error("maker", f'"{wanted}" stands in the catalogue from several makers, choose one: {makers}')
+                several = f'"{wanted}" stands in the catalogue from several makers, choose one: {makers}'
+                raise _error("maker", f'{several} (as in "{found[0].maker} {wanted}")')
             return self._bearing_rows(session, found)[0]
 
     def _bearing_rows(self, session: Session, found: Sequence[Bearing]) -> list[BearingRow]:

@@ -58,7 +58,12 @@ def load_case(source: str | Path) -> Case:
         raise UsageError(f'"{source}" is a folder, not a case file')
     names = list(builtin_cases())
     close = nearest(str(source), names)
-    hint = f"nearest built-in cases: {', '.join(close)}" if close else f"built-in cases: {', '.join(names)}"
+    if Path(f"{source}.toml").is_file():
+        hint = f"the file is {source}.toml"
+    elif close:
+        hint = f"nearest built-in cases: {', '.join(close)}"
+    else:
+        hint = f"built-in cases: {', '.join(names)}; lambda-bearing init starts one for any bearing (--bearing)"
     raise UsageError(f'"{source}" is neither a file nor a built-in case; {hint}')
 
 

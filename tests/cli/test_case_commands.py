@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -58,6 +59,27 @@ def test_every_listed_command_loads_and_has_help(call: Call) -> None:
         code, out, _ = call(name, "--help")
         assert code == 0, name
         assert "Usage" in out
+
+
+def loaded() -> Iterator[Any]:
+    """Yield every command and subcommand as the program loads it."""
+    waiting = [main._command(entry) for entry in commands.entries().values()]
+    while waiting:
+        command = waiting.pop()
+        waiting += getattr(command, "commands", {}).values()
+        yield command
+
+
+def test_help_is_broken_into_lines_by_the_terminal_and_loses_no_word() -> None:
+    """Brackets would be read as markup and vanish; a switch does not look as if it took a value."""
+    for command in loaded():
+        texts = [command.help, *(getattr(parameter, "help", None) or "" for parameter in command.params)]
+        for text in texts:
+            assert not re.search(r"\[[a-z/]", text), text
+        assert not re.search(r"[^\n]\n[^\n]", command.help), command.name
+        for parameter in command.params:
+            if getattr(parameter, "is_flag", False):
+                assert parameter.metavar == "", (command.name, parameter.name)
 
 
 def test_version(call: Call) -> None:

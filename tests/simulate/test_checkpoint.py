@@ -64,6 +64,14 @@ def start(warm: Warm, verb: str, path: Path, wanted: dict[str, object] = WANTED)
     return process
 
 
+def under_way(path: Path, process: Started) -> None:
+    """Wait until a run has its file, and then until it has begun to write."""
+    while not path.exists() or not Result(path).status().alive():
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.01)
+    time.sleep(0.2)
+
+
 def kill_and_resume(warm: Warm, path: Path, delays: list[float], reference: dict[str, np.ndarray]) -> None:
     """Kill a run and its continuations after the given times, then let one finish."""
     verb = "run"
@@ -100,7 +108,7 @@ def test_kill_a_hundred_times(seed: int, warm: Warm, tmp_path: Path, undisturbed
 def test_a_killed_run_is_readable_and_not_alive(warm: Warm, tmp_path: Path) -> None:
     path = tmp_path / "r.h5"
     process = start(warm, "run", path)
-    time.sleep(0.3)
+    under_way(path, process)
     assert Result(path).status().alive()
     with pytest.raises(ResultError, match=f"still being written by process {process.pid}"):
         resume(FakeEngine(), None, path)  # type: ignore[arg-type]  # refused before it is looked at
@@ -122,7 +130,7 @@ def test_ctrl_c_keeps_a_readable_result_that_continues(
 ) -> None:
     path = tmp_path / "r.h5"
     process = start(warm, "run", path, {**WANTED, "checkpoint_interval": 1e9})
-    time.sleep(0.25)
+    under_way(path, process)
     os.kill(process.pid, number)
     _, errors = process.communicate()
     assert process.returncode == 0, errors
