@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import partial
 
 from textual.command import DiscoveryHit, Hit, Hits, Provider
@@ -9,6 +10,14 @@ from textual.command import DiscoveryHit, Hit, Hits, Provider
 from lambda_core.schema.case import Case
 from lambda_core.schema.problems import field_at, option_paths
 from lambda_gui.builder import BuilderScreen
+
+_LINE = 70  # characters that fit under a hit on a narrow screen
+
+
+def gist(about: str) -> str:
+    """Return what comes before the first aside of a description: one line under a hit."""
+    first = re.split(r"[;:(]", about, maxsplit=1)[0].strip()
+    return first if len(first) <= _LINE else first.split(",")[0]
 
 
 class OptionSearch(Provider):
@@ -33,7 +42,7 @@ class OptionSearch(Provider):
             score = max(matcher.match(path), matcher.match(spoken), 0.8 * matcher.match(about))
             if score > 0.0:
                 go = partial(self.screen.go_to, tuple(path.split(".")))
-                yield Hit(score, matcher.highlight(path), go, help=about)
+                yield Hit(score, matcher.highlight(path), go, help=gist(about))
 
     async def discover(self) -> Hits:
         """Yield the options that are changed most often."""
@@ -42,4 +51,4 @@ class OptionSearch(Provider):
         for path in ("loads.radial", "loads.axial", "operation.speed", "lubricant.temperature"):
             info = field_at(Case, path)
             go = partial(self.screen.go_to, tuple(path.split(".")))
-            yield DiscoveryHit(path, go, help=info.description if info is not None else "")
+            yield DiscoveryHit(path, go, help=gist(info.description or "") if info is not None else "")

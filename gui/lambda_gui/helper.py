@@ -33,6 +33,7 @@ class Helper:
         self._process: asyncio.subprocess.Process | None = None
         self._turn = asyncio.Lock()
         self._deaths = 0
+        self._is_closed = False
 
     async def ask(self, work: str, **arguments: Any) -> Any:
         """Have something done and return it.
@@ -56,10 +57,12 @@ class Helper:
                         break
                     self._say(content)
             except (OSError, asyncio.IncompleteReadError):
+                if self._is_closed:  # by its owner, who is gone: nobody is there to be told
+                    raise asyncio.CancelledError from None
                 self._deaths += 1
                 raise LambdaError(f"the helper process has ended while it did this: {work}") from None
             except asyncio.CancelledError:
-                await self.close()  # the answer to a question that nobody waits for must not meet the next one
+                await self._stop()  # the answer to a question that nobody waits for must not meet the next one
                 raise
         if kind == "error":
             raise LambdaError(content)
@@ -80,7 +83,11 @@ class Helper:
         return self._process
 
     async def close(self) -> None:
-        """End the process."""
+        """End the process for good; who still waits for an answer is cancelled."""
+        self._is_closed = True
+        await self._stop()
+
+    async def _stop(self) -> None:
         process, self._process = self._process, None
         if process is not None and process.returncode is None:
             with contextlib.suppress(ProcessLookupError):

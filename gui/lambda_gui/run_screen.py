@@ -40,8 +40,6 @@ class RunScreen(Screen[None]):
     RunScreen #state { height: auto; min-height: 3; padding: 0 1; }
     RunScreen #plots { height: 1fr; }
     RunScreen #right { width: 1fr; }
-    RunScreen CageTrace { height: 3fr; }
-    RunScreen LoadTrace { height: 2fr; }
     RunScreen.-wide DataTable { height: 10; }
     """
 

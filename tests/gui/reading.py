@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from driving import screen_text
@@ -10,12 +11,13 @@ from lambda_gui.charts import BarPlot, PanelPlot
 from lambda_gui.maps import FieldPlot
 from lambda_gui.traces import Trace
 from rich.cells import cell_len
+from rich.table import Table
 from textual.containers import ScrollableContainer
 from textual.errors import NoWidget
 from textual.geometry import Region
 from textual.scroll_view import ScrollView
 from textual.widget import Widget
-from textual.widgets import Button, DataTable, Input, Static
+from textual.widgets import Button, DataTable, Input, OptionList, Static
 
 if TYPE_CHECKING:
     from lambda_gui.app import BuilderApp
@@ -65,6 +67,8 @@ def _cut(app: BuilderApp, widget: Widget, region: Region, clip: Region) -> Itera
         yield from _cut_static(widget, width, height)
     elif isinstance(widget, DataTable):
         yield from _cut_cells(widget)
+    elif isinstance(widget, OptionList):
+        yield from _cut_options(app, widget, region.intersection(clip))
     elif isinstance(widget, BarPlot | FieldPlot):
         lines = len(str(widget.render()).splitlines())
         if lines > height:
@@ -96,6 +100,16 @@ def _cut_cells(table: DataTable[object]) -> Iterator[str]:
         for cell in (column.label, *table.get_column(column.key)):
             if cell_len(str(cell)) > column.get_render_width(table) - 2 * table.cell_padding:
                 yield f"{str(cell)!r} in {column.get_render_width(table) - 2 * table.cell_padding} columns"
+
+
+def _cut_options(app: BuilderApp, options: OptionList, region: Region) -> Iterator[str]:
+    """Entries that begin on the screen, and whose successor does, must stand there as a whole."""
+    lines = screen_text(app).splitlines()[region.y : region.bottom]
+    shown = "".join("".join(line[region.x : region.right].split()) for line in lines)
+    texts = ["".join(str(option.prompt).split()) for option in options.options if not isinstance(option.prompt, Table)]
+    for text, following in pairwise(texts):
+        if text[:20] in shown and following[:20] in shown and text not in shown:
+            yield f"{text!r} in {shown!r}"
 
 
 def _cut_plot(app: BuilderApp, plot: PanelPlot | Trace, region: Region) -> Iterator[str]:

@@ -15,6 +15,7 @@ from lambda_gui import runs
 from lambda_gui.app import BuilderApp
 from lambda_gui.catalogue import CatalogueScreen
 from lambda_gui.dialogs import OpenCase
+from lambda_gui.helper import Helper
 from lambda_gui.results_screen import ResultsScreen
 from lambda_gui.run_screen import RunScreen
 from lambda_gui.runs import Queue, Run
@@ -301,3 +302,13 @@ async def test_a_read_only_folder_is_said(hand_written: Path, monkeypatch: pytes
                 hand_written.parent.chmod(0o755)
             builder(pilot).draft.path = hand_written
         assert pilot.app.is_running
+
+
+async def test_who_waits_for_a_helper_that_is_closed_is_cancelled() -> None:
+    """The screen that asked is gone: an error would have nowhere to be shown."""
+    helper = Helper(lambda text: None)
+    waiting = asyncio.create_task(helper.ask("views", subject="result"))
+    await asyncio.sleep(0.1)
+    await helper.close()
+    with pytest.raises(asyncio.CancelledError):
+        await waiting
