@@ -93,7 +93,7 @@ async def build_and_run(browser: Browser) -> None:
     await browser.until("ready")
     for place, about, text in (
         ("loads.axial", "axial load on the inner ring", "1300 N"),
-        ("solver.duration", "simulated time; absent", "5 ms"),
+        ("solver.duration", "simulated time", "5 ms"),
     ):
         await browser.press("ctrl+p")
         await browser.until("Search for commands")
