@@ -19,16 +19,16 @@ from numba.experimental import structref
 from numpy.typing import NDArray
 
 from lambda_core.physics.assembly import Assembly
-from lambda_core.physics.compiled import bdf
 from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.compiled import memory
 from lambda_core.physics.compiled.arrow import factors_t, make_factors
 from lambda_core.physics.compiled.blocks import blocks_t
 from lambda_core.physics.compiled.entry import core
 
 FloatArray = NDArray[np.float64]
 _FIELDS = (
-    ("evaluate", bdf.evaluate_t),
-    ("jacobian", bdf.jacobian_t),
+    ("evaluate", memory.evaluate_t),
+    ("jacobian", memory.jacobian_t),
     ("bundle", L.bundle_t),
     ("blocks", blocks_t),
     ("factors", factors_t),

@@ -57,6 +57,9 @@ class CrossCheck(Record):
         description="largest distance of rings, cage and gripped balls from the reference's, root mean square over "
         "their states, in units of tolerance times scale; null with a free cage"
     )
+    cvode_deviation: float | None = Field(
+        description="the same distance of CVODE at our tolerance from the reference; null with a free cage"
+    )
     drift: float | None = Field(
         description="the same of the balls that the inner ring has let go: nothing brings their azimuth back; "
         "null when there are none, and with a free cage"
@@ -71,7 +74,12 @@ class CrossCheck(Record):
         head = f"{self.case}: cage {self.cage}, {1e3 * self.duration_s:.4g} ms, tolerance {self.tolerance:g}"
         rows = {"ours": self.ours, "CVODE": self.cvode, f"CVODE at {_FINER * self.tolerance:g}": self.reference}
         lines = [head, *(_line(name, row) for name, row in rows.items() if row is not None)]
-        for name, distance in (("rings, gripped balls", self.deviation), ("balls let go", self.drift)):
+        distances = {
+            "rings, gripped balls": self.deviation,
+            "the same of CVODE": self.cvode_deviation,
+            "balls let go": self.drift,
+        }
+        for name, distance in distances.items():
             if distance is not None:
                 lines.append(f"  {name:<22}{distance:.2f} tolerances apart at most")
         lines.append(f"  {'dissipated power':<22}{100.0 * self.power_deviation:+.4f} %")
@@ -132,7 +140,8 @@ def _trajectories(model: BearingModel, start: Equilibrium, duration: float) -> C
     lost, end = _lost(engine), engine.time
     grid = np.append(times[times < end], end)
     same, fine = (integrate(start, grid, tolerance * share) for share in (1.0, _FINER))
-    apart = (states[: grid.size - 1] - fine.states[:-1]) / (tolerance * start.assembly.scale)
+    unit = tolerance * start.assembly.scale
+    apart, theirs = ((found - fine.states[:-1]) / unit for found in (states[: grid.size - 1], same.states[:-1]))
     held = np.ones(apart.shape, dtype=bool)
     held[:, : L.NB * gripped.shape[1]] = np.repeat(gripped[: grid.size - 1], L.NB, axis=1)
     deviation = float(_distance(apart, held).max())
@@ -152,6 +161,7 @@ def _trajectories(model: BearingModel, start: Equilibrium, duration: float) -> C
         reference=rows[1],
         power_deviation=off,
         deviation=deviation,
+        cvode_deviation=float(_distance(theirs, held).max()),
         drift=None if held.all() else float(_distance(apart, ~held).max()),
         agree=abs(off) < _POWER and deviation < _STATES,
     )
@@ -196,6 +206,7 @@ def _means(model: BearingModel, start: Equilibrium, turn: float, turns: int) -> 
         reference=None,
         power_deviation=one.mean / other.mean - 1.0,
         deviation=None,
+        cvode_deviation=None,
         drift=None,
         agree=abs(one.mean - other.mean) <= max(math.hypot(one.half_width, other.half_width), _POWER * other.mean),
     )

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from lambda_core.errors import SolverError
 from lambda_core.physics.assembly import Assembly
 from lambda_core.physics.channels import CHANNELS, LOSSES
-from lambda_core.physics.compiled import bdf
+from lambda_core.physics.compiled import bdf, memory
 from lambda_core.physics.compiled import layout as L
 from lambda_core.physics.compiled.arrow import make_factors
 from lambda_core.physics.compiled.entry import core
@@ -80,13 +80,15 @@ class BearingEngine:
         start = initial_state(self._equilibrium)
         active = self._assembly.bundle.active
         self._factors = make_factors(self._balls, active.size)
-        self._memory = bdf.make_memory(start, self._assembly.scale, model.solver.tolerance, _CAPACITY)
+        self._memory = memory.make_memory(
+            start, self._assembly.scale, model.solver.tolerance, self._assembly.bundle, _CAPACITY
+        )
         self.sample_interval = model.output.interval or 2.0 * math.pi / self._cage_speed() / SAMPLES_PER_REVOLUTION
         control, count = self._memory.control, self._memory.count
-        control[bdf.H], control[bdf.H_MIN] = _FIRST_STEP, _SMALLEST_STEP
-        control[bdf.H_MAX] = min(model.solver.max_step, longest_step(self._assembly))
-        control[bdf.SAMPLE_STEP] = self.sample_interval
-        count[bdf.STALE] = 1
+        control[memory.H], control[memory.H_MIN] = _FIRST_STEP, _SMALLEST_STEP
+        control[memory.H_MAX] = min(model.solver.max_step, longest_step(self._assembly))
+        control[memory.SAMPLE_STEP] = self.sample_interval
+        count[memory.STALE] = 1
         self._handle = self._core.grasp(
             self._core.evaluate_pointer,
             self._core.jacobian_pointer,
@@ -111,7 +113,7 @@ class BearingEngine:
     @property
     def time(self) -> float:
         """Start of the next step [s]."""
-        return float(self._memory.control[bdf.T])
+        return float(self._memory.control[memory.T])
 
     @property
     def kernel_keys(self) -> dict[str, str]:
@@ -148,20 +150,20 @@ class BearingEngine:
 
     def forget_samples(self) -> None:
         """Empty the buffer of samples without looking at them."""
-        self._memory.count[bdf.SAMPLES] = 0
+        self._memory.count[memory.SAMPLES] = 0
         self._drained.clear()
 
     def buffered(self) -> tuple[FloatArray, FloatArray]:
         """Return times and states of the samples that no one has taken yet, shapes (n,) [s] and (n, size)."""
-        n = int(self._memory.count[bdf.SAMPLES])
+        n = int(self._memory.count[memory.SAMPLES])
         return self._memory.sample_t[:n].copy(), self._memory.sample_y[:n].copy()
 
     def _drain(self) -> None:
         """Turn buffered states into channels."""
-        n = int(self._memory.count[bdf.SAMPLES])
+        n = int(self._memory.count[memory.SAMPLES])
         if n:
             self._drained.append(self._observe(self._memory.sample_t[:n].copy(), self._memory.sample_y))
-            self._memory.count[bdf.SAMPLES] = 0
+            self._memory.count[memory.SAMPLES] = 0
 
     def _stored(self, t: float, y: FloatArray) -> float:
         scratch = self._scratch
@@ -191,14 +193,14 @@ class BearingEngine:
     def statistics(self) -> dict[str, float]:
         """Return counters of the integrator."""
         names = {
-            "steps": bdf.STEPS,
-            "rejected": bdf.REJECTED,
-            "failed": bdf.FAILED,
-            "newton_iterations": bdf.NEWTON,
-            "rhs_calls": bdf.RHS,
-            "jacobians": bdf.JACOBIANS,
-            "ball_jacobians": bdf.LOCAL,
-            "factorisations": bdf.FACTORS,
+            "steps": memory.STEPS,
+            "rejected": memory.REJECTED,
+            "failed": memory.FAILED,
+            "newton_iterations": memory.NEWTON,
+            "rhs_calls": memory.RHS,
+            "jacobians": memory.JACOBIANS,
+            "ball_jacobians": memory.LOCAL,
+            "factorisations": memory.FACTORS,
         }
         return {name: float(self._memory.count[i]) for name, i in names.items()}
 
@@ -208,7 +210,7 @@ class BearingEngine:
         for prefix, group in (("memory", self._memory), ("factors", self._factors)):
             for name, array in zip(group._fields, group, strict=True):
                 parts[f"{prefix}.{name}"] = np.array(array, copy=True)
-        for name in ("a", "b", "c", "d", "shared", "parts", "reach"):
+        for name in ("a", "b", "c", "d", "shared", "parts"):
             parts[f"blocks.{name}"] = getattr(self._assembly.blocks, name).copy()
         parts["start"] = np.array([*self._start_angles, self._start_energy])
         return parts

@@ -17,7 +17,7 @@ from lambda_core.physics.kinematics import epicyclic_ratio
 from lambda_core.physics.model import Solver
 from lambda_core.simulate.averages import Interval, finite
 from lambda_core.simulate.convergence import shortfalls, window
-from lambda_core.simulate.limits import Grooves, Shoulder, shoulders, warnings, worst
+from lambda_core.simulate.limits import Grooves, Shoulder, shoulders, tolerance_warning, warnings, worst
 from lambda_core.simulate.record import CARRYING, INTERFACE, Record, Ring
 
 if TYPE_CHECKING:
@@ -144,7 +144,10 @@ def summarise(result: Result) -> Summary:
         contact_capacitance_pF=span(1e12 * end["capacitance"][carrying]),
         bearing_capacitance_nF=finite(1e9 * float(end["bearing_capacitance"])),
         shoulders=edges,
-        warnings=warnings(float(result.model["oil"]["temperature"]), _highest_pressure(result), edges),
+        warnings=[
+            *tolerance_warning(settings.tolerance),
+            *warnings(float(result.model["oil"]["temperature"]), _highest_pressure(result), edges),
+        ],
         energy_residual=finite(residual),
         revolutions_discarded=chosen.discarded,
         revolutions_averaged=chosen.revolutions,

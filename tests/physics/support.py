@@ -15,6 +15,7 @@ from lambda_core.physics.assembly import Assembly, assemble
 from lambda_core.physics.channels import LOSSES
 from lambda_core.physics.compiled import bdf
 from lambda_core.physics.compiled import layout as L
+from lambda_core.physics.compiled import memory as M
 from lambda_core.physics.compiled.arrow import make_factors
 from lambda_core.physics.compiled.entry import core
 from lambda_core.physics.equilibrium import fault_sentence
@@ -171,20 +172,20 @@ class Motion:
 
 def integrate(m: Machine, y: FloatArray, duration: float, tolerance: float, samples: int = 100) -> Motion:
     """Integrate from any state, sampled at equal intervals from 0 on."""
-    memory = bdf.make_memory(y, m.assembly.scale, tolerance, samples + 8)
+    mem = M.make_memory(y, m.assembly.scale, tolerance, m.assembly.bundle, samples + 8)
     interval = duration / samples
-    memory.control[bdf.H], memory.control[bdf.H_MIN], memory.control[bdf.H_MAX] = 1e-9, 1e-16, interval
-    memory.control[bdf.SAMPLE_STEP] = interval
-    memory.count[bdf.STALE] = 1
+    mem.control[M.H], mem.control[M.H_MIN], mem.control[M.H_MAX] = 1e-9, 1e-16, interval
+    mem.control[M.SAMPLE_STEP] = interval
+    mem.count[M.STALE] = 1
     compiled, factors = core(), make_factors(m.count, m.active.size)
-    while memory.control[bdf.T] < duration:
+    while mem.control[M.T] < duration:
         status = compiled.advance(
             compiled.evaluate_pointer, compiled.jacobian_pointer, duration, 10_000, m.assembly.bundle,
-            m.assembly.blocks, factors, memory,
+            m.assembly.blocks, factors, mem,
         )  # fmt: skip
-        assert status == bdf.OK, (status, memory.control[bdf.T], fault_sentence(m.assembly))
-    n = int(memory.count[bdf.SAMPLES])
-    return Motion(memory.sample_t[:n].copy(), memory.sample_y[:n].copy(), int(memory.count[bdf.STEPS]))
+        assert status == bdf.OK, (status, mem.control[M.T], fault_sentence(m.assembly))
+    n = int(mem.count[M.SAMPLES])
+    return Motion(mem.sample_t[:n].copy(), mem.sample_y[:n].copy(), int(mem.count[M.STEPS]))
 
 
 @cache

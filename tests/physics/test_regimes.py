@@ -7,6 +7,8 @@ import pytest
 
 from benchmarks.regimes import AXIAL, BOUND, RADIAL, REFUSED, REGIMES, Regime, refusal, run
 from lambda_core import api
+from lambda_core.physics.channels import LOSSES
+from lambda_core.physics.compiled import memory as M
 from lambda_core.simulate.dynamics import BearingEngine
 
 
@@ -25,6 +27,31 @@ def test_regime(regime: Regime) -> None:
 def test_what_has_no_answer_is_refused_with_the_reason(name: str) -> None:
     changes, words = REFUSED[name]
     assert words in refusal(changes)
+
+
+def test_a_whirling_cage_is_no_error_of_integration() -> None:
+    """A coarse tolerance shakes the cage into a whirl; a fine one started there finds the same whirl and the same loss.
+
+    From its equilibrium the same bearing stays quiet, with less than half the loss.
+    """
+    loose, fine = (BearingEngine(api.check(AXIAL, [f"solver.tolerance={value}"])) for value in ("1e-2", "1e-4"))
+    assert loose.advance(0.1).ok
+    shaken, own = loose.state(), fine.state()
+    shaken["memory.weight"] = own["memory.weight"]
+    for entry in (M.TOLERANCE, M.LEAK_FLOOR):
+        shaken["memory.control"][entry] = own["memory.control"][entry]
+    quiet = _loss(fine, 0.005)
+    fine.restore(shaken)
+    assert _loss(fine, 0.11) > 2.0 * quiet
+    assert _loss(fine, 0.12) == pytest.approx(_loss(loose, 0.12), rel=0.05)
+
+
+def _loss(engine: BearingEngine, until: float) -> float:
+    """Return the mean dissipated power from now on [W]."""
+    began, before = engine.time, engine.integrals()
+    assert engine.advance(until).ok
+    after = engine.integrals()
+    return sum(after[f"loss.{name}"] - before[f"loss.{name}"] for name in LOSSES) / (engine.time - began)
 
 
 def test_rest_costs_no_more_steps_than_running() -> None:

@@ -11,7 +11,7 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
-from lambda_core.simulate.limits import Grooves, shoulders, warnings
+from lambda_core.simulate.limits import Grooves, shoulders, tolerance_warning, warnings
 
 AXIAL = "6208-axial-1300"
 
@@ -79,6 +79,11 @@ def test_a_run_says_it_in_text_and_as_data(capsys: pytest.CaptureFixture[str], t
     assert inner["margin_um"] < 0.0
     assert any("over the inner ring's shoulder" in sentence for sentence in data["warnings"])
     assert max(contact["load_N"] for contact in data["contacts"]) < 3000.0
+
+
+def test_a_coarse_tolerance_is_said() -> None:
+    assert tolerance_warning(1e-3) == []
+    assert "solver.tolerance 0.002 is above 0.001" in tolerance_warning(2e-3)[0]
 
 
 def test_pressure_without_contact_is_no_warning() -> None:

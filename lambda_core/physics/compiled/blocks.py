@@ -22,7 +22,6 @@ class Blocks(NamedTuple):
     from_ball: Any  # (3, 6, 9) d(body force)/d(ball)
     shared: Any  # (3, 6, 36) d(body force)/d(shared), of one ball, then summed
     parts: Any  # (Z, 3, 6, 36) the same of every ball
-    reach: Any  # (Z, 3, 6, 9) d(body force)/d(ball) of every ball
     due: Any  # int64 (Z,): whether the next call renews this ball; it leaves 1 everywhere
     slope: Any  # (6, 9) d(wrench)/dq
     ball: Any  # (9,) perturbed
@@ -41,7 +40,6 @@ _BLOCK_TYPES = {
     "from_ball": array3,
     "shared": array3,
     "parts": array4,
-    "reach": array4,
     "due": iarray1,
     "index": iarray1,
 }
@@ -65,7 +63,6 @@ def make_blocks(balls: int, active: np.ndarray) -> Blocks:
         zeros((3, 6, NB)),
         zeros((3, 6, 3 * NS)),
         zeros((balls, 3, 6, 3 * NS)),
-        zeros((balls, 3, 6, NB)),
         np.ones(balls, dtype=np.int64),
         zeros((6, 9)),
         zeros(NB),

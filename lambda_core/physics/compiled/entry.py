@@ -11,7 +11,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from lambda_core.physics.compiled import bdf, forces, handle, jacobian, layout, observe, raceway, statics, tangent
+from lambda_core.physics.compiled import (
+    bdf,
+    forces,
+    handle,
+    jacobian,
+    layout,
+    memory,
+    observe,
+    raceway,
+    statics,
+    tangent,
+)
 from lambda_core.registry.kernels import compile_host, host_folder, host_key
 from lambda_core.registry.machine_code import Pointer
 
@@ -42,8 +53,8 @@ class Core:
 UNITS: dict[str, tuple[Any, Any]] = {
     "wrench": (raceway.raceway_wrench, layout.wrench_sig),
     "tangent": (tangent.contact_tangent, layout.tangent_sig),
-    "evaluate": (forces.evaluate, bdf.evaluate_sig),
-    "jacobian": (jacobian.jacobian, bdf.jacobian_sig),
+    "evaluate": (forces.evaluate, memory.evaluate_sig),
+    "jacobian": (jacobian.jacobian, memory.jacobian_sig),
     "advance": (bdf.advance, bdf.advance_sig),
     "observe": (observe.observe, observe.observe_sig),
     "settle": (statics.settle, statics.settle_sig),

@@ -12,19 +12,20 @@ from numba import types
 from numba.experimental import structref
 
 from lambda_core.physics.compiled import bdf, observe
+from lambda_core.physics.compiled import memory as memo
 from lambda_core.physics.compiled.arrow import factors_t
 from lambda_core.physics.compiled.blocks import blocks_t
 from lambda_core.physics.compiled.layout import array1, array2, array3, array4, bundle_t, f8, i8
 
 FIELDS = (
-    ("evaluate", bdf.evaluate_t),
-    ("jacobian", bdf.jacobian_t),
+    ("evaluate", memo.evaluate_t),
+    ("jacobian", memo.jacobian_t),
     ("advance", types.FunctionType(bdf.advance_sig)),
     ("observe", types.FunctionType(observe.observe_sig)),
     ("bundle", bundle_t),
     ("blocks", blocks_t),
     ("factors", factors_t),
-    ("memory", bdf.memory_t),
+    ("memory", memo.memory_t),
 )
 
 

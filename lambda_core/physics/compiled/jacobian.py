@@ -15,7 +15,6 @@ from __future__ import annotations
 import math
 
 from lambda_core.physics.compiled.block_rows import ball_block, body_rows, force_map, shared_rows
-from lambda_core.physics.compiled.blocks import blocks_t as blocks_t  # its type is part of the interface
 from lambda_core.physics.compiled.elements import drag_force
 from lambda_core.physics.compiled.guide_columns import land_columns, neighbour_columns, pocket_columns
 from lambda_core.physics.compiled.layout import BPSI, CAGE, NB, NS, SHARED, helper
@@ -50,8 +49,6 @@ def _keep_part(bl, j):
     """Keep what ball j adds to the slopes of the forces on the bodies."""
     for b in range(3):
         for i in range(6):
-            for c in range(NB):
-                bl.reach[j, b, i, c] = bl.from_ball[b, i, c]
             for c in range(3 * NS):
                 bl.parts[j, b, i, c] = bl.shared[b, i, c]
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from lambda_core.physics.compiled.bdf import evaluate_t
 from lambda_core.physics.compiled.cage import guide_force, land_state, pocket_apply, pocket_state
 from lambda_core.physics.compiled.electric import bulk_permittivity, contact_capacitance, gap_capacitance
 from lambda_core.physics.compiled.energy import stored_energy
@@ -51,6 +50,7 @@ from lambda_core.physics.compiled.layout import (
     par_of,
 )
 from lambda_core.physics.compiled.losses import raceway_losses
+from lambda_core.physics.compiled.memory import evaluate_t
 from lambda_core.physics.compiled.timefunctions import fill_shared
 
 # Contact channels, in this order along the last axis of `contacts`.

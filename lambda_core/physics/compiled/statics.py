@@ -14,7 +14,6 @@ import math
 import numpy as np
 
 from lambda_core.physics.compiled.arrow import arrow_factor, arrow_solve, factors_t
-from lambda_core.physics.compiled.bdf import evaluate_t, jacobian_t
 from lambda_core.physics.compiled.blocks import blocks_t
 from lambda_core.physics.compiled.kinematics import contact_kinematics
 from lambda_core.physics.compiled.layout import (
@@ -32,6 +31,7 @@ from lambda_core.physics.compiled.layout import (
     helper,
     i8,
 )
+from lambda_core.physics.compiled.memory import evaluate_t, jacobian_t
 from lambda_core.physics.compiled.pseudo_transient import mask, residual
 
 settle_sig = i8(evaluate_t, jacobian_t, bundle_t, blocks_t, factors_t, array1, array1, array1, i8)
