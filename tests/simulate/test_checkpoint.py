@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 SLOW = Truth(noise=0.5, slowness=2e-4)
 DURATION = 0.35
 WANTED = {"truth": {"noise": 0.5, "slowness": 2e-4}, "solver": {"duration": DURATION}, "checkpoint_interval": 0.01}
+# The same run, long enough in wall time to be met halfway.
+SLOWER = {**WANTED, "truth": {"noise": 0.5, "slowness": 2e-3}}
 
 
 def growing(path: Path) -> dict[str, np.ndarray]:
@@ -65,11 +67,10 @@ def start(warm: Warm, verb: str, path: Path, wanted: dict[str, object] = WANTED)
 
 
 def under_way(path: Path, process: Started) -> None:
-    """Wait until a run has its file, and then until it has begun to write."""
-    while not path.exists() or not Result(path).status().alive():
+    """Wait until a run has written samples: by then it listens to signals."""
+    while not path.exists() or Result(path).status().rows.samples < 2:
         assert process.poll() is None, process.communicate()
         time.sleep(0.01)
-    time.sleep(0.2)
 
 
 def kill_and_resume(warm: Warm, path: Path, delays: list[float], reference: dict[str, np.ndarray]) -> None:
@@ -107,7 +108,7 @@ def test_kill_a_hundred_times(seed: int, warm: Warm, tmp_path: Path, undisturbed
 
 def test_a_killed_run_is_readable_and_not_alive(warm: Warm, tmp_path: Path) -> None:
     path = tmp_path / "r.h5"
-    process = start(warm, "run", path)
+    process = start(warm, "run", path, SLOWER)
     under_way(path, process)
     assert Result(path).status().alive()
     with pytest.raises(ResultError, match=f"still being written by process {process.pid}"):
@@ -129,7 +130,7 @@ def test_ctrl_c_keeps_a_readable_result_that_continues(
     number: int, warm: Warm, tmp_path: Path, undisturbed: dict[str, np.ndarray]
 ) -> None:
     path = tmp_path / "r.h5"
-    process = start(warm, "run", path, {**WANTED, "checkpoint_interval": 1e9})
+    process = start(warm, "run", path, {**SLOWER, "checkpoint_interval": 1e9})
     under_way(path, process)
     os.kill(process.pid, number)
     _, errors = process.communicate()
