@@ -48,6 +48,16 @@ def read(pilot: Pilot[None], where: str, within: Widget | None = None) -> list[s
     return [f"{where}: {what}" for what in cut_on(pilot.app, within)]  # type: ignore[arg-type]
 
 
+async def read_at_rest(pilot: Pilot[None], where: str) -> list[str]:
+    """Return what is cut once everything is laid out: what stays cut for a second and a half."""
+    for _ in range(15):
+        found = read(pilot, where)
+        if not found:
+            break
+        await pilot.pause(0.1)
+    return found
+
+
 async def read_forms(pilot: Pilot[None], wanted: Callable[[Node], bool]) -> list[str]:
     """Read the form of each node, and the lists of its choices."""
     screen, tree = builder(pilot), pilot.app.screen.query_one(ModelTree)
@@ -232,8 +242,8 @@ async def test_runs(work_folder: Path, size: tuple[int, int]) -> None:
         screen.follow()
         for number, run in enumerate(pilot.app.queue.runs):
             screen.query_one(DataTable).move_cursor(row=number)
-            await pilot.pause(0.1)
-            found += read(pilot, f"{run.state} {run.message[:20]}")
+            await pilot.pause()
+            found += await read_at_rest(pilot, f"{run.state} {run.message[:20]}")
         pilot.app.queue.runs.clear()
     nothing(found)
 
@@ -260,6 +270,6 @@ async def test_results(work_folder: Path, combined_run: Result, size: tuple[int,
             for number in range(views.option_count):
                 views.highlighted = number
                 await wait_for(pilot, lambda: not any(worker.is_running for worker in pilot.app.workers))
-                await pilot.pause(0.2)
-                found += read(pilot, f"{marked} marked, {views.get_option_at_index(number).id}")
+                await pilot.pause()
+                found += await read_at_rest(pilot, f"{marked} marked, {views.get_option_at_index(number).id}")
     nothing(found)
