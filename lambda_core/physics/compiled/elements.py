@@ -54,6 +54,21 @@ _SPIN_FLOOR = 1e-3  # [rad/s] below which a ball's churning moment fades out
 
 
 @helper
+def clear_forces(bundle):
+    """Begin the sums of forces on balls and bodies."""
+    bundle.ball_fm[:, :] = 0.0
+    bundle.scratch[BODY_FM : BODY_FM + 3, :6] = 0.0
+
+
+@helper
+def add_contact(which, ball_fm, scratch):
+    """Add the wrench of a raceway contact in scratch to the forces on its ball and its ring."""
+    apply_wrench(scratch[KIN], scratch[WRENCH], ball_fm, scratch[RING_FM])
+    for k in range(6):
+        scratch[BODY_FM + which, k] += scratch[RING_FM][k]
+
+
+@helper
 def raceway_forces(y, j, bundle, rates, want):
     """Add both raceway contacts of ball j; with `want`, add their losses to rates."""
     scratch = bundle.scratch
@@ -79,9 +94,7 @@ def raceway_forces(y, j, bundle, rates, want):
         if ok != 1:
             scratch[FAULT][2] = j
             return 0
-        apply_wrench(kin, scratch[WRENCH], ball_fm, scratch[RING_FM])
-        for k in range(6):
-            scratch[BODY_FM + which, k] += scratch[RING_FM][k]
+        add_contact(which, ball_fm, scratch)
         if want == 1 and system.friction_on == 1:
             raceway_losses(which, kin, system, bundle.grid, scratch[SCALARS], bundle.cells[0], rates)
     return 1

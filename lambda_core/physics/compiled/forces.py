@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.physics.compiled.elements import cage_forces, drag_force, raceway_forces
+from lambda_core.physics.compiled.elements import cage_forces, clear_forces, drag_force, raceway_forces
 from lambda_core.physics.compiled.layout import (
     BODY_FM,
     BPSI,
@@ -69,7 +69,7 @@ def _move_bodies(bundle, rates, want, dydt):
 
 
 def evaluate(t, y, bundle, dydt, rates, want):
-    """Write dy/dt; with `want` = 1 also the powers and rates of the running integrals.
+    """Write dy/dt; with `want` = 1 also the powers and rates of the running integrals; an entry point.
 
     Parameters
     ----------
@@ -79,6 +79,9 @@ def evaluate(t, y, bundle, dydt, rates, want):
     rates : float64[:], shape (NI,)
         Losses by mechanism [W], input power [W], its absolute value, drive power, |relative speed| [rad/s],
         position of the inner ring [m].
+    want : int
+        0, 1; or 2: as 1, and the raceways' share of the forces (bundle.ball_fm, scratch[BODY_FM]) and of `rates` is
+        there already, left by a caller that has gone through them itself.
 
     Returns
     -------
@@ -89,13 +92,14 @@ def evaluate(t, y, bundle, dydt, rates, want):
     system = bundle.system[0]
     scratch[FAULT][0] = -1.0
     fill_shared(t, y, bundle)
-    bundle.ball_fm[:, :] = 0.0
-    scratch[BODY_FM : BODY_FM + 3, :6] = 0.0
-    rates[:] = 0.0
     z = system.balls
-    for j in range(z):
-        if raceway_forces(y, j, bundle, rates, want) != 1:
-            return 0
+    if want < 2:
+        clear_forces(bundle)
+        rates[:] = 0.0
+        for j in range(z):
+            if raceway_forces(y, j, bundle, rates, want) != 1:
+                return 0
+    want = min(want, 1)
     if system.guides_on == 1 and cage_forces(y, bundle, rates, want) != 1:
         return 0
     for j in range(z):

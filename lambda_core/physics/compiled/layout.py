@@ -256,22 +256,30 @@ bundle_t = types.NamedTuple(
 )
 
 
+_ANY_ORDER = {"reassoc", "contract", "nsz"}
+
+
 def vector_helper(function):
     """Compile a helper whose loops over cells may be summed in any order, so that they vectorise.
 
     Only the order of sums, fused multiply-adds and the sign of zero are set free: NaN and infinity keep their meaning.
     """
-    return numba.njit(**{**OPTIONS, **inlined.OPTIONS, "fastmath": {"reassoc", "contract", "nsz"}})(function)
+    return numba.njit(**{**OPTIONS, **inlined.OPTIONS, "fastmath": _ANY_ORDER})(function)
+
+
+def rows_helper(function):
+    """Compile a vector helper whose arrays are all apart: rows of a block, of which none is given twice."""
+    return numba.njit(**{**OPTIONS, **inlined.APART, "fastmath": _ANY_ORDER})(function)
 
 
 def helper(function):
-    """Compile a helper of the core; never cached by itself, its callers are."""
+    """Compile a helper of the core into its callers; never cached by itself, they are."""
     return numba.njit(**OPTIONS, **inlined.OPTIONS)(function)
 
 
 def allocating_helper(function):
     """Compile a helper that makes arrays of its own, off the hot path."""
-    return numba.njit(**{**OPTIONS, **inlined.OPTIONS, "_nrt": True})(function)
+    return numba.njit(**{**OPTIONS, **inlined.OPTIONS, "forceinline": False, "_nrt": True})(function)
 
 
 @numba.njit(inline="always")  # a function of its own could not return a view without counting references

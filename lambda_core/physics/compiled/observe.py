@@ -6,6 +6,7 @@ import numpy as np
 
 from lambda_core.physics.compiled.cage import guide_force, land_state, pocket_apply, pocket_state
 from lambda_core.physics.compiled.electric import bulk_permittivity, contact_capacitance, gap_capacitance
+from lambda_core.physics.compiled.elements import add_contact, clear_forces
 from lambda_core.physics.compiled.energy import stored_energy
 from lambda_core.physics.compiled.kinematics import axis_x, contact_angle, contact_kinematics, surface_lift
 from lambda_core.physics.compiled.layout import (
@@ -26,6 +27,7 @@ from lambda_core.physics.compiled.layout import (
     INNER,
     KIN,
     NB,
+    NL,
     NS,
     OUT,
     OUTER,
@@ -76,8 +78,11 @@ observe_sig = i8(array1, array2, bundle_t, evaluate_t, f8, array4, array3, array
 
 
 @helper
-def _raceway_channels(y, j, which, bundle, shorted, channels, losses):
-    """Write the channels of one contact; zeros and the gap's capacitance when it is open."""
+def _raceway_channels(y, j, which, bundle, shorted, channels, losses, rates):
+    """Write the channels of one contact; zeros and the gap's capacitance when it is open.
+
+    Adds its forces to those of ball and ring and its losses to `rates`, as the right-hand side does.
+    """
     scratch = bundle.scratch
     system = bundle.system[0]
     laws = bundle.laws.inner if which == INNER else bundle.laws.outer
@@ -110,8 +115,10 @@ def _raceway_channels(y, j, which, bundle, shorted, channels, losses):
     channels[5], channels[6], channels[7] = (scalars[C_HCEN], scalars[C_HMIN], scalars[C_LAMBDA])
     channels[8], channels[9] = scalars[C_PSI], scalars[C_TMEAN]
     channels[10], channels[11], channels[12] = kin[Q_VT], kin[Q_UT], kin[Q_WN]
-    for i in range(losses.size):
+    add_contact(which, bundle.ball_fm[j], scratch)
+    for i in range(NL):
         channels[15] += losses[i]
+        rates[i] += losses[i]
     return contact_capacitance(which, kin, laws, bundle, shorted, channels)
 
 
@@ -148,25 +155,29 @@ def _cage_channels(y, bundle, pockets, lands):
 
 
 @helper
-def _observe_one(t, y, bundle, shorted, contacts, pockets, lands, extra):
+def _observe_one(t, y, bundle, shorted, contacts, pockets, lands, extra, rates):
     """Write what one sample shows; see observe."""
     scratch = bundle.scratch
     system = bundle.system[0]
     scratch[FAULT][0] = -1.0
     extra[0] = stored_energy(t, y, bundle)
     fill_shared(t, y, bundle)
+    pockets[:, :] = 0.0
+    lands[:, :] = 0.0
+    if system.cage_on == 1 and _cage_channels(y, bundle, pockets, lands) != 1:
+        return 0
+    clear_forces(bundle)
+    rates[:] = 0.0
     total = 0.0
     for j in range(system.balls):
         for which in range(2):
-            if _raceway_channels(y, j, which, bundle, shorted, contacts[j, which], extra[2:]) != 1:
+            if _raceway_channels(y, j, which, bundle, shorted, contacts[j, which], extra[2:], rates) != 1:
                 scratch[FAULT][2] = j
                 return 0
         ci, co = contacts[j, INNER, 14], contacts[j, OUTER, 14]
         total += 1.0 / (1.0 / ci + 1.0 / co) if ci > 0.0 and co > 0.0 else 0.0
     extra[1] = total
-    pockets[:, :] = 0.0
-    lands[:, :] = 0.0
-    return _cage_channels(y, bundle, pockets, lands) if system.cage_on == 1 else 1
+    return 1
 
 
 def observe(times, states, bundle, evaluate, shorted, contacts, pockets, lands, extra, shared, rates, dydt):
@@ -206,9 +217,9 @@ def observe(times, states, bundle, evaluate, shorted, contacts, pockets, lands, 
         if shorted < 0.0:
             extra[i, 0] = stored_energy(times[i], y, bundle)
             continue
-        if _observe_one(times[i], y, bundle, shorted, contacts[i], pockets[i], lands[i], extra[i]) != 1:
+        if _observe_one(times[i], y, bundle, shorted, contacts[i], pockets[i], lands[i], extra[i], rates[i]) != 1:
             return 0
-        if evaluate(times[i], y, bundle, dydt, rates[i], 1) != 1:
+        if evaluate(times[i], y, bundle, dydt, rates[i], 2) != 1:
             return 0
         for k in range(3 * NS):
             shared[i, k] = bundle.scratch[SHARED, k]

@@ -48,6 +48,7 @@ from lambda_core.physics.compiled.layout import (
     X_VT,
     helper,
     par_of,
+    rows_helper,
     vector_helper,
 )
 from lambda_core.physics.compiled.scalar_stages import finite
@@ -56,78 +57,63 @@ from lambda_core.physics.compiled.scalar_stages import finite
 CELL_VARIANCE = 1.0 / 12.0
 
 
-@vector_helper
-def slip_field(which, q, system, grid, scalars, cells):
-    """Slip of every cell with the spread of slip inside the cell, and its pressure.
-
-    Several short loops: the compiler vectorises a loop only while it can tell its few arrays apart.
-    """
-    a, b, pmax = scalars[C_A], scalars[C_B], scalars[C_PMAX]
-    vt0, vs0 = q[Q_VT], q[Q_VS]
-    wt, ws, wn = q[Q_WT], q[Q_WS], q[Q_WN]
-    curvature = 1.0 / system.radius_deformed[which]
-    floor = system.slip_floor * system.slip_floor
-    slip, p, vt, vs = cells[X_SLIP], cells[X_P], cells[X_VT], cells[X_VS]
-    across, along, width_s, width_t = (grid[GRID_S], grid[GRID_T], grid[GRID_DS], grid[GRID_DT])
-    share = grid[GRID_P]
-    n = slip.size
-    for i in range(n):
+@rows_helper
+def _slip_rows(
+    a, b, pmax, vt0, vs0, wt, ws, wn, curvature, floor, across, along, width_s, width_t, share, p, vt, vs, slip, inverse
+):
+    """Write pressure and slip of every cell; see slip_field."""
+    for i in range(p.size):
         p[i] = pmax * share[i]
-    for i in range(n):
         s = a * across[i]
-        vt[i] = vt0 - s * (wn + 0.5 * ws * s * curvature)
-    for i in range(n):
-        s = a * across[i]
-        vs[i] = vs0 + wn * b * along[i] + 0.5 * wt * s * s * curvature
-    # Variance of the slip inside a cell, from its slopes across and along.
-    for i in range(n):
-        kink = a * across[i] * curvature
+        kink = s * curvature
+        t, r = vt0 - s * (wn + 0.5 * ws * kink), vs0 + wn * b * along[i] + 0.5 * wt * s * kink
+        # Variance of the slip inside a cell, from its slopes across and along.
         slope_t, slope_s = a * width_s[i] * (wn + ws * kink), a * width_s[i] * wt * kink
         turn = b * width_t[i] * wn
-        slip[i] = floor + CELL_VARIANCE * (slope_t * slope_t + slope_s * slope_s + turn * turn)
-    for i in range(n):
-        slip[i] = math.sqrt(slip[i] + vt[i] * vt[i] + vs[i] * vs[i])
-    inverse = cells[X_INVERSE]
-    for i in range(n):
-        inverse[i] = 1.0 / slip[i]
+        v = math.sqrt(floor + CELL_VARIANCE * (slope_t * slope_t + slope_s * slope_s + turn * turn) + t * t + r * r)
+        vt[i], vs[i], slip[i], inverse[i] = t, r, v, 1.0 / v
 
 
-@vector_helper
-def _close_loop(tau0, tau, hot, area, inlet, scalars):
-    """Close the loop of temperature and traction: tau between its values at the inlet's and at the hot temperature.
+@helper
+def slip_field(which, q, system, grid, scalars, cells):
+    """Slip of every cell with the spread of slip inside the cell, and its pressure."""
+    _slip_rows(
+        scalars[C_A], scalars[C_B], scalars[C_PMAX], q[Q_VT], q[Q_VS], q[Q_WT], q[Q_WS], q[Q_WN],
+        1.0 / system.radius_deformed[which], system.slip_floor * system.slip_floor,
+        grid[GRID_S], grid[GRID_T], grid[GRID_DS], grid[GRID_DT], grid[GRID_P],
+        cells[X_P], cells[X_VT], cells[X_VS], cells[X_SLIP], cells[X_INVERSE],
+    )  # fmt: skip
 
-    Shear stress linear in temperature, temperature rise linear in shear stress.
+
+@rows_helper
+def _close_loop(psi, inlet, area, p, tau0, tau, hot, mu, scalars):
+    """Close the loop of temperature and traction and add the asperities.
+
+    tau between its values at the inlet's and at the hot temperature: shear stress linear in temperature, temperature
+    rise linear in shear stress. tau0 and mu become the shares of film and asperities in the shear stress, tau the sum.
     """
     first, second, heat = 0.0, 0.0, 0.0
     for i in range(tau.size):
-        second += tau[i] * area[i]
-    for i in range(tau.size):
         cold = tau0[i] + 1e-30
         share = cold / max(2.0 * cold - tau[i], 1e-3 * cold)
-        hot[i] = inlet + (hot[i] - inlet) * share
-        heat += hot[i] * area[i]
-        tau[i] = cold * share
-        first += tau[i] * area[i]
+        film, rise = cold * share, inlet + (hot[i] - inlet) * share
+        second += tau[i] * area[i]
+        first += film * area[i]
+        heat += rise * area[i]
+        hot[i] = rise
+        tau0[i] = (1.0 - psi) * film
+        mu[i] = psi * mu[i] * p[i]
+        tau[i] = tau0[i] + mu[i]
     scalars[C_CHANGE] = abs(first - second) / (first + 1e-30)
     scalars[C_TMEAN] = heat / math.pi
 
 
 @vector_helper
-def _mix(psi, tau, tau0, mu, p):
-    """Add film and asperities: tau0 and mu become their shares of the shear stress, tau the sum."""
-    for i in range(tau.size):
-        tau0[i] = (1.0 - psi) * tau[i]
-        mu[i] = psi * mu[i] * p[i]
-        tau[i] = tau0[i] + mu[i]
-
-
-@vector_helper
-def _finite_rows(block):
-    """Return whether the results of all kernels of a contact are finite; their rows begin the block."""
+def _finite_rows(a, b, c, d, e, f):
+    """Return whether six rows are finite."""
     total = 0.0
-    for row in range(X_RESULTS):
-        for i in range(block.shape[1]):
-            total += abs(block[row, i])
+    for i in range(a.size):
+        total += abs(a[i]) + abs(b[i]) + abs(c[i]) + abs(d[i]) + abs(e[i]) + abs(f[i])
     return total < np.inf
 
 
@@ -186,8 +172,7 @@ def shear_stage(which, laws, par, system, grid, scalars, cells, fault):
     status = laws.boundary_friction(slip, p, par_of(par, system, first + R_BOUNDARY), mu)
     if status != 1:
         return report(fault, R_BOUNDARY, status, which, slip[0], p[0], 0.0, 0.0)
-    if not _finite_rows(cells):
+    if not _finite_rows(cold, tau0, hot, ln_eta, tau, mu):
         return _shear_fault(which, system, scalars, cells, fault)
-    _close_loop(tau0, tau, hot, grid[GRID_AREA], inlet, scalars)
-    _mix(scalars[C_PSI], tau, tau0, mu, p)
+    _close_loop(scalars[C_PSI], inlet, grid[GRID_AREA], p, tau0, tau, hot, mu, scalars)
     return 1
