@@ -64,9 +64,9 @@ UNITS: dict[str, tuple[Any, Any]] = {
 }
 # What one process compiles: units that call the same functions share the work, and all take about as long.
 GROUPS = (
-    ("jacobian", "grasp", "proceed", "look"),
+    ("jacobian",),
     ("evaluate", "observe"),
-    ("settle",),
+    ("settle", "grasp", "proceed", "look"),
     ("advance", "wrench", "tangent"),
 )
 # The equilibrium allocates its workspaces, a handle is allocated itself; all others run without reference counting.

@@ -57,6 +57,14 @@ def residual(bundle, index, y, dydt, held, orbit, f):
             f[NB * z + k] = _MOBILITY * sign * dydt[NB * z + index[row]]
 
 
+@helper
+def _copy(source, target):
+    """Copy a matrix; an assignment would bring along the words of an error about shapes, seconds to compile."""
+    for i in range(source.shape[0]):
+        for k in range(source.shape[1]):
+            target[i, k] = source[i, k]
+
+
 @allocating_helper
 def mask(bundle, bl, held):
     """Turn the blocks of dy/dt into those of the pseudo-transient system, in place."""
@@ -84,15 +92,15 @@ def mask(bundle, bl, held):
                 b2[i, k] = scale * b[row, k] * column_on[k]
         if held[j] and system.friction_on == 1:
             a2[BVT, BVT] = -_HOLD
-        a[:, :] = a2
-        b[:, :] = b2
+        _copy(a2, a)
+        _copy(b2, b)
     d2, c2 = np.zeros((n, n)), np.zeros((n, NB))
     for k in range(n):
         row, sign = _shared_row(active[k])
         if column_on[k] == 1:
             for m in range(n):
                 d2[k, m] = _MOBILITY * sign * bl.d[bl.index[row], m] * column_on[m]
-    bl.d[:, :] = d2
+    _copy(d2, bl.d)
     for j in range(z):
         c = bl.c[j]
         c2[:, :] = 0.0
@@ -102,4 +110,4 @@ def mask(bundle, bl, held):
                 for i in range(NB):
                     if _ball_row(i, held[j], system.friction_on) >= 0 or (i == BVT and system.friction_on == 1):
                         c2[k, i] = _MOBILITY * sign * c[bl.index[row], i]
-        c[:, :] = c2
+        _copy(c2, c)

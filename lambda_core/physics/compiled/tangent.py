@@ -7,6 +7,8 @@ plugin needs no derivative of its own.
 
 from __future__ import annotations
 
+import numpy as np
+
 from lambda_core.physics.compiled.layout import (
     C_A,
     C_B,
@@ -106,13 +108,14 @@ def slip_columns(which, q, system, grid, scalars, cells, tau2, step, slope):
     a, b = scalars[C_A], scalars[C_B]
     c = 1.0 / system.radius_deformed[which]
     wt, ws, wn = q[Q_WT], q[Q_WS], q[Q_WN]
+    # Numba would compile the function anew for every number that stands in its call.
     none, still = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
-    _slip_column(a, b, c, (1.0, 0.0, 0.0), none, still, grid, cells, tau2, step, slope, Q_VT)
-    _slip_column(a, b, c, none, (1.0, 0.0, 0.0), still, grid, cells, tau2, step, slope, Q_VS)
-    _slip_column(a, b, c, none, (0.0, 0.0, 1.0), (0.0, 0.0, wt, 0.0), grid, cells, tau2, step, slope, Q_WT)
-    _slip_column(a, b, c, (0.0, 0.0, -1.0), none, (0.0, wn, ws, 0.0), grid, cells, tau2, step, slope, Q_WS)
+    _slip_column(a, b, c, (1.0, 0.0, 0.0), none, still, grid, cells, tau2, step, slope, np.int64(Q_VT))
+    _slip_column(a, b, c, none, (1.0, 0.0, 0.0), still, grid, cells, tau2, step, slope, np.int64(Q_VS))
+    _slip_column(a, b, c, none, (0.0, 0.0, 1.0), (0.0, 0.0, wt, 0.0), grid, cells, tau2, step, slope, np.int64(Q_WT))
+    _slip_column(a, b, c, (0.0, 0.0, -1.0), none, (0.0, wn, ws, 0.0), grid, cells, tau2, step, slope, np.int64(Q_WS))
     turn = (wn, ws, 0.0, wn)
-    _slip_column(a, b, c, (0.0, -1.0, 0.0), (0.0, 1.0, 0.0), turn, grid, cells, tau2, step, slope, Q_WN)
+    _slip_column(a, b, c, (0.0, -1.0, 0.0), (0.0, 1.0, 0.0), turn, grid, cells, tau2, step, slope, np.int64(Q_WN))
 
 
 @helper
