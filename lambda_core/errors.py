@@ -6,6 +6,8 @@ import difflib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+_SHOWN = 24  # of the names that are there, where none is near
+
 
 @dataclass(frozen=True)
 class Problem:
@@ -72,4 +74,5 @@ def unknown_name(kind: str, name: str, choices: Iterable[str]) -> str:
     close = nearest(name, known)
     if close:
         return f'"{name}" is not a known {kind}; nearest: {", ".join(close)}'
-    return f'"{name}" is not a known {kind}; available: {", ".join(known) or "none"}'
+    shown = known if len(known) <= _SHOWN else [*known[:_SHOWN], f"... ({len(known)} in all)"]
+    return f'"{name}" is not a known {kind}; available: {", ".join(shown) or "none"}'

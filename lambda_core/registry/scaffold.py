@@ -35,7 +35,9 @@ def new_plugin(name: str, parent: Path) -> list[Path]:
         When the name is not of that form, is taken by an installed package, or the folder exists.
     """
     module = name.replace("-", "_")
-    if not _NAME.fullmatch(name) or keyword.iskeyword(module):
+    if keyword.iskeyword(module):
+        raise UsageError(f'"{name}" cannot name a plugin: it is a word of Python; for example "my-{name}"')
+    if not _NAME.fullmatch(name):
         raise UsageError(f'"{name}" cannot name a plugin: use lower case and hyphens, for example "my-traction"')
     if any((found.name or "").replace("_", "-").lower() == name for found in distributions()):
         raise UsageError(f'"{name}" is the name of an installed package: choose another')

@@ -87,6 +87,8 @@ def parse_case(text: str, source: str = "case", folder: Path | None = None) -> C
 
 def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> Case:
     """Check plain tables as a case; CaseError with every problem at once."""
+    if isinstance(data.get("parameters"), list) and "bearing" not in data:
+        raise CaseError(source, [Problem("", f"is a study, not a case: lambda-bearing study run {source}")])
     try:
         return Case.model_validate(data, context={"folder": folder})
     except ValidationError as error:

@@ -177,6 +177,9 @@ def parse_study(text: str, source: str = "study") -> Study:
 
 def validate_study(data: Mapping[str, Any], source: str = "study") -> Study:
     """Check plain tables as a study; CaseError with every mistake."""
+    if "bearing" in data and "case" not in data:
+        words = f'is a case, not a study; a study names it: case = "{source}", and [[parameters]] that vary'
+        raise CaseError(source, [Problem("", words)])
     try:
         return Study.model_validate(data)
     except ValidationError as error:

@@ -82,6 +82,27 @@ def test_help_is_broken_into_lines_by_the_terminal_and_loses_no_word() -> None:
                 assert parameter.metavar == "", (command.name, parameter.name)
 
 
+def test_a_case_and_a_study_are_told_apart(call: Call, tmp_path: Path) -> None:
+    root = Path(__file__).parents[2]
+    study = root / "examples" / "studies" / "friction-map.toml"
+    code, _, err = call("check", str(study))
+    assert code == 3
+    assert err.splitlines()[1:] == ["  is a study, not a case: lambda-bearing study run friction-map.toml"]
+    case = tmp_path / "fan.toml"
+    assert call("init", "fan", "--out", str(case))[0] == 0
+    code, _, err = call("study", "run", str(case))
+    assert code == 3
+    assert 'is a case, not a study; a study names it: case = "fan.toml"' in err
+
+
+def test_the_ending_of_a_file_left_out_is_said(call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert call("init", "fan")[0] == 0
+    code, _, err = call("check", "fan")
+    assert code == 2
+    assert err.strip() == '"fan" is neither a file nor a built-in case; the file is fan.toml'
+
+
 def test_version(call: Call) -> None:
     code, out, _ = call("--version")
     assert (code, out.split()[0]) == (0, "lambda-bearing")
