@@ -13,6 +13,8 @@ from typing import Any
 import pytest
 
 import lambda_core
+from lambda_core.physics.compiled import entry
+from lambda_core.registry.kernels import sources_key
 
 # One small function of the core, compiled as the solver's parts are, and the names under which those are looked up.
 ONE_FUNCTION = """
@@ -82,6 +84,24 @@ def test_an_edited_constant_of_the_core(tmp_path: Path) -> None:
     assert after["value"] == pytest.approx(0.5)
     assert before["keys"] == again["keys"]
     assert all(after["keys"][name] != key for name, key in before["keys"].items())  # every part of the solver
+
+
+def test_every_module_of_the_core_counts(tmp_path: Path) -> None:
+    """What is kept on disk is looked up by a hash of all modules; each of them changes it."""
+    folder = tmp_path / "compiled"
+    shutil.copytree(Path(entry.__file__).parent, folder, ignore=shutil.ignore_patterns("__pyc*"))
+    keys = {sources_key(folder)}
+    modules = sorted(folder.glob("*.py"))
+    for path in modules:
+        text = path.read_text()
+        path.write_text(text + "_ = 1\n")
+        keys.add(sources_key(folder))
+        path.write_text(text)
+    assert len(keys) == len(modules) + 1
+
+
+def test_every_part_is_compiled_by_one_process() -> None:
+    assert sorted(name for group in entry.GROUPS for name in group) == sorted(entry.UNITS)
 
 
 @pytest.mark.slow
