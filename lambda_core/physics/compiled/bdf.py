@@ -41,7 +41,7 @@ from lambda_core.physics.compiled.newton import norm, solve_step
 OK, FULL, STEP_TOO_SMALL, FAULT = 0, 1, 2, 3
 
 _WORN = 0.5  # convergence rate at the end of a step beyond which it is renewed for all
-_SAFETY = 0.6  # of the step that the error would just allow; at 0.7 one step in twelve is refused
+_SAFETY = 0.55  # of the step that the error would just allow: few steps are refused
 _GROWTH = 1.7  # of the step, at most; BDF2 is stable up to 2.4
 _STAY_CAREFUL = 4  # steps for which the iteration keeps beginning at the last speeds once that was needed
 _MAX_AGE = 60  # steps after which the Jacobian is renewed in any case
