@@ -149,11 +149,14 @@ def test_a_missing_plugin_folder_is_named(cache: Path, tmp_path: Path) -> None:
 
 
 def test_opening_is_quick(cache: Path) -> None:
-    """Opening costs a few milliseconds; the limit leaves room for a loaded machine."""
+    """Opening costs a few milliseconds; the limit leaves room for a loaded machine, of five tries the best counts."""
     open_catalogue().close()
-    started = time.perf_counter()
-    open_catalogue().close()
-    assert time.perf_counter() - started < 0.3
+    best = 1.0
+    for _ in range(5):
+        started = time.perf_counter()
+        open_catalogue().close()
+        best = min(best, time.perf_counter() - started)
+    assert best < 0.3
 
 
 def test_the_hook_is_light() -> None:

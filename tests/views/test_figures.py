@@ -182,3 +182,21 @@ def test_views_that_do_not_fit_are_named(changes: dict[str, Any], words: str) ->
 
     given: dict[str, Any] = {"name": "x", "title": "t", "subject": "result", "data": len} | changes
     assert words in view_fault(View(**given))
+
+
+def test_numbers_of_an_axis_are_plain_text_and_their_power_is_a_formula() -> None:
+    import matplotlib
+    from lambda_plugins.views.frame import Numbers
+    from lambda_plugins.views.style import RC
+    from matplotlib.figure import Figure
+
+    with matplotlib.rc_context(RC):
+        figure = Figure()
+        axes = figure.add_subplot()
+        axes.plot([0.0, 1.0], [-2e-6, 3e-6])
+        axes.yaxis.set_major_formatter(Numbers())
+        figure.draw_without_rendering()
+    labels = [label.get_text() for label in axes.get_yticklabels()]
+    assert {"−2", "0", "3"} <= {label.removesuffix(".0") for label in labels}
+    assert not any("$" in label for label in labels)
+    assert "10^{−6}" in axes.yaxis.get_offset_text().get_text()
