@@ -48,7 +48,7 @@ def test_an_oscillator_loses_what_the_estimate_says(steps: int) -> None:
     )
     lost = 0.5 * (points[1] @ points[1] - points[-1] @ points[-1])
     assert lost > 0.0
-    assert 2.0 * estimate == pytest.approx(lost, rel=1.5 * h * h)
+    assert 2.0 * estimate == pytest.approx(lost, rel=0.5 * h)  # exact but for the ends, as steps shrink
 
 
 def test_the_corner_of_a_ramp_costs_no_energy() -> None:
