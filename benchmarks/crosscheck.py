@@ -37,7 +37,7 @@ _BETWEEN = """
 The specification asks for 0.02 % of the power and 10 tolerances. At the default tolerance of 1e-3 the states meet it in
 every row, the power is within 0.04 %, nearer than CVODE's own at the same tolerance; within 0.02 % it is from 5e-4 on.
 In units of the tolerance the distance grows as the tolerance shrinks, since the error of a method of second order falls
-with its 2/3 power: to about 20 at 1e-4 for the 6319 at 3000 1/min, in the hardly damped vibrations of its inner ring.
+with its 2/3 power: to 16 at 1e-4 for the 6319 at 3000 1/min, in the hardly damped vibrations of its inner ring.
 CVODE takes smaller steps for the same tolerance, more than twice as many calls there; with as many calls ours is as
 near.
 

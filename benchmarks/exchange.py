@@ -139,7 +139,7 @@ class Numbers:
     film: float  # smallest central film [um]
     temperature: float  # highest mean temperature of a film [degC]
     capacitance: float  # of the bearing, mean [nF]
-    cage: float  # speed of the cage, or of the balls without one, over the epicyclic speed, less 1 [%]
+    cage: float  # slip: 1 less the speed of the cage, or of the balls without one, over the epicyclic speed [%]
 
 
 COLUMNS = (
@@ -183,7 +183,7 @@ def measure(changes: Sequence[str]) -> Numbers:
         1e6 * float(samples["film_central"][loaded].min()),
         float(samples["film_temperature"][loaded].max()) - 273.15,
         1e9 * float(np.mean(capacitance[np.isfinite(capacitance)])) if np.isfinite(capacitance).any() else math.nan,
-        100.0 * (spent["cage_angle"] / spent["inner_angle"] / (0.5 * (1.0 - ratio)) - 1.0),
+        100.0 * (1.0 - spent["cage_angle"] / spent["inner_angle"] / (0.5 * (1.0 - ratio))),
     )
 
 
@@ -244,8 +244,9 @@ def page() -> str:
         "of every role while all other roles keep theirs. The first line of a table has the numbers, the others what",
         f"changes; `=` is below the last digit. Runs are averaged from {BEGIN:g} to {END:g} s, four turns of the cage;",
         "the torque of such a run is known to about 0.3 %. `film` is the smallest central film, `film degC` the",
-        "highest mean temperature of a film, capacitance that of the bearing, cage slip the speed of the cage (without",
-        "one, of the balls) over the epicyclic speed, less 1. Written by `python -m benchmarks.exchange --write`.",
+        "highest mean temperature of a film, which scatters by 0.3 K with the impacts of the cage, capacitance that of",
+        "the bearing, cage slip what the speed of the cage (without one, of the balls) lacks of the epicyclic speed.",
+        "Written by `python -m benchmarks.exchange --write`.",
         "",
     ]
     for exchange in EXCHANGES:

@@ -294,7 +294,7 @@ named after is seen to happen, no mechanism gains energy, the balance closes wit
 
 All at the default tolerance of 1e-3; the last column is the balance at a tenth of it. Work and losses are integrated by
 the same formula as the motion, with the powers that each step's own equations transfer; what the scheme itself
-dissipates, and what its Newton iteration leaves unaccounted for, is kept within half the tolerance of the energy that
+dissipates, and what its Newton iteration leaves unaccounted for, are each kept within 0.4 tolerances of the energy that
 flows, step by step ([theory](theory/dynamics.md#energy-balance)).
 
 """

@@ -8,7 +8,7 @@ from typing import Literal
 
 from lambda_core.physics.ledger import Ledger
 from lambda_core.physics.model import DOFS, Body, Cage, DofState, Geometry, TimeFunction
-from lambda_core.physics.time_functions import added, initial, scaled, time_function
+from lambda_core.physics.time_functions import added, scaled, time_function
 from lambda_core.registry.catalogue import CageRow
 from lambda_core.registry.model import Material
 from lambda_core.schema.case import Case
@@ -237,8 +237,3 @@ def _check_locked_loads(case: Case, ledger: Ledger) -> None:
                 ledger.problem(
                     f"bodies.{name}.{dof}", f"is {mode}, but a load acts along it: make it free or drop the load"
                 )
-
-
-def initial_speed(case: Case) -> float:
-    """Return the spin of the inner ring at t = 0 [rad/s]."""
-    return initial(time_function(case.operation.speed))

@@ -298,7 +298,7 @@ async def test_a_file_changed_elsewhere_is_not_overwritten_silently(hand_written
 async def test_help_stands_on_every_screen(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
-        for way in ((), ("f2",), ("f7",)):
+        for way in ((), ("f2",), ("f7",), ("f6",)):
             await pilot.press(*way)
             await pilot.pause(0.3)
             await pilot.press("f1")

@@ -30,8 +30,6 @@ ALL_FREE = tuple(
     f"bodies.outer_ring.{dof}=free" for dof in ("x", "y", "z", "tilt_y", "tilt_z", "spin")
 )  # both rings and the cage move in every direction
 NO_FIELD = ("gravity.z=0 m/s2", "models.fluid_drag=none")  # nothing but internal forces
-# Names of a shared body's states in the order of the layout.
-SHARED_STATES = ("x", "y", "z", "a_y", "a_z", "theta", "v_x", "v_y", "v_z", "w_y", "w_z", "sigma")
 
 
 @dataclass(frozen=True)
