@@ -46,6 +46,10 @@ near.
 Nine nominal cage turns, the first left out; a free cage is chaotic, single trajectories part within one turn. Compared
 is the mean dissipated power with its 95 % interval: within the joint interval, or within 0.02 % where that is wider.
 
+Over eighty turns the intervals are as narrow as the errors of integration: the 6319 at 1500 1/min under a tenth of its
+rating loses 159.240 +- 0.044 W with ours and 159.316 +- 0.047 W with CVODE, 0.047 % apart and just beyond the joint
+interval of 0.040 %. At a tolerance of 1e-4 it is 159.293 +- 0.046 W and 159.300 +- 0.056 W, 0.004 % apart.
+
 """
 
 
