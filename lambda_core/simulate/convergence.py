@@ -69,12 +69,19 @@ def shortfalls(solver: Solver, chosen: Window, residual: float) -> list[str]:
         if not torque.half_width <= TORQUE_TOLERANCE * abs(chosen.interval.torque()):
             share = torque.half_width / abs(chosen.interval.torque())
             found.append(
-                f"the friction torque is known to {100 * share:.2g} % (95 % half-width over {torque.count} cage "
-                f"revolutions), at most {100 * TORQUE_TOLERANCE:g} % is allowed"
+                f"the friction torque is known to {_beyond(100 * share, 100 * TORQUE_TOLERANCE)} % (95 % half-width "
+                f"over {torque.count} cage revolutions), at most {100 * TORQUE_TOLERANCE:g} % is allowed"
             )
     if not abs(residual) <= ENERGY_TOLERANCE:
-        found.append(f"the energy residual is {residual:.2g} of the input, at most {ENERGY_TOLERANCE:g} is allowed")
+        what = _beyond(residual, ENERGY_TOLERANCE)
+        found.append(f"the energy residual is {what} of the input, at most {ENERGY_TOLERANCE:g} is allowed")
     return found
+
+
+def _beyond(value: float, limit: float) -> str:
+    """Write a value in as many digits as show that it is beyond its limit, two at least."""
+    texts = (f"{value:.{digits}g}" for digits in range(2, 17))
+    return next((text for text in texts if abs(float(text)) > limit), f"{value:g}")
 
 
 def revolutions_wanted(solver: Solver, chosen: Window) -> int:

@@ -74,6 +74,16 @@ def test_reasons_name_every_condition_that_fails(provenance: MakeProvenance, tmp
     assert "the energy residual is 0.0099 of the input" in summary.reasons[1]
 
 
+def test_a_condition_that_just_fails_is_told_in_as_many_digits_as_it_takes(
+    provenance: MakeProvenance, tmp_path: Path
+) -> None:
+    engine = FakeEngine(Truth(leak=0.001004))
+    summary = run(engine, provenance(duration=5.5 * TURN), tmp_path / "r.h5").summary()
+    (reason,) = (reason for reason in summary.reasons if "energy" in reason)
+    said = float(reason.removeprefix("the energy residual is ").split()[0])
+    assert 1e-3 < said < 1.004e-3
+
+
 def test_a_short_run_is_not_converged(provenance: MakeProvenance, tmp_path: Path) -> None:
     summary = run(FakeEngine(), provenance(duration=1.5 * TURN), tmp_path / "r.h5").summary()
     assert summary.reasons == ["0 whole cage revolutions were averaged, at least 4 are needed"]
