@@ -37,69 +37,78 @@ def _free(tau: float) -> str:
 
 
 def table4_tables(found: Table4) -> tuple[Table, ...]:
-    """Torque by method with errors, what stands behind each point, calibrations, sensitivities, the blind set."""
-    torque = tuple(
+    """Torque by method with errors, what stands behind each point, calibrations, sensitivities."""
+    hot = tuple((f"{t['temperature_degC']:g}", number(t["error_pct"])) for t in found.temperatures)
+    return (
+        _torque(found),
+        _behind(found),
+        _fits(found),
+        _fits_by_law(found),
+        _effects(found),
+        Table("mean error over the temperature of the oil", ("degC", "%"), hot),
+    )
+
+
+def _torque(found: Table4) -> Table:
+    rows = tuple(
         (name, *(_with_error(value, p.measured) for value, p in zip(row, POINTS, strict=True)),
          f"{error:.1f}" if error else "")
         for name, row, error in rows_of(found)
     )  # fmt: skip
-    behind = tuple(
+    return Table("friction torque [N mm]", ("", *(p.label for p in POINTS), "mean error %"), rows)
+
+
+def _behind(found: Table4) -> Table:
+    rows = tuple(
         (d.label, f"{d.low_Nmm:.0f} to {d.high_Nmm:.0f}", f"{d.confidence_Nmm:.1f}",
          number(d.friction_difference_pct, 2), number(d.load_difference_pct, 2),
          *(f"{value:.0f}" for value in d.parts_Nmm.values()))
         for d in found.details
     )  # fmt: skip
-    fits = tuple(
-        (c.fitted_on, _tau(c), _free(c.free_tau_e_MPa),
-         number(c.fitted_row_pct), number(c.predicted_row_pct), number(c.six_points_pct), "runs" if c.simulated else
-         "quasi-static")
+    return Table(
+        "the blind runs: 90 % band, 95 % half-width, dynamic against quasi-static, parts [N mm]",
+        ("", "band", "+-", "friction %", "load %", *found.details[0].parts_Nmm),
+        rows,
+    )
+
+
+def _fits(found: Table4) -> Table:
+    rows = tuple(
+        (c.fitted_on, _tau(c), _free(c.free_tau_e_MPa), number(c.fitted_row_pct), number(c.predicted_row_pct),
+         number(c.six_points_pct), "runs" if c.simulated else "quasi-static")
         for c in found.calibrations
     )  # fmt: skip
-    by_law = tuple(
+    return Table(
+        "tau_e alone fitted; errors [%]",
+        ("fitted on", "tau_e MPa", "free fit MPa", "own row", "predicted row", "six points", "by"),
+        rows,
+    )
+
+
+def _fits_by_law(found: Table4) -> Table:
+    rows = tuple(
         (c.elastic_hysteresis, c.rolling_resistance, number(c.unfitted_pct), c.fitted_on, _tau(c),
          _free(c.free_tau_e_MPa), number(c.fitted_row_pct), number(c.predicted_row_pct), number(c.six_points_pct))
         for c in found.calibrations_by_law
     )  # fmt: skip
-    effects = tuple(
+    return Table(
+        "tau_e alone fitted with every law of hysteresis and rolling resistance; errors [%], quasi-static",
+        ("hysteresis", "rolling", "not fitted", "fitted on", "tau_e MPa", "free fit MPa", "own row", "predicted row",
+         "six points"),
+        rows,
+    )  # fmt: skip
+
+
+def _effects(found: Table4) -> Table:
+    rows = tuple(
         (s.name, s.value, s.span, f"{s.low_change_pct:+.1f}", f"{s.high_change_pct:+.1f}",
          number(s.low_error_pct), number(s.high_error_pct), s.basis)
         for s in found.sensitivities
     )  # fmt: skip
-    hot = tuple((f"{t['temperature_degC']:g}", number(t["error_pct"])) for t in found.temperatures)
-    parts = tuple(found.details[0].parts_Nmm)
-    return (
-        Table("friction torque [N mm]", ("", *(p.label for p in POINTS), "mean error %"), torque),
-        Table(
-            "the blind runs: 90 % band, 95 % half-width, dynamic against quasi-static, parts [N mm]",
-            ("", "band", "+-", "friction %", "load %", *parts),
-            behind,
-        ),
-        Table(
-            "tau_e alone fitted; errors [%]",
-            ("fitted on", "tau_e MPa", "free fit MPa", "own row", "predicted row", "six points", "by"),
-            fits,
-        ),
-        Table(
-            "tau_e alone fitted with every law of hysteresis and rolling resistance; errors [%], quasi-static",
-            (
-                "hysteresis",
-                "rolling",
-                "not fitted",
-                "fitted on",
-                "tau_e MPa",
-                "free fit MPa",
-                "own row",
-                "predicted row",
-                "six points",
-            ),
-            by_law,
-        ),
-        Table(
-            "sensitivities: change of the torque [%] and mean error [%] at the ends of each range",
-            ("parameter", "blind", "range", "low", "high", "error low", "error high", "by"),
-            effects,
-        ),
-        Table("mean error over the temperature of the oil", ("degC", "%"), hot),
+    return Table(
+        "sensitivities: change of the torque [%] and mean error [%] at the ends of each range",
+        ("parameter", "blind", "range", "low", "high", "error low", "error high", "by"),
+        rows,
     )
 
 
@@ -110,77 +119,77 @@ def blind_table() -> Table:
 
 
 def fig5_tables(found: Fig5) -> tuple[Table, ...]:
-    """Resonances, boundaries with brackets, slopes, variations."""
-    resonances = tuple(
+    """Resonances, boundaries with brackets, slopes, steps of the load, variations, dynamics beside quasi-static."""
+    tables = [_resonances(found), _boundaries(found), _slopes(found), _rises(found)]
+    if found.variations:
+        rows = tuple((v.what, v.criterion, *(number(r, 2) for r in v.ratios)) for v in found.variations)
+        tables.append(Table("boundary over that of the base case", ("change", "criterion", "first", "second"), rows))
+    return (*tables, _parting(found)) if found.apart else tuple(tables)
+
+
+def _resonances(found: Fig5) -> Table:
+    rows = tuple(
         (f"{r.load_N / 1e3:g}", number(r.stiffness_N_per_um, 2), number(r.mass_kg, 2), number(r.frequency_Hz),
          number(r.cage_Hz), number(r.ball_Hz))
         for r in found.resonances
     )  # fmt: skip
-    points = tuple(
+    return Table("axial resonance", ("F_stat kN", "stiffness N/um", "mass kg", "rings Hz", "cage Hz", "ball Hz"), rows)
+
+
+def _boundaries(found: Fig5) -> Table:
+    rows = tuple(
         (p.variant, f"{p.load_N / 1e3:g}", p.criterion, f"{p.frequency_Hz:g}", number(p.velocity_m_per_s, 4),
          f"{number(p.low_m_per_s, 4)} to {number(p.high_m_per_s, 4)}", number(p.acceleration_m_per_s2, 2),
          number(None if p.error is None else 100.0 * p.error), str(p.runs))
         for p in found.points
     )  # fmt: skip
-    lines = tuple(
+    return Table(
+        "boundary of altered running",
+        ("variant", "F_stat kN", "criterion", "f Hz", "v_exc m/s", "bracket m/s", "acceleration m/s2",
+         "standard error %", "runs"),
+        rows,
+    )  # fmt: skip
+
+
+def _slopes(found: Fig5) -> Table:
+    low, high = found.frequency_range_Hz
+    rows = tuple(
         (line.variant, f"{line.load_N / 1e3:g}", line.criterion, number(line.slope, 2), number(line.slope_error, 2),
-         number(line.slope_beyond, 2),
-         "yes" if line.falls else "no")
+         number(line.slope_beyond, 2), "yes" if line.falls else "no")
         for line in found.lines
     )  # fmt: skip
-    rises = tuple(
+    return Table(
+        f"slope of log v_exc over log f, {low:g} to {high:g} Hz",
+        ("variant", "F_stat kN", "criterion", "slope", "standard error", "above the range", "falls"),
+        rows,
+    )
+
+
+def _rises(found: Fig5) -> Table:
+    rows = tuple(
         (s.variant, s.criterion, f"{s.from_N / 1e3:g} to {s.to_N / 1e3:g}",
          f"{s.mean_from_m_per_s2:.1f} to {s.mean_to_m_per_s2:.1f}", f"{s.rise_pct:+.1f}", number(s.error_pct),
          f"{s.frequencies_up} of {s.frequencies}")
         for s in found.steps
     )  # fmt: skip
-    tables = [
-        Table(
-            "axial resonance", ("F_stat kN", "stiffness N/um", "mass kg", "rings Hz", "cage Hz", "ball Hz"), resonances
-        ),
-        Table(
-            "boundary of altered running",
-            (
-                "variant",
-                "F_stat kN",
-                "criterion",
-                "f Hz",
-                "v_exc m/s",
-                "bracket m/s",
-                "acceleration m/s2",
-                "standard error %",
-                "runs",
-            ),
-            points,
-        ),
-        Table(
-            f"slope of log v_exc over log f, {found.frequency_range_Hz[0]:g} to {found.frequency_range_Hz[1]:g} Hz",
-            ("variant", "F_stat kN", "criterion", "slope", "standard error", "above the range", "falls"),
-            lines,
-        ),
-        Table(
-            "from load to load: rise of the boundary, geometric mean over the declared frequencies",
-            ("variant", "criterion", "F_stat kN", "m/s2", "rise %", "standard error %", "frequencies that rise"),
-            rises,
-        ),
-    ]
-    if found.variations:
-        rows = tuple((v.what, v.criterion, *(number(r, 2) for r in v.ratios)) for v in found.variations)
-        tables.append(Table("boundary over that of the base case", ("change", "criterion", "first", "second"), rows))
-    if found.apart:
-        parting = tuple(
-            (f"{a.acceleration_m_per_s2:g}", f"{a.friction_difference_pct:+.1f}", f"{a.load_difference_pct:+.1f}",
-             number(a.cage_Nmm))
-            for a in found.apart
-        )  # fmt: skip
-        tables.append(
-            Table(
-                "where dynamics and quasi-static solution part: variant A, 5 kN, 8.9 Hz",
-                ("acceleration m/s2", "friction without cage %", "largest load %", "cage N mm"),
-                parting,
-            )
-        )
-    return tuple(tables)
+    return Table(
+        "from load to load: rise of the boundary, geometric mean over the declared frequencies",
+        ("variant", "criterion", "F_stat kN", "m/s2", "rise %", "standard error %", "frequencies that rise"),
+        rows,
+    )
+
+
+def _parting(found: Fig5) -> Table:
+    rows = tuple(
+        (f"{a.acceleration_m_per_s2:g}", f"{a.friction_difference_pct:+.1f}", f"{a.load_difference_pct:+.1f}",
+         number(a.cage_Nmm))
+        for a in found.apart
+    )  # fmt: skip
+    return Table(
+        "where dynamics and quasi-static solution part: variant A, 5 kN, 8.9 Hz",
+        ("acceleration m/s2", "friction without cage %", "largest load %", "cage N mm"),
+        rows,
+    )
 
 
 def fig7_tables(found: Fig7) -> tuple[Table, ...]:
