@@ -13,6 +13,7 @@ from lambda_core.physics.compiled.memory import (
     CAREFUL,
     FACTORS,
     G_FACTORED,
+    HISTORY,
     JACOBIANS,
     LOCAL,
     NEWTON,
@@ -22,6 +23,9 @@ from lambda_core.physics.compiled.memory import (
 )
 
 _NEWTON_TOLERANCE = 0.3  # of the error allowed per step
+# The same while there is no history. Friction in a contact at rest changes sign within far less than the error allowed:
+# what the first steps leave of it turns it over at every later step, and those stay at nanoseconds.
+_FIRST_STEPS = 0.03
 _MAX_NEWTON = 4
 _MAX_LOCAL = 4  # more iterations where Jacobians of single balls are renewed on the way
 _REFACTOR = 0.41  # relative change of gamma beyond which M is factored anew; not a tie with one growth of the step
@@ -125,6 +129,7 @@ def solve_step(evaluate, jacobian, t, h, bundle, bl, fa, mem):
     n, gamma = new.size, control[BDF_GAMMA]
     _start(bundle, mem)
     careful = count[CAREFUL] > 0
+    tolerance = _FIRST_STEPS if count[HISTORY] < 2 else _NEWTON_TOLERANCE
     before, limit = 0.0, _MAX_NEWTON
     for iteration in range(_MAX_NEWTON + _MAX_LOCAL):
         if iteration >= limit:
@@ -152,11 +157,11 @@ def solve_step(evaluate, jacobian, t, h, bundle, bl, fa, mem):
             return 0
         if iteration > 0:
             control[RATE] = max(0.2 * control[RATE], size / (before + 1e-300))
-            if careful and size > 2.0 * before and size > _NEWTON_TOLERANCE:
+            if careful and size > 2.0 * before and size > tolerance:
                 return 0
         # Secants hide the rate of convergence.
         rate = 1.0 if careful else control[RATE]
-        good = size * min(1.0, rate) <= _NEWTON_TOLERANCE
+        good = size * min(1.0, rate) <= tolerance
         # Corrections that swing within the tolerance want care; where care does not help, they are let pass.
         if good and (leak_of_iterate(bundle, mem, h) <= 1.0 or (careful and iteration + 1 >= limit)):
             settle(bundle, mem)
