@@ -104,7 +104,7 @@ def pocket_forces(run: RunData, options: Options) -> ViewData:
     share = float(touching[rows].mean())
     panels = (
         Panel(
-            "along the orbit, on the ball",
+            "along the orbit",
             AZIMUTH,
             Axis("tangential force", "N"),
             tuple(over_azimuth(run, span, along, always, "mean", "ball", end=False)),
