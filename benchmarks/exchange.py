@@ -244,9 +244,9 @@ def page() -> str:
         "of every role while all other roles keep theirs. The first line of a table has the numbers, the others what",
         f"changes; `=` is below the last digit. Runs are averaged from {BEGIN:g} to {END:g} s, four turns of the cage;",
         "the torque of such a run is known to about 0.3 %. `film` is the smallest central film, `film degC` the",
-        "highest mean temperature of a film, which scatters by 0.3 K with the impacts of the cage, capacitance that of",
-        "the bearing, cage slip what the speed of the cage (without one, of the balls) lacks of the epicyclic speed.",
-        "Written by `python -m benchmarks.exchange --write`.",
+        "highest mean temperature of a film, which scatters by 0.3 K with the impacts of the cage and by 1 K with a",
+        "defect, capacitance that of the bearing, cage slip what the speed of the cage (without one, of the balls)",
+        "lacks of the epicyclic speed. Written by `python -m benchmarks.exchange --write`.",
         "",
     ]
     for exchange in EXCHANGES:
