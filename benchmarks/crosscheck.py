@@ -34,7 +34,7 @@ force brings the azimuth of such a ball back, so that errors of either integrato
 
 """
 _BETWEEN = """
-The specification asks for 0.02 % of the power and 10 tolerances. At the default tolerance of 1e-3 the states meet it in
+The bounds are 0.02 % of the power and 10 tolerances. At the default tolerance of 1e-3 the states meet it in
 every row, the power is within 0.04 %, nearer than CVODE's own at the same tolerance; within 0.02 % it is from 5e-4 on.
 In units of the tolerance the distance grows as the tolerance shrinks, since the error of a method of second order falls
 with its 2/3 power: to 16 at 1e-4 for the 6319 at 3000 1/min, in the hardly damped vibrations of its inner ring.

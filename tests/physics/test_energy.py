@@ -61,7 +61,7 @@ TURN = 0.0502  # of the cage of the 6319 at 3000 1/min [s]
 @pytest.mark.parametrize("cage", ["true", "false"])
 @pytest.mark.parametrize("case", ["6319-cp10-3000", "6208-axial-700"])
 def test_residual_at_default_tolerance(case: str, cage: str) -> None:
-    """The specification's bound, 1e-3 of the input over two turns of the cage, start included."""
+    """The bound of 1e-3 of the input over two turns of the cage, start included."""
     assert abs(residual(2.0 * TURN, f"depth.cage={cage}", case=case)) < 1e-3
 
 

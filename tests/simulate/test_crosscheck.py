@@ -40,7 +40,7 @@ def test_same_trajectory_with_a_locked_cage(case: str, tolerance: float) -> None
 @pytest.mark.usefixtures("sundials")
 @pytest.mark.parametrize("case", ["6319-cp10-3000", "6319-cp6.5-500"])
 def test_trajectories_at_the_default_tolerance(case: str) -> None:
-    """The specification's 10 tolerances where the rings' vibrations and creep are hardest to follow."""
+    """The bound of 10 tolerances where the rings' vibrations and creep are hardest to follow."""
     found = api.cross_check(case, ["solver.duration=50 ms"])
     assert found.tolerance == 1e-3
     assert found.deviation is not None
