@@ -36,7 +36,6 @@ from lambda_core.physics.compiled.layout import (
 
 # Rows of a guide record: r, v_rel, omega_rel (in the frame), frame axes (3x3, inertial), origin.
 G_R, G_V, G_W, G_E1, G_E2, G_E3, G_O = 0, 3, 6, 9, 12, 15, 18
-NG = 24
 
 # Gauss-Legendre, 8 points on 0..1.
 GAUSS_NODES = np.polynomial.legendre.leggauss(8)[0] * 0.5 + 0.5
