@@ -6,7 +6,6 @@ stdout carries data, stderr carries talk. Exit codes: 0 ok, 1 bug, 2 usage, 3 in
 
 from __future__ import annotations
 
-import gc
 import inspect
 import os
 import sys
@@ -22,9 +21,6 @@ from lambda_core.errors import LambdaError
 PROGRAM = "lambda-bearing"
 INTERRUPTED = 130
 DEBUG_VARIABLE = "LAMBDA_BEARING_DEBUG"
-# New objects before the garbage collector looks at them. Importing makes two hundred thousand that
-# stay: looking for garbage among them after every 700 takes a fourteenth of the time to the first step.
-_YOUNG = 100_000
 
 
 class LazyGroup(TyperGroup):
@@ -106,7 +102,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     arguments : sequence of str, optional
         Command line without the program's name; default: that of the process.
     """
-    gc.set_threshold(_YOUNG)
     try:
         outcome = application(args=arguments, prog_name=PROGRAM, standalone_mode=False)
         if outcome == INTERRUPTED:  # what typer makes of Ctrl+C

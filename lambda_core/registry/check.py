@@ -132,7 +132,7 @@ def _faults(model: Model, par: FloatArray, compiled: CompiledKernel | None, samp
     """Yield every fault that can be told safely; those that make machine code unsafe end the search."""
     role = ROLES[model.role]
     for code in kernel_reach(model).codes:
-        if any(instruction.opname == "RAISE_VARARGS" for instruction in dis.get_instructions(code)):
+        if dis.opmap["RAISE_VARARGS"] in code.co_code[::2]:
             yield f"{model.label} raises an exception in {code.co_name}: return a status of 2 and up instead"
             return
     generator = np.random.default_rng(20260)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dis
 import math
 import os
 import random
@@ -13,7 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lambda_core.registry.reach import UnreachableError, reach
+from lambda_core.registry.reach import UnreachableError, _instructions, reach
 
 HELPERS = """
 import math
@@ -123,3 +124,21 @@ def test_keys_of_the_core_are_equal_in_every_process() -> None:
         for seed in (1, 2, 3)
     }
     assert len(found) == 1
+
+
+def test_names_are_read_as_the_disassembler_reads_them() -> None:
+    from lambda_core.physics.compiled.entry import UNITS
+
+    codes = {code for unit, _ in UNITS.values() for code in reach(unit, lenient=True).codes}
+    crowded: dict[str, Any] = {}  # more names than an argument of one byte can count
+    exec("def f():\n" + "".join(f"    name_{n}.attribute_{n}\n" for n in range(300)), crowded)
+    codes.add(crowded["f"].__code__)
+    assert len(codes) > 100
+    reading = ("LOAD_GLOBAL", "LOAD_ATTR", "LOAD_METHOD")
+    for code in codes:
+        expected = [
+            (found.opname, found.argval) if found.opname in reading else ("", "")
+            for found in dis.get_instructions(code)
+            if found.opname not in ("EXTENDED_ARG", "CACHE")
+        ]
+        assert list(_instructions(code)) == expected, code.co_qualname
