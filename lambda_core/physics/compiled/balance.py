@@ -39,8 +39,8 @@ from lambda_core.physics.compiled.layout import (
 from lambda_core.physics.compiled.memory import BDF_BACK, BDF_GAMMA, H1, LEAK_FLOOR, LOST, TOLERANCE, T
 
 # Shares of the energy that flows, over the tolerance, which a step may lose.
-_LEAK = 0.4  # for good
-_SCATTER = 5.0  # with either sign
+_LEAK = 0.4  # for good, twice (scheme and iteration): together a fifth below what a balance may miss
+_SCATTER = 5.0  # with either sign: cancels from step to step but for single events, which this bounds
 _OF_BDF = 0.7  # share of the BDF's error in its distance from the trapezium rule, 2/9 of 2/9 + 1/12
 
 
