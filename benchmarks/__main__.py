@@ -14,7 +14,7 @@ from benchmarks import machine, performance, timing
 from benchmarks.performance import Report
 from benchmarks.tables import Section
 from benchmarks.timing import Effort
-from lambda_core.errors import LambdaError, UsageError, unknown_name
+from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
 
 NAMES = {
     "parts": "right-hand side by grid, Jacobian, factorisation, solve; where a simulated second goes",
@@ -28,6 +28,7 @@ NAMES = {
     "parallel": "several processes at once",
     "peer": "Exudyn's ball bearing",
     "catalogue": "search in the catalogue while one types",
+    "thermal": "an hour of warm-up; losses at printed reference speeds over the heat of ISO 15312",
 }
 
 

@@ -9,16 +9,17 @@ import numpy as np
 
 from benchmarks.handle import FloatArray as FloatArray
 from benchmarks.handle import Handle
-from lambda_core.physics.assembly import Assembly
-from lambda_core.physics.channels import LOSSES
-from lambda_core.physics.compiled import layout as L
-from lambda_core.physics.compiled.entry import core
-from lambda_core.simulate.dynamics import BearingEngine
-from lambda_core.simulate.observation import observe
+from lambda_core.domain.channels import LOSSES
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers import tables
+from lambda_core.solver.drivers.assembly import Assembly
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.observation import observe
+from lambda_core.solver.entry import core
 
 # How close a run has to come to the reference to count, and how well its energy has to balance.
 RACEWAY, CAGE, ENERGY = 5e-3, 1e-3, 1e-3
-_RACEWAYS = L.L_POCKET  # losses before this one are those of the raceways
+_RACEWAYS = LOSSES.index("pocket")  # losses before this one are those of the raceways
 
 
 @dataclass(frozen=True)
@@ -105,6 +106,7 @@ def trajectory_totals(handle: Handle, times: FloatArray, states: FloatArray, at:
     rates = handle.rates(times, states)
     running = np.zeros_like(rates)
     running[1:] = np.cumsum(0.5 * np.diff(times)[:, None] * (rates[1:] + rates[:-1]), axis=0)
+    powers = tables.running(running)
     picked = [min(int(np.searchsorted(times, t - 1e-12)), times.size - 1) for t in at]
     stored = observe(core(), handle.assembly, times[picked], np.ascontiguousarray(states[picked]))["stored_energy"]
     angles = [_angles(handle.assembly, times[k], states[k]) for k in picked]
@@ -114,8 +116,8 @@ def trajectory_totals(handle: Handle, times: FloatArray, states: FloatArray, at:
             float(running[k, :_RACEWAYS].sum()),
             float(running[k, : L.NL].sum()),
             *angles[i],
-            float(running[k, L.I_INPUT]),
-            float(running[k, L.I_INPUT_ABS]),
+            float(powers["input"][k]),
+            float(powers["input_abs"][k]),
             float(stored[i]),
         )
         for i, k in enumerate(picked)

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from lambda_core import api
-from lambda_core.physics.channels import LOSSES
-from lambda_core.physics.equilibrium import solve
-from lambda_core.simulate.dynamics import BearingEngine
+from lambda_core.domain.channels import LOSSES
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.equilibrium import solve
 
 PAGE = Path(__file__).parent.parent / "docs" / "convergence.md"
 CASES = ("6319-cp10-500", "6319-cp10-3000", "6208-axial-1300")

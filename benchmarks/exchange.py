@@ -16,10 +16,10 @@ from pathlib import Path
 import numpy as np
 
 from lambda_core import api
-from lambda_core.physics.channels import LOSSES
-from lambda_core.physics.equilibrium import solve
-from lambda_core.registry.roles import ROLES
-from lambda_core.simulate.dynamics import BearingEngine
+from lambda_core.domain.channels import LOSSES
+from lambda_core.domain.roles import ROLES
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.equilibrium import solve
 
 PAGE = Path(__file__).parent.parent / "docs" / "models-exchanged.md"
 CASE = "6319-cp10-1500"
@@ -66,6 +66,7 @@ EXCHANGES: tuple[Exchange, ...] = (
     ),
     Exchange("film_thickness", (Law("chittenden"), Law("hamrock-dowson"))),
     Exchange("thermal_correction", (Law("murch-wilson"), Law("zhu-cheng"), Law("none"))),
+    Exchange("supply", (Law("constant"), Law("skf-replenishment"), Law("inlet-distance"), Law("oil-layer"))),
     Exchange("contact_temperature", (Law("shear-heating"), Law("isothermal"))),
     Exchange("traction", (Law("ree-eyring"), Law("bair-winer"), Law("newtonian"))),
     Exchange("rolling_resistance", (Law("biboulet-houpert"), Law("goksem-hargreaves"), Law("none"))),
@@ -78,8 +79,8 @@ EXCHANGES: tuple[Exchange, ...] = (
             Law("none"),
         ),
     ),
-    Exchange("asperity_load", (Law("zhou-hoeprich"), Law("none")), ROUGH, IN_ROUGH),
-    Exchange("boundary_friction", (Law("cubic"), Law("coulomb-regularised")), ROUGH, IN_ROUGH),
+    Exchange("asperity_load", (Law("zhou-hoeprich"), Law("spikes-olver"), Law("none")), ROUGH, IN_ROUGH),
+    Exchange("boundary_friction", (Law("cubic"), Law("coulomb-regularised"), Law("micro-slip")), ROUGH, IN_ROUGH),
     Exchange(
         "cage_contact",
         (

@@ -15,13 +15,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from lambda_syla2026.boundary import CASE
+from lambda_syla2026.stability import static_zone
 from numpy.typing import NDArray
 
 from lambda_core import api
-from lambda_core.physics.kinematics import cage_speed
-from lambda_core.reproduce.boundary import CASE
-from lambda_core.reproduce.stability import static_zone
-from lambda_core.simulate.results import Result
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.kinematics import cage_speed
+from lambda_core.results.reader import Result
 
 DOCS = Path(__file__).parents[1] / "docs"
 PAGE, FIGURE = DOCS / "excitation.md", DOCS / "images" / "excited-6220.svg"
@@ -30,8 +31,6 @@ REST, GROWTH = 0.5, 1.6  # [s]: five cage turns without excitation, then it grow
 DISCARDED, WINDOW = 0.1, 0.4  # at the start, for averages [s]: one cage turn, four
 _PER_PERIOD = 32  # points of the tabulated motion
 SECTOR = 30  # [deg]
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,9 @@ from benchmarks.parts import trajectory, unit_costs
 from benchmarks.passage import Horizon, Passage, passage, wall
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort
-from lambda_core.physics.equilibrium import solve
-from lambda_core.registry.kernels import compile_kernel
-from lambda_core.registry.manager import registry
+from lambda_core.discovery.manager import registry
+from lambda_core.laws.kernels import compile_kernel
+from lambda_core.solver.drivers.equilibrium import solve
 
 _PLUGIN = '''
 """Two traction laws from another distribution."""
@@ -27,30 +27,29 @@ _PLUGIN = '''
 import math
 from dataclasses import replace
 
-from lambda_core.plugins import hookimpl, model
+from lambda_core.plugins import OK, hookimpl, law
 
 import benchmark_traction
 
 
+@law("traction", "benchmark-plain", benchmark_traction.ReeEyring, role_api=2, reference="own work")
 def plain_eyring(slip, p, T, ln_eta, h, par, tau):
     """The same law as a newcomer would write it, with the functions of the standard library."""
     film = max(h, 1e-10)
     for i in range(tau.size):
         viscosity = math.exp(min(max(ln_eta[i], -60.0), 60.0))
-        stress = par[1] * math.asinh(viscosity * slip[i] / (film * par[1]))
-        limit = max(par[0] * p[i], 0.0)
+        stress = par.tau_eyring * math.asinh(viscosity * slip[i] / (film * par.tau_eyring))
+        limit = max(par.limit_ratio * p[i], 0.0)
         width = 0.1 * limit
         held = min(stress, limit + width)
         inside = max(held - (limit - width), 0.0)
         tau[i] = held - inside * inside / (4.0 * width + 1e-300)
-    return 1
+    return OK
 
 
 @hookimpl
-def lambda_models(register):
-    law = benchmark_traction.REE_EYRING
-    register(replace(law, name="benchmark-eyring"))
-    register(replace(law, name="benchmark-plain", kernel=plain_eyring))
+def lambda_laws(register):
+    register(replace(benchmark_traction.ree_eyring.lambda_law, name="benchmark-eyring"))
 '''
 _METADATA = "Metadata-Version: 2.1\nName: benchmark-laws\nVersion: 0.1\n"
 _ENTRY = "[lambda_bearing.plugins]\nlaws = benchmark_laws\n"

@@ -9,8 +9,8 @@ from typing import Any
 
 from numba import types
 
-from lambda_core.physics import handle as base
-from lambda_core.physics.compiled.arrow import arrow_factor, arrow_solve
+from lambda_core.solver.drivers import right_hand_side as base
+from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve
 
 FloatArray = base.FloatArray
 

@@ -27,7 +27,7 @@ _MUST, _GOAL = 30.0, 0.85  # wall time of the map [s]; parallel efficiency
 def _worker(barrier: Any, results: Any, rounds: int) -> None:
     """Integrate the same case `rounds` times, starting each together with the others."""
     from benchmarks.passage import Horizon, passage
-    from lambda_core.physics.equilibrium import solve
+    from lambda_core.solver.drivers.equilibrium import solve
 
     model = MIDDLE.model()
     start = solve(model)

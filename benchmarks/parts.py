@@ -9,16 +9,17 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.cases import MIDDLE
-from benchmarks.handle import FloatArray, Handle
+from benchmarks.handle import Handle
 from benchmarks.passage import Horizon, passage, wall
 from benchmarks.tables import Cell, Section, Table
 from benchmarks.timing import Effort, per_call
 from lambda_core import api
-from lambda_core.physics.equilibrium import Equilibrium, solve
-from lambda_core.physics.model import BearingModel
-from lambda_core.simulate.dynamics import BearingEngine
-from lambda_core.simulate.engine import SAMPLES_PER_REVOLUTION
-from lambda_core.simulate.run import RECORDS_PER_REVOLUTION
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.run.loop import RECORDS_PER_REVOLUTION
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.system.bearing import BearingModel
 
 GRIDS = ((1, 15), (1, 31), (11, 21), (21, 41))  # rows, strips
 DEFAULT_GRID = (1, 31)

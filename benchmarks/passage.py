@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 from benchmarks.accuracy import Outcome, engine_totals
 from benchmarks.timing import now, sum_of_minima
-from lambda_core.errors import SolverError
-from lambda_core.physics.equilibrium import Equilibrium
-from lambda_core.physics.model import BearingModel
-from lambda_core.simulate.dynamics import BearingEngine
+from lambda_core.domain.errors import SolverError
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.system.bearing import BearingModel
 
 PIECES_PER_TURN = 1  # of the cage: long against the millisecond that a call from Python costs
 

@@ -13,16 +13,17 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.accuracy import RACEWAY, FloatArray
+from benchmarks.accuracy import RACEWAY
 from benchmarks.cases import Point, with_tolerance
 from benchmarks.passage import Horizon, passage
 from benchmarks.speed import LADDER, REFERENCE, Run, runs_of
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort, now
-from lambda_core.physics.compiled import layout as L
-from lambda_core.physics.equilibrium import Equilibrium, solve
-from lambda_core.physics.hertz import stiffness_constant
-from lambda_core.physics.model import BearingModel
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.hertz import stiffness_constant
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.system.bearing import BearingModel
 
 LOAD = 2000.0  # [N]
 POINT = Point("6208 radial 2 kN, 2750 1/min", "6208-axial-1300", ("loads.axial=0 N", "loads.radial=2 kN"))
@@ -52,9 +53,8 @@ class PeerRun:
 
 def stiffness(start: Equilibrium) -> float:
     """Return K of Q = K delta^1.5 [N/m^1.5], the mean of inner and outer contact: Exudyn takes one for both."""
-    system = start.assembly.bundle.system[0]
-    rings = zip(system["radius_x"], system["radius_y"], system["e_eff"], strict=True)
-    return float(np.mean([stiffness_constant(float(x), float(y), float(e)) for x, y, e in rings]))
+    raceways = start.assembly.bundle.raceways[["radius_x", "radius_y", "modulus"]].tolist()
+    return float(np.mean([stiffness_constant(x, y, e) for x, y, e in raceways]))
 
 
 def exudyn_run(start: Equilibrium, step: float, duration: float, *, modified_newton: bool = True) -> PeerRun:

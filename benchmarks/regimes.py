@@ -18,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core import api
-from lambda_core.errors import LambdaError
-from lambda_core.physics.channels import LOSSES, RINGS
-from lambda_core.physics.model import BearingModel
-from lambda_core.simulate.dynamics import BearingEngine
+from lambda_core.domain.channels import LOSSES, RINGS
+from lambda_core.domain.errors import LambdaError
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.system.bearing import BearingModel
 
 PAGE = Path(__file__).parents[1] / "docs" / "regimes.md"
 BOUND = 1e-3  # of the energy that flowed

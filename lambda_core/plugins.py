@@ -1,17 +1,27 @@
-"""What a plugin author imports: everything here is stable under ROLE_API 1."""
+"""What a plugin author imports: everything here is stable under ROLE_API 2."""
 
-from lambda_core.registry.chart import Arrows, Axis, Field, Mark, Panel, Series, ViewData
-from lambda_core.registry.hookspecs import hookimpl
-from lambda_core.registry.method import METHOD_API, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
-from lambda_core.registry.model import Context, LazyModel, Material, Model, NoParameters, Oil, default_par, model
-from lambda_core.registry.roles import ROLE_API
-from lambda_core.registry.scene import Scene
-from lambda_core.registry.table import Column, StudyTable
-from lambda_core.registry.view import VIEW_API, Options, RunData, View
-from lambda_core.schema.units import Quantity
+from typing import TYPE_CHECKING
+
+from lambda_core.discovery.hookspecs import hookimpl
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.hertz import hertz_shape
+from lambda_core.domain.roles import OK, ROLE_API
+from lambda_core.domain.units import Quantity
+from lambda_core.laws.context import Context, Material, Oil
+from lambda_core.laws.law import LazyLaw, law
+from lambda_core.laws.parameter import NoParameters, Parameters, parameter
+from lambda_core.views.chart import Arrows, Axis, Field, Mark, Panel, Series, ViewData
+from lambda_core.views.method import METHOD_API, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
+from lambda_core.views.scene import Scene
+from lambda_core.views.table import Column, StudyTable
+from lambda_core.views.view import VIEW_API, Figure, Options, RunData, View
+
+if not TYPE_CHECKING:  # with it, any name would do
+    from lambda_core.laws.old_form import __getattr__  # noqa: F401
 
 __all__ = [
     "METHOD_API",
+    "OK",
     "ROLE_API",
     "VIEW_API",
     "Arrows",
@@ -19,19 +29,21 @@ __all__ = [
     "Column",
     "Context",
     "Field",
-    "LazyModel",
+    "Figure",
+    "FloatArray",
+    "LazyLaw",
     "Mark",
     "Material",
     "Method",
     "MethodInputs",
     "MethodRow",
     "MethodTable",
-    "Model",
     "NoParameters",
     "NotApplicable",
     "Oil",
     "Options",
     "Panel",
+    "Parameters",
     "Quantity",
     "RunData",
     "Scene",
@@ -39,7 +51,8 @@ __all__ = [
     "StudyTable",
     "View",
     "ViewData",
-    "default_par",
+    "hertz_shape",
     "hookimpl",
-    "model",
+    "law",
+    "parameter",
 ]

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from lambda_db.catalogue import SqlCatalogue
     from warm import Warm
 
-    from lambda_core.simulate.results import Result
+    from lambda_core.results.reader import Result
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -30,7 +30,8 @@ PROGRAM = "from lambda_cli.main import main; raise SystemExit(main())"
 _LOADED = """
 numba numpy scipy.integrate scipy.optimize h5py sqlalchemy.orm typer rich.progress
 matplotlib.figure matplotlib.backends.backend_svg matplotlib.backends.backend_agg
-lambda_cli.commands lambda_core.api lambda_core.simulate.run lambda_core.simulate.results lambda_db.catalogue
+lambda_cli.commands lambda_core.system.checking lambda_core.run.simulation
+lambda_core.run.loop lambda_core.results.reader lambda_db.catalogue
 """
 _HAS_FORK = sys.platform == "linux"
 # Stands in for the installed command and for `python -c`: hands everything that makes a process to the server.
@@ -160,7 +161,7 @@ def serve(address: str) -> None:
     """Fork a process for every request until the input is closed."""
     for name in _LOADED.split():
         importlib.import_module(name)
-    from lambda_core.physics.compiled.entry import core
+    from lambda_core.solver.entry import core
 
     core()
     gc.freeze()

@@ -9,6 +9,8 @@ from typing import Annotated
 import typer
 
 from lambda_cli.options import CaseArgument, ForceOption, JsonOption, SetOption
+from lambda_cli.talk import columns
+from lambda_core.domain.wrapping import wrapped
 
 FileOption = Annotated[
     Path | None, typer.Option("--out", metavar="FILE", help="Where to write; default: standard output.")
@@ -56,19 +58,20 @@ def check(case: CaseArgument, changes: SetOption = None, as_json: JsonOption = F
     if as_json:
         typer.echo(json.dumps(report.model_dump(mode="json"), indent=2, allow_nan=False))
         return
-    typer.echo(report.text())
+    typer.echo("\n".join(wrapped(report.text().splitlines(), columns())))
 
 
 def schema(out: FileOption = None) -> None:
     """Print the JSON schema of case files, for editors."""
     from lambda_core import api
+    from lambda_core.domain.files import check_target
 
     text = json.dumps(api.schema(), indent=2)
     if out is None:
         typer.echo(text)
     else:
         try:
-            out.write_text(text + "\n", encoding="utf-8")
+            check_target(out).write_text(text + "\n", encoding="utf-8")
         except OSError as error:
             raise api.UsageError(f'cannot write "{out}": {error.strerror}') from None
         typer.echo(f"wrote {out}", err=True)

@@ -17,7 +17,7 @@ def cite(
 ) -> None:
     """Print the references of exactly the laws and data that a result used, and of the program."""
     from lambda_core import api
-    from lambda_core.errors import UsageError
+    from lambda_core.domain.errors import UsageError
 
     if as_json and bibtex:
         raise UsageError("--json and --bibtex exclude each other")

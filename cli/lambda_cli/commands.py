@@ -11,13 +11,12 @@ import importlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from importlib.metadata import entry_points
 from importlib.util import find_spec
 from typing import Any
 
-from lambda_core.errors import UsageError
-
-GROUP = "lambda_bearing.commands"
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.installed import COMMANDS as GROUP
+from lambda_core.domain.installed import OWN, first_line, in_use
 
 
 @dataclass(frozen=True)
@@ -46,13 +45,15 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "run": ("lambda_cli.run:run", "Run a case and write its result."),
     "resume": ("lambda_cli.resume:resume", "Go on with an interrupted run."),
     "quasistatic": ("lambda_cli.quasistatic:quasistatic", "Equilibrium of a case without running it."),
+    "thermal": ("lambda_cli.thermal:thermal", "Temperatures of a bearing by its own losses."),
+    "electric-film": ("lambda_cli.electric:film", "Film thickness from a measured capacitance of the bearing."),
+    "electric": ("lambda_cli.electric:electric", "Bearing voltage, discharges, impedance in an electric machine."),
     "show": ("lambda_cli.show:show", "Show the summary of a result."),
     "view": ("lambda_cli.view:view", "Draw a view of one or more results."),
     "animate": ("lambda_cli.animate:animate", "Show a run in motion: GIF, MP4 or glTF."),
     "compare": ("lambda_cli.compare:compare", "Put comparison methods beside the simulation."),
     "cross-check": ("lambda_cli.cross_check:cross_check", "Integrate a case with SUNDIALS CVODE as well, and compare."),
     "study": ("lambda_cli.study:app", "Many runs: sweeps, samples, maps."),
-    "reproduce": ("lambda_cli.reproduce:reproduce", "Repeat the published experiments."),
     "report": ("lambda_cli.report:report", "Write a report of results."),
     "cite": ("lambda_cli.cite:cite", "Print the references of the models a result used."),
     "db": ("lambda_cli.db:app", "Search and edit the catalogue of bearings, oils and materials."),
@@ -69,12 +70,11 @@ def entries() -> dict[str, Entry]:
         for name, (target, text) in COMMANDS.items()
         if find_spec(target.partition(":")[0]) is not None
     }
-    if entry_points(group=GROUP):
-        from lambda_core.registry.manager import commands
-
-        for source in commands():
-            load = partial(_load_foreign, source.load, source.distribution, source.name)
-            found.setdefault(source.name, Entry(source.name, f"From {source.distribution}.", load, "Plugins"))
+    for name, source in sorted(in_use(GROUP).items()):
+        load = partial(_load_foreign, source.load, source.distribution, name)
+        own = source.project == OWN
+        text = first_line(source.target) if own else f"From {source.distribution}."
+        found.setdefault(name, Entry(name, text, load, "Commands" if own else "Plugins"))
     return found
 
 
@@ -82,6 +82,6 @@ def _load_foreign(load: Callable[[], Any], distribution: str, name: str) -> Any:
     try:
         return load()
     except Exception as error:
-        from lambda_core.registry.faults import describe
+        from lambda_core.domain.plugin_errors import describe
 
         raise UsageError(f"the command {name} of {distribution} cannot be loaded: {describe(error)}") from error

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from lambda_db.catalogue import SqlCatalogue
     from lambda_db.transfer import ImportReport
 
-    from lambda_core.registry.registry import Registry
+    from lambda_core.api import Registry
 
 app = typer.Typer(
     no_args_is_help=True, add_completion=False, help="Search and edit the catalogue of bearings, oils and materials."
@@ -32,8 +32,8 @@ def _opened() -> Iterator[tuple[SqlCatalogue, Registry]]:
     """Open the catalogue with the rows of every plugin."""
     from lambda_db.catalogue import SqlCatalogue
 
-    from lambda_core.errors import UsageError
-    from lambda_core.registry.manager import registry
+    from lambda_core.api import registry
+    from lambda_core.domain.errors import UsageError
 
     models = registry()
     catalogue = models.catalogue()
@@ -58,22 +58,24 @@ def search(
     maker: Annotated[str | None, typer.Option(help="Maker.")] = None,
     rating: Annotated[float | None, typer.Option(help="Least dynamic load rating C in kN.")] = None,
     lubricants: Annotated[bool, typer.Option("--lubricants", help="Search the oils instead.")] = False,
-    limit: Annotated[int, typer.Option(min=1, help="Most rows to show.")] = 50,
+    limit: Annotated[int, typer.Option(min=1, max=1_000_000, help="Most rows to show.")] = 50,
     json: JsonOption = False,
 ) -> None:
     """List the bearings (or oils) that match every word."""
     options = {"d=": bore, "D=": outside, "B=": width, "series=": series, "maker=": maker, "C>=": rating}
     text = " ".join([*(words or []), *(f"{key}{value}" for key, value in options.items() if value is not None)])
+    from lambda_db.presentation import found_some
+
     with _opened() as (catalogue, _):
         if lubricants:
-            list_lubricants(catalogue.lubricants(text, limit), json)
+            list_lubricants(found_some(catalogue, "lubricant", text, catalogue.lubricants(text, limit)), json)
         else:
-            list_bearings(catalogue.bearings(text, limit), json)
+            list_bearings(found_some(catalogue, "bearing", text, catalogue.bearings(text, limit)), json)
 
 
 @app.command()
 def show(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="Bearing, lubricant, material or cage.")],
+    words: Annotated[list[str], typer.Argument(metavar="NAME", help="Bearing, lubricant, material or cage.")],
     maker: Annotated[str | None, typer.Option(help="Whose bearing, where several makers are in the catalogue.")] = None,
     temperature: Annotated[
         list[str] | None, typer.Option(help='Of a lubricant: temperatures, for example "40 degC".')
@@ -85,8 +87,9 @@ def show(
     """Show one row with the source and grade of every value; an oil also over temperature and pressure."""
     from lambda_db.presentation import find
 
-    from lambda_core.registry.catalogue import BearingRow, LubricantRow
+    from lambda_core.api import BearingRow, LubricantRow
 
+    name = " ".join(words)
     with _opened() as (catalogue, models):
         row = find(catalogue, name, maker)
         if isinstance(row, BearingRow):
@@ -120,7 +123,7 @@ def add(
 
 def _cells(values: list[str]) -> dict[str, object]:
     """Split NAME=VALUE."""
-    from lambda_core.errors import UsageError
+    from lambda_core.domain.errors import UsageError
 
     cells: dict[str, object] = {}
     for value in values:
@@ -199,7 +202,7 @@ def export_rows(
     json: JsonOption = False,
 ) -> None:
     """Write the catalogue, or your own rows, to files; importing them gives the same rows."""
-    from lambda_db.models import SEED_TABLES
+    from lambda_db.seed_tables import SEED_TABLES
     from lambda_db.transfer import export_rows as write
 
     chosen = tables or ([path.stem] if path.suffix == ".csv" else list(SEED_TABLES))

@@ -10,8 +10,7 @@ if TYPE_CHECKING:
     from lambda_db.catalogue import SqlCatalogue
     from rich.table import Table
 
-    from lambda_core.registry.catalogue import BearingRow, CageRow, LubricantRow, MaterialRow
-    from lambda_core.registry.registry import Registry
+    from lambda_core.api import BearingRow, CageRow, LubricantRow, MaterialRow, Registry
 
 
 def print_json(**data: object) -> None:
@@ -143,7 +142,7 @@ def show_lubricant(
     """Print an oil: values, constants of every law, and its behaviour over temperature and pressure."""
     from lambda_db.presentation import parameters_of, parsed, values_of
 
-    from lambda_core.physics.oil_table import oil_table
+    from lambda_core.api import oil_table
 
     kelvin = parsed(
         temperatures or ["20 degC", "40 degC", "60 degC", "80 degC", "100 degC"], "temperature", "--temperature"

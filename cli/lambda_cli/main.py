@@ -16,10 +16,13 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 from lambda_cli.commands import Entry, entries
-from lambda_core.errors import LambdaError
+from lambda_cli.interrupt import second_signal_ends
+from lambda_core.domain.errors import CaseError, LambdaError, UsageError
+from lambda_core.domain.printable import printable
 
 PROGRAM = "lambda-bearing"
 INTERRUPTED = 130
+_LONGEST_NAME = 100
 DEBUG_VARIABLE = "LAMBDA_BEARING_DEBUG"
 
 
@@ -89,7 +92,7 @@ def _program(
     Start with: lambda-bearing run 6319-cp10-1500
     """
     if no_plugin:
-        from lambda_core.registry.manager import switch_off
+        from lambda_core.api import switch_off
 
         switch_off(no_plugin)
 
@@ -102,6 +105,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     arguments : sequence of str, optional
         Command line without the program's name; default: that of the process.
     """
+    os.environ.setdefault("PYTHONSAFEPATH", "1")  # processes started from here import nothing from where they stand
+    with second_signal_ends(INTERRUPTED):
+        return _main(arguments)
+
+
+def _main(arguments: Sequence[str] | None) -> int:
     try:
         outcome = application(args=arguments, prog_name=PROGRAM, standalone_mode=False)
         if outcome == INTERRUPTED:  # what typer makes of Ctrl+C
@@ -117,6 +126,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # The reader (a pager, head) has gone: nothing more to say, not even at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+    except RecursionError:
+        _say("what was given is nested too deeply")
+        return CaseError.exit_code
+    except OSError as error:  # of a file that is named on the way: no name, no room, no right
+        name = str(error.filename or "a file")
+        _say(f'cannot use "{name if len(name) < _LONGEST_NAME else name[:_LONGEST_NAME] + "..."}": {error.strerror}')
+        return UsageError.exit_code
     except Exception as error:
         if isinstance(code := getattr(error, "exit_code", None), int) and hasattr(error, "format_message"):
             _say_usage(error)
@@ -125,7 +141,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _say(text: str) -> None:
-    print(text, file=sys.stderr)
+    print(printable(text), file=sys.stderr)
 
 
 def _say_usage(error: Any) -> None:

@@ -13,7 +13,7 @@ from lambda_cli.options import JsonOption
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from lambda_core.registry.survey import CheckCard, ModelCard
+    from lambda_core.api import CheckCard, ModelCard
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, help="Models, methods and views that plugins bring.")
 
@@ -44,8 +44,8 @@ def list_plugins(
 ) -> None:
     """List everything installed, with its distribution; plugins that are not in use, and why."""
     from lambda_core import api
-    from lambda_core.errors import UsageError, unknown_name
-    from lambda_core.registry.roles import ROLES
+    from lambda_core.domain.errors import UsageError, unknown_name
+    from lambda_core.domain.roles import ROLES
 
     if role and role not in ROLES:
         raise UsageError(unknown_name("role", role, ROLES))
@@ -146,7 +146,7 @@ def check(
 ) -> None:
     """Try models against the contract of their role; exit 3 when one does not keep it."""
     from lambda_core import api
-    from lambda_core.registry.survey import Verdict
+    from lambda_core.api import Verdict
 
     cards = []
     for card in api.check_plugins(names or ()):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import typer
 
 from lambda_cli.options import CaseArgument, JsonOption, SetOption
-from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
 
 
 def quasistatic(
@@ -20,4 +20,4 @@ def quasistatic(
 
     with talk(progress, quiet) as speaker:
         found = api.quasistatic(case, changes or (), announce=speaker.say)
-    typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns()))

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from lambda_cli.options import CaseArgument, JsonOption, SetOption
-from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
 
 if TYPE_CHECKING:
-    from lambda_core.simulate.results import Result
+    from lambda_core.api import Result
 
 OutOption = Annotated[
     Path | None, typer.Option("--out", metavar="FILE", help="Result file; default: name of the case, numbered.")
@@ -61,10 +61,10 @@ def limits(duration: str | None, max_wall: str | None) -> list[str]:
 
 def finish(result: Result, as_json: bool) -> None:
     """Print the summary and end with the exit code that its state calls for."""
-    from lambda_core.errors import PartialResultError
+    from lambda_core.domain.errors import PartialResultError
 
     summary = result.summary()
-    typer.echo(summary.model_dump_json(indent=2) if as_json else summary.text())
+    typer.echo(summary.model_dump_json(indent=2) if as_json else summary.text(columns()))
     if summary.state == "interrupted":
         typer.echo(f"interrupted; go on with: lambda-bearing resume {result.path}", err=True)
         raise typer.Exit(130)

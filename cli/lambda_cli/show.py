@@ -9,6 +9,8 @@ from typing import Annotated
 import typer
 
 from lambda_cli.options import JsonOption
+from lambda_cli.talk import columns
+from lambda_core.domain.wrapping import wrapped
 
 
 def show(
@@ -28,4 +30,5 @@ def show(
     if as_json:
         typer.echo(summary.model_dump_json(indent=2))
         return
-    typer.echo(f"{summary.headline}\n{summary.text()}")
+    lines = [*summary.headline.splitlines(), *summary.text(columns()).splitlines()]
+    typer.echo("\n".join(wrapped(lines, columns())))

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from lambda_cli.options import JsonOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+from lambda_core.domain.printable import cell_text, printable
 
 if TYPE_CHECKING:
-    from lambda_core.registry.table import StudyTable
-    from lambda_core.study.session import StudyStatus
+    from lambda_core.api import StudyStatus
+    from lambda_core.views.table import StudyTable
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, help="Many runs: sweeps, samples, maps, searches.")
 
@@ -91,7 +93,7 @@ def status(folder: FolderArgument, as_json: JsonOption = False) -> None:
     from lambda_core import api
 
     found = api.study_status(folder)
-    typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
+    typer.echo(found.model_dump_json(indent=2) if as_json else printable(found.text()))
 
 
 @app.command()
@@ -106,7 +108,13 @@ def show(
     table = api.study_table(folder)
     if as_json:
         data = {"version": 1, "name": table.name, "mode": table.mode, "design": table.design}
-        typer.echo(json.dumps({**data, "units": table.units(), "points": table.rows()}, indent=2, allow_nan=False))
+        typer.echo(
+            json.dumps(
+                {**data, "units": table.units(), "points": [_finite(row) for row in table.rows()]},
+                indent=2,
+                allow_nan=False,
+            )
+        )
     elif as_csv:
         _csv(table)
     else:
@@ -123,9 +131,9 @@ def schema() -> None:
 
 def _finish(status: StudyStatus, as_json: bool) -> None:
     """Print where the study stands and end with the exit code that this calls for."""
-    from lambda_core.errors import PartialResultError
+    from lambda_core.domain.errors import PartialResultError
 
-    typer.echo(status.model_dump_json(indent=2) if as_json else status.text())
+    typer.echo(status.model_dump_json(indent=2) if as_json else printable(status.text()))
     if status.pending:
         typer.echo(f"interrupted; go on with: lambda-bearing study resume {status.folder}", err=True)
         raise typer.Exit(130)
@@ -142,7 +150,16 @@ def _csv(table: StudyTable) -> None:
     names = ["point", *units, "state", "reason", "file"]
     writer.writerow([f"{name} [{units[name]}]" if units.get(name) else name for name in names])
     for row in rows:
-        writer.writerow(["" if row[name] is None else row[name] for name in names])
+        writer.writerow([_written(row[name]) for name in names])
+
+
+def _written(value: object) -> object:
+    return "" if value is None else cell_text(value) if isinstance(value, str) else value
+
+
+def _finite(row: dict[str, Any]) -> dict[str, Any]:
+    """Return a row for JSON, which knows no infinity: there is no number where there is none."""
+    return {key: None if isinstance(v, float) and not math.isfinite(v) else v for key, v in row.items()}
 
 
 def _print(table: StudyTable) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sys
 import time
 from enum import StrEnum
@@ -11,9 +12,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Protocol
 
 import typer
 
+from lambda_core.domain.wrapping import wrapped
+
 if TYPE_CHECKING:
-    from lambda_core.simulate.progress import Progress
-    from lambda_core.study.director import StudyProgress
+    from lambda_core.api import Progress, StudyProgress
 
 _LINE_AFTER = 5.0  # wall time between plain lines [s]
 
@@ -58,6 +60,11 @@ def talk(style: Style, quiet: bool) -> Talk:
     if quiet and style is not Style.JSON:
         style = Style.NONE
     return {Style.BAR: Bar, Style.PLAIN: Lines, Style.JSON: JsonLines, Style.NONE: Silence}[style]()
+
+
+def columns() -> int | None:
+    """Return the width of the terminal that the answer goes to, None for a file or a pipe."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 
 class Silence:
@@ -133,7 +140,8 @@ class Bar(Silence):
         if text.startswith("compiling"):
             self._bar.update(self._task, description=text, total=None)
         else:
-            self._console.print(text, soft_wrap=True)
+            for line in wrapped(text.splitlines(), self._console.width):
+                self._console.print(line, soft_wrap=True)
 
     def update(self, progress: Progress | StudyProgress) -> None:
         """Move the bar."""
@@ -152,7 +160,7 @@ class Bar(Silence):
 
 def _state(progress: Progress | StudyProgress) -> str:
     """Write revolutions and torque, or points, in a few words."""
-    from lambda_core.study.director import StudyProgress
+    from lambda_core.api import StudyProgress
 
     if isinstance(progress, StudyProgress):
         failed = f", {progress.failed} failed" if progress.failed else ""

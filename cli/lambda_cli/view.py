@@ -12,7 +12,7 @@ import typer
 from lambda_cli.options import JsonOption
 
 if TYPE_CHECKING:
-    from lambda_core.registry.chart import ViewData
+    from lambda_core.views.chart import ViewData
 
 
 def view(
@@ -77,7 +77,7 @@ def _sorted_out(words: list[str]) -> tuple[list[str], str]:
         kind = "result" if "." in missing[0] or "/" in missing[0] or not sources else "view"
         if kind == "result":
             raise api.UsageError(f"{missing[0]} does not exist")
-        from lambda_core.errors import unknown_name
+        from lambda_core.domain.errors import unknown_name
 
         raise api.UsageError(unknown_name("view", missing[0], known))
     if not sources:
@@ -88,7 +88,7 @@ def _sorted_out(words: list[str]) -> tuple[list[str], str]:
 
 
 def _pairs(texts: list[str]) -> Iterable[tuple[str, str]]:
-    from lambda_core.errors import UsageError
+    from lambda_core.domain.errors import UsageError
 
     for text in texts:
         name, equals, value = text.partition("=")

@@ -13,12 +13,13 @@ from pathlib import Path
 from sqlalchemy import Connection, Engine, delete, insert, select
 from sqlalchemy.exc import IntegrityError
 
-from lambda_core.errors import CatalogueError, Problem
+from lambda_core.domain.errors import CatalogueError, Problem
 from lambda_db.engine import file_uri, sqlite_engine
-from lambda_db.models import CHILDREN, SEED_TABLES, Base
+from lambda_db.models import Base
 from lambda_db.paths import cache_folder
 from lambda_db.records import Row, describe, key_columns, parse_row, table_of
 from lambda_db.seed_files import BUILT_IN, Record, fingerprint, read_path
+from lambda_db.seed_tables import CHILDREN, SEED_TABLES
 
 log = logging.getLogger("lambda_db")
 _KEPT = 8  # built databases in the cache
@@ -155,7 +156,7 @@ def _prune(folder: Path) -> None:
 
 
 def in_memory(plugin_folders: list[Path]) -> Engine:
-    """Build the database in memory, for a machine whose cache folder takes no files."""
+    """Build the database in memory, for a machine whose cache folder is not writable."""
     engine = sqlite_engine("file::memory:")
     with engine.begin() as connection:
         fill(connection, plugin_folders)

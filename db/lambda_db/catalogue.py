@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Literal
@@ -9,9 +10,10 @@ from typing import Any, Literal
 from sqlalchemy import Connection, Engine, func, select, tuple_
 from sqlalchemy.orm import Session
 
-from lambda_core.errors import CatalogueError, Problem, unknown_name
-from lambda_core.registry.catalogue import BearingRow, CageRow, ClearanceRow, LubricantRow, MaterialRow
-from lambda_core.registry.designation import without_suffixes
+from lambda_core.catalogue.designation import without_suffixes
+from lambda_core.catalogue.protocol import BearingRow, CageRow, ClearanceRow, LubricantRow, MaterialRow
+from lambda_core.catalogue.suffixes import Suffix
+from lambda_core.domain.errors import CatalogueError, Problem, unknown_name
 from lambda_db import build, rows
 from lambda_db.engine import file_uri, sqlite_engine
 from lambda_db.models import (
@@ -25,6 +27,9 @@ from lambda_db.models import (
     LubricantProperty,
     Material,
     Source,
+)
+from lambda_db.models import (
+    Suffix as SuffixRow,
 )
 from lambda_db.overlay import attach_user, detach_user
 from lambda_db.paths import user_database
@@ -65,7 +70,7 @@ def _error(where: str, message: str) -> CatalogueError:
 
 
 class SqlCatalogue:
-    """Catalogue over one read-only connection; implements :class:`lambda_core.registry.catalogue.Catalogue`."""
+    """Catalogue over one read-only connection; implements :class:`lambda_core.catalogue.protocol.Catalogue`."""
 
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
@@ -134,7 +139,7 @@ class SqlCatalogue:
 
     def bearings(self, text: str = "", limit: int = 50) -> list[BearingRow]:
         """Return the bearings that match `text` (:mod:`lambda_db.search`), best first."""
-        plain = without_suffixes(text, self.names("bearing"))
+        plain = without_suffixes(text, self.names("bearing"), self.suffixes())
         with self._session() as session:
             return self._bearing_rows(session, list(session.scalars(bearing_query(plain, limit))))
 
@@ -155,7 +160,7 @@ class SqlCatalogue:
     @staticmethod
     def _names_or_nearest_alias(name: str, names: list[str], aliases: Any) -> list[str]:
         """Offer aliases only if no proper name is near: they are many and long."""
-        from lambda_core.errors import nearest
+        from lambda_core.domain.errors import nearest
 
         spelled = list(aliases)
         return names if nearest(name, names) or not nearest(name, spelled) else spelled
@@ -222,6 +227,23 @@ class SqlCatalogue:
             "bore_diameter",
             f"class {clearance_class} is tabulated over {span[0]:g} to {span[1]:g} mm, not for {bore:g} mm",
         )
+
+    def suffixes(self) -> tuple[Suffix, ...]:
+        """Return every suffix that may stand behind a designation, sorted.
+
+        Raises
+        ------
+        CatalogueError
+            When the pattern of a row is no regular expression.
+        """
+        with self._session() as session:
+            found = tuple(rows.suffix(row) for row in session.scalars(select(SuffixRow).order_by(SuffixRow.written)))
+        for suffix in found:
+            try:
+                re.compile(suffix.pattern)
+            except re.error as error:
+                raise _error("suffix", f'"{suffix.written}": the pattern is no regular expression: {error}') from None
+        return found
 
     def names(self, kind: Kind) -> list[str]:
         """Return every valid name of one kind, sorted."""

@@ -9,9 +9,9 @@ from typing import Any, Literal
 
 from pydantic import ValidationError
 
-from lambda_core.errors import LambdaError
-from lambda_core.physics.ratings import dynamic_rating, static_rating
-from lambda_core.registry.registry import Registry
+from lambda_core.discovery.registry import Registry
+from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.ratings import dynamic_rating, static_rating
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.derive import FILLING_LIMIT, UPRATED, filling_angle
 from lambda_db.estimate import is_uprated

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from lambda_core.errors import CatalogueError, Problem
+from lambda_core.domain.errors import CatalogueError, Problem
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.records import columns_of
 from lambda_db.rows import BEARING_GROUPS

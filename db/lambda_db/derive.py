@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lambda_core.physics.ratings import dynamic_factor
+from lambda_core.domain.ratings import dynamic_factor
 from lambda_db.standards import iso76_f0, standard_balls
 
 FILLING_ANGLE = (188.0, 5.0)  # mean and standard deviation [deg]

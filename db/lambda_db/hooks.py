@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.registry.hookspecs import hookimpl
+from lambda_core.discovery.hookspecs import hookimpl
 
 if TYPE_CHECKING:
-    from lambda_core.registry.catalogue import Catalogue
+    from lambda_core.catalogue.protocol import Catalogue
 
 
 @hookimpl

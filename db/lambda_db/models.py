@@ -277,6 +277,24 @@ class Cage(Base):
     note: Mapped[str] = mapped_column(server_default="")
 
 
+class Suffix(Base):
+    """What makers write behind a designation, or a family of it, and what a case takes from it."""
+
+    __tablename__ = "suffix"
+    __table_args__ = (
+        *named("written", "meaning"),
+        one_of("kind", ("clearance", "cage", "balls", "design", "note")),
+        _STRICT,
+    )
+
+    written: Mapped[Key]
+    makers: Mapped[str] = mapped_column(server_default="")
+    kind: Mapped[str]
+    meaning: Mapped[str]
+    value: Mapped[str] = mapped_column(server_default="")
+    pattern: Mapped[str] = mapped_column(server_default="")
+
+
 class Lubricant(Base):
     """A lubricant; its numbers are rows of :class:`LubricantProperty` and :class:`LubricantParameter`."""
 
@@ -332,27 +350,3 @@ class LubricantParameter(Base):
     unit: Mapped[str] = mapped_column(server_default="")
     source: Mapped[str]
     grade: Mapped[str]
-
-
-# Tables that people bring rows for, in the order in which they are read.
-SEED_TABLES: dict[str, type[Base]] = {
-    model.__tablename__: model
-    for model in (
-        Source,
-        Alias,
-        Bearing,
-        Clearance,
-        Material,
-        Cage,
-        Lubricant,
-        LubricantProperty,
-        LubricantParameter,
-    )
-}
-
-# Child table -> (parent table, {parent column: child column}, columns of the group that one layer replaces whole).
-CHILDREN: dict[str, tuple[str, dict[str, str], tuple[str, ...]]] = {
-    "candidate": ("bearing", {"designation": "designation", "maker": "maker"}, ("designation", "maker")),
-    "lubricant_property": ("lubricant", {"name": "lubricant"}, ("lubricant", "name")),
-    "lubricant_parameter": ("lubricant", {"name": "lubricant"}, ("lubricant", "role", "model")),
-}

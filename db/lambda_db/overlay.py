@@ -13,7 +13,8 @@ from sqlalchemy import Connection
 from sqlalchemy.exc import DatabaseError
 
 from lambda_db.engine import file_uri
-from lambda_db.models import CHILDREN, SEED_TABLES, Base
+from lambda_db.models import Base
+from lambda_db.seed_tables import CHILDREN, SEED_TABLES
 
 log = logging.getLogger("lambda_db")
 VIEWED = (*SEED_TABLES, "candidate")

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, Literal, TypeVar
 
 from pydantic import BaseModel
 
-from lambda_core.errors import CatalogueError, Problem, UsageError, unknown_name
-from lambda_core.registry.catalogue import BearingRow, CageRow, LubricantRow, MaterialRow, Value
-from lambda_core.registry.designation import designated, read_designation
-from lambda_core.schema.units import from_si, parse
+from lambda_core.catalogue.designation import designated, read_designation
+from lambda_core.catalogue.protocol import BearingRow, CageRow, LubricantRow, MaterialRow, Value
+from lambda_core.domain.errors import CatalogueError, Problem, UsageError, nearest, unknown_name
+from lambda_core.domain.units import from_si, parse
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.units import PROPERTIES
 
@@ -174,7 +174,7 @@ def lubricant_summary(row: LubricantRow) -> dict[str, Any]:
 
 def suffix_lines(catalogue: SqlCatalogue, name: str) -> list[dict[str, str]]:
     """Return what the suffixes of a bearing's designation mean, and what a case takes from each."""
-    read = read_designation(name, catalogue.names("bearing"))
+    read = read_designation(name, catalogue.names("bearing"), catalogue.suffixes())
     return [
         {"suffix": written, "meaning": suffix.meaning, "decides": "" if suffix.kind == "note" else suffix.kind}
         for written, suffix in (read.suffixes if read else ())
@@ -190,7 +190,7 @@ def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> BearingRow | 
         With the nearest names of all kinds, or with the makers to choose from.
     """
     bearings = catalogue.names("bearing")
-    if maker is not None or read_designation(name, bearings) is not None:
+    if maker is not None or read_designation(name, bearings, catalogue.suffixes()) is not None:
         return designated(catalogue, name, maker)[0]
     others: tuple[Callable[[str], LubricantRow | MaterialRow | CageRow], ...]
     others = (catalogue.lubricant, catalogue.material, catalogue.cage)
@@ -203,6 +203,30 @@ def find(catalogue: SqlCatalogue, name: str, maker: str | None) -> BearingRow | 
     raise CatalogueError(
         "catalogue", [Problem("name", unknown_name("bearing, lubricant, material or cage", name, known))]
     )
+
+
+Row = TypeVar("Row")
+
+
+def found_some(catalogue: SqlCatalogue, kind: Literal["bearing", "lubricant"], text: str, rows: list[Row]) -> list[Row]:
+    """Return the rows of a search.
+
+    Raises
+    ------
+    CatalogueError
+        Where there are none: with what the catalogue holds, and what reads like the search.
+    """
+    if rows:
+        return rows
+    names = catalogue.names(kind)
+    close = nearest(text.split()[-1], names) if text.split() else []
+    hint = f"; nearest: {', '.join(close)}" if close else ""
+    if kind == "bearing":
+        makers = ", ".join(sorted({row.maker for row in catalogue.bearings("", 1_000_000)}))
+        holds = f"deep groove ball bearings only, of {makers}; oils: --lubricants; there are no greases"
+    else:
+        holds = f"{len(names)} oils; there are no greases"
+    raise CatalogueError("search", [Problem("", f'nothing matches "{text}"{hint}; the catalogue holds {holds}')])
 
 
 def parsed(texts: Sequence[str], quantity: str, option: str) -> list[float]:

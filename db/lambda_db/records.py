@@ -8,9 +8,9 @@ from typing import Any
 
 from sqlalchemy import Column, ColumnElement, Float, Integer, Table, Text
 
-from lambda_core.errors import nearest
-from lambda_core.schema.units import UNITS, from_si, parse
-from lambda_db.models import SEED_TABLES
+from lambda_core.domain.errors import nearest
+from lambda_core.domain.units import UNITS, from_si, parse
+from lambda_db.seed_tables import SEED_TABLES
 from lambda_db.units import PROPERTIES, bare_name, column_unit, to_si
 
 Row = dict[str, Any]

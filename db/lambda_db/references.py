@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from sqlalchemy import Connection
 
-from lambda_core.errors import unknown_name
+from lambda_core.domain.errors import unknown_name
 from lambda_db.records import Row
 
 # table -> (column, table that it names)

@@ -9,11 +9,12 @@ from pathlib import Path
 from sqlalchemy import ColumnElement, Connection, delete, func, select
 from sqlalchemy.exc import DatabaseError
 
-from lambda_core.errors import CatalogueError, Problem, UsageError, unknown_name
+from lambda_core.domain.errors import CatalogueError, Problem, UsageError, unknown_name
 from lambda_db.catalogue import SqlCatalogue
-from lambda_db.models import CHILDREN, SEED_TABLES, Base
+from lambda_db.models import Base
 from lambda_db.paths import user_database
 from lambda_db.records import Row, describe, key_columns, parse_key, same_key, table_of
+from lambda_db.seed_tables import CHILDREN, SEED_TABLES
 from lambda_db.user import open_user_database, unwritable
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any, Literal, cast
 
-from lambda_core.registry.catalogue import (
+from lambda_core.catalogue.protocol import (
     BearingRow,
     CageRow,
     ClearanceRow,
@@ -18,6 +18,8 @@ from lambda_core.registry.catalogue import (
     Status,
     Value,
 )
+from lambda_core.catalogue.suffixes import Kind as SuffixKind
+from lambda_core.catalogue.suffixes import Suffix
 from lambda_db.models import (
     Bearing,
     Cage,
@@ -27,6 +29,9 @@ from lambda_db.models import (
     LubricantParameter,
     LubricantProperty,
     Material,
+)
+from lambda_db.models import (
+    Suffix as SuffixRow,
 )
 from lambda_db.units import PROPERTIES, bare_name, column_si, to_si
 
@@ -130,6 +135,11 @@ def material_row(row: Material, sources: Sources) -> MaterialRow:
         permittivity=None if row.permittivity is None else value("permittivity"),
         note=row.note,
     )
+
+
+def suffix(row: SuffixRow) -> Suffix:
+    """Return a suffix of designations."""
+    return Suffix(row.written, row.makers, cast("SuffixKind", row.kind), row.meaning, row.value, row.pattern)
 
 
 def cage_row(row: Cage, sources: Sources) -> CageRow:

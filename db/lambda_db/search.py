@@ -7,7 +7,7 @@ from typing import Any
 
 from sqlalchemy import ColumnElement, Select, and_, case, or_, select
 
-from lambda_core.errors import CatalogueError, Problem, unknown_name
+from lambda_core.domain.errors import CatalogueError, Problem, unknown_name
 from lambda_db.models import Bearing
 
 # Words before a comparison; case tells bore (d) from outside diameter (D).

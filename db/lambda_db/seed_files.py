@@ -8,8 +8,9 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from lambda_core.errors import CatalogueError, Problem, unknown_name
-from lambda_db.models import SEED_TABLES
+from lambda_core.domain.errors import CatalogueError, Problem, unknown_name
+from lambda_core.domain.printable import from_cell
+from lambda_db.seed_tables import SEED_TABLES
 
 BUILT_IN = Path(__file__).parent / "seeds"
 Cells = Mapping[str, object]
@@ -49,7 +50,7 @@ def read_csv(path: Path, table: str | None = None) -> Iterator[Record]:
                 place = f"line {reader.line_num}"
                 if None in cells or None in cells.values():
                     raise CatalogueError(str(path), [Problem(place, f"needs {len(header)} cells like the header")])
-                yield path, place, table, cells
+                yield path, place, table, {name: from_cell(text) for name, text in cells.items()}
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise CatalogueError(str(path), [Problem("", f"cannot be read as CSV: {error}")]) from error
 

@@ -11,15 +11,18 @@ from typing import Any
 from sqlalchemy import Connection, delete, insert, select
 from sqlalchemy.exc import DatabaseError
 
-from lambda_core.errors import CatalogueError, Problem, UsageError, unknown_name
+from lambda_core.domain.errors import CatalogueError, Problem, UsageError, unknown_name
+from lambda_core.domain.files import check_target
+from lambda_core.domain.printable import cell_text
 from lambda_db.build import insert_row
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.estimate import candidate_rows, completed
-from lambda_db.models import CHILDREN, SEED_TABLES, Base
+from lambda_db.models import Base
 from lambda_db.paths import user_database
 from lambda_db.records import Row, columns_of, describe, parse_row, same_key, table_of
 from lambda_db.references import Known, known_names, reference_problems
 from lambda_db.seed_files import Record, read_path
+from lambda_db.seed_tables import CHILDREN, SEED_TABLES
 from lambda_db.user import open_user_database, unwritable
 
 
@@ -200,6 +203,8 @@ def export_rows(catalogue: SqlCatalogue, path: Path, tables: list[str], *, mine:
     for table in tables:
         if table not in SEED_TABLES:
             raise UsageError(unknown_name("catalogue table", table, SEED_TABLES))
+    if path.suffix:
+        check_target(path)
     content = {table: rows_of(catalogue, table, mine=mine) for table in tables}
     try:
         if path.suffix == ".toml":
@@ -223,7 +228,7 @@ def _write_csv(path: Path, table: str, rows: list[Row]) -> None:
     with path.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(columns_of(table))
-        writer.writerows(["" if cell is None else _text(cell) for cell in row.values()] for row in rows)
+        writer.writerows(["" if cell is None else cell_text(_text(cell)) for cell in row.values()] for row in rows)
 
 
 def _text(cell: Any) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cache, lru_cache
 
-from lambda_core.schema.units import UNITS, parse
+from lambda_core.domain.units import UNITS, parse
 
 # Ending of a column's name -> (quantity, unit).
 ENDINGS: dict[str, tuple[str, str]] = {

@@ -8,13 +8,15 @@ from pathlib import Path
 from sqlalchemy import Connection, Engine
 from sqlalchemy.exc import DatabaseError
 
-from lambda_core.errors import CatalogueError, Problem
+from lambda_core.domain.errors import CatalogueError, Problem
 from lambda_db.engine import file_uri, sqlite_engine
 from lambda_db.models import Base
 
 # Steps from version n to n + 1; the newest schema is Base.metadata itself.
-MIGRATIONS: dict[int, Callable[[Connection], None]] = {}
-SCHEMA_VERSION = 1
+MIGRATIONS: dict[int, Callable[[Connection], None]] = {
+    1: lambda connection: Base.metadata.tables["suffix"].create(connection),
+}
+SCHEMA_VERSION = 2
 
 
 def open_user_database(path: Path) -> Engine:
@@ -54,8 +56,9 @@ def _bring_up_to_date(connection: Connection, path: Path) -> None:
         raise CatalogueError(str(path), [Problem("", message)])
     if found == 0:
         Base.metadata.create_all(connection)
-    for version in range(max(found, 1), SCHEMA_VERSION):
-        MIGRATIONS[version](connection)
+    else:
+        for version in range(found, SCHEMA_VERSION):
+            MIGRATIONS[version](connection)
     connection.exec_driver_sql(f"PRAGMA user_version = {SCHEMA_VERSION}")
 
 

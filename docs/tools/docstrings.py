@@ -12,7 +12,6 @@ import textwrap
 import tokenize
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 from pydantic import BaseModel
@@ -85,11 +84,12 @@ def returned() -> list[type]:
     return [found[name] for name in sorted(found) if name not in elsewhere]
 
 
-def _sources(package: str) -> Iterator[str]:
-    """Yield the source text of each module of a package."""
-    for path in importlib.import_module(package).__path__:
-        for file in sorted(Path(path).glob("*.py")):
-            yield file.read_text(encoding="utf-8")
+def _sources(name: str) -> Iterator[str]:
+    """Yield the source text of each module that the public functions of a module stand in."""
+    module = importlib.import_module(name)
+    homes = {item.__module__ for _, item in public(module) if inspect.isfunction(item)}
+    for home in sorted(homes):
+        yield inspect.getsource(importlib.import_module(home))
 
 
 def methods(cls: type) -> Iterator[tuple[str, Any]]:

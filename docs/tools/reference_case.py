@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import tables as md
 from pydantic import BaseModel
 
-from lambda_core.physics.model import ELEMENTS
-from lambda_core.registry.roles import DEFAULT_MODELS, ROLES
-from lambda_core.schema import modelling, motion, parts, signals
-from lambda_core.schema.cards import FieldCard, field_card
-from lambda_core.schema.case import Case
-from lambda_core.schema.units import UNITS
+from lambda_core.case import modelling, motion, parts, signals
+from lambda_core.case.cards import FieldCard, field_card
+from lambda_core.case.case import Case
+from lambda_core.domain.elements import ELEMENTS
+from lambda_core.domain.roles import DEFAULT_MODELS, ROLES
+from lambda_core.domain.units import UNITS
 
 _DOFS = (motion.Translation, motion.Tilt, motion.Spin, motion.InnerSpin)
 # Tables that stand in several places are described once, under one name for all of these places.
@@ -73,7 +73,7 @@ def _tables(parent: type[BaseModel], name: str, prefix: str) -> Iterator[tuple[s
 
 
 def _members(parent: type[BaseModel], name: str) -> list[type[BaseModel]]:
-    from lambda_core.schema.problems import members
+    from lambda_core.domain.option_tree import members
 
     return list(members(parent.model_fields[name].annotation))
 

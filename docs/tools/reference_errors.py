@@ -8,7 +8,7 @@ import pkgutil
 import tables as md
 from lambda_cli.main import INTERRUPTED
 
-from lambda_core.errors import LambdaError
+from lambda_core.domain.errors import LambdaError
 
 PACKAGES = ("lambda_core", "lambda_plugins", "lambda_db", "lambda_cli", "lambda_gui")
 # Codes that are not those of an error class alone.

@@ -7,12 +7,12 @@ from typing import Any
 
 import tables as md
 
-from lambda_core.registry.collect import OWN
-from lambda_core.registry.manager import registry
-from lambda_core.registry.model import Model
-from lambda_core.registry.registry import Registry
-from lambda_core.registry.roles import ROLES, Role
-from lambda_core.registry.survey import ModelCard, model_card
+from lambda_core.discovery.manager import registry
+from lambda_core.discovery.registry import Registry
+from lambda_core.discovery.survey import ModelCard, model_card
+from lambda_core.domain.installed import OWN
+from lambda_core.domain.roles import ROLES, Role
+from lambda_core.laws.law import Law
 
 _INTRODUCTION = """# Model reference
 
@@ -49,7 +49,7 @@ def _role(role: Role) -> str:
     return f"{role.summary[0].upper()}{role.summary[1:]}. Carried by {carried}.\n\n`{role.name}({arguments})`"
 
 
-def _law(card: ModelCard, law: Model) -> list[str]:
+def _law(card: ModelCard, law: Law) -> list[str]:
     lines = [f"### {card.role}/{card.name}", ""]
     if card.default:
         lines += ["The default of its role.", ""]
@@ -60,7 +60,7 @@ def _law(card: ModelCard, law: Model) -> list[str]:
     rows = [
         [
             md.code(p.name),
-            p.quantity.replace("_", " ") or p.kind,
+            md.code(p.quantity) if p.quantity else p.kind,
             "required" if p.required else md.code(p.default),
             md.cell(", ".join(p.limits)),
             md.cell(f"{p.description}{_published(p.published_range)}"),

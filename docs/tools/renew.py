@@ -21,7 +21,7 @@ from reference_cli import cli_page
 from reference_models import models_page
 
 from lambda_core import api
-from lambda_core.registry.reference import roles_markdown
+from lambda_core.discovery.reference import roles_markdown
 
 DOCS = Path(__file__).parents[1]
 PAGES: dict[str, Callable[[], str]] = {

@@ -12,7 +12,7 @@ from textual.binding import Binding, BindingType
 from textual.screen import Screen
 
 from lambda_core import api
-from lambda_core.errors import LambdaError
+from lambda_core.domain.errors import LambdaError
 from lambda_gui.builder import BuilderScreen
 from lambda_gui.case_files import CaseApp
 from lambda_gui.commands import OptionSearch
@@ -21,7 +21,7 @@ from lambda_gui.runs import Queue, Run
 from lambda_gui.theme import DARK, LIGHT
 
 if TYPE_CHECKING:
-    from lambda_gui.catalogue import Kind
+    from lambda_gui.taken import Kind, Taken
 
 _POLL = 0.2  # how often runs are asked what is new [s]
 
@@ -70,8 +70,7 @@ class BuilderApp(CaseApp):
         self.queue.find_earlier()
         self.set_interval(_POLL, self._poll_runs)
         if self._start is None:
-            self._open(None)
-            self.call_after_refresh(self.action_open_case)
+            self._open(None, self.action_open_case)
         else:
             self.open(self._start)
 
@@ -91,7 +90,7 @@ class BuilderApp(CaseApp):
 
     def show_catalogue(self, kind: Kind = "bearing") -> None:
         """Choose a bearing or a lubricant for the case."""
-        from lambda_gui.catalogue import CatalogueScreen, Taken
+        from lambda_gui.catalogue import CatalogueScreen
 
         builder = self.builder
         try:
@@ -105,7 +104,8 @@ class BuilderApp(CaseApp):
             if found is not None:
                 builder.take(found)
 
-        self.push_screen(CatalogueScreen(catalogue, kind), taken)
+        before = builder.draft.get("bearing", "designation")
+        self.push_screen(CatalogueScreen(catalogue, kind, before if isinstance(before, str) else ""), taken)
 
     def action_help(self) -> None:
         """Explain the screen."""

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal, cast
 
-from lambda_core.errors import LambdaError
-from lambda_core.registry.roles import ROLES
+from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.roles import ROLES
 from lambda_gui.outline import Keys
 from lambda_gui.rows import Surroundings
 
 if TYPE_CHECKING:
-    from lambda_core.physics.describe import ValueReport
-    from lambda_core.schema.draft import Draft
+    from lambda_core.api import Draft, ValueReport
 
 Name = Literal["bearing", "lubricant", "material", "cage"]
 

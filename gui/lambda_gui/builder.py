@@ -13,7 +13,7 @@ from textual.containers import Horizontal, Vertical
 from textual.timer import Timer
 from textual.widgets import Footer, Tree
 
-from lambda_core.errors import Problem
+from lambda_core.domain.errors import Problem
 from lambda_gui.checking import belongs, node_of
 from lambda_gui.derived import Derived
 from lambda_gui.forms import NodeForm
@@ -26,9 +26,8 @@ from lambda_gui.sketch import Sketch
 from lambda_gui.tree import ModelTree
 
 if TYPE_CHECKING:
-    from lambda_core.schema.draft import Draft
-    from lambda_core.simulate.estimate import Estimate
-    from lambda_gui.catalogue import Taken
+    from lambda_core.api import Draft, Estimate
+    from lambda_gui.taken import Taken
 
 
 class BuilderScreen(LiveDraft):
@@ -241,6 +240,8 @@ class BuilderScreen(LiveDraft):
         """Go to the next option with a mistake."""
         problems = self.check.problems
         if not problems:
+            for warning in self.query_one(Derived).warnings():
+                self.notify(warning, title="beyond a limit", severity="warning", timeout=15)
             self.notify("no mistakes", timeout=2)
             return
         row = next((w for w in self.focused.ancestors_with_self if isinstance(w, Row)), None) if self.focused else None
@@ -286,6 +287,8 @@ class BuilderScreen(LiveDraft):
         if self.draft.get(*old) is not None:
             self.draft.set(*old, value=None)
             self.notify(f"[{'.'.join(old)}] belonged to the one before and was taken out; Ctrl+Z brings it back")
+        if found.said:
+            self.notify(f"{found.name}: {found.said}; Ctrl+Z takes it back", timeout=8)
         self.draft.seal()
         self.go_to((found.kind, "designation" if found.kind == "bearing" else "name"))
         if self.form is not None:

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 from textual.app import App
 
 from lambda_core import api
-from lambda_core.errors import LambdaError
+from lambda_core.domain.errors import LambdaError
 from lambda_gui import recovery
 from lambda_gui.builder import BuilderScreen
 from lambda_gui.dialogs import EMPTY, Ask, AskText, OpenCase
 
 if TYPE_CHECKING:
-    from lambda_core.schema.draft import Draft
+    from lambda_core.api import Draft
 
 
 class CaseApp(App[None]):
@@ -23,8 +23,9 @@ class CaseApp(App[None]):
 
     @property
     def builder(self) -> BuilderScreen:
-        """The screen of the case."""
-        return next(screen for screen in self.screen_stack if isinstance(screen, BuilderScreen))
+        """The screen of the case; there is one, whatever lies over it."""
+        (screen,) = (shown for shown in self.screen_stack if isinstance(shown, BuilderScreen))
+        return screen
 
     def open(self, source: str) -> None:
         """Work on a case file, a copy of a built-in case, or ("") an empty model."""
@@ -37,18 +38,23 @@ class CaseApp(App[None]):
             return
         self._open(draft)
 
-    def _open(self, draft: Draft | None) -> None:
+    def _open(self, draft: Draft | None, then: Callable[[], None] | None = None) -> None:
+        """Work on a draft in place of the one before; `then` is called unless unsaved work on it is recovered."""
         draft = draft or api.draft()
         screen = BuilderScreen(draft)
         if any(isinstance(shown, BuilderScreen) for shown in self.screen_stack):
+            while not isinstance(self.screen, BuilderScreen):
+                self.pop_screen()  # whatever lies over the case belongs to the case before
             self.switch_screen(screen)
         else:
             self.push_screen(screen)
-        self._offer_rescue(draft)
+        self._offer_rescue(draft, then)
 
-    def _offer_rescue(self, draft: Draft) -> None:
+    def _offer_rescue(self, draft: Draft, then: Callable[[], None] | None) -> None:
         found = recovery.rescues(draft.path)
         if not found:
+            if then is not None:
+                self.call_after_refresh(then)
             return
         rescue = found[0]
         what = draft.path.name if draft.path else "a case without a file"
@@ -57,8 +63,11 @@ class CaseApp(App[None]):
             if answer == "recover":
                 recovery.take(rescue, draft)
                 self.builder.edited()
-            elif answer == "discard":
+                return
+            if answer == "discard":
                 recovery.forget(rescue)
+            if then is not None:
+                then()
 
         self.call_after_refresh(
             self.push_screen,

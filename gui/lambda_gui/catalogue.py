@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar
 
 from rich.text import Text
 from textual.app import ComposeResult
@@ -13,14 +12,13 @@ from textual.screen import Screen
 from textual.timer import Timer
 from textual.widgets import DataTable, Footer, Input, Static
 
-from lambda_core.errors import LambdaError
+from lambda_core.domain.errors import LambdaError
 from lambda_gui.details import bearing_text, lubricant_text
 from lambda_gui.sketch import drawn
+from lambda_gui.taken import Kind, Taken, bearing_taken
 
 if TYPE_CHECKING:
-    from lambda_core.registry.catalogue import BearingRow, Catalogue, LubricantRow
-
-Kind = Literal["bearing", "lubricant"]
+    from lambda_core.api import BearingRow, Catalogue, LubricantRow
 
 _MOST = 200  # rows in the list
 _COLUMNS: dict[Kind, tuple[str, ...]] = {
@@ -31,15 +29,6 @@ _HINT: dict[Kind, str] = {
     "bearing": 'name, maker, series, a dimension, "d=40" or "C>30"',
     "lubricant": "name, base oil, law",
 }
-
-
-@dataclass(frozen=True)
-class Taken:
-    """What was chosen: a bearing with its maker, or a lubricant."""
-
-    kind: Kind
-    name: str
-    maker: str = ""
 
 
 class CatalogueScreen(Screen[Taken | None]):
@@ -72,9 +61,9 @@ class CatalogueScreen(Screen[Taken | None]):
     CatalogueScreen.-wide #drawing { width: 54; }
     """
 
-    def __init__(self, catalogue: Catalogue, kind: Kind, text: str = "") -> None:
+    def __init__(self, catalogue: Catalogue, kind: Kind, designation: str = "") -> None:
         super().__init__()
-        self.catalogue, self._kind, self._text = catalogue, kind, text
+        self.catalogue, self._kind, self._before = catalogue, kind, designation
         self._bearings: list[BearingRow] = []
         self._lubricants: list[LubricantRow] = []
         self._timer: Timer | None = None
@@ -83,7 +72,7 @@ class CatalogueScreen(Screen[Taken | None]):
         """Lay out filter, list and details."""
         with Horizontal(id="find"):
             yield Static(id="kind")
-            yield Input(self._text, compact=True, select_on_focus=False)
+            yield Input(compact=True, select_on_focus=False)
             yield Static(id="count")
         yield DataTable(cursor_type="row", zebra_stripes=False)
         with VerticalScroll(id="details"), Horizontal():
@@ -197,7 +186,8 @@ class CatalogueScreen(Screen[Taken | None]):
         if row is None:
             self.app.bell()
         elif self._kind == "bearing":
-            self.dismiss(Taken("bearing", row.designation, row.maker))  # type: ignore[union-attr]
+            typed = self.query_one(Input).value
+            self.dismiss(bearing_taken(row, typed, self._before, self.catalogue))  # type: ignore[arg-type]
         else:
             self.dismiss(Taken("lubricant", row.name))  # type: ignore[union-attr]
 

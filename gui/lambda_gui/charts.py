@@ -11,14 +11,13 @@ from rich.text import Text
 from textual.color import Color
 from textual.widget import Widget
 
-from lambda_core.registry.chart import Axis, Panel, Series
+from lambda_core.views.chart import Axis, Panel, Series
 from lambda_gui.maps import FieldPlot
 from lambda_gui.plots import Colour, Plot, labels_of, padded, round_numbers, series_colour
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from lambda_core.domain.arrays import FloatArray
 
-    FloatArray = NDArray[np.float64]
 
 _ROLES = {
     "inner": "primary",

@@ -9,15 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.errors import Problem
-from lambda_core.schema.case import Case
-from lambda_core.schema.problems import model_at
+from lambda_core.api import Case
+from lambda_core.domain.errors import Problem
+from lambda_core.domain.option_tree import model_at
 from lambda_gui.outline import Keys, Node
 
 if TYPE_CHECKING:
-    from lambda_core.physics.describe import ValueReport
-    from lambda_core.physics.model import BearingModel
-    from lambda_core.registry.catalogue import Catalogue
+    from lambda_core.api import BearingModel, Catalogue, ValueReport
 
 
 @dataclass(frozen=True)
@@ -27,6 +25,7 @@ class Check:
     problems: tuple[Problem, ...] = ()
     model: BearingModel | None = None
     values: tuple[ValueReport, ...] = ()
+    warnings: tuple[str, ...] = ()  # where a valid case leaves what bearing, oil and laws are made for
 
 
 class Checker:
@@ -39,7 +38,7 @@ class Checker:
     def check(self, tables: Mapping[str, Any], folder: Path | None) -> Check:
         """Check tables as they would stand in a file; heavy parts are imported at the first call."""
         from lambda_core import api
-        from lambda_core.physics.describe import value_reports
+        from lambda_core.api import operating_warnings, value_reports
 
         try:
             with self._turn:
@@ -50,7 +49,7 @@ class Checker:
             return Check(tuple(sorted(error.problems, key=_order)))
         except api.LambdaError as error:  # a broken catalogue or plugin: nothing can be checked
             return Check((Problem("", str(error)),))
-        return Check((), model, tuple(value_reports(model)))
+        return Check((), model, tuple(value_reports(model)), tuple(operating_warnings(model)))
 
     def close(self) -> None:
         """Release the catalogue; the next check opens it anew, with what has been added meanwhile."""
@@ -62,7 +61,7 @@ class Checker:
 
 def plugin_faults() -> list[str]:
     """Return a sentence for each plugin that is broken; one that was switched off on purpose is none."""
-    from lambda_core.registry.manager import registry
+    from lambda_core.api import registry
 
     return [f"{fault.distribution}: {fault.message}" for fault in registry().faults if fault.is_broken]
 

@@ -22,12 +22,12 @@ def gui(
     """Build cases, run them and look at results in the terminal.
 
     Without CASE it offers an empty model, the case files of this folder and the built-in cases. With --serve open
-    http://localhost:8000 in a browser; end it with Ctrl+C.
+    the address that it prints in a browser; end it with Ctrl+C.
     """
     if not serve:
         # a server gives the builder a screen of its own kind (TEXTUAL_DRIVER)
         if not (sys.stdin.isatty() and sys.stderr.isatty()) and "TEXTUAL_DRIVER" not in os.environ:
-            from lambda_core.errors import UsageError
+            from lambda_core.domain.errors import UsageError
 
             raise UsageError("the builder needs a terminal; lambda-bearing gui --serve shows it in a browser")
         from lambda_gui.app import main
@@ -39,5 +39,10 @@ def gui(
 
     if text := warning(host):
         typer.echo(f"warning: {text}", err=True)
-    typer.echo(f"serving the builder at http://{host}:{port}; end it with Ctrl+C", err=True)
-    start(case, host, port)
+
+    def announce(address: str) -> None:
+        typer.echo(
+            f"serving the builder at {address} (the address lets in: do not pass it on); end it with Ctrl+C", err=True
+        )
+
+    start(case, host, port, announce)

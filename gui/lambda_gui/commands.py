@@ -7,8 +7,8 @@ from functools import partial
 
 from textual.command import DiscoveryHit, Hit, Hits, Provider
 
-from lambda_core.schema.case import Case
-from lambda_core.schema.problems import field_at, option_paths
+from lambda_core.api import Case
+from lambda_core.domain.option_tree import field_at, option_paths
 from lambda_gui.builder import BuilderScreen
 
 _LINE = 70  # characters that fit under a hit on a narrow screen

@@ -11,7 +11,7 @@ from textual.widgets import Static
 from lambda_gui.checking import Check
 
 if TYPE_CHECKING:
-    from lambda_core.simulate.estimate import Estimate
+    from lambda_core.api import Estimate
 
 Fact = tuple[str, str, str]  # name, number, unit
 
@@ -55,11 +55,31 @@ class Derived(Static):
             self.update(self._mistakes(self._check))
         else:
             geometry = list(_geometry(self._check))
+            warned = self.warnings()
             numbers = list(_numbers(self._estimate)) if self._estimate else []
-            if self.size.height > len(geometry) + len(numbers) + 1:
-                self.update(self._listed(geometry, numbers))
+            if self.size.height > len(geometry) + len(numbers) + 1 + 2 * len(warned):
+                told = self._listed(geometry, numbers)
             else:
-                self.update(self._inline(geometry[1:], numbers))  # the balls stand in the tree
+                told = self._inline([] if warned else geometry[1:], numbers)  # the balls stand in the tree
+            self.update(Text("\n").join([*self._warned(warned, told), told]))
+
+    def warnings(self) -> list[str]:
+        """Return where the case leaves what bearing, oil and laws are made for: before solving, and after."""
+        if self._check is None or self._check.model is None:
+            return []
+        solved = self._estimate.equilibrium.warnings if self._estimate is not None and self.is_current else []
+        return list(dict.fromkeys([*self._check.warnings, *solved]))
+
+    def _warned(self, warnings: Sequence[str], told: Text) -> list[Text]:
+        """Write the warnings, as whole sentences as far as they leave room for the numbers, else cut to one line."""
+        width, colour = max(20, self.size.width), self.app.theme_variables["warning"]
+        room = max(1, self.size.height - len(told.wrap(self.app.console, width)))
+        lines = [Text.assemble(("▲ ", colour), warning) for warning in warnings]
+        if sum(len(line.wrap(self.app.console, width)) for line in lines) <= room:
+            return lines
+        for line in lines:
+            line.truncate(width, overflow="ellipsis")
+        return lines if len(lines) <= room else [*lines[: room - 1], Text(f"▲ {len(lines)} warnings: F8", colour)]
 
     def _mistakes(self, check: Check) -> Text:
         """Write as many mistakes as there is room for, each as a whole; F8 goes to the others."""
@@ -104,7 +124,7 @@ class Derived(Static):
         text = Text()
         for facts, style in ((geometry, ""), (numbers, self._style())):
             for name, number, unit in facts:
-                text.append(f"{_LONG.get(name, name):<19}", style="dim").append(f"{number:>12}", style=style)
+                text.append(f"{_LONG.get(name, name):<22}", style="dim").append(f"{number:>12}", style=style)
                 text.append(f" {unit}\n", style="dim")
         if self._say:
             text.append(self._say, style="dim italic")
@@ -115,14 +135,16 @@ _LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
 _LONG = {
     "pitch": "pitch diameter",
     "clearance": "radial clearance",
-    "α": "contact angle",
-    "Q": "largest ball load",
+    "α max": "largest contact angle",
+    "Q max": "largest contact load",
     "p": "largest pressure",
     "h": "film",
     "Λ": "Lambda",
     "κ": "viscosity ratio κ",
     "L10": "rating life L10h",
+    "S0": "static safety",
     "M ≈": "friction torque ≈",
+    "SKF": "  after SKF",
     "run ≈": "run takes ≈",
 }
 
@@ -142,8 +164,8 @@ def _numbers(estimate: Estimate) -> Iterable[Fact]:
     loaded = [contact for contact in state.contacts if contact.load_N > 0.01 * state.max_load_N]
     angles = [abs(contact.contact_angle_deg) for contact in loaded]
     if angles:
-        yield "α", f"{max(angles):.1f}", "°"
-    yield "Q", grouped(state.max_load_N), "N"
+        yield "α max", f"{max(angles):.1f}", "°"
+    yield "Q max", grouped(state.max_load_N), f"N {state.max_load_ring}"
     yield "p", f"{state.max_pressure_GPa:.2f}", "GPa"
     if state.film_um:
         yield "h", between(state.film_um, 2), "um"
@@ -153,8 +175,13 @@ def _numbers(estimate: Estimate) -> Iterable[Fact]:
     if estimate.rating_life_h is not None:
         life = float(f"{estimate.rating_life_h:.2g}")
         yield "L10", grouped(life) if life < _LONG_LIFE else f"> {grouped(_LONG_LIFE)}", "h"
+    rating = estimate.rating
+    if rating.static_safety is not None:
+        yield "S0", f"{rating.static_safety:.1f}", ""
     if state.friction_torque_Nmm is not None:
         yield "M ≈", grouped(state.friction_torque_Nmm), "N mm"
+    if rating.skf_torque_Nmm is not None:
+        yield "SKF", grouped(rating.skf_torque_Nmm), "N mm"
     if estimate.run_s is not None:
         yield "run ≈", duration(estimate.run_s), ""
 

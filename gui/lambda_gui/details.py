@@ -9,7 +9,7 @@ from rich.text import Text
 if TYPE_CHECKING:
     from lambda_db.catalogue import SqlCatalogue
 
-    from lambda_core.registry.catalogue import BearingRow, Catalogue, LubricantRow
+    from lambda_core.api import BearingRow, Catalogue, LubricantRow
 
 
 class Sources:

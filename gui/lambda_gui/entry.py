@@ -9,7 +9,7 @@ from typing import Any
 from textual.suggester import Suggester
 from textual.widgets import Input
 
-from lambda_core.schema.cards import FieldCard
+from lambda_core.api import FieldCard
 
 _BARE = re.compile(r"^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(\s*)([A-Za-z]*)$")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from textual import work
 from textual.screen import Screen
 
-from lambda_core.errors import LambdaError
+from lambda_core.domain.errors import LambdaError
 from lambda_gui.dialogs import AskText
 from lambda_gui.helper import Helper
 
@@ -65,7 +65,7 @@ class ExportScreen(Screen[None]):
 
     @work
     async def _ask_case(self, path: Path) -> None:
-        from lambda_core.schema.case_writer import save_text
+        from lambda_core.api import save_text
 
         try:
             text = await self._helper.ask("case_text", path=str(path))

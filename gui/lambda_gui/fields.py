@@ -10,7 +10,7 @@ from textual.containers import Horizontal
 from textual.widget import Widget
 from textual.widgets import Checkbox, Input, Static, TextArea
 
-from lambda_core.schema.cards import FieldCard
+from lambda_core.api import FieldCard
 from lambda_gui.choice import Choice, unset
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.entry import Entry, text_of, value_of

@@ -15,23 +15,24 @@ from textual.message import Message
 from textual.widget import Widget
 from textual.widgets import Button, Input, Static
 
-from lambda_core.schema.cards import FieldCard, field_card
-from lambda_core.schema.problems import members
+from lambda_core.api import FieldCard, field_card
+from lambda_core.domain.elements import DOFS
+from lambda_core.domain.option_tree import members
 from lambda_gui.around import CaseAround
 from lambda_gui.checking import by_place
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.details import Sources
 from lambda_gui.fields import ChoiceRow, ParagraphRow, TextRow, row_for
 from lambda_gui.laws import LawRow, law_choice_row, law_choices
-from lambda_gui.outline import DOFS, Keys, Node, table_model
+from lambda_gui.outline import Keys, Node, table_model
 from lambda_gui.parts import FreedomRow, MaterialRow
 from lambda_gui.places import Option
 from lambda_gui.rows import Row, Stepped
 from lambda_gui.signals import SignalRow
 
 if TYPE_CHECKING:
-    from lambda_core.errors import Problem
-    from lambda_core.schema.draft import Draft
+    from lambda_core.api import Draft
+    from lambda_core.domain.errors import Problem
 
 _NAMES = {"bearing.designation": "bearing", "lubricant.name": "lubricant"}
 

@@ -10,7 +10,7 @@ from textual.widgets import Static
 from lambda_gui.checking import Check
 
 if TYPE_CHECKING:
-    from lambda_core.schema.draft import Draft
+    from lambda_core.api import Draft
 
 
 class Head(Static):
@@ -38,7 +38,10 @@ class Head(Static):
         if count:
             right.append(f"▲ {count} mistake{'s' * (count > 1)}  F8", style=colours["error"])
         elif check.model is not None:
-            right.append("ready", style=colours["success"])
+            beyond = len(check.warnings)
+            right.append("ready", style=colours["warning" if beyond else "success"])
+            if beyond:
+                right.append(f", ▲ {beyond} warning{'s' * (beyond > 1)}  F8", style=colours["warning"])
             right.append(f"  {len(check.model.assumptions)} assumptions", style="dim")
         if running:
             right = Text.assemble((running, "bold"), "   ", right)

@@ -11,10 +11,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.errors import LambdaError
+from lambda_core.domain.errors import LambdaError
 
 if TYPE_CHECKING:
-    from lambda_core.simulate.estimate import Estimate
+    from lambda_core.api import Estimate
 
 _STARTS = 3  # a process that keeps dying is not started for ever
 
@@ -75,7 +75,7 @@ class Helper:
         if self._deaths == _STARTS:
             raise LambdaError("the helper process has ended several times and is not started again")
         pipe, null = asyncio.subprocess.PIPE, asyncio.subprocess.DEVNULL
-        command = (sys.executable, "-m", "lambda_gui.helper_process")
+        command = (sys.executable, "-P", "-m", "lambda_gui.helper_process")
         try:
             self._process = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe, stderr=null)
         except OSError as error:

@@ -97,14 +97,14 @@ def main() -> None:
 
 
 def _answer(work: str, arguments: dict[str, Any], reply: Callable[[str, Any], None]) -> None:
-    from lambda_core.errors import LambdaError
+    from lambda_core.domain.errors import LambdaError
 
     try:
         found = _WORK[work](lambda text: reply("say", text), **arguments)
     except LambdaError as error:
         reply("error", str(error))
     except Exception as error:  # a plugin's view may fail in any way
-        from lambda_core.registry.faults import describe
+        from lambda_core.domain.plugin_errors import describe
 
         reply("error", f"{work} failed: {describe(error)}")
     else:

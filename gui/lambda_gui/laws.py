@@ -9,10 +9,9 @@ from rich.text import Text
 from textual.widget import Widget
 from textual.widgets import Static
 
-from lambda_core.errors import LambdaError
-from lambda_core.registry.roles import DEFAULT_MODELS
-from lambda_core.schema.cards import FieldCard, field_card
-from lambda_core.schema.modelling import Models
+from lambda_core.api import FieldCard, Models, field_card
+from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.roles import DEFAULT_MODELS
 from lambda_gui.branch import Branch
 from lambda_gui.choice import Choice, unset
 from lambda_gui.choice import Entry as ChoiceEntry
@@ -23,8 +22,7 @@ from lambda_gui.places import Option
 from lambda_gui.rows import Left, Surroundings
 
 if TYPE_CHECKING:
-    from lambda_core.registry.survey import ModelCard
-    from lambda_core.schema.draft import Draft
+    from lambda_core.api import Draft, ModelCard
 
 _OWN = "lambda-bearing"
 

@@ -11,15 +11,14 @@ from textual import work
 from textual.screen import Screen
 from textual.timer import Timer
 
-from lambda_core.errors import LambdaError
+from lambda_core.domain.errors import LambdaError
 from lambda_gui.around import CaseAround
 from lambda_gui.checking import Check, Checker, plugin_faults
 from lambda_gui.helper import Estimator
 from lambda_gui.recovery import Keeper
 
 if TYPE_CHECKING:
-    from lambda_core.schema.draft import Draft
-    from lambda_core.simulate.estimate import Estimate
+    from lambda_core.api import Draft, Estimate
 
 _CHECK_AFTER = 0.1  # of quiet [s]
 _KEEP_AFTER = 2.0  # of unsaved work [s]

@@ -10,12 +10,10 @@ from rich.text import Text
 from textual.color import Color
 from textual.widget import Widget
 
-from lambda_core.registry.chart import Field, Panel
+from lambda_core.views.chart import Field, Panel
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    FloatArray = NDArray[np.float64]
+    from lambda_core.domain.arrays import FloatArray
 
 
 class FieldPlot(Widget):

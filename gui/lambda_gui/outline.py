@@ -13,14 +13,14 @@ from typing import Literal
 
 from pydantic import BaseModel
 
-from lambda_core.registry.roles import ROLES
-from lambda_core.schema.case import Case
-from lambda_core.schema.problems import members, model_at
+from lambda_core.api import Case
+from lambda_core.domain.elements import DOFS
+from lambda_core.domain.option_tree import members, model_at
+from lambda_core.domain.roles import ROLES
 
 Keys = tuple[str, ...]
 Kind = Literal["form", "roles", "role", "markers", "marker"]
 
-DOFS = ("x", "y", "z", "tilt_y", "tilt_z", "spin")
 BODIES = {"inner_ring": "Inner ring", "outer_ring": "Outer ring", "cage": "Cage"}
 ELEMENTS = {
     "ball_inner": "Ball - inner",
@@ -42,6 +42,7 @@ SHORT = {
     "elastic_hysteresis": "hysteresis",
     "asperity_load": "asperities",
     "boundary_friction": "boundary",
+    "supply": "supply",
     "cage_contact": "cage",
     "fluid_drag": "drag",
 }
@@ -77,6 +78,8 @@ class Node:
         Over the form; the title where nothing else is given.
     short : str
         Title where the tree is narrow; the title where nothing else is given.
+    in_file : list of tuple
+        Places that the node answers for but has no row for: they are written in the case's file.
     """
 
     key: str
@@ -89,6 +92,7 @@ class Node:
     element: str = ""
     heading: str = ""
     short: str = ""
+    in_file: list[Keys] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self.heading = self.heading or self.title
@@ -103,7 +107,7 @@ class Node:
     @cached_property
     def places(self) -> list[Keys]:
         """Places in the case that this node answers for."""
-        found = [place for group in self.groups for place in group.fields]
+        found = [place for group in self.groups for place in group.fields] + self.in_file
         if self.kind == "role":
             found += list(self.law_places)
         if self.kind in ("markers", "marker"):
@@ -130,6 +134,7 @@ def outline(markers: tuple[str, ...] = ()) -> list[Node]:
         _form("depth", "Modelling depth", ("depth",)),
         _form("solver", "Solver", ("solver",)),
         _form("output", "Outputs", ("output",)),
+        _electric(),
     ]
 
 
@@ -219,7 +224,32 @@ def _lubricant() -> Node:
         _form("lubricant.properties", "Own properties", ("lubricant", "properties")),
         _form("surface", "Surfaces", ("surface",)),
         _form("bearing.temperatures", "Temperatures", ("bearing", "temperatures")),
+        _thermal(),
     ]
+    return node
+
+
+def _thermal() -> Node:
+    node = _form("thermal", "Thermal network", ("thermal",))
+    node.help += "; nodes and links are written in the file"
+    node.in_file = [("thermal", "nodes"), ("thermal", "links")]
+    return node
+
+
+def _electric() -> Node:
+    node = _form("electric", "Electric circuit", ("electric",))
+    tables = {
+        "inverter": "Inverter",
+        "sine": "Sine",
+        "step": "Step",
+        "series": "Measured series",
+        "machine": "Machine",
+        "grounding": "Grounding",
+        "film": "Films",
+        "breakdown": "Breakdown",
+        "discharge": "Arcs",
+    }
+    node.children = [_form(f"electric.{name}", title, ("electric", name)) for name, title in tables.items()]
     return node
 
 

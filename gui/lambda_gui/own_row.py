@@ -13,10 +13,9 @@ from textual.containers import VerticalScroll
 from textual.screen import ModalScreen
 from textual.widgets import Footer, Static
 
-from lambda_core.errors import LambdaError
-from lambda_core.registry.catalogue import BearingRow, LubricantRow
-from lambda_core.schema.cards import FieldCard, Kind
-from lambda_core.schema.units import UNITS
+from lambda_core.api import BearingRow, FieldCard, Kind, LubricantRow
+from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.units import UNITS
 from lambda_gui.fields import row_for
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.outline import Keys

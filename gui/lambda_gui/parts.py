@@ -7,9 +7,8 @@ from collections.abc import Iterator
 from pydantic import BaseModel
 from textual.widget import Widget
 
-from lambda_core.schema.cards import FieldCard, field_card
-from lambda_core.schema.parts import InlineMaterial
-from lambda_core.schema.problems import members
+from lambda_core.api import FieldCard, InlineMaterial, field_card
+from lambda_core.domain.option_tree import members
 from lambda_gui.branch import Branch
 from lambda_gui.choice import Choice, unset
 from lambda_gui.choice import Entry as ChoiceEntry

@@ -5,7 +5,7 @@ from __future__ import annotations
 from copy import deepcopy
 from typing import Any, Protocol
 
-from lambda_core.schema.draft import Draft
+from lambda_core.api import Draft
 from lambda_gui.outline import Keys
 
 

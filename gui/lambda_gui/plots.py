@@ -10,10 +10,8 @@ from textual.color import Color
 from textual_plotext import PlotextPlot
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    pass
 
-    FloatArray = NDArray[np.float64]
 
 Colour = tuple[int, int, int]
 _MOST_TICKS = 8  # tried to find two round numbers within narrow limits

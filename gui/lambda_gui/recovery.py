@@ -12,12 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lambda_core.errors import UsageError
-from lambda_core.schema.case_writer import save_text
-from lambda_core.simulate.status import Status, this_process
+from lambda_core.api import Status, save_text, this_process
+from lambda_core.domain.errors import UsageError
 
 if TYPE_CHECKING:
-    from lambda_core.schema.draft import Draft
+    from lambda_core.api import Draft
 
 
 def state_folder() -> Path:

@@ -13,7 +13,7 @@ from textual.containers import Horizontal, Vertical, VerticalScroll
 from textual.widgets import DataTable, Footer, OptionList, Static
 from textual.widgets.option_list import Option
 
-from lambda_core.errors import LambdaError
+from lambda_core.domain.errors import LambdaError
 from lambda_gui.charts import notes_text, shape_of, widget_for
 from lambda_gui.dialogs import AskText
 from lambda_gui.export import SUMMARY, ExportScreen
@@ -21,7 +21,7 @@ from lambda_gui.result_files import results_in, stamp_of
 from lambda_gui.summary_view import summary_view
 
 if TYPE_CHECKING:
-    from lambda_core.registry.chart import ViewData
+    from lambda_core.views.chart import ViewData
 
 _LIVE = 2.0  # how often a result that grows is read again [s]
 

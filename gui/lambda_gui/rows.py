@@ -13,12 +13,12 @@ from textual.message import Message
 from textual.widget import Widget
 from textual.widgets import Static
 
-from lambda_core.schema.cards import FieldCard
+from lambda_core.api import FieldCard
 from lambda_gui.outline import Keys
 from lambda_gui.places import Place
 
 if TYPE_CHECKING:
-    from lambda_core.physics.describe import ValueReport
+    from lambda_core.api import ValueReport
 
 
 @dataclass

@@ -11,7 +11,7 @@ from textual.containers import Horizontal, Vertical
 from textual.screen import Screen
 from textual.widgets import DataTable, Footer, Static
 
-from lambda_core.simulate.text import plus_minus
+from lambda_core.domain.number_text import plus_minus
 from lambda_gui.derived import duration
 from lambda_gui.traces import CageTrace, LoadTrace, TorqueTrace, Trace
 

@@ -19,17 +19,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from lambda_core.errors import UsageError
-from lambda_core.simulate.status import Status, identity
+from lambda_core.api import Status, process_identity
+from lambda_core.domain.errors import UsageError
 from lambda_gui.recovery import state_folder
 
 if TYPE_CHECKING:
-    from lambda_core.simulate.progress import Progress
+    from lambda_core.api import Progress
 
 State = Literal["waiting", "running", "done", "stopped", "failed"]
 
 _KEPT = 4000  # points of the live traces; older ones are thinned out
-_PROGRAM = (sys.executable, "-m", "lambda_cli")
+_PROGRAM = (sys.executable, "-P", "-m", "lambda_cli")
 _CONVERGED, _PARTIAL, _INTERRUPTED = 0, 5, 130
 
 
@@ -73,7 +73,7 @@ class Run:
                     stderr=said,
                     start_new_session=True,
                 )
-            self.process = identity(self._child.pid)
+            self.process = process_identity(self._child.pid)
             (self.folder / "process").write_text(json.dumps(self.process), encoding="utf-8")
         except OSError as error:
             self.state, self.message = "failed", f"cannot be started: {error.strerror}"
@@ -121,7 +121,7 @@ class Run:
         return bool(lines)
 
     def _take(self, line: str) -> None:
-        from lambda_core.simulate.progress import Progress
+        from lambda_core.api import Progress
 
         try:
             found: dict[str, Any] = json.loads(line)
@@ -181,10 +181,10 @@ class Queue:
         Raises
         ------
         UsageError
-            When the case cannot be written aside or the folder takes no files.
+            When the case cannot be written aside or the folder is not writable.
         """
         if not os.access(folder, os.W_OK | os.X_OK):
-            raise UsageError(f"the folder {folder} takes no files: save the case in another one first")
+            raise UsageError(f"the folder {folder} is not writable: save the case in another one first")
         own = state_folder() / "runs" / f"{time.strftime('%Y%m%d-%H%M%S')}-{os.getpid()}-{len(self.runs)}"
         run = Run(name, self._free(folder, name), own)
         try:

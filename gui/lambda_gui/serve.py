@@ -6,8 +6,9 @@ import contextlib
 import ipaddress
 import shlex
 import sys
+from collections.abc import Callable
 
-from lambda_core.errors import UsageError
+from lambda_core.domain.errors import UsageError
 
 LOOPBACK = "localhost"
 
@@ -27,13 +28,16 @@ def warning(host: str) -> str:
     if is_loopback(host):
         return ""
     return (
-        f"everybody who can reach {host} can read and write files as you and start programs: there is no password and "
-        "no encryption. Put a proxy with both in front of it, or use an ssh tunnel to localhost instead."
+        f"everybody who can reach {host} and learns the address can read and write files as you and start programs: "
+        "there is no password and no encryption. Put a proxy with both in front of it, or use an ssh tunnel to "
+        "localhost instead."
     )
 
 
-def serve(case: str | None, host: str, port: int) -> None:
+def serve(case: str | None, host: str, port: int, announce: Callable[[str], None]) -> None:
     """Serve the builder until Ctrl+C; every browser tab is a builder of its own.
+
+    `announce` is called with the address once it can be opened: it has a secret in it.
 
     Raises
     ------
@@ -41,12 +45,13 @@ def serve(case: str | None, host: str, port: int) -> None:
         When textual-serve is not installed, or the port is taken.
     """
     try:
-        from textual_serve.server import Server
+        from lambda_gui.door import LockedServer
     except ImportError:
         raise UsageError('serving needs another package: pip install "lambda-bearing[serve]"') from None
-    command = [sys.executable, "-m", "lambda_cli", "gui", *([case] if case else [])]
+    names = {host, LOOPBACK, "127.0.0.1", "::1"} if is_loopback(host) else set()
+    command = [sys.executable, "-P", "-m", "lambda_cli", "gui", *([case] if case else [])]
     try:
         with contextlib.redirect_stdout(sys.stderr):  # the server talks; stdout is for data
-            Server(shlex.join(command), host=host, port=port, title="lambda-bearing").serve()
+            LockedServer(shlex.join(command), host, port, "lambda-bearing", names, announce).serve()
     except OSError as error:
         raise UsageError(f"cannot serve at {host}:{port}: {error.strerror}") from None

@@ -12,9 +12,8 @@ from textual.containers import Horizontal, Vertical
 from textual.widget import Widget
 from textual.widgets import Button, Input, Static
 
-from lambda_core.schema.cards import FieldCard, field_card
-from lambda_core.schema.problems import members
-from lambda_core.schema.signals import KINDS
+from lambda_core.api import SIGNAL_KINDS, FieldCard, field_card
+from lambda_core.domain.option_tree import members
 from lambda_gui.branch import Branch
 from lambda_gui.choice import Choice
 from lambda_gui.choice import Entry as ChoiceEntry
@@ -61,7 +60,7 @@ class SignalRow(Branch):
     def _kinds(self) -> list[ChoiceEntry]:
         """Return the kinds; a constant, which is a value written at length, only where a file has it."""
         now = self._kind()
-        kinds = [kind for kind in KINDS if kind in self._tables and (kind != "constant" or now == "constant")]
+        kinds = [kind for kind in SIGNAL_KINDS if kind in self._tables and (kind != "constant" or now == "constant")]
         return [ChoiceEntry(kind, kind, _SIGNALS[kind]) for kind in ("value", *kinds)]
 
     def _kind(self) -> str:

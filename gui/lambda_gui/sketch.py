@@ -13,7 +13,7 @@ from textual.widgets import Static
 from lambda_gui.axes import SIGNS, axes_sketch
 
 if TYPE_CHECKING:
-    from lambda_core.physics.model import BearingModel, Geometry
+    from lambda_core.api import BearingModel, Geometry
     from lambda_gui.outline import Node
 
 _POINTS = 4  # along each side of a pixel, for smooth edges

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.registry.roles import DEFAULT_MODELS
-from lambda_gui.outline import DOFS, Keys, Node, table_model
+from lambda_core.domain.elements import DOFS
+from lambda_core.domain.roles import DEFAULT_MODELS
+from lambda_gui.outline import Keys, Node, table_model
 
 if TYPE_CHECKING:
-    from lambda_core.schema.draft import Draft
+    from lambda_core.api import Draft
     from lambda_gui.around import CaseAround
 
 

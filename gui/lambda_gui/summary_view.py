@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 from rich.text import Text
 
-from lambda_core.simulate.text import interval, number, plus_minus
+from lambda_core.domain.number_text import interval, number, plus_minus
 
 if TYPE_CHECKING:
-    from lambda_core.simulate.summary import Summary
+    from lambda_core.api import Summary
 
 _LABEL = 16
 
@@ -31,16 +31,22 @@ def summary_view(summary: Summary, colours: Mapping[str, str]) -> Text:
         text.append(f"mean over {summary.revolutions_averaged} cage revolutions, 95 % confidence\n", style="dim")
     for reason in summary.reasons:
         text.append(f"  {reason}\n", style=colours["warning"])
+    for warning in summary.warnings:
+        text.append("▲ ", style=colours["warning"]).append(f"{warning}\n")
     _breakdown(text, summary)
     x, y, z = (number(value, 2) for value in summary.inner_ring_displacement_um)
     slip = summary.cage_speed_over_epicyclic
     rows: Sequence[tuple[str, str, str]] = (
+        ("power loss", number(summary.power_loss_W, 1), "W"),
+        *_rated(summary),
         ("input torque", number(summary.input_torque_Nmm), "N mm"),
         ("cage speed", number(summary.cage_speed_ratio, 4), "of inner ring"),
         ("  slip", "-" if slip is None else f"{100.0 * (1.0 - slip):.2f}", "% against epicyclic"),
         ("inner ring", f"{x}  {y}  {z}", "um (x, y, z)"),
+        ("tilt", "  ".join(number(angle, 2) for angle in summary.inner_ring_tilt_mrad), "mrad (y, z)"),
         ("p_max", number(summary.max_pressure_GPa, 3), "GPa"),
-        ("film", interval(summary.film_um, 2), "um"),
+        ("smallest film", number(summary.min_film_um, 2), "um (minimum)"),
+        ("central film", interval(summary.film_um, 2), "um"),
         ("Lambda", interval(summary.film_parameter, 1), ""),
         ("C of contacts", interval(summary.contact_capacitance_pF, 0), "pF"),
         ("C of bearing", number(summary.bearing_capacitance_nF, 3), "nF"),
@@ -54,6 +60,21 @@ def summary_view(summary: Summary, colours: Mapping[str, str]) -> Text:
         for assumption in summary.assumptions:
             text.append("· ", style="dim").append(f"{assumption}\n")
     return text
+
+
+def _rated(summary: Summary) -> list[tuple[str, str, str]]:
+    """Return what standards and catalogues say beside the run."""
+    rating = summary.rating
+    if rating is None:
+        return []
+    return [
+        ("  SKF", number(rating.skf_torque_Nmm, 0), "N mm"),
+        ("  Schaeffler", number(rating.schaeffler_torque_Nmm, 0), "N mm"),
+        ("life L10rh", number(rating.reference_life_h, 0), "h (ISO/TS 16281)"),
+        ("life L10h", number(rating.basic_life_h, 0), "h (ISO 281)"),
+        ("static safety", number(rating.static_safety, 1), "C0/P0"),
+        ("kappa", number(rating.viscosity_ratio, 1), ""),
+    ]
 
 
 def _breakdown(text: Text, summary: Summary) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lambda_core.simulate.progress import Progress
+from lambda_core.api import Progress
 from lambda_gui.plots import Plot, padded
 
 _LEGEND = 12  # lines that a plot needs for a legend

@@ -16,8 +16,8 @@ from lambda_gui.outline import Keys, Node, outline
 from lambda_gui.summaries import summary
 
 if TYPE_CHECKING:
-    from lambda_core.errors import Problem
-    from lambda_core.schema.draft import Draft
+    from lambda_core.api import Draft
+    from lambda_core.domain.errors import Problem
     from lambda_gui.around import CaseAround
 
 _ROOMY = 44  # width of the tree from which on roles have their full names

@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lambda_core.errors import UsageError, unknown_name
-from lambda_core.registry.registry import Registry
-from lambda_core.registry.scene import Scene
+from lambda_core.discovery.registry import Registry
+from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.domain.files import check_target
+from lambda_core.views.scene import Scene
 
 Image = NDArray[np.uint8]
 Report = Callable[[int, int], None]
@@ -32,7 +33,7 @@ def check_format(path: Path) -> str:
 
 
 def check_pace(turns: float, frames: int, fps: float) -> None:
-    """Refuse numbers that make no film.
+    """Refuse numbers of frames out of range.
 
     Raises
     ------
@@ -42,7 +43,7 @@ def check_pace(turns: float, frames: int, fps: float) -> None:
     if not 0.0 < turns < np.inf:
         raise UsageError(f"{turns:g} revolutions of the cage cannot be shown: choose a positive number")
     if not 2 <= frames <= MOST_FRAMES:
-        raise UsageError(f"{frames} frames make no film: choose 2 to {MOST_FRAMES}")
+        raise UsageError(f"{frames} frames are out of range: choose 2 to {MOST_FRAMES}")
     if not 1.0 <= fps <= FASTEST:
         raise UsageError(f"{fps:g} frames per second cannot be played: choose 1 to {FASTEST:g}")
 
@@ -63,6 +64,7 @@ def write_animation(registry: Registry, scene: Scene, path: Path, fps: float, re
         For an unknown format, or a file that cannot be written.
     """
     name = check_format(path)
+    check_target(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         if name == ".glb":

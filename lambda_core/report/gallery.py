@@ -9,11 +9,12 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from lambda_core.errors import UsageError, unknown_name
-from lambda_core.registry.chart import ViewData
-from lambda_core.registry.method import NotApplicable
-from lambda_core.registry.registry import Registry
-from lambda_core.registry.view import Subject, View
+from lambda_core.discovery.registry import Registry
+from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.domain.files import check_target
+from lambda_core.views.chart import ViewData
+from lambda_core.views.method import NotApplicable
+from lambda_core.views.view import Subject, View
 
 FORMATS = ("svg", "png", "pdf")
 _RESOLUTION = 160  # of PNG [dots per inch]
@@ -113,9 +114,9 @@ def data_of(view: View, subject: Any, options: Mapping[str, Any]) -> ViewData:
 
 
 def every(registry: Registry, subject: Any, kind: Subject) -> Iterator[tuple[View, ViewData | NotApplicable]]:
-    """Yield every view of a kind of subject with its data, or with the reason why it shows nothing."""
+    """Yield every view that is offered for a subject with its data, or with the reason why it shows nothing."""
     for view in registry.views.values():
-        if view.subject == kind:
+        if view.subject == kind and (view.offered is None or view.offered(subject)):
             try:
                 yield view, data_of(view, subject, {})
             except NotApplicable as reason:
@@ -133,13 +134,13 @@ def write(registry: Registry, data: ViewData, folder: Path, stem: str, formats: 
     for name in formats:
         if name not in FORMATS:
             raise UsageError(unknown_name("format", name, FORMATS))
-    figure = registry.figure(registry.view(data.view), data)
+    figure = registry.figure(registry.views.get(data.view), data)
     written = []
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name in formats:
             path = folder / f"{stem}-{data.view}.{name}"
-            figure.savefig(path, format=name, **({"dpi": _RESOLUTION} if name == "png" else {}))
+            figure.savefig(check_target(path), format=name, **({"dpi": _RESOLUTION} if name == "png" else {}))
             written.append(path)
     except OSError as error:
         raise UsageError(f"cannot write into {folder}: {error.strerror}") from None

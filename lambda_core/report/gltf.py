@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lambda_core.registry.scene import Scene
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.views.scene import Scene
 
-FloatArray = NDArray[np.float64]
 Surface = tuple[FloatArray, NDArray[np.uint32]]  # places, shape (n, 3); triangles, shape (m, 3)
 _FLOAT, _INDEX = 5126, 5125  # glTF component types: float32, uint32
 _AROUND, _ACROSS = 96, 16  # segments of rings; of a ball half as many as around

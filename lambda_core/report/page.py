@@ -9,11 +9,9 @@ from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.errors import UsageError
-from lambda_core.registry.chart import ViewData
-from lambda_core.registry.method import NotApplicable
-from lambda_core.registry.registry import Registry
-from lambda_core.registry.table import StudyTable
+from lambda_core.discovery.registry import Registry
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.files import check_target
 from lambda_core.report.gallery import every
 from lambda_core.report.tables import (
     Table,
@@ -22,18 +20,24 @@ from lambda_core.report.tables import (
     convergence,
     key_figures,
     law_table,
+    run_figures,
     study_points,
     value_tables,
     written,
 )
+from lambda_core.views.chart import ViewData
+from lambda_core.views.method import NotApplicable
+from lambda_core.views.table import StudyTable
 
 if TYPE_CHECKING:
-    from lambda_core.simulate.citation import Citation
-    from lambda_core.simulate.results import Result
+    from lambda_core.results.citation import Citation
+    from lambda_core.results.reader import Result
 
 TEMPLATE = "page.html.jinja"
 # Views that stand in a chapter of their own.
 _TRUST = ("convergence", "energy-balance")
+# The view that stands on the first page: which balls carry how much.
+_SKETCH = "load-distribution"
 
 
 @dataclass(frozen=True)
@@ -59,7 +63,7 @@ class Inputs:
 
 def run_report(registry: Registry, result: Result) -> str:
     """Return the page about one run."""
-    from lambda_core.simulate.citation import citation
+    from lambda_core.results.citation import citation
 
     summary = result.summary()
     pictures = _pictures(registry, result, "result")
@@ -81,9 +85,11 @@ def run_report(registry: Registry, result: Result) -> str:
         verdict="converged" if summary.converged else "not converged",
         good=summary.converged,
         reasons=summary.reasons,
+        warnings=summary.warnings,
+        sketch=next((p for p in pictures if p.name == _SKETCH and p.svg), None),
         figures=key_figures(summary),
-        tables=(breakdown(summary), contacts(summary)),
-        pictures=[p for p in pictures if p.name not in _TRUST],
+        tables=(breakdown(summary), run_figures(summary), contacts(summary)),
+        pictures=[p for p in pictures if p.name not in (*_TRUST, _SKETCH)],
         trust=[p for p in pictures if p.name in _TRUST],
         trust_tables=(convergence(summary),),
         inputs=inputs,
@@ -95,7 +101,7 @@ def study_report(registry: Registry, table: StudyTable, status: Any, inputs: Inp
 
     Parameters
     ----------
-    status : lambda_core.study.session.StudyStatus
+    status : lambda_core.batch.studies.StudyStatus
         Where it stands.
     definition : str
         The study file.
@@ -120,6 +126,8 @@ def study_report(registry: Registry, table: StudyTable, status: Any, inputs: Inp
         verdict="complete" if complete else "incomplete",
         good=complete,
         reasons=status.reasons,
+        warnings=[],
+        sketch=None,
         figures=figures,
         tables=tuple(tables),
         pictures=_pictures(registry, table, "study"),
@@ -134,8 +142,8 @@ def case_inputs(model: Any) -> Inputs:
     """Return the inputs of a study from the resolved model of its case."""
     from types import SimpleNamespace
 
-    from lambda_core.simulate.citation import citation
-    from lambda_core.simulate.provenance import Provenance
+    from lambda_core.results.citation import citation
+    from lambda_core.results.provenance import Provenance
 
     origin = Provenance(model, {})
     laws, versions = origin.laws(), origin.versions()
@@ -153,7 +161,7 @@ def case_inputs(model: Any) -> Inputs:
 def write_page(text: str, path: Path) -> Path:
     """Write a page; UsageError when that cannot be."""
     try:
-        path.write_text(text, encoding="utf-8")
+        check_target(path).write_text(text, encoding="utf-8")
     except OSError as error:
         raise UsageError(f"cannot write {path}: {error.strerror}") from None
     return path

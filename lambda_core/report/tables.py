@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.registry.table import StudyTable
-from lambda_core.schema.units import show
+from lambda_core.domain.number_text import number, plus_minus
+from lambda_core.domain.units import show
+from lambda_core.results.text import hours
+from lambda_core.views.table import StudyTable
 
 if TYPE_CHECKING:
-    from lambda_core.physics.model import ResolvedValue
+    from lambda_core.system.bearing import ResolvedValue
 
 
 _ROWS = 1000  # of a study's table
@@ -33,24 +36,59 @@ class Table:
 
 
 def key_figures(summary: Any) -> list[tuple[str, str, str]]:
-    """Return what one looks for first: name, number, unit."""
-    torque = written(summary.friction_torque_Nmm)
-    if summary.friction_torque_ci_Nmm is not None:
-        torque += f" ± {summary.friction_torque_ci_Nmm:.2g}"
-    position = ", ".join(written(value) for value in summary.inner_ring_displacement_um)
-    return [
-        ("friction torque", torque, "N mm"),
-        ("input torque", written(summary.input_torque_Nmm), "N mm"),
-        ("cage over inner ring speed", written(summary.cage_speed_ratio), ""),
-        ("cage over kinematic speed", written(summary.cage_speed_over_epicyclic), ""),
-        ("largest pressure", written(summary.max_pressure_GPa), "GPa"),
-        ("smallest film", written(summary.min_film_um), "um"),
-        ("Lambda", "..".join(written(value) for value in summary.film_parameter), ""),
-        ("capacitance of the bearing", written(summary.bearing_capacitance_nF), "nF"),
-        ("inner ring x, y, z", position, "um"),
-        ("energy residual", written(summary.energy_residual), "of input"),
-        ("wall time per revolution", written(summary.wall_per_revolution_s), "s"),
+    """Return what an engineer looks for first: loss, life, safety, lubrication; each name, number, unit."""
+    rating = summary.rating
+    found = [
+        (
+            "friction torque (95 %)",
+            plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm),
+            "N mm",
+        ),
+        ("power loss", rounded(summary.power_loss_W), "W"),
     ]
+    if rating is not None:
+        found += [
+            ("friction torque, SKF's catalogue", rounded(rating.skf_torque_Nmm), "N mm"),
+            ("friction torque, Schaeffler's catalogue", rounded(rating.schaeffler_torque_Nmm), "N mm"),
+            ("rating life L10rh, ISO/TS 16281", _life(rating.reference_life_h), ""),
+            ("rating life L10h, ISO 281", _life(rating.basic_life_h), ""),
+            ("static safety C0/P0, ISO 76", rounded(rating.static_safety, 2), ""),
+            ("viscosity ratio kappa, ISO 281", rounded(rating.viscosity_ratio, 2), ""),
+        ]
+    tilt = ", ".join(number(angle, 2) for angle in summary.inner_ring_tilt_mrad)
+    return [
+        *found,
+        ("smallest minimum film", rounded(summary.min_film_um), "um"),
+        ("Lambda, central film over roughness", "..".join(rounded(v, 2) for v in summary.film_parameter), ""),
+        ("largest contact pressure", rounded(summary.max_pressure_GPa), "GPa"),
+        ("tilt of the inner ring y, z", tilt, "mrad"),
+    ]
+
+
+def run_figures(summary: Any) -> Table:
+    """Return the remaining averages of a run."""
+    position = ", ".join(number(value, 2) for value in summary.inner_ring_displacement_um)
+    rows = (
+        ("input torque", rounded(summary.input_torque_Nmm, 4), "N mm"),
+        ("cage over inner ring speed", rounded(summary.cage_speed_ratio, 4), ""),
+        ("cage over kinematic speed", rounded(summary.cage_speed_over_epicyclic, 4), ""),
+        ("capacitance of the bearing", rounded(summary.bearing_capacitance_nF), "nF"),
+        ("inner ring x, y, z (mean)", position, "um"),
+        ("energy residual", rounded(summary.energy_residual, 2), "of input"),
+    )
+    return Table("averages of the run", ("", "value", "unit"), rows)
+
+
+def _life(life: float | None) -> str:
+    return "–" if life is None else hours(life)
+
+
+def rounded(value: float | None, digits: int = 3) -> str:
+    """Write a number to a few significant digits, thousands in groups; a dash for what does not exist."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    short = float(f"{value:.{digits}g}")
+    return f"{short:,.0f}".replace(",", " ") if abs(short) >= 1000.0 else f"{short:g}"
 
 
 def breakdown(summary: Any) -> Table:

@@ -8,7 +8,7 @@ def test_contract():
 
 from __future__ import annotations
 
-from lambda_core.registry.check import ModelReport
+from lambda_core.laws.check import ModelReport
 from lambda_core.testing.laws import assert_increasing, assert_limit, assert_symmetric, check_model, evaluate
 from lambda_core.testing.trials import method_inputs, run_data
 

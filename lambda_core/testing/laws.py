@@ -2,33 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 from pydantic import BaseModel
 
-from lambda_core.errors import unknown_name
-from lambda_core.registry import check
-from lambda_core.registry.check import ModelReport
-from lambda_core.registry.kernels import compile_kernel
-from lambda_core.registry.manager import registry
-from lambda_core.registry.model import Context, FloatArray, Model
-from lambda_core.registry.par import make_par
-from lambda_core.registry.probe import VECTORS, output_size, trial_context
-from lambda_core.registry.roles import ROLES
-from lambda_core.registry.survey import split_label
+from lambda_core.discovery.manager import registry
+from lambda_core.discovery.survey import split_label
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import unknown_name
+from lambda_core.domain.roles import ROLES
+from lambda_core.laws import check
+from lambda_core.laws.check import ModelReport
+from lambda_core.laws.context import Context
+from lambda_core.laws.kernels import compile_kernel
+from lambda_core.laws.law import Law, law_of
+from lambda_core.laws.par import make_par
+from lambda_core.laws.probe import VECTORS, output_size, trial_context
 
 Parameters = BaseModel | Mapping[str, Any] | None
 
 
-def _model(model: Model | str) -> Model:
-    return registry().model(*split_label(model)) if isinstance(model, str) else model
+AnyLaw = Law | Callable[..., int] | str  # a law, the function below @law(...), or "role/name" of an installed one
+
+
+def _model(model: AnyLaw) -> Law:
+    found = registry().model(*split_label(model)) if isinstance(model, str) else law_of(model)
+    if found is None:
+        raise TypeError(f"{getattr(model, '__name__', model)} is no law: write @law(role, name, ...) above it")
+    return found
 
 
 def check_model(
-    model: Model | str, parameters: Parameters = None, context: Context | None = None, samples: int = 48
+    model: AnyLaw, parameters: Parameters = None, context: Context | None = None, samples: int = 48
 ) -> ModelReport:
     """Assert that a model keeps the contract of its role.
 
@@ -39,8 +47,8 @@ def check_model(
 
     Parameters
     ----------
-    model : Model or str
-        The law, or "role/name" of an installed one.
+    model : function, Law or str
+        The function below ``@law(...)``, the law, or "role/name" of an installed one.
     parameters : pydantic.BaseModel or mapping, optional
         An instance, or what would stand in a case file; default: the model's defaults.
     context : Context, optional
@@ -66,14 +74,14 @@ def check_model(
 
 
 def evaluate(
-    model: Model | str, parameters: Parameters = None, context: Context | None = None, **arguments: ArrayLike
+    model: AnyLaw, parameters: Parameters = None, context: Context | None = None, **arguments: ArrayLike
 ) -> Any:
     """Call a model's compiled kernel once.
 
     Parameters
     ----------
-    model : Model or str
-        The law, or "role/name" of an installed one.
+    model : function, Law or str
+        The function below ``@law(...)``, the law, or "role/name" of an installed one.
     parameters, context
         As for :func:`check_model`; the context of the role's first force element by default.
     **arguments : float or array_like
@@ -122,7 +130,7 @@ def evaluate(
     return outputs if len(outputs) > 1 else outputs[0]
 
 
-def _along(model: Model | str, argument: str, values: ArrayLike, output: int, given: dict[str, Any]) -> FloatArray:
+def _along(model: AnyLaw, argument: str, values: ArrayLike, output: int, given: dict[str, Any]) -> FloatArray:
     """Return one output at each value of `argument` (scalar or the same in every cell)."""
     results = []
     for value in np.atleast_1d(np.asarray(values, np.float64)):
@@ -132,13 +140,13 @@ def _along(model: Model | str, argument: str, values: ArrayLike, output: int, gi
     return np.array(results)
 
 
-def assert_increasing(model: Model | str, argument: str, values: ArrayLike, *, output: int = 0, **given: Any) -> None:
+def assert_increasing(model: AnyLaw, argument: str, values: ArrayLike, *, output: int = 0, **given: Any) -> None:
     """Assert that an output never falls while one argument rises.
 
     Parameters
     ----------
-    model : Model or str
-        The law, or "role/name" of an installed one.
+    model : function, Law or str
+        The function below ``@law(...)``, the law, or "role/name" of an installed one.
     argument : str
         Name of the argument of the role.
     values : array_like
@@ -161,7 +169,7 @@ def assert_increasing(model: Model | str, argument: str, values: ArrayLike, *, o
 
 
 def assert_limit(
-    model: Model | str,
+    model: AnyLaw,
     argument: str,
     value: float,
     expected: float,
@@ -175,8 +183,8 @@ def assert_limit(
 
     Parameters
     ----------
-    model : Model or str
-        The law, or "role/name" of an installed one.
+    model : function, Law or str
+        The function below ``@law(...)``, the law, or "role/name" of an installed one.
     argument : str
         Name of the argument of the role.
     value, expected : float
@@ -200,7 +208,7 @@ def assert_limit(
 
 
 def assert_symmetric(
-    model: Model | str,
+    model: AnyLaw,
     argument: str,
     values: ArrayLike,
     *,
@@ -213,8 +221,8 @@ def assert_symmetric(
 
     Parameters
     ----------
-    model : Model or str
-        The law, or "role/name" of an installed one.
+    model : function, Law or str
+        The function below ``@law(...)``, the law, or "role/name" of an installed one.
     argument : str
         Name of the argument of the role.
     values : array_like

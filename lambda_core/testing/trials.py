@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lambda_core.registry.method import MethodInputs, NotApplicable
-from lambda_core.registry.model import FloatArray
-from lambda_core.registry.probe import trial_context
-from lambda_core.registry.view import RunData
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.laws.probe import trial_context
+from lambda_core.views.method import MethodInputs, NotApplicable
+from lambda_core.views.view import RunData
 
 
 def method_inputs(**changes: Any) -> MethodInputs:

@@ -5,93 +5,102 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from lambda_core.plugins import LazyModel, Model, hookimpl
+from lambda_core.plugins import LazyLaw, hookimpl
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from lambda_core.registry.chart import ViewData
-    from lambda_core.registry.method import Method
-    from lambda_core.registry.scene import Scene
-    from lambda_core.registry.view import Figure, View
+    from lambda_core.plugins import Figure, Method, Scene, View, ViewData
 
-# role -> name -> module:attribute; the first of a role is its default.
+
+# role -> name -> module:function; the first of a role is its default.
 _LAWS: dict[str, dict[str, str]] = {
     "normal_contact": {
-        "hamrock-brewe": "normal_contact:HAMROCK_BREWE",
-        "hertz-exact": "normal_contact:HERTZ_EXACT",
+        "hamrock-brewe": "normal_contact:hamrock_brewe",
+        "hertz-exact": "normal_contact:hertz_exact",
     },
-    "damping": {"cubic": "damping:CUBIC", "none": "damping:NONE"},
+    "damping": {"cubic": "damping:cubic", "none": "damping:none"},
     "rheology": {
-        "vogel-dicke": "vogel_dicke:VOGEL_DICKE",
-        "bode": "bode:RHEOLOGY",
-        "roelands": "generic_oils:ROELANDS",
-        "barus-limited": "generic_oils:BARUS_LIMITED",
+        "vogel-dicke": "vogel_dicke:vogel_dicke",
+        "bode": "bode:bode_rheology",
+        "roelands": "generic_oils:roelands",
+        "barus-limited": "generic_oils:barus_limited",
     },
     "film_thickness": {
-        "chittenden": "film_thickness:CHITTENDEN",
-        "hamrock-dowson": "film_thickness:HAMROCK_DOWSON",
+        "chittenden": "film_thickness:chittenden",
+        "hamrock-dowson": "film_thickness:hamrock_dowson",
     },
     "thermal_correction": {
-        "murch-wilson": "thermal_correction:MURCH_WILSON",
-        "zhu-cheng": "thermal_correction:ZHU_CHENG",
-        "none": "thermal_correction:NONE",
+        "murch-wilson": "thermal_correction:murch_wilson",
+        "zhu-cheng": "thermal_correction:zhu_cheng",
+        "none": "thermal_correction:none",
+    },
+    "supply": {
+        "constant": "supply:constant",
+        "skf-replenishment": "supply:skf_replenishment",
+        "inlet-distance": "supply:inlet_distance",
+        "oil-layer": "supply:oil_layer",
     },
     "contact_temperature": {
-        "shear-heating": "contact_temperature:SHEAR_HEATING",
-        "isothermal": "contact_temperature:ISOTHERMAL",
+        "shear-heating": "contact_temperature:shear_heating",
+        "isothermal": "contact_temperature:isothermal",
     },
     "traction": {
-        "ree-eyring": "traction:REE_EYRING",
-        "bair-winer": "traction:BAIR_WINER",
-        "newtonian": "traction:NEWTONIAN",
+        "ree-eyring": "traction:ree_eyring",
+        "bair-winer": "traction:bair_winer",
+        "newtonian": "traction:newtonian",
     },
     "rolling_resistance": {
-        "biboulet-houpert": "rolling_resistance:BIBOULET_HOUPERT",
-        "goksem-hargreaves": "rolling_resistance:GOKSEM_HARGREAVES",
-        "none": "rolling_resistance:NONE",
+        "biboulet-houpert": "rolling_resistance:biboulet_houpert",
+        "goksem-hargreaves": "rolling_resistance:goksem_hargreaves",
+        "none": "rolling_resistance:none",
     },
     "elastic_hysteresis": {
-        "loss-factor": "elastic_hysteresis:LOSS_FACTOR",
-        "houpert": "elastic_hysteresis:HOUPERT",
-        "scheuermann": "elastic_hysteresis:SCHEUERMANN",
-        "none": "elastic_hysteresis:NONE",
+        "loss-factor": "elastic_hysteresis:loss_factor",
+        "houpert": "elastic_hysteresis:houpert",
+        "scheuermann": "elastic_hysteresis:scheuermann",
+        "none": "elastic_hysteresis:none",
     },
-    "asperity_load": {"zhou-hoeprich": "mixed_friction:ZHOU_HOEPRICH", "none": "mixed_friction:NO_ASPERITIES"},
+    "asperity_load": {
+        "zhou-hoeprich": "mixed_friction:zhou_hoeprich",
+        "spikes-olver": "mixed_friction:spikes_olver",
+        "none": "mixed_friction:none",
+    },
     "boundary_friction": {
-        "cubic": "mixed_friction:CUBIC",
-        "coulomb-regularised": "mixed_friction:COULOMB_REGULARISED",
+        "cubic": "mixed_friction:cubic",
+        "micro-slip": "mixed_friction:micro_slip",
+        "coulomb-regularised": "mixed_friction:coulomb_regularised",
     },
     "cage_contact": {
-        "spherical-pocket": "cage_contact:SPHERICAL_POCKET",
-        "cylindrical-pocket": "cage_contact:CYLINDRICAL_POCKET",
-        "land-guidance": "cage_contact:LAND_GUIDANCE",
-        "ball-ball": "cage_contact:BALL_BALL",
-        "none": "cage_contact:NONE",
+        "spherical-pocket": "cage_contact:spherical_pocket",
+        "cylindrical-pocket": "cage_contact:cylindrical_pocket",
+        "land-guidance": "cage_contact:land_guidance",
+        "ball-ball": "cage_contact:ball_ball",
+        "none": "cage_contact:none",
     },
     "fluid_drag": {
-        "skf-catalogue": "fluid_drag:SKF_CATALOGUE",
-        "schaeffler-catalogue": "fluid_drag:SCHAEFFLER_CATALOGUE",
-        "sphere-drag": "sphere_drag:SPHERE_DRAG",
-        "none": "fluid_drag:NONE",
+        "skf-catalogue": "fluid_drag:skf_catalogue",
+        "schaeffler-catalogue": "fluid_drag:schaeffler_catalogue",
+        "sphere-drag": "sphere_drag:sphere_drag",
+        "none": "fluid_drag:none",
     },
-    "permittivity": {"bode": "bode:PERMITTIVITY", "constant": "bode:CONSTANT_PERMITTIVITY"},
+    "permittivity": {"bode": "bode:bode_permittivity", "constant": "bode:constant"},
     "capacitance": {
-        "schneider": "capacitance:SCHNEIDER",
-        "constant-factor": "capacitance:CONSTANT_FACTOR",
-        "gap-integral": "capacitance:GAP_INTEGRAL",
+        "schneider": "capacitance:schneider",
+        "constant-factor": "capacitance:constant_factor",
+        "gap-integral": "capacitance:gap_integral",
     },
-    "surface": {"none": "surface:NONE", "waviness": "surface:WAVINESS", "defect": "surface:DEFECT"},
+    "surface": {"none": "surface:none", "waviness": "surface:waviness", "defect": "surface:defect"},
 }
 
 
 @hookimpl
-def lambda_models(register: Callable[[Model | LazyModel], None]) -> None:
+def lambda_laws(register: Callable[[LazyLaw], None]) -> None:
     """Name every built-in law."""
     for role, laws in _LAWS.items():
         for name, target in laws.items():
-            register(LazyModel(role, name, f"lambda_plugins.{target}"))
+            register(LazyLaw(role, name, f"lambda_plugins.{target}"))
 
 
 @hookimpl

@@ -6,13 +6,12 @@ T in K, p in bar, as published (Bode 1989; constants of a mineral oil in Syla et
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from pydantic import Field
 
-from lambda_core.plugins import Context, model
-from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_core.plugins import OK, Context, FloatArray, Parameters, law, parameter
 from lambda_plugins.rheology import capped
 from lambda_plugins.shapes import at_least, at_most
 from lambda_plugins.vector_math import exp, log1p
@@ -60,42 +59,57 @@ def within_range(temperature: float) -> float:
     return at_most(at_least(temperature, _T_LOW), _T_HIGH)
 
 
-def pressure_scale(T: float, par: FloatArray) -> float:
+def pressure_scale(T: float, oil: BodeDensity) -> float:
     """Return N(T) = a2 + a3 T + a4 T^2 + a5 T^3 [bar]; a1/N is the compressibility at ambient pressure."""
-    scale: float = par[3] + T * (par[4] + T * (par[5] + T * par[6]))
-    return scale
+    return oil.a2 + T * (oil.a3 + T * (oil.a4 + T * oil.a5))
 
 
-def bode_density(p: float, T: float, par: FloatArray) -> float:
+def bode_density(p: float, T: float, oil: BodeDensity) -> float:
     """Return rho [kg/m3] = rho_s (1 - alpha_s T)/(1 - a1 ln(1 + p/N)), p in Pa, T in K within range."""
     bar = 1e-5 * at_least(p, 0.0)
-    compression = 1.0 - par[2] * log1p(bar / pressure_scale(T, par))
-    density: float = par[0] * (1.0 - par[1] * T) / at_least(compression, 0.1)
-    return density
+    compression = 1.0 - oil.a1 * log1p(bar / pressure_scale(T, oil))
+    return oil.rho_s * (1.0 - oil.alpha_s * T) / at_least(compression, 0.1)
 
 
-def prepare_viscosity(parameters: BodeViscosity, context: Context) -> FloatArray:
-    """Return the constants in order, A1 as ln(A1 / Pa s)."""
+class Glass(NamedTuple):
+    """The oil's density, and its viscosity by the distance to the glass."""
+
+    oil: BodeDensity
+    ln_A1: float  # ln(A1 / Pa s)
+    A2: float
+    A3: float  # [kg/m3]
+    A4: float  # [1/K]
+
+
+def prepare_viscosity(parameters: BodeViscosity, context: Context) -> Glass:
+    """Return the constants, A1 by its logarithm."""
     _check(parameters)
-    par = np.array([float(value) for _, value in parameters])
-    par[7] = math.log(1e-3 * par[7])
-    return par
+    v = parameters
+    return Glass(v, math.log(1e-3 * v.visc_a1), v.visc_a2, v.visc_a3, v.visc_a4)
 
 
-def prepare_permittivity(parameters: BodePermittivity, context: Context) -> FloatArray:
-    """Return the constants in order."""
+def prepare_permittivity(parameters: BodePermittivity, context: Context) -> BodePermittivity:
+    """Return the constants."""
     _check(parameters)
-    return np.array([float(value) for _, value in parameters])
+    return parameters
 
 
-def _check(parameters: BodeDensity) -> None:
-    par = np.array([float(value) for _, value in parameters])
+def _check(oil: BodeDensity) -> None:
     T = np.linspace(_T_LOW, _T_HIGH, 71)
-    if np.any(pressure_scale(T, par) <= 0.0) or par[1] * _T_HIGH >= 1.0:  # type: ignore[arg-type]
+    if np.any(pressure_scale(T, oil) <= 0.0) or oil.alpha_s * _T_HIGH >= 1.0:  # type: ignore[arg-type]
         raise ValueError("the constants a2..a5 and alpha_s give no positive density between -50 and 300 degC")
 
 
-def bode_rheology(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArray, rho: FloatArray) -> int:
+@law(
+    "rheology",
+    "bode",
+    BodeViscosity,
+    role_api=2,
+    reference="Bode 1989; constants in Syla et al. 2026, Lubricants 14, 154, Table 5; form of the viscosity inferred",
+    validity="-50..300 degC; ln(eta) capped at 1e12 Pa s near the pole at the glass density",
+    prepare=prepare_viscosity,
+)
+def bode_rheology(p: FloatArray, T: FloatArray, par: Glass, ln_eta: FloatArray, rho: FloatArray) -> int:
     """Density after Bode and the viscosity that follows from its distance to the glass.
 
     eta = A1 exp[A2/(rho_g/rho - 1)], rho_g = A3 (1 + A4 T), a form inferred from the constants (it gives 97.3 and 8.81
@@ -104,16 +118,25 @@ def bode_rheology(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatAr
     """
     for i in range(ln_eta.size):
         temperature = within_range(T[i])
-        density = bode_density(p[i], temperature, par)
-        distance = par[9] * (1.0 + par[10] * temperature) / density - 1.0
+        density = bode_density(p[i], temperature, par.oil)
+        distance = par.A3 * (1.0 + par.A4 * temperature) / density - 1.0
         # A2/60 keeps the exponent finite at and beyond the pole, far above the cap.
-        nearest = par[8] / 60.0
-        ln_eta[i] = capped(par[7] + par[8] / at_least(distance, nearest))
+        nearest = par.A2 / 60.0
+        ln_eta[i] = capped(par.ln_A1 + par.A2 / at_least(distance, nearest))
         rho[i] = density
-    return 1
+    return OK
 
 
-def bode_permittivity(p: FloatArray, T: FloatArray, rho: FloatArray, par: FloatArray, eps_r: FloatArray) -> int:
+@law(
+    "permittivity",
+    "bode",
+    BodePermittivity,
+    role_api=2,
+    reference="Bode's equation: Syla et al. 2026, Lubricants 14, 154, eq. 35-37",
+    validity="-50..300 degC",
+    prepare=prepare_permittivity,
+)
+def bode_permittivity(p: FloatArray, T: FloatArray, rho: FloatArray, par: BodePermittivity, eps_r: FloatArray) -> int:
     """Relative permittivity after Bode.
 
     eps_r = k1 beta^-1/2 rho_T^1/6 + k2 T + k3 (rho - rho_T), beta = a1/N the compressibility in 1/bar: Syla et al.
@@ -122,11 +145,11 @@ def bode_permittivity(p: FloatArray, T: FloatArray, rho: FloatArray, par: FloatA
     """
     for i in range(eps_r.size):
         temperature = within_range(T[i])
-        density_T = par[0] * (1.0 - par[1] * temperature)
-        stiffness = math.sqrt(pressure_scale(temperature, par) / par[2])
-        ambient = par[7] * stiffness * exp(log1p(density_T - 1.0) / 6.0) + par[8] * temperature
-        eps_r[i] = ambient + par[9] * (bode_density(p[i], temperature, par) - density_T)
-    return 1
+        density_T = par.rho_s * (1.0 - par.alpha_s * temperature)
+        stiffness = math.sqrt(pressure_scale(temperature, par) / par.a1)
+        ambient = par.k1 * stiffness * exp(log1p(density_T - 1.0) / 6.0) + par.k2 * temperature
+        eps_r[i] = ambient + par.k3 * (bode_density(p[i], temperature, par) - density_T)
+    return OK
 
 
 class Constant(Parameters):
@@ -141,39 +164,17 @@ class Constant(Parameters):
     )
 
 
-def constant(p: FloatArray, T: FloatArray, rho: FloatArray, par: FloatArray, eps_r: FloatArray) -> int:
-    """Permittivity that depends on nothing."""
-    for i in range(eps_r.size):
-        eps_r[i] = par[0]
-    return 1
-
-
-RHEOLOGY = model(
-    "rheology",
-    "bode",
-    bode_rheology,
-    BodeViscosity,
-    reference="Bode 1989; constants in Syla et al. 2026, Lubricants 14, 154, Table 5; form of the viscosity inferred",
-    validity="-50..300 degC; ln(eta) capped at 1e12 Pa s near the pole at the glass density",
-    prepare=prepare_viscosity,
-)
-
-PERMITTIVITY = model(
-    "permittivity",
-    "bode",
-    bode_permittivity,
-    BodePermittivity,
-    reference="Bode's equation: Syla et al. 2026, Lubricants 14, 154, eq. 35-37",
-    validity="-50..300 degC",
-    prepare=prepare_permittivity,
-)
-
-CONSTANT_PERMITTIVITY = model(
+@law(
     "permittivity",
     "constant",
-    constant,
     Constant,
+    role_api=2,
     reference="-",
     summary="Permittivity that depends on neither pressure nor temperature.",
     validity="non-polar oils within a few percent",
 )
+def constant(p: FloatArray, T: FloatArray, rho: FloatArray, par: Constant, eps_r: FloatArray) -> int:
+    """Permittivity that depends on nothing."""
+    for i in range(eps_r.size):
+        eps_r[i] = par.eps_r
+    return OK

@@ -7,16 +7,15 @@ grows from zero at first touch and never pulls, and cubic friction at the point 
 from __future__ import annotations
 
 import math
-from typing import Annotated, Self
+from typing import Annotated, NamedTuple, Self
 
-import numpy as np
 from pydantic import model_validator
 
-from lambda_core.plugins import Context, NoParameters, Quantity, model
-from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, Quantity, law, parameter
 from lambda_plugins.shapes import at_least, at_most, cubic_friction_slope
 
 _ASSUMED = "assumption; 5e6 N/m and the friction law as in the group's models"
+_VALIDITY = "rigid bodies with a penalty contact; all constants are assumptions"
 _LIMITS_AT = 1e-12  # [m] below this distance from the centre no direction of contact is defined
 
 
@@ -57,19 +56,22 @@ class CageContact(Parameters):
         return self
 
 
-def _constants(parameters: CageContact, clearance: float, arm: float) -> FloatArray:
-    """Return the fields in order, then half the diametral clearance and the arm of the contact point."""
-    return np.array([*(float(value) for _, value in parameters), 0.5 * clearance, arm])
+class Guide(NamedTuple):
+    """A contact of the cage as its kernels see it."""
+
+    contact: CageContact
+    play: float  # way from the centre to first touch [m]
+    arm: float  # from the body's centre to the contact point, along the way [m]
 
 
-def prepare_pocket(parameters: CageContact, context: Context) -> FloatArray:
+def prepare_pocket(parameters: CageContact, context: Context) -> Guide:
     """Return the constants with the pocket's clearance and the ball's radius."""
     if not context.pocket_clearance >= 0.0:
         raise ValueError("the cage has no pocket clearance: give a cage with pockets")
-    return _constants(parameters, context.pocket_clearance, 0.5 * context.ball_diameter)
+    return Guide(parameters, 0.5 * context.pocket_clearance, 0.5 * context.ball_diameter)
 
 
-def prepare_land(parameters: CageContact, context: Context) -> FloatArray:
+def prepare_land(parameters: CageContact, context: Context) -> Guide:
     """Return the constants with the land's clearance and its radius, negative on the inner ring.
 
     A cage displaced along n touches the outer ring's land at +R n, the inner ring's land at -R n.
@@ -77,12 +79,12 @@ def prepare_land(parameters: CageContact, context: Context) -> FloatArray:
     if not (context.land_clearance >= 0.0 and context.land_diameter > 0.0):
         raise ValueError("the cage is not guided by a ring: it has no land clearance or land diameter")
     side = -1.0 if context.element == "cage_inner" else 1.0
-    return _constants(parameters, context.land_clearance, 0.5 * side * context.land_diameter)
+    return Guide(parameters, 0.5 * context.land_clearance, 0.5 * side * context.land_diameter)
 
 
-def prepare_balls(parameters: CageContact, context: Context) -> FloatArray:
+def prepare_balls(parameters: CageContact, context: Context) -> Guide:
     """Return the constants with the balls' diameter as distance of first touch, and their radius."""
-    return _constants(parameters, 2.0 * context.ball_diameter, 0.5 * context.ball_diameter)
+    return Guide(parameters, context.ball_diameter, 0.5 * context.ball_diameter)
 
 
 def push_back(
@@ -93,7 +95,7 @@ def push_back(
     r: FloatArray,
     v_rel: FloatArray,
     omega_rel: FloatArray,
-    par: FloatArray,
+    guide: Guide,
     out: FloatArray,
 ) -> None:
     """Write force and point for a body that is `penetration` beyond its play in the unit direction n.
@@ -102,14 +104,15 @@ def push_back(
     d s^2 (3 - 2 s) de/dt, s = e/full penetration, never below zero. Friction: mu(v) F_N against the slip
     v_rel + omega_rel x (P - r) at P = r + arm n, cubic in its amount.
     """
-    onset = par[3]
+    contact = guide.contact
+    onset = contact.onset
     spring = 0.5 * penetration * penetration / onset if penetration < onset else penetration - 0.5 * onset
-    s = at_most(penetration / par[2], 1.0)
+    s = at_most(penetration / contact.full_penetration, 1.0)
     closing = v_rel[0] * n0 + v_rel[1] * n1 + v_rel[2] * n2
-    normal = at_least(par[0] * spring + par[1] * s * s * (3.0 - 2.0 * s) * closing, 0.0)
-    x0 = par[9] * n0
-    x1 = par[9] * n1
-    x2 = par[9] * n2
+    normal = at_least(contact.stiffness * spring + contact.damping * s * s * (3.0 - 2.0 * s) * closing, 0.0)
+    x0 = guide.arm * n0
+    x1 = guide.arm * n1
+    x2 = guide.arm * n2
     slip0 = v_rel[0] + omega_rel[1] * x2 - omega_rel[2] * x1
     slip1 = v_rel[1] + omega_rel[2] * x0 - omega_rel[0] * x2
     slip2 = v_rel[2] + omega_rel[0] * x1 - omega_rel[1] * x0
@@ -118,7 +121,7 @@ def push_back(
     slip1 -= across * n1
     slip2 -= across * n2
     speed = math.sqrt(slip0 * slip0 + slip1 * slip1 + slip2 * slip2)
-    drag = normal * cubic_friction_slope(speed, par[4], par[5], par[6], par[7])
+    drag = normal * cubic_friction_slope(speed, contact.mu_s, contact.mu_d, contact.v_s, contact.v_d)
     out[0] = -normal * n0 - drag * slip0
     out[1] = -normal * n1 - drag * slip1
     out[2] = -normal * n2 - drag * slip2
@@ -127,8 +130,17 @@ def push_back(
     out[5] = r[2] + x2
 
 
+@law(
+    "cage_contact",
+    "spherical-pocket",
+    CageContact,
+    role_api=2,
+    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
+    validity=_VALIDITY,
+    prepare=prepare_pocket,
+)
 def spherical_pocket(
-    r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: FloatArray, out: FloatArray
+    r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: Guide, out: FloatArray
 ) -> int:
     """Ball in a spherical pocket: contact once its centre is off the pocket's by the radial clearance.
 
@@ -136,16 +148,25 @@ def spherical_pocket(
     """
     out[:] = 0.0
     distance = math.sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2])
-    if distance > par[8] and distance > _LIMITS_AT:
+    if distance > par.play and distance > _LIMITS_AT:
         n0 = r[0] / distance
         n1 = r[1] / distance
         n2 = r[2] / distance
-        push_back(n0, n1, n2, distance - par[8], r, v_rel, omega_rel, par, out)
-    return 1
+        push_back(n0, n1, n2, distance - par.play, r, v_rel, omega_rel, par, out)
+    return OK
 
 
+@law(
+    "cage_contact",
+    "cylindrical-pocket",
+    CageContact,
+    role_api=2,
+    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
+    validity=_VALIDITY,
+    prepare=prepare_pocket,
+)
 def cylindrical_pocket(
-    r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: FloatArray, out: FloatArray
+    r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: Guide, out: FloatArray
 ) -> int:
     """Ball in a cylindrical pocket with a radial axis: free along the radius, for ring-guided cages.
 
@@ -153,13 +174,22 @@ def cylindrical_pocket(
     """
     out[:] = 0.0
     distance = math.sqrt(r[0] * r[0] + r[2] * r[2])
-    if distance > par[8] and distance > _LIMITS_AT:
-        push_back(r[0] / distance, 0.0, r[2] / distance, distance - par[8], r, v_rel, omega_rel, par, out)
-    return 1
+    if distance > par.play and distance > _LIMITS_AT:
+        push_back(r[0] / distance, 0.0, r[2] / distance, distance - par.play, r, v_rel, omega_rel, par, out)
+    return OK
 
 
+@law(
+    "cage_contact",
+    "land-guidance",
+    CageContact,
+    role_api=2,
+    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
+    validity=_VALIDITY,
+    prepare=prepare_land,
+)
 def land_guidance(
-    r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: FloatArray, out: FloatArray
+    r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: Guide, out: FloatArray
 ) -> int:
     """Cage on the cylindrical land of a ring, at one axial station; free along the axis.
 
@@ -168,74 +198,39 @@ def land_guidance(
     """
     out[:] = 0.0
     distance = math.sqrt(r[1] * r[1] + r[2] * r[2])
-    if distance > par[8] and distance > _LIMITS_AT:
-        push_back(0.0, r[1] / distance, r[2] / distance, distance - par[8], r, v_rel, omega_rel, par, out)
-    return 1
+    if distance > par.play and distance > _LIMITS_AT:
+        push_back(0.0, r[1] / distance, r[2] / distance, distance - par.play, r, v_rel, omega_rel, par, out)
+    return OK
 
 
-def ball_ball(
-    r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: FloatArray, out: FloatArray
-) -> int:
+@law(
+    "cage_contact",
+    "ball-ball",
+    CageContact,
+    role_api=2,
+    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
+    validity=_VALIDITY,
+    prepare=prepare_balls,
+)
+def ball_ball(r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: Guide, out: FloatArray) -> int:
     """Two neighbouring balls of a bearing without a cage: they touch when their centres are a diameter apart.
 
     r is the position of one centre from the other's. Contact law and friction as in the pockets.
     """
     out[:] = 0.0
     distance = math.sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2])
-    if distance < par[8] and distance > _LIMITS_AT:
+    if distance < par.play and distance > _LIMITS_AT:
         n0 = -r[0] / distance
         n1 = -r[1] / distance
         n2 = -r[2] / distance
-        push_back(n0, n1, n2, par[8] - distance, r, v_rel, omega_rel, par, out)
-    return 1
+        push_back(n0, n1, n2, par.play - distance, r, v_rel, omega_rel, par, out)
+    return OK
 
 
-def none(r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: FloatArray, out: FloatArray) -> int:
+@law("cage_contact", "none", role_api=2, reference="-")
+def none(
+    r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: NoParameters, out: FloatArray
+) -> int:
     """No contact of the cage."""
     out[:] = 0.0
-    return 1
-
-
-_VALIDITY = "rigid bodies with a penalty contact; all constants are assumptions"
-
-SPHERICAL_POCKET = model(
-    "cage_contact",
-    "spherical-pocket",
-    spherical_pocket,
-    CageContact,
-    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
-    validity=_VALIDITY,
-    prepare=prepare_pocket,
-)
-
-CYLINDRICAL_POCKET = model(
-    "cage_contact",
-    "cylindrical-pocket",
-    cylindrical_pocket,
-    CageContact,
-    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
-    validity=_VALIDITY,
-    prepare=prepare_pocket,
-)
-
-LAND_GUIDANCE = model(
-    "cage_contact",
-    "land-guidance",
-    land_guidance,
-    CageContact,
-    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
-    validity=_VALIDITY,
-    prepare=prepare_land,
-)
-
-BALL_BALL = model(
-    "cage_contact",
-    "ball-ball",
-    ball_ball,
-    CageContact,
-    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
-    validity=_VALIDITY,
-    prepare=prepare_balls,
-)
-
-NONE = model("cage_contact", "none", none, NoParameters, reference="-")
+    return OK

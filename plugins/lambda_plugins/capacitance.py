@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
-import numpy as np
-
-from lambda_core.plugins import Context, NoParameters, model
-from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, law, parameter
 from lambda_plugins.shapes import at_least, at_most
 
 _EPSILON_0 = 8.8541878128e-12  # [F/m], CODATA 2018
 _STEPS = 160
 
 
+@law(
+    "capacitance",
+    "schneider",
+    role_api=2,
+    reference="Schneider et al. 2021, Tribol. Int. 154, 106714; Syla et al. 2026, Lubricants 14, 154, eq. 34",
+    validity="radial deep groove ball bearings, fully flooded",
+)
 def schneider(
     C_hertz: float,
     h: float,
@@ -25,7 +30,7 @@ def schneider(
     G: float,
     W: float,
     eps_r0: float,
-    par: FloatArray,
+    par: NoParameters,
     out: FloatArray,
 ) -> int:
     """Correction factor after Schneider et al., C = k_c C_Hertz.
@@ -36,10 +41,10 @@ def schneider(
     """
     if C_hertz <= 0.0 or W <= 0.0 or semi_b <= 0.0:
         out[0] = C_hertz
-        return 1
+        return OK
     factor = 9.5923 * U**0.3305 * G**0.3431 * W**-0.3342 * (semi_a / semi_b) ** 0.1391
     out[0] = C_hertz * at_least(factor, 1.0)
-    return 1
+    return OK
 
 
 class ConstantFactor(Parameters):
@@ -55,6 +60,14 @@ class ConstantFactor(Parameters):
     )
 
 
+@law(
+    "capacitance",
+    "constant-factor",
+    ConstantFactor,
+    role_api=2,
+    reference="Barz 1996 (thesis, Hannover)",
+    validity="order of magnitude; the true factor falls with load and rises with film thickness",
+)
 def constant_factor(
     C_hertz: float,
     h: float,
@@ -66,15 +79,15 @@ def constant_factor(
     G: float,
     W: float,
     eps_r0: float,
-    par: FloatArray,
+    par: ConstantFactor,
     out: FloatArray,
 ) -> int:
     """Constant correction factor, C = k_c C_Hertz.
 
     Barz 1996 (thesis, Hannover), as cited by Syla et al. 2026, section 3.
     """
-    out[0] = par[0] * C_hertz
-    return 1
+    out[0] = par.k_c * C_hertz
+    return OK
 
 
 class GapIntegral(Parameters):
@@ -91,9 +104,15 @@ class GapIntegral(Parameters):
     )
 
 
-def prepare_gap_integral(parameters: GapIntegral, context: Context) -> FloatArray:
-    """Return [outer semi-axis of the region]."""
-    return np.array([0.5 * parameters.extent * context.ball_diameter])
+class Region(NamedTuple):
+    """Where the integral ends."""
+
+    outer: float  # semi-axis along the ellipse's major one [m]
+
+
+def prepare_gap_integral(parameters: GapIntegral, context: Context) -> Region:
+    """Return the outer edge."""
+    return Region(0.5 * parameters.extent * context.ball_diameter)
 
 
 def gap_scale(major: float, minor: float, R_x: float, R_y: float) -> float:
@@ -116,6 +135,15 @@ def gap_scale(major: float, minor: float, R_x: float, R_y: float) -> float:
     return 2.0 / math.sqrt(R_x * R_y * i_a * i_b)
 
 
+@law(
+    "capacitance",
+    "gap-integral",
+    GapIntegral,
+    role_api=2,
+    reference="gap: Johnson, Contact Mechanics (1985), section 3.5 and 4.2; plates: Syla et al. 2026, eq. 31-32",
+    validity="surroundings filled with oil; the outer edge is an assumption and counts by its logarithm",
+    prepare=prepare_gap_integral,
+)
 def gap_integral(
     C_hertz: float,
     h: float,
@@ -127,7 +155,7 @@ def gap_integral(
     G: float,
     W: float,
     eps_r0: float,
-    par: FloatArray,
+    par: Region,
     out: FloatArray,
 ) -> int:
     """Hertzian area plus the integral of eps_0 eps_r dA/gap around it, at ambient permittivity.
@@ -140,12 +168,12 @@ def gap_integral(
     s^2 = gamma^2 - kappa^2; the trapezoidal rule takes the one over w, out to a major semi-axis of `extent` ball radii.
     Parallel plates in each element, no fringes, oil everywhere, the film's constriction at the outlet left out.
     """
-    outer = par[0]
+    outer = par.outer
     major = at_least(semi_a, semi_b)
     minor = at_most(semi_a, semi_b)
     if C_hertz <= 0.0 or minor <= 0.0 or major >= outer:
         out[0] = C_hertz
-        return 1
+        return OK
     film = at_least(h, 1e-10)
     P = gap_scale(major, minor, R_x, R_y)
     step = math.asinh(math.sqrt(outer * outer - major * major) / minor) / _STEPS
@@ -177,33 +205,4 @@ def gap_integral(
         ring = 0.5 * (A2 + B2) / root - 0.5 * (B2 - A2) * kappa / (root * (root + gamma))
         total += (0.5 if i == _STEPS else 1.0) * t / A * ring
     out[0] = C_hertz + _EPSILON_0 * eps_r0 * 2.0 * math.pi * step * total
-    return 1
-
-
-SCHNEIDER = model(
-    "capacitance",
-    "schneider",
-    schneider,
-    NoParameters,
-    reference="Schneider et al. 2021, Tribol. Int. 154, 106714; Syla et al. 2026, Lubricants 14, 154, eq. 34",
-    validity="radial deep groove ball bearings, fully flooded",
-)
-
-CONSTANT_FACTOR = model(
-    "capacitance",
-    "constant-factor",
-    constant_factor,
-    ConstantFactor,
-    reference="Barz 1996 (thesis, Hannover)",
-    validity="order of magnitude; the true factor falls with load and rises with film thickness",
-)
-
-GAP_INTEGRAL = model(
-    "capacitance",
-    "gap-integral",
-    gap_integral,
-    GapIntegral,
-    reference="gap: Johnson, Contact Mechanics (1985), section 3.5 and 4.2; plates: Syla et al. 2026, eq. 31-32",
-    validity="surroundings filled with oil; the outer edge is an assumption and counts by its logarithm",
-    prepare=prepare_gap_integral,
-)
+    return OK

@@ -3,39 +3,60 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
-import numpy as np
-
-from lambda_core.plugins import Context, Material, NoParameters, model
-from lambda_plugins.fields import FloatArray
+from lambda_core.plugins import OK, Context, FloatArray, Material, NoParameters, law
 from lambda_plugins.shapes import at_least
 
 _BAND_MEAN = 4.0 / 3.0 / math.sqrt(math.pi)  # 0.752: two thirds of the largest value, at the trailing edge
 _PECLET_AT_REST = 0.02
 
 
-def prepare_shear_heating(parameters: NoParameters, context: Context) -> FloatArray:
-    """Return [lambda_oil, conductivity and diffusivity of the ball, the same of the ring]."""
+class Solid(NamedTuple):
+    """How a body takes heat."""
 
-    def solid(material: Material) -> tuple[float, float]:
-        return material.thermal_conductivity, material.thermal_conductivity / (
-            material.density * material.specific_heat
-        )
-
-    return np.array([context.oil.thermal_conductivity, *solid(context.ball), *solid(context.partner)])
+    conductivity: float  # [W/(m K)]
+    diffusivity: float  # [m2/s]
 
 
-def band_rise(semi_b: float, speed: float, conductivity: float, diffusivity: float) -> float:
+class Heated(NamedTuple):
+    """The film and both bodies."""
+
+    film_conductivity: float  # [W/(m K)]
+    ball: Solid
+    ring: Solid
+
+
+def solid(material: Material) -> Solid:
+    """Return conductivity and diffusivity of a material."""
+    conductivity = material.thermal_conductivity
+    return Solid(conductivity, conductivity / (material.density * material.specific_heat))
+
+
+def prepare_shear_heating(parameters: NoParameters, context: Context) -> Heated:
+    """Return the thermal constants of oil, ball and ring."""
+    return Heated(context.oil.thermal_conductivity, solid(context.ball), solid(context.partner))
+
+
+def band_rise(semi_b: float, speed: float, body: Solid) -> float:
     """Return the mean rise of a half-space under a moving band of length 2b, per heat flux [K m2/W].
 
     0.752 (b/k)/sqrt(Pe), Pe = u b/(2 kappa), which is 0.752 sqrt(2b/(u k rho c)): the mean over 0..2b of
     2 q sqrt(x/(pi u k rho c)) (Jaeger 1942; Carslaw and Jaeger 1959, section 10.7). Pe^2 + 0.02 under the root ends the
     growth at 2 b/k, the mean of an ellipse of axis ratio 8 at rest (ibid., section 10.5). 7 % low for Pe = 0.2 to 1.
     """
-    peclet = 0.5 * speed * semi_b / diffusivity
-    return _BAND_MEAN * semi_b / conductivity / math.sqrt(math.sqrt(peclet * peclet + _PECLET_AT_REST))
+    peclet = 0.5 * speed * semi_b / body.diffusivity
+    return _BAND_MEAN * semi_b / body.conductivity / math.sqrt(math.sqrt(peclet * peclet + _PECLET_AT_REST))
 
 
+@law(
+    "contact_temperature",
+    "shear-heating",
+    role_api=2,
+    reference="Jaeger 1942; Archard 1959, Wear 2, 438; Carslaw and Jaeger 1959, sections 10.5 and 10.7",
+    validity="thin film, heat flow across the film only; mean over the length of the contact",
+    prepare=prepare_shear_heating,
+)
 def shear_heating(
     T_in: float,
     u_mean: float,
@@ -43,7 +64,7 @@ def shear_heating(
     semi_b: float,
     tau: FloatArray,
     slip: FloatArray,
-    par: FloatArray,
+    par: Heated,
     T: FloatArray,
 ) -> int:
     """Mean film temperature from shear heat: rise across the film plus flash rise of both surfaces.
@@ -57,16 +78,17 @@ def shear_heating(
     every cell; side flow of heat and the rise in the bulk of the bodies are left out.
     """
     film = at_least(h, 1e-10)
-    s_1 = band_rise(semi_b, u_mean, par[1], par[2])
-    s_2 = band_rise(semi_b, u_mean, par[3], par[4])
-    g = par[0] / film
+    s_1 = band_rise(semi_b, u_mean, par.ball)
+    s_2 = band_rise(semi_b, u_mean, par.ring)
+    g = par.film_conductivity / film
     share = (0.5 + g * s_2) / (1.0 + g * (s_1 + s_2))
-    rise = 0.5 * (share * s_1 + (1.0 - share) * s_2) + film / (12.0 * par[0])
+    rise = 0.5 * (share * s_1 + (1.0 - share) * s_2) + film / (12.0 * par.film_conductivity)
     for i in range(T.size):
         T[i] = T_in + rise * tau[i] * slip[i]
-    return 1
+    return OK
 
 
+@law("contact_temperature", "isothermal", role_api=2, reference="-")
 def isothermal(
     T_in: float,
     u_mean: float,
@@ -74,23 +96,10 @@ def isothermal(
     semi_b: float,
     tau: FloatArray,
     slip: FloatArray,
-    par: FloatArray,
+    par: NoParameters,
     T: FloatArray,
 ) -> int:
     """The film keeps the temperature of the inlet."""
     for i in range(T.size):
         T[i] = T_in
-    return 1
-
-
-SHEAR_HEATING = model(
-    "contact_temperature",
-    "shear-heating",
-    shear_heating,
-    NoParameters,
-    reference="Jaeger 1942; Archard 1959, Wear 2, 438; Carslaw and Jaeger 1959, sections 10.5 and 10.7",
-    validity="thin film, heat flow across the film only; mean over the length of the contact",
-    prepare=prepare_shear_heating,
-)
-
-ISOTHERMAL = model("contact_temperature", "isothermal", isothermal, NoParameters, reference="-")
+    return OK

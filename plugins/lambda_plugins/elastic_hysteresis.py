@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from lambda_core.plugins import NoParameters, model
-from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_core.plugins import OK, FloatArray, NoParameters, Parameters, law, parameter
 from lambda_plugins.shapes import at_least
 
 
@@ -22,20 +21,35 @@ class LossFactor(Parameters):
     )
 
 
+@law(
+    "elastic_hysteresis",
+    "loss-factor",
+    LossFactor,
+    role_api=2,
+    reference="Johnson, Contact Mechanics (1985), section 9.2; Greenwood, Minshall and Tabor 1961",
+    validity="small losses; alpha_h of bearing steel is known within a factor of a few only",
+)
 def loss_factor(
-    load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: FloatArray, out: FloatArray
+    load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: LossFactor, out: FloatArray
 ) -> int:
     """Hysteresis couple of an elliptical contact, M = (3/16) alpha_h Q b.
 
     Greenwood, Minshall and Tabor 1961, Proc. R. Soc. A 259, 480; Johnson, Contact Mechanics (1985), section 9.2: the
     elastic work on the front half of the contact, of which the share alpha_h is lost; b is the semi-axis along rolling.
     """
-    out[0] = 3.0 / 16.0 * par[0] * load * semi_b
-    return 1
+    out[0] = 3.0 / 16.0 * par.loss_factor * load * semi_b
+    return OK
 
 
+@law(
+    "elastic_hysteresis",
+    "houpert",
+    role_api=2,
+    reference="Houpert 2002, Tribol. Int. 35 (as commonly quoted)",
+    validity="steel on steel; not confirmed from its original",
+)
 def houpert(
-    load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: FloatArray, out: FloatArray
+    load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: NoParameters, out: FloatArray
 ) -> int:
     """Elastic rolling couple of steel ball contacts, after Houpert.
 
@@ -44,7 +58,7 @@ def houpert(
     """
     shape = 1.0 - 3.519e-3 * at_least(R_y / R_x - 1.0, 0.0) ** 0.8063
     out[0] = 7.4826e-7 * R_ball**0.33 * at_least(load, 0.0) ** 1.33 * at_least(shape, 0.0)
-    return 1
+    return OK
 
 
 class Scheuermann(Parameters):
@@ -67,50 +81,29 @@ class Scheuermann(Parameters):
     )
 
 
+@law(
+    "elastic_hysteresis",
+    "scheuermann",
+    Scheuermann,
+    role_api=2,
+    reference="Wingertszahn et al. 2023, Lubricants 11, 369, eq. 19",
+    validity="constants must be identified by the user",
+)
 def scheuermann(
-    load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: FloatArray, out: FloatArray
+    load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: Scheuermann, out: FloatArray
 ) -> int:
     """Solid rolling moment as a power of the load, M = c_r Q^e_r, after Scheuermann.
 
     Wingertszahn et al. 2023, Lubricants 11, 369, eq. 19; c_r and e_r must be given.
     """
-    out[0] = par[0] * at_least(load, 0.0) ** par[1]
-    return 1
+    out[0] = par.coefficient * at_least(load, 0.0) ** par.exponent
+    return OK
 
 
+@law("elastic_hysteresis", "none", role_api=2, reference="-")
 def none(
-    load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: FloatArray, out: FloatArray
+    load: float, semi_a: float, semi_b: float, R_x: float, R_y: float, R_ball: float, par: NoParameters, out: FloatArray
 ) -> int:
     """No losses in the solids."""
     out[0] = 0.0
-    return 1
-
-
-LOSS_FACTOR = model(
-    "elastic_hysteresis",
-    "loss-factor",
-    loss_factor,
-    LossFactor,
-    reference="Johnson, Contact Mechanics (1985), section 9.2; Greenwood, Minshall and Tabor 1961",
-    validity="small losses; alpha_h of bearing steel is known within a factor of a few only",
-)
-
-HOUPERT = model(
-    "elastic_hysteresis",
-    "houpert",
-    houpert,
-    NoParameters,
-    reference="Houpert 2002, Tribol. Int. 35 (as commonly quoted)",
-    validity="steel on steel; not confirmed from its original",
-)
-
-SCHEUERMANN = model(
-    "elastic_hysteresis",
-    "scheuermann",
-    scheuermann,
-    Scheuermann,
-    reference="Wingertszahn et al. 2023, Lubricants 11, 369, eq. 19",
-    validity="constants must be identified by the user",
-)
-
-NONE = model("elastic_hysteresis", "none", none, NoParameters, reference="-")
+    return OK

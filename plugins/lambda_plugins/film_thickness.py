@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
-from lambda_core.plugins import Quantity, model
-from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_core.plugins import OK, Context, FloatArray, Parameters, Quantity, law, parameter
 from lambda_plugins.shapes import at_most
 from lambda_plugins.vector_math import exp, log, power
 
@@ -30,6 +29,29 @@ class Floors(Parameters):
     )
 
 
+class FilmFloors(NamedTuple):
+    """The floors as the kernels read them; the film's stands twice, since a square used once fuses with its sum."""
+
+    speed: float  # [m/s]
+    load: float  # [N]
+    central: float  # [m]
+    minimum: float  # [m]
+
+
+def prepare(parameters: Floors, context: Context) -> FilmFloors:
+    """Return the floors of speed, load and both films."""
+    return FilmFloors(parameters.speed_floor, parameters.load_floor, parameters.film_floor, parameters.film_floor)
+
+
+@law(
+    "film_thickness",
+    "chittenden",
+    Floors,
+    role_api=2,
+    reference="Chittenden, Dowson, Dunn and Taylor 1985, Proc. R. Soc. A 397, 245 and 271",
+    validity="piezoviscous-elastic regime, fully flooded, isothermal; floors at rest and without load are numerical",
+    prepare=prepare,
+)
 def chittenden(
     u_mean: float,
     theta: float,
@@ -39,7 +61,7 @@ def chittenden(
     E_eff: float,
     eta0: float,
     alpha_p: float,
-    par: FloatArray,
+    par: FilmFloors,
     out: FloatArray,
 ) -> int:
     """Film for entrainment at any angle to the axes of the ellipse, after Chittenden et al.
@@ -53,19 +75,28 @@ def chittenden(
     s2 = 1.0 - c2
     R_e = 1.0 / (c2 / R_x + s2 / R_y)
     R_s = 1.0 / (s2 / R_x + c2 / R_y)
-    speed = math.sqrt(u_mean * u_mean + par[0] * par[0])
-    force = math.sqrt(load * load + par[1] * par[1])
+    speed = math.sqrt(u_mean * u_mean + par.speed * par.speed)
+    force = math.sqrt(load * load + par.load * par.load)
     U = eta0 * speed / (E_eff * R_e)
     W = force / (E_eff * R_e * R_e)
     common = R_e * (alpha_p * E_eff) ** 0.49 * exp(0.68 * log(U) - 0.073 * log(W))
     shape = power(R_s / R_e, 2.0 / 3.0)
     central = 4.31 * common * (1.0 - exp(-at_most(1.23 * shape, 700.0)))
     minimum = 3.68 * common * (1.0 - exp(-at_most(0.67 * shape, 700.0)))
-    out[0] = math.sqrt(central * central + par[2] * par[2])
-    out[1] = math.sqrt(minimum * minimum + par[2] * par[2])
-    return 1
+    out[0] = math.sqrt(central * central + par.central * par.central)
+    out[1] = math.sqrt(minimum * minimum + par.minimum * par.minimum)
+    return OK
 
 
+@law(
+    "film_thickness",
+    "hamrock-dowson",
+    Floors,
+    role_api=2,
+    reference="Hamrock and Dowson 1977, J. Lubr. Technol. 99, 264",
+    validity="piezoviscous-elastic regime, k >= 1, entrainment along the minor axis, fully flooded, isothermal",
+    prepare=prepare,
+)
 def hamrock_dowson(
     u_mean: float,
     theta: float,
@@ -75,7 +106,7 @@ def hamrock_dowson(
     E_eff: float,
     eta0: float,
     alpha_p: float,
-    par: FloatArray,
+    par: FilmFloors,
     out: FloatArray,
 ) -> int:
     """Film for entrainment along the minor axis, after Hamrock and Dowson.
@@ -84,33 +115,14 @@ def hamrock_dowson(
     (1 - exp(-0.68 k)), k = 1.03 (R_y/R_x)^0.64; U with the mean velocity. Hamrock and Dowson 1977, J. Lubr. Technol.
     99, 264. The direction of entrainment is not used.
     """
-    speed = math.sqrt(u_mean * u_mean + par[0] * par[0])
-    force = math.sqrt(load * load + par[1] * par[1])
+    speed = math.sqrt(u_mean * u_mean + par.speed * par.speed)
+    force = math.sqrt(load * load + par.load * par.load)
     U = eta0 * speed / (E_eff * R_x)
     G = alpha_p * E_eff
     W = force / (E_eff * R_x * R_x)
     k = 1.03 * (R_y / R_x) ** 0.64
     central = 2.69 * R_x * U**0.67 * G**0.53 * W**-0.067 * (1.0 - 0.61 * math.exp(-0.73 * k))
     minimum = 3.63 * R_x * U**0.68 * G**0.49 * W**-0.073 * (1.0 - math.exp(-0.68 * k))
-    out[0] = math.sqrt(central * central + par[2] * par[2])
-    out[1] = math.sqrt(minimum * minimum + par[2] * par[2])
-    return 1
-
-
-CHITTENDEN = model(
-    "film_thickness",
-    "chittenden",
-    chittenden,
-    Floors,
-    reference="Chittenden, Dowson, Dunn and Taylor 1985, Proc. R. Soc. A 397, 245 and 271",
-    validity="piezoviscous-elastic regime, fully flooded, isothermal; floors at rest and without load are numerical",
-)
-
-HAMROCK_DOWSON = model(
-    "film_thickness",
-    "hamrock-dowson",
-    hamrock_dowson,
-    Floors,
-    reference="Hamrock and Dowson 1977, J. Lubr. Technol. 99, 264",
-    validity="piezoviscous-elastic regime, k >= 1, entrainment along the minor axis, fully flooded, isothermal",
-)
+    out[0] = math.sqrt(central * central + par.central * par.central)
+    out[1] = math.sqrt(minimum * minimum + par.minimum * par.minimum)
+    return OK

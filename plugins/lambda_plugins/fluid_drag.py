@@ -9,17 +9,22 @@ moment. Reactions go to the housing.
 from __future__ import annotations
 
 import math
-from typing import Literal
+from typing import Annotated, Any, Literal, NamedTuple
 
-import numpy as np
+from pydantic import BeforeValidator
 
-from lambda_core.plugins import Context, NoParameters, model
-from lambda_plugins.fields import FloatArray, Parameters, parameter
-from lambda_plugins.immersion import immersion, kinematic_speeds, mean_immersion, oil_geometry
+from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, law, parameter
+from lambda_plugins.immersion import OilBath, immersion, kinematic_speeds, mean_immersion, oil_geometry
 from lambda_plugins.shapes import at_least
+from lambda_plugins.skf_chart import UNCERTAINTY, drag_loss_factor
 
 _RPM = math.pi / 30.0
 _SLOW = 1.0  # [1/min] below which a power law with an exponent under 1 becomes linear (numerical)
+
+
+def _year(value: Any) -> Any:
+    """Return a year that was written as a number as text."""
+    return str(value) if isinstance(value, int) else value
 
 
 class SharedLoss(Parameters):
@@ -40,17 +45,16 @@ class SharedLoss(Parameters):
 class Skf(SharedLoss):
     """Parameters of SKF's drag losses in an oil bath."""
 
-    v_m: float = parameter(
-        2.25e-5,
-        "drag loss factor V_M, to be read from SKF's chart over oil level and pitch diameter",
-        source="middle of 0..4.5e-5, all consistent with the SKF row of Syla et al. 2026, Table 4 (6319, oil to the "
-        "centre of the lowest ball); the chart is not available as numbers",
+    v_m: float | None = parameter(
+        None,
+        "drag loss factor V_M; absent: SKF's chart at the oil level, 2.25e-5 in the edition of 2008",
+        source=f"2018: chart for ball bearings as digitised in public, +-{UNCERTAINTY:.0%}; 2008: middle of 0 to "
+        "4.5e-5, which agree with the SKF row of Syla et al. 2026, Table 4",
         status="assumed",
-        published_range=(0.0, 4.5e-5),
         ge=0.0,
         le=2e-3,
     )
-    edition: Literal["2008", "2018"] = parameter(
+    edition: Annotated[Literal["2008", "2018"], BeforeValidator(_year)] = parameter(
         "2008",
         "edition of the catalogue: 2008 has the square law alone, 2018 adds a viscous term and weights V_M by 0.4",
         source="SKF; the second form is not confirmed from its original",
@@ -63,6 +67,19 @@ def mean_diameter(context: Context) -> float:
     return 500.0 * (context.bore_diameter + context.outside_diameter)
 
 
+def oil_height(context: Context) -> float:
+    """Return H, the oil level above the lowest point of the outer raceway, from none to drowned [mm]."""
+    level = 1e3 * (oil_geometry(context).level + 0.5 * context.ball_diameter)
+    return min(max(level, 0.0), 1.2 * mean_diameter(context))
+
+
+def volume_factor(parameters: Skf, context: Context) -> float:
+    """Return V_M: as given, or SKF's chart."""
+    if parameters.v_m is not None:
+        return parameters.v_m
+    return drag_loss_factor(oil_height(context) / mean_diameter(context), parameters.edition)
+
+
 def skf_torque(parameters: Skf, context: Context) -> tuple[float, float]:
     """Return (M / n^2, M / (n^0.621 nu^1.379)) of SKF's drag torque [N mm], n in 1/min, nu in mm2/s.
 
@@ -73,10 +90,10 @@ def skf_torque(parameters: Skf, context: Context) -> tuple[float, float]:
     """
     d, D, d_m = 1e3 * context.bore_diameter, 1e3 * context.outside_diameter, mean_diameter(context)
     ratio = parameters.k_z * (D + d) / (D - d)
-    square = parameters.v_m * ratio * 1e-12 * d_m**5
+    square = volume_factor(parameters, context) * ratio * 1e-12 * d_m**5
     if parameters.edition == "2008":
         return square, 0.0
-    level = 1e3 * (oil_geometry(context)[0] + 0.5 * context.ball_diameter)
+    level = 1e3 * (oil_geometry(context).level + 0.5 * context.ball_diameter)
     level = min(max(level, 0.0), 1.2 * d_m)
     t = 2.0 * math.acos((0.6 * d_m - level) / (0.6 * d_m))
     f_t = math.sin(0.5 * t) if t < math.pi else 1.0
@@ -86,12 +103,25 @@ def skf_torque(parameters: Skf, context: Context) -> tuple[float, float]:
     return 0.4 * square, 1.093e-7 * d_m**3 * (d_m**2 * f_t) ** -1.379 * R_s
 
 
-def prepare_skf(parameters: Skf, context: Context) -> FloatArray:
-    """Return [oil geometry (3), orbit and spin speed per 1/min (2), square factors (2), viscous factors (2)]."""
+class SkfShare(NamedTuple):
+    """Share of one wholly immersed ball in SKF's torque."""
+
+    bath: OilBath
+    orbit: float  # kinematic speed per 1/min of the bearing [m/s]
+    spin: float  # the same [rad/s]
+    force: float  # of the square law [N per (1/min)^2]
+    moment: float  # of the square law [N m per (1/min)^2]
+    viscous_force: float  # of the viscous term [N per (1/min)^0.621 (mm2/s)^1.379]
+    viscous_moment: float  # of the viscous term [N m per the same]
+
+
+def prepare_skf(parameters: Skf, context: Context) -> SkfShare:
+    """Return a ball's share."""
     square, viscous = skf_torque(parameters, context)
     drag, churn = power_factors(parameters, context)
-    oil, speeds = oil_geometry(context), kinematic_speeds(context, _RPM)
-    return np.array([*oil, *speeds, drag * square, churn * square, drag * viscous, churn * viscous])
+    orbit, spin = kinematic_speeds(context, _RPM)
+    bath = oil_geometry(context)
+    return SkfShare(bath, orbit, spin, drag * square, churn * square, drag * viscous, churn * viscous)
 
 
 def power_factors(parameters: SharedLoss, context: Context) -> tuple[float, float]:
@@ -108,24 +138,33 @@ def power_factors(parameters: SharedLoss, context: Context) -> tuple[float, floa
     return parameters.drag_share * power / orbit, (1.0 - parameters.drag_share) * power / spin
 
 
+@law(
+    "fluid_drag",
+    "skf-catalogue",
+    Skf,
+    role_api=2,
+    reference="SKF, Das Waelzlagerhandbuch fuer Studenten (2008); Syla et al. 2026, Lubricants 14, 154, eq. 40",
+    validity="oil bath, horizontal shaft; V_M must be read from SKF's chart for the oil level",
+    prepare=prepare_skf,
+)
 def skf_catalogue(
-    v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: FloatArray, out: FloatArray
+    v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: SkfShare, out: FloatArray
 ) -> int:
     """SKF's drag torque in an oil bath, on each ball by its immersion.
 
     M_drag = V_M K_ball d_m^5 n^2: SKF, Das Waelzlagerhandbuch fuer Studenten (2008); Syla et al. 2026, eq. 40. The
     viscous term of the 2018 edition is optional (not confirmed from its original).
     """
-    wet = immersion(azimuth, par[0], par[1], par[2])
-    orbit = v_orbit / par[3]
-    spin = omega_spin / par[4]
-    out[0] = wet * orbit * par[5] * abs(orbit)
-    out[1] = wet * spin * par[6] * abs(spin)
-    if par[7] > 0.0 or par[8] > 0.0:
+    wet = immersion(azimuth, par.bath)
+    orbit = v_orbit / par.orbit
+    spin = omega_spin / par.spin
+    out[0] = wet * orbit * par.force * abs(orbit)
+    out[1] = wet * spin * par.moment * abs(spin)
+    if par.viscous_force > 0.0 or par.viscous_moment > 0.0:
         viscosity = (1e6 * nu) ** 1.379
-        out[0] += wet * orbit * par[7] * viscosity * (orbit * orbit + _SLOW * _SLOW) ** -0.1895
-        out[1] += wet * spin * par[8] * viscosity * (spin * spin + _SLOW * _SLOW) ** -0.1895
-    return 1
+        out[0] += wet * orbit * par.viscous_force * viscosity * (orbit * orbit + _SLOW * _SLOW) ** -0.1895
+        out[1] += wet * spin * par.viscous_moment * viscosity * (spin * spin + _SLOW * _SLOW) ** -0.1895
+    return OK
 
 
 # Factors f0 for oil bath; series not listed need the parameter.
@@ -155,8 +194,18 @@ class Schaeffler(SharedLoss):
     )
 
 
-def prepare_schaeffler(parameters: Schaeffler, context: Context) -> FloatArray:
-    """Return [oil geometry (3), orbit and spin speed per 1/min (2), force and moment per (160 or (nu n)^(2/3)) (2)]."""
+class SchaefflerShare(NamedTuple):
+    """Share of one wholly immersed ball in Schaeffler's torque M0."""
+
+    bath: OilBath
+    orbit: float  # kinematic speed per 1/min of the bearing [m/s]
+    spin: float  # the same [rad/s]
+    force: float  # per (nu n)^(2/3), or 160 [N]
+    moment: float  # per the same [N m]
+
+
+def prepare_schaeffler(parameters: Schaeffler, context: Context) -> SchaefflerShare:
+    """Return a ball's share."""
     f0 = parameters.f0 if parameters.f0 is not None else _F0_BATH.get(context.series)
     if f0 is None:
         known = ", ".join(_F0_BATH)
@@ -165,7 +214,8 @@ def prepare_schaeffler(parameters: Schaeffler, context: Context) -> FloatArray:
         )
     torque = parameters.fluid_share * f0 * 1e-7 * mean_diameter(context) ** 3
     drag, churn = power_factors(parameters, context)
-    return np.array([*oil_geometry(context), *kinematic_speeds(context, _RPM), drag * torque, churn * torque])
+    orbit, spin = kinematic_speeds(context, _RPM)
+    return SchaefflerShare(oil_geometry(context), orbit, spin, drag * torque, churn * torque)
 
 
 def viscous_number(nu: float, n: float) -> float:
@@ -174,8 +224,17 @@ def viscous_number(nu: float, n: float) -> float:
     return at_least(power, 160.0)
 
 
+@law(
+    "fluid_drag",
+    "schaeffler-catalogue",
+    Schaeffler,
+    role_api=2,
+    reference="Schaeffler, Rolling bearings (catalogue); Syla et al. 2026, Lubricants 14, 154, eq. 38-39",
+    validity="oil bath to the centre of the lowest ball; the share of drag in M0 is an assumption",
+    prepare=prepare_schaeffler,
+)
 def schaeffler_catalogue(
-    v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: FloatArray, out: FloatArray
+    v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: SchaefflerShare, out: FloatArray
 ) -> int:
     """Fluid share of Schaeffler's torque M0, on each ball by its immersion.
 
@@ -183,41 +242,19 @@ def schaeffler_catalogue(
     2026, eq. 38-39. M0 holds rolling resistance too; only `fluid_share` of it is applied, so that nothing counts twice.
     Below 1 1/min the torque goes to zero with the speed.
     """
-    wet = immersion(azimuth, par[0], par[1], par[2])
-    n = v_orbit / par[3]
-    out[0] = wet * par[5] * viscous_number(nu, n) * n / math.sqrt(n * n + _SLOW * _SLOW)
-    n = omega_spin / par[4]
-    out[1] = wet * par[6] * viscous_number(nu, n) * n / math.sqrt(n * n + _SLOW * _SLOW)
-    return 1
+    wet = immersion(azimuth, par.bath)
+    n = v_orbit / par.orbit
+    out[0] = wet * par.force * viscous_number(nu, n) * n / math.sqrt(n * n + _SLOW * _SLOW)
+    n = omega_spin / par.spin
+    out[1] = wet * par.moment * viscous_number(nu, n) * n / math.sqrt(n * n + _SLOW * _SLOW)
+    return OK
 
 
+@law("fluid_drag", "none", role_api=2, reference="-")
 def none(
-    v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: FloatArray, out: FloatArray
+    v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: NoParameters, out: FloatArray
 ) -> int:
     """No fluid losses on the balls."""
     out[0] = 0.0
     out[1] = 0.0
-    return 1
-
-
-SKF_CATALOGUE = model(
-    "fluid_drag",
-    "skf-catalogue",
-    skf_catalogue,
-    Skf,
-    reference="SKF, Das Waelzlagerhandbuch fuer Studenten (2008); Syla et al. 2026, Lubricants 14, 154, eq. 40",
-    validity="oil bath, horizontal shaft; V_M must be read from SKF's chart for the oil level",
-    prepare=prepare_skf,
-)
-
-SCHAEFFLER_CATALOGUE = model(
-    "fluid_drag",
-    "schaeffler-catalogue",
-    schaeffler_catalogue,
-    Schaeffler,
-    reference="Schaeffler, Rolling bearings (catalogue); Syla et al. 2026, Lubricants 14, 154, eq. 38-39",
-    validity="oil bath to the centre of the lowest ball; the share of drag in M0 is an assumption",
-    prepare=prepare_schaeffler,
-)
-
-NONE = model("fluid_drag", "none", none, NoParameters, reference="-")
+    return OK

@@ -7,15 +7,14 @@ polynomial in 1/T (error below 1e-5 in ln eta), and so are the powers of pressur
 from __future__ import annotations
 
 import math
-from typing import Annotated, Self
+from typing import Annotated, NamedTuple, Self
 
 import numpy as np
 from pydantic import model_validator
 
-from lambda_core.plugins import Context, Quantity, model
-from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_core.plugins import OK, Context, FloatArray, Parameters, Quantity, law, parameter
 from lambda_plugins.rheology import capped, dowson_higginson
-from lambda_plugins.shapes import POLYNOMIAL_TERMS, at_least, at_most, polynomial, series, smooth_min
+from lambda_plugins.shapes import at_least, at_most, polynomial, series, smooth_min
 
 _T_LOW = 233.15  # [K]
 _T_HIGH = 573.15  # [K]
@@ -139,19 +138,36 @@ def roelands_exponent(oil: RoelandsOil) -> float:
     return math.log1p(rise) / math.log1p(oil.alpha_span / _ROELANDS_P)
 
 
-def prepare_roelands(parameters: RoelandsOil, context: Context) -> FloatArray:
-    """Return [rho_15, slope, polynomial of ln eta_0 over 1/T, series of (1 + p/p_0)^Z - 1 over its square root]."""
+class RoelandsSeries(NamedTuple):
+    """Roelands' law as polynomials."""
+
+    density_15: float  # [kg/m3]
+    density_slope: float  # [kg/(m3 K)]
+    ambient: FloatArray  # ln(eta_0 / Pa s) over 1/T
+    stiffening: FloatArray  # (1 + p/p_0)^Z - 1 over sqrt(1 + p/p_0)
+
+
+def prepare_roelands(parameters: RoelandsOil, context: Context) -> RoelandsSeries:
+    """Return the series of one oil."""
     Z = roelands_exponent(parameters)
     if not 0.0 < Z < 1.5:
         raise ValueError(
             f"alpha_p = {1e9 * parameters.alpha_p:.3g} 1/GPa gives Roelands' Z = {Z:.3g}; oils have 0.2..1.2"
         )
     pressure = series(lambda root: np.asarray(root ** (2.0 * Z) - 1.0, dtype=np.float64), 1.0, _ROOT_HIGH)
-    head = [parameters.density_15, parameters.density_slope]
-    return np.concatenate([head, _log_viscosity_series(parameters), pressure])
+    return RoelandsSeries(parameters.density_15, parameters.density_slope, _log_viscosity_series(parameters), pressure)
 
 
-def roelands(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArray, rho: FloatArray) -> int:
+@law(
+    "rheology",
+    "roelands",
+    RoelandsOil,
+    role_api=2,
+    reference="Roelands 1966 (thesis, Delft); ASTM D341; density: Dowson and Higginson 1966",
+    validity="-40..300 degC, to about 1 GPa; stiffer than measured oils above; ln(eta) capped at 1e12 Pa s",
+    prepare=prepare_roelands,
+)
+def roelands(p: FloatArray, T: FloatArray, par: RoelandsSeries, ln_eta: FloatArray, rho: FloatArray) -> int:
     """Viscosity after Roelands over pressure and Walther over temperature.
 
     ln eta = ln eta_0 + (ln eta_0 + 9.67) [(1 + 5.1e-9 p)^Z - 1], Z from alpha_p at 40 degC and constant: Roelands
@@ -162,27 +178,51 @@ def roelands(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArray, 
     for i in range(ln_eta.size):
         pressure = at_least(p[i], 0.0)
         root = at_most(math.sqrt(1.0 + pressure / _ROELANDS_P), _ROOT_HIGH)
-        ambient = polynomial(scaled_inverse(T[i]), par, 2)
-        stiffening = polynomial(2.0 * (root - 1.0) / (_ROOT_HIGH - 1.0) - 1.0, par, 2 + POLYNOMIAL_TERMS)
+        ambient = polynomial(scaled_inverse(T[i]), par.ambient)
+        stiffening = polynomial(2.0 * (root - 1.0) / (_ROOT_HIGH - 1.0) - 1.0, par.stiffening)
         distance = ambient + _ROELANDS_LOG
         ln_eta[i] = capped(ambient + at_least(distance, 0.0) * stiffening)
-        rho[i] = oil_density(pressure, T[i], par[0], par[1])
-    return 1
+        rho[i] = oil_density(pressure, T[i], par.density_15, par.density_slope)
+    return OK
 
 
-def prepare_barus(parameters: BarusOil, context: Context) -> FloatArray:
-    """Return [rho_15, slope, exponent limit, polynomial of ln eta_0 over 1/T, series of alpha_p(T) over 1/T]."""
+class BarusSeries(NamedTuple):
+    """The limited Barus law as polynomials."""
+
+    density_15: float  # [kg/m3]
+    density_slope: float  # [kg/(m3 K)]
+    exponent_limit: float
+    ambient: FloatArray  # ln(eta_0 / Pa s) over 1/T
+    alpha: FloatArray  # alpha_p [1/Pa] over 1/T
+
+
+def prepare_barus(parameters: BarusOil, context: Context) -> BarusSeries:
+    """Return the series of one oil."""
 
     def alpha(inverse: FloatArray) -> FloatArray:
         nu = kinematic_viscosity(parameters, 1.0 / inverse)
         ratio = (nu / parameters.kinematic_viscosity_40) ** parameters.gold_exponent
         return np.asarray(parameters.alpha_p * ratio, dtype=np.float64)
 
-    head = [parameters.density_15, parameters.density_slope, parameters.exponent_limit]
-    return np.concatenate([head, _log_viscosity_series(parameters), series(alpha, 1.0 / _T_HIGH, 1.0 / _T_LOW)])
+    return BarusSeries(
+        parameters.density_15,
+        parameters.density_slope,
+        parameters.exponent_limit,
+        _log_viscosity_series(parameters),
+        series(alpha, 1.0 / _T_HIGH, 1.0 / _T_LOW),
+    )
 
 
-def barus_limited(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArray, rho: FloatArray) -> int:
+@law(
+    "rheology",
+    "barus-limited",
+    BarusOil,
+    role_api=2,
+    reference="Barus 1893, Am. J. Sci. 45, 87; Gold et al. 2001, J. Synth. Lubr. 18, 51; ASTM D341",
+    validity="-40..300 degC, to about 0.5 GPa; the exponent is limited above",
+    prepare=prepare_barus,
+)
+def barus_limited(p: FloatArray, T: FloatArray, par: BarusSeries, ln_eta: FloatArray, rho: FloatArray) -> int:
     """Viscosity after Barus with a limited exponent, Walther over temperature.
 
     ln eta = ln eta_0 + min(alpha_p p, limit), corner rounded over a unit; Barus 1893, Am. J. Sci. 45, 87. alpha_p goes
@@ -192,28 +232,7 @@ def barus_limited(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatAr
     for i in range(ln_eta.size):
         pressure = at_least(p[i], 0.0)
         x = scaled_inverse(T[i])
-        exponent = smooth_min(polynomial(x, par, 3 + POLYNOMIAL_TERMS) * pressure, par[2], 0.5)
-        ln_eta[i] = capped(polynomial(x, par, 3) + exponent)
-        rho[i] = oil_density(pressure, T[i], par[0], par[1])
-    return 1
-
-
-ROELANDS = model(
-    "rheology",
-    "roelands",
-    roelands,
-    RoelandsOil,
-    reference="Roelands 1966 (thesis, Delft); ASTM D341; density: Dowson and Higginson 1966",
-    validity="-40..300 degC, to about 1 GPa; stiffer than measured oils above; ln(eta) capped at 1e12 Pa s",
-    prepare=prepare_roelands,
-)
-
-BARUS_LIMITED = model(
-    "rheology",
-    "barus-limited",
-    barus_limited,
-    BarusOil,
-    reference="Barus 1893, Am. J. Sci. 45, 87; Gold et al. 2001, J. Synth. Lubr. 18, 51; ASTM D341",
-    validity="-40..300 degC, to about 0.5 GPa; the exponent is limited above",
-    prepare=prepare_barus,
-)
+        exponent = smooth_min(polynomial(x, par.alpha) * pressure, par.exponent_limit, 0.5)
+        ln_eta[i] = capped(polynomial(x, par.ambient) + exponent)
+        rho[i] = oil_density(pressure, T[i], par.density_15, par.density_slope)
+    return OK

@@ -3,36 +3,44 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from lambda_core.plugins import Context
-from lambda_plugins.fields import FloatArray
 from lambda_plugins.shapes import at_least, at_most
 
 _EVERYWHERE = 1e3  # [m] oil level of a bearing whose oil level is not known: every ball takes its even share
 
 
-def oil_geometry(context: Context) -> FloatArray:
-    """Return [oil level above the lowest point of the pitch circle, pitch radius, ball radius] in m."""
+class OilBath(NamedTuple):
+    """Where the oil stands among the balls."""
+
+    level: float  # above the lowest point of the pitch circle [m]
+    pitch_radius: float  # [m]
+    ball_radius: float  # [m]
+
+
+def oil_geometry(context: Context) -> OilBath:
+    """Return the oil bath of a bearing."""
     level = context.oil_level if math.isfinite(context.oil_level) else _EVERYWHERE
-    return np.array([level, 0.5 * context.pitch_diameter, 0.5 * context.ball_diameter])
+    return OilBath(level, 0.5 * context.pitch_diameter, 0.5 * context.ball_diameter)
 
 
-def immersion(azimuth: float, level: float, pitch_radius: float, ball_radius: float) -> float:
+def immersion(azimuth: float, bath: OilBath) -> float:
     """Return the submerged share of a ball's volume, 0..1.
 
     The ball's centre stands pitch_radius (1 + sin azimuth) above the lowest point of the pitch circle (azimuth from +y
     to +z, gravity along -z). A spherical cap of depth 2 R x holds the share x^2 (3 - 2 x) of the sphere, a smooth law.
     """
-    depth = level - pitch_radius * (1.0 + math.sin(azimuth))
-    x = at_most(at_least(0.5 * (depth / ball_radius + 1.0), 0.0), 1.0)
+    depth = bath.level - bath.pitch_radius * (1.0 + math.sin(azimuth))
+    x = at_most(at_least(0.5 * (depth / bath.ball_radius + 1.0), 0.0), 1.0)
     return x * x * (3.0 - 2.0 * x)
 
 
-def mean_immersion(oil: FloatArray) -> float:
-    """Return the mean of :func:`immersion` over the azimuth; `oil` as from :func:`oil_geometry`."""
-    level, pitch_radius, ball_radius = (float(value) for value in oil)
+def mean_immersion(bath: OilBath) -> float:
+    """Return the mean of :func:`immersion` over the azimuth."""
+    level, pitch_radius, ball_radius = bath
 
     def angle(height: float) -> float:
         """Angle from the lowest point at which a ball's centre stands `height` above it."""
@@ -41,7 +49,7 @@ def mean_immersion(oil: FloatArray) -> float:
     whole, none = angle(level - ball_radius), angle(level + ball_radius)
     nodes, weights = np.polynomial.legendre.leggauss(24)
     partly = whole + 0.5 * (none - whole) * (nodes + 1.0)
-    shares = [immersion(each - 0.5 * math.pi, level, pitch_radius, ball_radius) for each in partly]
+    shares = [immersion(each - 0.5 * math.pi, bath) for each in partly]
     return (whole + 0.5 * (none - whole) * float(weights @ shares)) / math.pi
 
 

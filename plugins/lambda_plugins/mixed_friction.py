@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Self
+from typing import Annotated, NamedTuple, Self
 
 from pydantic import model_validator
 
-from lambda_core.plugins import NoParameters, Quantity, model
-from lambda_plugins.fields import FloatArray, Parameters, parameter
-from lambda_plugins.shapes import at_least, cubic_friction
+from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, Quantity, law, parameter
+from lambda_plugins.shapes import at_least, at_most, cubic_friction
 
 _SISTER = "Wingertszahn et al. 2023, Lubricants 11, 369"
 
@@ -33,19 +32,111 @@ class ZhouHoeprich(Parameters):
     )
 
 
-def zhou_hoeprich(Lambda: float, par: FloatArray, out: FloatArray) -> int:
+@law(
+    "asperity_load",
+    "zhou-hoeprich",
+    ZhouHoeprich,
+    role_api=2,
+    reference="Zhou and Hoeprich 1991, J. Tribol. 113, 590; constants: Wingertszahn et al. 2023, Lubricants 11, 369",
+    validity="constants belong to the roughness that they were fitted with",
+)
+def zhou_hoeprich(Lambda: float, par: ZhouHoeprich, out: FloatArray) -> int:
     """Share of the load on asperities, psi = exp(-B Lambda^C), after Zhou and Hoeprich.
 
     Zhou and Hoeprich 1991, J. Tribol. 113, 590; constants as in the tapered roller model of Wingertszahn et al. 2023.
     """
-    out[0] = math.exp(-par[0] * at_least(Lambda, 0.0) ** par[1])
-    return 1
+    out[0] = math.exp(-par.B * at_least(Lambda, 0.0) ** par.C)
+    return OK
 
 
-def none(Lambda: float, par: FloatArray, out: FloatArray) -> int:
+class SpikesOlver(Parameters):
+    """Constant of the friction transition measured on rough discs."""
+
+    exponent: float = parameter(
+        2.0, "m in psi = (1 + Lambda)^-m", source="Spikes and Olver 2003: about 2", ge=0.5, le=4.0
+    )
+
+
+@law(
+    "asperity_load",
+    "spikes-olver",
+    SpikesOlver,
+    role_api=2,
+    reference="Spikes and Olver 2003, Lubr. Sci. 16(1), 3",
+    validity="friction of rough point contacts over the whole transition; Lambda of the smooth surfaces",
+)
+def spikes_olver(Lambda: float, par: SpikesOlver, out: FloatArray) -> int:
+    """Share of boundary friction in mixed lubrication, psi = (1 + Lambda)^-m, after Spikes and Olver.
+
+    From friction measured in rough rolling and sliding contacts, mu = mu_film + (mu_bl - mu_film)/(1 + Lambda)^m,
+    Lambda the smooth film over the composite rms roughness: Spikes and Olver 2003, Lubr. Sci. 16(1), 3.
+    """
+    out[0] = (1.0 + at_least(Lambda, 0.0)) ** -par.exponent
+    return OK
+
+
+@law("asperity_load", "none", role_api=2, reference="-")
+def none(Lambda: float, par: NoParameters, out: FloatArray) -> int:
     """Full film: no load on asperities."""
     out[0] = 0.0
-    return 1
+    return OK
+
+
+class MicroSlip(Parameters):
+    """Constants of Coulomb friction with the micro-slip of rolling contacts."""
+
+    mu: float = parameter(
+        0.12,
+        "coefficient of friction in gross sliding",
+        source="mu_bl of a running bearing: SKF, Rolling bearings (2018), Friction; 0.15 at the start",
+        published_range=(0.1, 0.15),
+        ge=0.0,
+        le=1.0,
+    )
+    v_rest: Annotated[float, Quantity("velocity")] = parameter(
+        "0.001 mm/s", "slip of full friction in a contact that does not roll", status="numerical", gt=0.0
+    )
+
+
+class Creep(NamedTuple):
+    """What gross sliding takes."""
+
+    mu: float
+    per_pressure: float  # creep of gross sliding over the pressure [1/Pa]
+    v_rest: float
+
+
+def prepare_micro_slip(parameters: MicroSlip, context: Context) -> Creep:
+    """Return the creep at which nothing sticks, per pressure."""
+    per_pressure = 16.0 * parameters.mu / (math.pi * context.e_eff) if context.e_eff > 0.0 else 0.0
+    return Creep(parameters.mu, per_pressure, parameters.v_rest)
+
+
+@law(
+    "boundary_friction",
+    "micro-slip",
+    MicroSlip,
+    role_api=2,
+    reference="Carter 1926, Proc. R. Soc. A 112, 151; Johnson, Contact Mechanics (1985), section 8.3",
+    validity="steady rolling; elastic bodies of equal material; no memory of the contact before a reversal",
+    prepare=prepare_micro_slip,
+)
+def micro_slip(slip: FloatArray, p: FloatArray, u_mean: float, par: Creep, mu: FloatArray) -> int:
+    """Coulomb friction of a rolling contact: elastic creep first, gross sliding from the creep that fills the contact.
+
+    Surfaces that roll against each other stick at the inlet and slip at the outlet; the shear force is
+    mu (2 z - z^2) of the load, z = xi/xi_c, with the creep xi = v/u and mu from xi_c = 4 mu p_0/E' on, where the stuck
+    zone is gone: Carter 1926, Proc. R. Soc. A 112, 151; Johnson, Contact Mechanics (1985), section 8.3 (there xi_c =
+    mu b/R and b/R = 4 p_0/E'), for equal materials in plane strain, strip by strip; p_0 = (4/pi) p of a strip's mean
+    pressure. So the slip that friction needs follows the rolling speed and nothing is smoothed away at low speed: with
+    mu = 0.12 and 1.5 GPa xi_c is 0.4 %, where slip in conforming grooves is some percent. Slip across rolling is
+    treated alike (its creep is 1/(1 - nu) times larger). Full friction takes `v_rest` more, for contacts at rest.
+    """
+    per_pressure = u_mean * par.per_pressure
+    for i in range(mu.size):
+        z = at_most(slip[i] / (per_pressure * at_least(p[i], 0.0) + par.v_rest), 1.0)
+        mu[i] = par.mu * z * (2.0 - z)
+    return OK
 
 
 class CubicFriction(Parameters):
@@ -69,16 +160,24 @@ class CubicFriction(Parameters):
         return self
 
 
-def cubic(slip: FloatArray, p: FloatArray, par: FloatArray, mu: FloatArray) -> int:
+@law(
+    "boundary_friction",
+    "cubic",
+    CubicFriction,
+    role_api=2,
+    reference="Teutsch 2005 (thesis, TU Kaiserslautern); Wingertszahn et al. 2023, Lubricants 11, 369, eq. 21",
+    validity="constants are assumptions until measured for the oil and surfaces",
+)
+def cubic(slip: FloatArray, p: FloatArray, u_mean: float, par: CubicFriction, mu: FloatArray) -> int:
     """Boundary friction that rises from 0 at rest to mu_s at v_s and falls to mu_d at v_d, after Teutsch.
 
     Teutsch 2005; Wingertszahn et al. 2023, Lubricants 11, 369, eq. 21 with its missing factor.
     """
-    per_v_s = 1.0 / par[2]
-    per_fall = 1.0 / (par[3] - par[2])
+    per_v_s = 1.0 / par.v_s
+    per_fall = 1.0 / (par.v_d - par.v_s)
     for i in range(mu.size):
-        mu[i] = cubic_friction(slip[i], par[0], par[1], per_v_s, per_fall)
-    return 1
+        mu[i] = cubic_friction(slip[i], par.mu_s, par.mu_d, per_v_s, per_fall)
+    return OK
 
 
 class Coulomb(Parameters):
@@ -90,38 +189,16 @@ class Coulomb(Parameters):
     )
 
 
-def coulomb_regularised(slip: FloatArray, p: FloatArray, par: FloatArray, mu: FloatArray) -> int:
-    """Coulomb friction, regularised: mu v/sqrt(v^2 + v_0^2)."""
-    for i in range(mu.size):
-        mu[i] = par[0] * slip[i] / math.sqrt(slip[i] * slip[i] + par[1] * par[1])
-    return 1
-
-
-ZHOU_HOEPRICH = model(
-    "asperity_load",
-    "zhou-hoeprich",
-    zhou_hoeprich,
-    ZhouHoeprich,
-    reference="Zhou and Hoeprich 1991, J. Tribol. 113, 590; constants: Wingertszahn et al. 2023, Lubricants 11, 369",
-    validity="constants belong to the roughness that they were fitted with",
-)
-
-NO_ASPERITIES = model("asperity_load", "none", none, NoParameters, reference="-")
-
-CUBIC = model(
-    "boundary_friction",
-    "cubic",
-    cubic,
-    CubicFriction,
-    reference="Teutsch 2005 (thesis, TU Kaiserslautern); Wingertszahn et al. 2023, Lubricants 11, 369, eq. 21",
-    validity="constants are assumptions until measured for the oil and surfaces",
-)
-
-COULOMB_REGULARISED = model(
+@law(
     "boundary_friction",
     "coulomb-regularised",
-    coulomb_regularised,
     Coulomb,
+    role_api=2,
     reference="Coulomb's law with a smooth start",
     validity="constant coefficient beyond a few v_0",
 )
+def coulomb_regularised(slip: FloatArray, p: FloatArray, u_mean: float, par: Coulomb, mu: FloatArray) -> int:
+    """Coulomb friction, regularised: mu v/sqrt(v^2 + v_0^2)."""
+    for i in range(mu.size):
+        mu[i] = par.mu * slip[i] / math.sqrt(slip[i] * slip[i] + par.v_0 * par.v_0)
+    return OK

@@ -4,25 +4,24 @@ from __future__ import annotations
 
 import functools
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from lambda_core.physics.hertz import hertz_shape
-from lambda_core.plugins import Context, NoParameters, model
-from lambda_plugins.fields import FloatArray
+from lambda_core.plugins import OK, Context, FloatArray, NoParameters, hertz_shape, law
 
 _Q = math.pi / 2.0 - 1.0
 _MAX_RATIO = 2.0e4  # of the principal radii; range of the exact model's fit
 _DEGREE = 28
 
 
-def chebyshev(x: float, coefficients: FloatArray, start: int, count: int) -> float:
-    """Return the Chebyshev series at `x` in -1..1 of `count` coefficients from `start` on (Clenshaw's recurrence)."""
+def chebyshev(x: float, coefficients: FloatArray) -> float:
+    """Return the Chebyshev series at `x` in -1..1 (Clenshaw's recurrence)."""
     b1 = 0.0
     b2 = 0.0
-    for i in range(start + count - 1, start, -1):
+    for i in range(coefficients.size - 1, 0, -1):
         b1, b2 = 2.0 * x * b1 - b2 + coefficients[i], b1
-    value: float = x * b1 - b2 + coefficients[start]
+    value: float = x * b1 - b2 + coefficients[0]
     return value
 
 
@@ -54,7 +53,14 @@ def ellipse_from_penetration(
     out[3] = 1.5 * E_eff * scale * s / (root * root)
 
 
-def hamrock_brewe(delta: float, R_x: float, R_y: float, E_eff: float, par: FloatArray, out: FloatArray) -> int:
+@law(
+    "normal_contact",
+    "hamrock-brewe",
+    role_api=2,
+    reference="Hamrock and Brewe 1983, J. Lubr. Technol. 105, 171; Syla et al. 2026, Lubricants 14, 154, eq. 1-11",
+    validity="elliptical contact of smooth elastic half-spaces; fit error: pressure -0.2..+1.4 %, load -2..+4 %",
+)
+def hamrock_brewe(delta: float, R_x: float, R_y: float, E_eff: float, par: NoParameters, out: FloatArray) -> int:
     """Hertz with Hamrock and Brewe's fits of ellipse ratio and elliptic integrals.
 
     k = a_H^(2/pi), F = pi/2 + q ln a_H, eps = 1 + q/a_H, q = pi/2 - 1, a_H = R_y/R_x or its inverse, whichever is
@@ -65,65 +71,60 @@ def hamrock_brewe(delta: float, R_x: float, R_y: float, E_eff: float, par: Float
     logarithm = math.log(ratio)
     k = math.exp(2.0 / math.pi * logarithm)
     ellipse_from_penetration(delta, R_x, R_y, E_eff, k, math.pi / 2.0 + _Q * logarithm, 1.0 + _Q / ratio, out)
-    return 1
+    return OK
 
 
-def hertz_exact(delta: float, R_x: float, R_y: float, E_eff: float, par: FloatArray, out: FloatArray) -> int:
-    """Hertz with complete elliptic integrals.
+class ExactSeries(NamedTuple):
+    """Chebyshev series over ln(ratio of the principal radii)."""
 
-    Hertz 1881; Johnson, Contact Mechanics (1985), eq. 4.25-4.28. `par` holds Chebyshev series in ln(ratio of the
-    principal radii), fitted once to scipy.special over 1..20 000 with a relative error below 1e-9.
-    """
-    ratio = R_y / R_x if R_y >= R_x else R_x / R_y
-    if ratio > _MAX_RATIO:
-        return 2
-    x = 2.0 * math.log(ratio) / math.log(_MAX_RATIO) - 1.0
-    n = _DEGREE + 1
-    k = math.exp(chebyshev(x, par, 0, n))
-    first = chebyshev(x, par, n, n)
-    second = chebyshev(x, par, 2 * n, n)
-    ellipse_from_penetration(delta, R_x, R_y, E_eff, k, first, second, out)
-    return 1
+    ln_ellipticity: FloatArray  # ln k
+    first: FloatArray  # complete elliptic integral K
+    second: FloatArray  # complete elliptic integral E
 
 
 @functools.cache
-def _exact_series() -> tuple[float, ...]:
-    """Return the Chebyshev coefficients of ln k, K and E over ln(ratio), one series after the other."""
+def _exact_series() -> ExactSeries:
+    """Return the series, fitted to scipy.special's integrals."""
     nodes = np.cos((np.arange(80) + 0.5) * math.pi / 80)
     shapes = [hertz_shape(1.0, math.exp((x + 1.0) / 2.0 * math.log(_MAX_RATIO))) for x in nodes]
     values = np.array([(math.log(shape.ratio), shape.first, shape.second) for shape in shapes])
-    return tuple(np.polynomial.chebyshev.chebfit(nodes, values, _DEGREE).T.ravel().tolist())
+    return ExactSeries(*np.polynomial.chebyshev.chebfit(nodes, values, _DEGREE).T)
 
 
-def prepare_exact(parameters: NoParameters, context: Context) -> FloatArray:
+def prepare_exact(parameters: NoParameters, context: Context) -> ExactSeries:
     """Return the series of the exact integrals (computed once per process)."""
-    return np.array(_exact_series())
+    return _exact_series()
 
 
-def stiffness(load: float, radius_x: float, radius_y: float, e_eff: float) -> float:
-    """Return dQ/d(delta) [N/m] of the Hamrock-Brewe contact at `load` [N]; Q goes with delta^1.5."""
-    unit, no_par = np.empty(4), np.empty(0)
-    hamrock_brewe(1e-6, radius_x, radius_y, e_eff, no_par, unit)
-    penetration: float = 1e-6 * (load / float(unit[0])) ** (2.0 / 3.0)
-    return 1.5 * load / penetration
-
-
-HAMROCK_BREWE = model(
-    "normal_contact",
-    "hamrock-brewe",
-    hamrock_brewe,
-    NoParameters,
-    reference="Hamrock and Brewe 1983, J. Lubr. Technol. 105, 171; Syla et al. 2026, Lubricants 14, 154, eq. 1-11",
-    validity="elliptical contact of smooth elastic half-spaces; fit error: pressure -0.2..+1.4 %, load -2..+4 %",
-)
-
-HERTZ_EXACT = model(
+@law(
     "normal_contact",
     "hertz-exact",
-    hertz_exact,
-    NoParameters,
+    role_api=2,
     reference="Hertz 1881; Johnson, Contact Mechanics (1985), eq. 4.25-4.28",
     validity="elliptical contact of smooth elastic half-spaces; ratio of principal radii up to 20 000",
     prepare=prepare_exact,
     errors={2: "the ratio of the principal radii exceeds 20 000: use a line-contact law"},
 )
+def hertz_exact(delta: float, R_x: float, R_y: float, E_eff: float, par: ExactSeries, out: FloatArray) -> int:
+    """Hertz with complete elliptic integrals.
+
+    Hertz 1881; Johnson, Contact Mechanics (1985), eq. 4.25-4.28. The integrals are Chebyshev series in
+    ln(ratio of the principal radii), fitted once to scipy.special over 1..20 000 with a relative error below 1e-9.
+    """
+    ratio = R_y / R_x if R_y >= R_x else R_x / R_y
+    if ratio > _MAX_RATIO:
+        return 2
+    x = 2.0 * math.log(ratio) / math.log(_MAX_RATIO) - 1.0
+    k = math.exp(chebyshev(x, par.ln_ellipticity))
+    first = chebyshev(x, par.first)
+    second = chebyshev(x, par.second)
+    ellipse_from_penetration(delta, R_x, R_y, E_eff, k, first, second, out)
+    return OK
+
+
+def stiffness(load: float, radius_x: float, radius_y: float, e_eff: float) -> float:
+    """Return dQ/d(delta) [N/m] of the Hamrock-Brewe contact at `load` [N]; Q goes with delta^1.5."""
+    unit = np.empty(4)
+    hamrock_brewe(1e-6, radius_x, radius_y, e_eff, NoParameters(), unit)
+    penetration: float = 1e-6 * (load / float(unit[0])) ** (2.0 / 3.0)
+    return 1.5 * load / penetration

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from lambda_plugins.fields import FloatArray
+from lambda_core.plugins import FloatArray
 
 
 def at_least(value: float, low: float) -> float:
@@ -64,11 +64,10 @@ def series(function: Callable[[FloatArray], FloatArray], low: float, high: float
     return np.asarray(np.polynomial.chebyshev.cheb2poly(fit), dtype=np.float64)
 
 
-def polynomial(x: float, c: FloatArray, start: int) -> float:
-    """Return sum c[start + i] x^i of 13 terms; spelled out, so that loops over cells vectorise."""
-    s = start
-    low = c[s] + x * (c[s + 1] + x * (c[s + 2] + x * (c[s + 3] + x * (c[s + 4] + x * (c[s + 5] + x * c[s + 6])))))
-    high = c[s + 7] + x * (c[s + 8] + x * (c[s + 9] + x * (c[s + 10] + x * (c[s + 11] + x * c[s + 12]))))
+def polynomial(x: float, c: FloatArray) -> float:
+    """Return sum c[i] x^i of 13 terms; spelled out, so that loops over cells vectorise."""
+    low = c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * (c[5] + x * c[6])))))
+    high = c[7] + x * (c[8] + x * (c[9] + x * (c[10] + x * (c[11] + x * c[12]))))
     x2 = x * x
     value: float = low + x2 * x2 * x2 * x * high
     return value

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
-import numpy as np
-
-from lambda_core.plugins import Context, model
-from lambda_plugins.fields import FloatArray, Parameters, parameter
-from lambda_plugins.immersion import immersion, oil_geometry
+from lambda_core.plugins import OK, Context, FloatArray, Parameters, law, parameter
+from lambda_plugins.immersion import OilBath, immersion, oil_geometry
 
 _KIRCHHOFF = 16.0 * math.pi
 
@@ -27,13 +25,29 @@ class SphereDrag(Parameters):
     )
 
 
-def prepare(parameters: SphereDrag, context: Context) -> FloatArray:
-    """Return [oil level, pitch radius, ball radius, entrainment]."""
-    return np.array([*oil_geometry(context), parameters.entrainment])
+class Stream(NamedTuple):
+    """The oil that a ball meets."""
+
+    bath: OilBath
+    entrainment: float  # speed of the oil over the ball's
 
 
+def prepare(parameters: SphereDrag, context: Context) -> Stream:
+    """Return the oil bath and how it turns."""
+    return Stream(oil_geometry(context), parameters.entrainment)
+
+
+@law(
+    "fluid_drag",
+    "sphere-drag",
+    SphereDrag,
+    role_api=2,
+    reference="Clift, Grace and Weber 1978, eq. 5-8; Sawatzki 1970, Acta Mech. 9, 159; Kirchhoff 1876",
+    validity="single sphere; drag Re < 3e5, spin Re < 4e4; neighbours, cage and rings left out",
+    prepare=prepare,
+)
 def sphere_drag(
-    v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: FloatArray, out: FloatArray
+    v_orbit: float, omega_spin: float, azimuth: float, nu: float, rho: float, par: Stream, out: FloatArray
 ) -> int:
     """Drag curve of a sphere and moment of a spinning sphere, times the submerged share of the ball.
 
@@ -43,9 +57,9 @@ def sphere_drag(
     to 4e4 (Sawatzki 1970, Acta Mech. 9, 159; Dennis, Singh and Ingham 1980, J. Fluid Mech. 101, 257), joined smoothly.
     No influence of neighbours, cage and rings, of which a bearing has plenty: an independent order of magnitude.
     """
-    wet = immersion(azimuth, par[0], par[1], par[2])
-    R = par[2]
-    v = (1.0 - par[3]) * v_orbit
+    wet = immersion(azimuth, par.bath)
+    R = par.bath.ball_radius
+    v = (1.0 - par.entrainment) * v_orbit
     Re = 2.0 * R * abs(v) / nu
     # C_D Re, finite at rest: Stokes' part and the bluff body's part
     inertial = 0.42 * Re / (1.0 + 42500.0 * (Re + 1e-9) ** -1.16)
@@ -55,15 +69,4 @@ def sphere_drag(
     # C_M Re: the larger of both laws with a smooth corner at Re = 8
     joined = (_KIRCHHOFF**16 + boundary_layer**16) ** 0.0625
     out[1] = wet * 0.5 * rho * nu * R**3 * omega_spin * joined
-    return 1
-
-
-SPHERE_DRAG = model(
-    "fluid_drag",
-    "sphere-drag",
-    sphere_drag,
-    SphereDrag,
-    reference="Clift, Grace and Weber 1978, eq. 5-8; Sawatzki 1970, Acta Mech. 9, 159; Kirchhoff 1876",
-    validity="single sphere; drag Re < 3e5, spin Re < 4e4; neighbours, cage and rings left out",
-    prepare=prepare,
-)
+    return OK

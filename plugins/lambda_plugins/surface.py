@@ -8,12 +8,11 @@ balls, and its reaction on the ring: what a wavy ring puts into the balls comes 
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from lambda_core.plugins import Context, NoParameters, Quantity, model
-from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, Quantity, law, parameter
 from lambda_plugins.shapes import at_least, smooth_min
 
 Angle = Annotated[float, Quantity("angle")]
@@ -23,12 +22,13 @@ SmallLength = Annotated[float, Quantity("small_length")]
 _MEASURED = "no value of its own: measured on the ring"
 
 
-def none(azimuth: float, contact_angle: float, par: FloatArray, out: FloatArray) -> int:
+@law("surface", "none", role_api=2, reference="-")
+def none(azimuth: float, contact_angle: float, par: NoParameters, out: FloatArray) -> int:
     """Nominal raceway."""
     out[0] = 0.0
     out[1] = 0.0
     out[2] = 0.0
-    return 1
+    return OK
 
 
 class Harmonic(Parameters):
@@ -62,16 +62,36 @@ class Waviness(Harmonic):
     )
 
 
-def prepare_waviness(parameters: Waviness, context: Context) -> FloatArray:
-    """Return [radial amplitude, axial amplitude, waves, phase] of every harmonic."""
-    numbers: list[float] = []
-    for wave in (parameters, *parameters.harmonics):
-        radial = wave.amplitude * math.sqrt(1.0 - wave.axial_share * wave.axial_share)
-        numbers += [radial, wave.amplitude * wave.axial_share, float(wave.waves), wave.phase]
-    return np.array(numbers)
+class Waves(NamedTuple):
+    """Every harmonic, one after the other."""
+
+    radial: FloatArray  # amplitude towards the balls [m]
+    axial: FloatArray  # amplitude along the axis [m]
+    number: FloatArray  # waves per circumference
+    phase: FloatArray  # [rad]
 
 
-def waviness(azimuth: float, contact_angle: float, par: FloatArray, out: FloatArray) -> int:
+def prepare_waviness(parameters: Waviness, context: Context) -> Waves:
+    """Return the harmonics, the first one before those of the list."""
+    waves = (parameters, *parameters.harmonics)
+    return Waves(
+        np.array([wave.amplitude * math.sqrt(1.0 - wave.axial_share * wave.axial_share) for wave in waves]),
+        np.array([wave.amplitude * wave.axial_share for wave in waves]),
+        np.array([float(wave.waves) for wave in waves]),
+        np.array([wave.phase for wave in waves]),
+    )
+
+
+@law(
+    "surface",
+    "waviness",
+    Waviness,
+    role_api=2,
+    reference="Wardle 1988, Proc. Instn Mech. Engrs 202 C5, 305; Harsha et al. 2004, J. Sound Vib. 272, 557",
+    validity="waves long against the contact ellipse; slopes small against 1",
+    prepare=prepare_waviness,
+)
+def waviness(azimuth: float, contact_angle: float, par: Waves, out: FloatArray) -> int:
     """Waviness of a raceway, w = sum over harmonics of (A_r cos alpha + A_x sin alpha) cos k (psi - phase).
 
     A groove whose section is displaced by A_r towards the balls and by A_x along the axis rises at contact angle alpha
@@ -84,14 +104,14 @@ def waviness(azimuth: float, contact_angle: float, par: FloatArray, out: FloatAr
     out[0] = 0.0
     out[1] = 0.0
     out[2] = 0.0
-    for i in range(0, par.size, 4):
-        wave = par[i + 2] * (azimuth - par[i + 3])
+    for i in range(par.number.size):
+        wave = par.number[i] * (azimuth - par.phase[i])
         c = math.cos(wave)
-        lift = par[i] * cos_a + par[i + 1] * sin_a
+        lift = par.radial[i] * cos_a + par.axial[i] * sin_a
         out[0] += lift * c
-        out[1] -= lift * par[i + 2] * math.sin(wave)
-        out[2] += (par[i + 1] * cos_a - par[i] * sin_a) * c
-    return 1
+        out[1] -= lift * par.number[i] * math.sin(wave)
+        out[2] += (par.axial[i] * cos_a - par.radial[i] * sin_a) * c
+    return OK
 
 
 class Defect(Parameters):
@@ -119,25 +139,46 @@ class Defect(Parameters):
     )
 
 
-def prepare_defect(parameters: Defect, context: Context) -> FloatArray:
-    """Return [half width, depth, azimuth, 1/half extent or 0, angle, R_x, radius of the raceway, r_g, rounding]."""
-    half, extent = 0.5 * parameters.width, parameters.extent
-    return np.array(
-        [
-            half,
-            parameters.depth,
-            parameters.azimuth,
-            0.0 if extent is None else 2.0 / extent,
-            parameters.contact_angle,
-            context.radius_x,
-            0.5 * context.race_diameter,
-            context.groove_radius,
-            parameters.rounding,
-        ]
+class Gap(NamedTuple):
+    """A defect on its raceway."""
+
+    half_width: float  # [m]
+    depth: float  # [m]
+    azimuth: float  # [rad]
+    per_half_extent: float  # 1 over half the length across rolling, 0 for the whole groove [1/m]
+    contact_angle: float  # [rad]
+    radius_x: float  # reduced radius along rolling [m]
+    raceway_radius: float  # at the groove's bottom [m]
+    groove_radius: float  # [m]
+    rounding: float
+
+
+def prepare_defect(parameters: Defect, context: Context) -> Gap:
+    """Return the defect with the radii of its raceway."""
+    extent = parameters.extent
+    return Gap(
+        0.5 * parameters.width,
+        parameters.depth,
+        parameters.azimuth,
+        0.0 if extent is None else 2.0 / extent,
+        parameters.contact_angle,
+        context.radius_x,
+        0.5 * context.race_diameter,
+        context.groove_radius,
+        parameters.rounding,
     )
 
 
-def defect(azimuth: float, contact_angle: float, par: FloatArray, out: FloatArray) -> int:
+@law(
+    "surface",
+    "defect",
+    Defect,
+    role_api=2,
+    reference="geometry of a circle on an edge; Sawalhi and Randall 2008, Mech. Syst. Signal Process. 22, 1924",
+    validity="gap longer along rolling than the contact ellipse; rigid edges",
+    prepare=prepare_defect,
+)
+def defect(azimuth: float, contact_angle: float, par: Gap, out: FloatArray) -> int:
     """Gap in the raceway that a rigid ball crosses: it turns about the edge behind, then about the edge ahead.
 
     At the distance e from the nearer edge the ball's centre has dropped by e^2/(2 R_x), at most by the depth: geometry
@@ -145,50 +186,27 @@ def defect(azimuth: float, contact_angle: float, par: FloatArray, out: FloatArra
     and change of edge in the middle, where the ball is struck, are rounded. Across the groove the drop fades to the
     ends of the defect as (1 - s^2)^2.
     """
-    turn = azimuth - par[2]
+    turn = azimuth - par.azimuth
     turn -= 2.0 * math.pi * math.floor(turn / (2.0 * math.pi) + 0.5)
-    x = par[6] * turn
+    x = par.raceway_radius * turn
     out[0] = 0.0
     out[1] = 0.0
     out[2] = 0.0
-    if abs(x) >= par[0]:
-        return 1
-    s = par[7] * (contact_angle - par[4]) * par[3]
+    if abs(x) >= par.half_width:
+        return OK
+    s = par.groove_radius * (contact_angle - par.contact_angle) * par.per_half_extent
     if abs(s) >= 1.0:
-        return 1
+        return OK
     fade = (1.0 - s * s) * (1.0 - s * s)
-    bend = par[8] * par[0]
+    bend = par.rounding * par.half_width
     away = math.sqrt(x * x + bend * bend)
-    edge = math.sqrt(par[0] * par[0] + bend * bend) - away
-    free = 0.5 * edge * edge / par[5]
-    corner = par[8] * par[1]
-    drop = smooth_min(free, par[1], corner)
+    edge = math.sqrt(par.half_width * par.half_width + bend * bend) - away
+    free = 0.5 * edge * edge / par.radius_x
+    corner = par.rounding * par.depth
+    drop = smooth_min(free, par.depth, corner)
     # d(smooth_min)/d(free): 1 before the corner, 0 behind it
-    share = at_least(1.0 - at_least(free - par[1] + corner, 0.0) / (2.0 * corner + 1e-300), 0.0)
+    share = at_least(1.0 - at_least(free - par.depth + corner, 0.0) / (2.0 * corner + 1e-300), 0.0)
     out[0] = -fade * drop
-    out[1] = fade * share * edge / par[5] * x / away * par[6]
-    out[2] = 4.0 * (1.0 - s * s) * s * par[3] * par[7] * drop
-    return 1
-
-
-NONE = model("surface", "none", none, NoParameters, reference="-")
-
-WAVINESS = model(
-    "surface",
-    "waviness",
-    waviness,
-    Waviness,
-    reference="Wardle 1988, Proc. Instn Mech. Engrs 202 C5, 305; Harsha et al. 2004, J. Sound Vib. 272, 557",
-    validity="waves long against the contact ellipse; slopes small against 1",
-    prepare=prepare_waviness,
-)
-
-DEFECT = model(
-    "surface",
-    "defect",
-    defect,
-    Defect,
-    reference="geometry of a circle on an edge; Sawalhi and Randall 2008, Mech. Syst. Signal Process. 22, 1924",
-    validity="gap longer along rolling than the contact ellipse; rigid edges",
-    prepare=prepare_defect,
-)
+    out[1] = fade * share * edge / par.radius_x * x / away * par.raceway_radius
+    out[2] = 4.0 * (1.0 - s * s) * s * par.per_half_extent * par.groove_radius * drop
+    return OK

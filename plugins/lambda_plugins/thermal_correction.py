@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-from lambda_core.plugins import NoParameters, model
-from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_core.plugins import OK, FloatArray, NoParameters, Parameters, law, parameter
 from lambda_plugins.shapes import at_least, at_most
 
 
+@law(
+    "thermal_correction",
+    "murch-wilson",
+    role_api=2,
+    reference="Murch and Wilson 1975, J. Lubr. Technol. 97, 212",
+    validity="pure rolling",
+)
 def murch_wilson(
     u_mean: float,
     u_slide: float,
@@ -15,7 +21,7 @@ def murch_wilson(
     eta0: float,
     beta: float,
     k_oil: float,
-    par: FloatArray,
+    par: NoParameters,
     out: FloatArray,
 ) -> int:
     """Thermal film factor for pure rolling, after Murch and Wilson.
@@ -25,7 +31,7 @@ def murch_wilson(
     """
     L = at_least(eta0 * beta * u_mean * u_mean / k_oil, 0.0)
     out[0] = 3.94 / (3.94 + L**0.62)
-    return 1
+    return OK
 
 
 class ZhuCheng(Parameters):
@@ -40,6 +46,14 @@ class ZhuCheng(Parameters):
     )
 
 
+@law(
+    "thermal_correction",
+    "zhu-cheng",
+    ZhuCheng,
+    role_api=2,
+    reference="Gupta, Cheng, Zhu, Forster and Schrand 1992, Tribol. Trans. 35, 269",
+    validity="slide-to-roll ratio 0..2; the fit's numerator limits the product of pressure and thermal parameter",
+)
 def zhu_cheng(
     u_mean: float,
     u_slide: float,
@@ -48,7 +62,7 @@ def zhu_cheng(
     eta0: float,
     beta: float,
     k_oil: float,
-    par: FloatArray,
+    par: ZhuCheng,
     out: FloatArray,
 ) -> int:
     """Thermal film factor with pressure and slide-to-roll ratio, after Zhu and Cheng.
@@ -60,10 +74,11 @@ def zhu_cheng(
     L = at_least(eta0 * beta * u_mean * u_mean / k_oil, 0.0)
     S = at_most(abs(u_slide) / (u_mean + 1e-9), 2.0)
     factor = (1.0 - 13.2 * (p_max / E_eff) * L**0.42) / (1.0 + 0.213 * (1.0 + 2.23 * S**0.83) * L**0.64)
-    out[0] = at_least(factor, par[0])
-    return 1
+    out[0] = at_least(factor, par.smallest)
+    return OK
 
 
+@law("thermal_correction", "none", role_api=2, reference="-")
 def none(
     u_mean: float,
     u_slide: float,
@@ -72,30 +87,9 @@ def none(
     eta0: float,
     beta: float,
     k_oil: float,
-    par: FloatArray,
+    par: NoParameters,
     out: FloatArray,
 ) -> int:
     """Isothermal inlet: factor 1."""
     out[0] = 1.0
-    return 1
-
-
-MURCH_WILSON = model(
-    "thermal_correction",
-    "murch-wilson",
-    murch_wilson,
-    NoParameters,
-    reference="Murch and Wilson 1975, J. Lubr. Technol. 97, 212",
-    validity="pure rolling",
-)
-
-ZHU_CHENG = model(
-    "thermal_correction",
-    "zhu-cheng",
-    zhu_cheng,
-    ZhuCheng,
-    reference="Gupta, Cheng, Zhu, Forster and Schrand 1992, Tribol. Trans. 35, 269",
-    validity="slide-to-roll ratio 0..2; the fit's numerator limits the product of pressure and thermal parameter",
-)
-
-NONE = model("thermal_correction", "none", none, NoParameters, reference="-")
+    return OK

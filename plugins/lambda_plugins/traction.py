@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from lambda_core.plugins import Quantity, model
-from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_core.plugins import OK, FloatArray, Parameters, Quantity, law, parameter
 from lambda_plugins.shapes import at_least, at_most, smooth_min
 from lambda_plugins.vector_math import asinh, exp
 
@@ -41,8 +40,16 @@ class ReeEyring(LimitedShear):
     )
 
 
+@law(
+    "traction",
+    "ree-eyring",
+    ReeEyring,
+    role_api=2,
+    reference="Johnson and Tevaarwerk 1977, Proc. R. Soc. A 356, 215; Syla et al. 2026, Lubricants 14, 154, eq. 20-21",
+    validity="viscous shear of the film; tau_e and zeta are class values of oils, not measured for this one",
+)
 def ree_eyring(
-    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: float, par: FloatArray, tau: FloatArray
+    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: float, par: ReeEyring, tau: FloatArray
 ) -> int:
     """Shear stress of an Eyring fluid, limited to a share of the pressure.
 
@@ -51,21 +58,29 @@ def ree_eyring(
     compliance of film or bodies.
     """
     film = at_least(h, 1e-10)
-    per_stress = 1.0 / (film * par[1])
+    per_stress = 1.0 / (film * par.tau_eyring)
     for i in range(tau.size):
         log_eta = at_most(at_least(ln_eta[i], _LOG_ETA_MIN), _LOG_ETA_MAX)
-        stress = par[1] * asinh(exp(log_eta) * slip[i] * per_stress)
-        limit = at_least(par[0] * p[i], 0.0)
+        stress = par.tau_eyring * asinh(exp(log_eta) * slip[i] * per_stress)
+        limit = at_least(par.limit_ratio * p[i], 0.0)
         tau[i] = smooth_min(stress, limit, 0.1 * limit)
-    return 1
+    return OK
 
 
 class BairWiner(LimitedShear):
     """Parameters of Bair-Winer traction."""
 
 
+@law(
+    "traction",
+    "bair-winer",
+    BairWiner,
+    role_api=2,
+    reference="Bair and Winer 1979, J. Lubr. Technol. 101, 258; Wingertszahn et al. 2023, Lubricants 11, 369, eq. 6",
+    validity="viscous shear of the film; limiting stress proportional to pressure",
+)
 def bair_winer(
-    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: float, par: FloatArray, tau: FloatArray
+    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: float, par: BairWiner, tau: FloatArray
 ) -> int:
     """Shear stress that approaches its limit exponentially, after Bair and Winer.
 
@@ -75,18 +90,26 @@ def bair_winer(
     film = at_least(h, 1e-10)
     for i in range(tau.size):
         log_eta = at_most(at_least(ln_eta[i], _LOG_ETA_MIN), _LOG_ETA_MAX)
-        limit = at_least(par[0] * p[i], 1e-3)
+        limit = at_least(par.limit_ratio * p[i], 1e-3)
         share = exp(log_eta) * slip[i] / (film * limit)
         tau[i] = limit * (share * (1.0 - 0.5 * share) if share < 1e-5 else 1.0 - exp(-at_most(share, 700.0)))
-    return 1
+    return OK
 
 
 class Newtonian(LimitedShear):
     """Parameters of Newtonian traction."""
 
 
+@law(
+    "traction",
+    "newtonian",
+    Newtonian,
+    role_api=2,
+    reference="Newton's law of viscosity; limiting stress after Johnson and Tevaarwerk 1977",
+    validity="small shear stress, or as the upper bound of fluid friction",
+)
 def newtonian(
-    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: float, par: FloatArray, tau: FloatArray
+    slip: FloatArray, p: FloatArray, T: FloatArray, ln_eta: FloatArray, h: float, par: Newtonian, tau: FloatArray
 ) -> int:
     """Shear stress of a Newtonian fluid, tau = eta v/h_cen, limited to a share of the pressure.
 
@@ -95,34 +118,6 @@ def newtonian(
     film = at_least(h, 1e-10)
     for i in range(tau.size):
         log_eta = at_most(at_least(ln_eta[i], _LOG_ETA_MIN), _LOG_ETA_MAX)
-        limit = at_least(par[0] * p[i], 0.0)
+        limit = at_least(par.limit_ratio * p[i], 0.0)
         tau[i] = smooth_min(exp(log_eta) * slip[i] / film, limit, 0.1 * limit)
-    return 1
-
-
-REE_EYRING = model(
-    "traction",
-    "ree-eyring",
-    ree_eyring,
-    ReeEyring,
-    reference="Johnson and Tevaarwerk 1977, Proc. R. Soc. A 356, 215; Syla et al. 2026, Lubricants 14, 154, eq. 20-21",
-    validity="viscous shear of the film; tau_e and zeta are class values of oils, not measured for this one",
-)
-
-BAIR_WINER = model(
-    "traction",
-    "bair-winer",
-    bair_winer,
-    BairWiner,
-    reference="Bair and Winer 1979, J. Lubr. Technol. 101, 258; Wingertszahn et al. 2023, Lubricants 11, 369, eq. 6",
-    validity="viscous shear of the film; limiting stress proportional to pressure",
-)
-
-NEWTONIAN = model(
-    "traction",
-    "newtonian",
-    newtonian,
-    Newtonian,
-    reference="Newton's law of viscosity; limiting stress after Johnson and Tevaarwerk 1977",
-    validity="small shear stress, or as the upper bound of fluid friction",
-)
+    return OK

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
-import numpy as np
-
-from lambda_core.plugins import Context, Quantity, model
-from lambda_plugins.fields import FloatArray, Parameters, parameter
+from lambda_core.plugins import OK, Context, FloatArray, Parameters, Quantity, law, parameter
 from lambda_plugins.rheology import capped, dowson_higginson
 from lambda_plugins.shapes import at_least, at_most
 
@@ -35,25 +32,47 @@ class VogelDicke(Parameters):
     )
 
 
-def prepare(parameters: VogelDicke, context: Context) -> FloatArray:
-    """Return [ln(K / Pa s), B, C - 273.15, a1, a2, b1, b2, rho_15, slope]."""
+class Constants(NamedTuple):
+    """The constants as the formula wants them."""
+
+    ln_K: float  # ln(K / Pa s)
+    B: float  # [K]
+    C: float  # Vogel's C less 273.15, for temperatures in K
+    a1: float  # [bar]
+    a2: float  # [bar/K]
+    b1: float
+    b2: float  # [1/K]
+    density_15: float  # [kg/m3]
+    density_slope: float  # [kg/(m3 K)]
+
+
+def prepare(parameters: VogelDicke, context: Context) -> Constants:
+    """Return the constants of one oil."""
     v = parameters
-    return np.array(
-        [
-            math.log(v.vogel_k * 1e-3),
-            v.vogel_b,
-            v.vogel_c - 273.15,
-            v.dicke_a1,
-            v.dicke_a2,
-            v.dicke_b1,
-            v.dicke_b2,
-            v.density_15,
-            v.density_slope,
-        ]
+    return Constants(
+        math.log(v.vogel_k * 1e-3),
+        v.vogel_b,
+        v.vogel_c - 273.15,
+        v.dicke_a1,
+        v.dicke_a2,
+        v.dicke_b1,
+        v.dicke_b2,
+        v.density_15,
+        v.density_slope,
     )
 
 
-def vogel_dicke(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArray, rho: FloatArray) -> int:
+@law(
+    "rheology",
+    "vogel-dicke",
+    VogelDicke,
+    role_api=2,
+    reference="Vogel 1921; Dicke's pressure term as in Wingertszahn et al. 2023, Lubricants 11, 369, Table A1; "
+    "density: Dowson and Higginson 1966",
+    validity="-40..300 degC; ln(eta) capped at 1e12 Pa s (glass transition)",
+    prepare=prepare,
+)
+def vogel_dicke(p: FloatArray, T: FloatArray, par: Constants, ln_eta: FloatArray, rho: FloatArray) -> int:
     """Viscosity after Vogel and Dicke, density linear in temperature with Dowson-Higginson compression.
 
     eta = K exp[B/(C + t)] exp{p/[a1 + a2 t + (b1 + b2 t) p]}, t in degC, p in bar: Wingertszahn et al. 2023, Lubricants
@@ -64,19 +83,7 @@ def vogel_dicke(p: FloatArray, T: FloatArray, par: FloatArray, ln_eta: FloatArra
         pressure = at_least(p[i], 0.0)
         t = temperature - 273.15
         bar = 1e-5 * pressure
-        stiffening = at_least(par[3] + par[4] * t + (par[5] + par[6] * t) * bar, 1.0)
-        ln_eta[i] = capped(par[0] + par[1] / (temperature + par[2]) + bar / stiffening)
-        rho[i] = (par[7] + par[8] * (t - 15.0)) * dowson_higginson(pressure)
-    return 1
-
-
-VOGEL_DICKE = model(
-    "rheology",
-    "vogel-dicke",
-    vogel_dicke,
-    VogelDicke,
-    reference="Vogel 1921; Dicke's pressure term as in Wingertszahn et al. 2023, Lubricants 11, 369, Table A1; "
-    "density: Dowson and Higginson 1966",
-    validity="-40..300 degC; ln(eta) capped at 1e12 Pa s (glass transition)",
-    prepare=prepare,
-)
+        stiffening = at_least(par.a1 + par.a2 * t + (par.b1 + par.b2 * t) * bar, 1.0)
+        ln_eta[i] = capped(par.ln_K + par.B / (temperature + par.C) + bar / stiffening)
+        rho[i] = (par.density_15 + par.density_slope * (t - 15.0)) * dowson_higginson(pressure)
+    return OK

@@ -8,9 +8,9 @@ import pytest
 
 from benchmarks.exchange import EXCHANGES, PAGE, main, overrides, quasistatic_torque
 from lambda_core import api
-from lambda_core.registry.collect import OWN
-from lambda_core.registry.manager import registry
-from lambda_core.registry.roles import ROLES
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.installed import OWN
+from lambda_core.domain.roles import ROLES
 
 
 def of_role(role: str) -> list[str]:

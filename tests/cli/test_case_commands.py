@@ -6,7 +6,6 @@ import json
 import re
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -14,8 +13,9 @@ from typing import Any
 import pytest
 from lambda_cli import commands, main
 
-from lambda_core.errors import PartialResultError, SolverError
-from lambda_core.schema.case_io import builtin_cases, load_case
+from lambda_core.case.builtin import builtin_cases
+from lambda_core.case.case_io import load_case
+from lambda_core.domain.errors import PartialResultError, SolverError
 
 HEAVY = ("numba", "h5py", "sqlalchemy", "matplotlib", "scipy", "textual", "xarray")
 Call = Callable[..., tuple[int, str, str]]
@@ -33,16 +33,11 @@ def call(capsys: pytest.CaptureFixture[str]) -> Call:
     return run
 
 
-def test_help_is_fast_and_light() -> None:
+def test_help_names_every_command_and_loads_nothing_heavy() -> None:
     code = "import sys; from lambda_cli.main import main; main(['--help'])\n"
     code += f"print([m for m in {HEAVY} if m in sys.modules])"
-    times = []
-    for _ in range(3):
-        start = time.perf_counter()
-        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-        times.append(time.perf_counter() - start)
-        assert done.stdout.splitlines()[-1] == "[]"
-    assert min(times) < 0.5
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
     for name in commands.entries():
         assert name in done.stdout
 

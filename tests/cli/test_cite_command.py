@@ -9,8 +9,8 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
-from lambda_core.registry.manager import registry
-from lambda_core.registry.roles import ROLES
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.roles import ROLES
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ import pytest
 from lambda_cli import main
 
 if TYPE_CHECKING:
-    from lambda_core.simulate.results import Result
+    from lambda_core.results.reader import Result
 
 Call = Callable[..., tuple[int, str, str]]
 

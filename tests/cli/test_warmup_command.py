@@ -8,9 +8,9 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
-from lambda_core.physics.compiled import entry
-from lambda_core.registry.manager import registry
-from lambda_core.registry.roles import ROLES
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.roles import ROLES
+from lambda_core.solver import entry
 
 
 def test_after_it_nothing_is_left_to_compile(capsys: pytest.CaptureFixture[str]) -> None:
@@ -31,11 +31,11 @@ def test_what_is_compiled_is_announced(
 ) -> None:
     """In an empty cache every law is compiled; the solver is left out here, it would take too long."""
     monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(tmp_path))
-    monkeypatch.setattr("lambda_core.simulate.warmup.begin", lambda announce: None)
-    monkeypatch.setattr("lambda_core.simulate.warmup.core", lambda announce: None)
-    monkeypatch.setattr("lambda_core.simulate.warmup.missing", list)
+    monkeypatch.setattr("lambda_core.run.warmup.begin", lambda announce: None)
+    monkeypatch.setattr("lambda_core.run.warmup.core", lambda announce: None)
+    monkeypatch.setattr("lambda_core.run.warmup.missing", list)
     wanted = ("damping", "asperity_load")
-    monkeypatch.setattr("lambda_core.simulate.warmup.ROLES", {role: ROLES[role] for role in wanted})
+    monkeypatch.setattr("lambda_core.run.warmup.ROLES", {role: ROLES[role] for role in wanted})
     assert main(["warmup"]) == 0
     out, err = capsys.readouterr()
     for role in wanted:
@@ -48,15 +48,15 @@ def test_what_is_compiled_is_announced(
 def test_a_law_that_cannot_be_compiled_is_named_and_the_others_are_compiled(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from lambda_core.registry.faults import PluginError
-    from lambda_core.registry.kernels import compile_kernel
+    from lambda_core.domain.plugin_errors import PluginError
+    from lambda_core.laws.kernels import compile_kernel
 
     def compile_most(model: object, announce: object) -> object:
         if model.name == "cubic":  # type: ignore[attr-defined]
             raise PluginError("damping/cubic cannot be compiled: of a test")
         return compile_kernel(model, announce)  # type: ignore[arg-type]
 
-    monkeypatch.setattr("lambda_core.simulate.warmup.compile_kernel", compile_most)
-    monkeypatch.setattr("lambda_core.simulate.warmup.ROLES", {"damping": ROLES["damping"]})
+    monkeypatch.setattr("lambda_core.run.warmup.compile_kernel", compile_most)
+    monkeypatch.setattr("lambda_core.run.warmup.ROLES", {"damping": ROLES["damping"]})
     assert main(["warmup", "--quiet"]) == 3
     assert "not compiled: damping/cubic cannot be compiled: of a test" in capsys.readouterr().out

@@ -13,7 +13,7 @@ from lambda_db.catalogue import open_catalogue
 from lambda_db.paths import cache_folder
 from lambda_db.seed_files import BUILT_IN, fingerprint
 
-from lambda_core.errors import CatalogueError
+from lambda_core.domain.errors import CatalogueError
 
 
 @pytest.fixture
@@ -148,6 +148,7 @@ def test_a_missing_plugin_folder_is_named(cache: Path, tmp_path: Path) -> None:
         open_catalogue([tmp_path / "nowhere"])
 
 
+@pytest.mark.clock
 def test_opening_is_quick(cache: Path) -> None:
     """Opening costs a few milliseconds; the limit leaves room for a loaded machine, of five tries the best counts."""
     open_catalogue().close()

@@ -9,7 +9,7 @@ from lambda_db.check import Finding, check_catalogue
 from lambda_db.paths import user_database
 from lambda_db.transfer import add_row
 
-from lambda_core.registry.manager import registry
+from lambda_core.discovery.manager import registry
 
 
 def findings(catalogue: SqlCatalogue) -> list[Finding]:

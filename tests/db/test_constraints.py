@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 from lambda_db.catalogue import SqlCatalogue
-from lambda_db.models import SEED_TABLES, Base
+from lambda_db.models import Base
+from lambda_db.seed_tables import SEED_TABLES
 from lambda_db.transfer import add_row
 
-from lambda_core.errors import CatalogueError
+from lambda_core.domain.errors import CatalogueError
 
 BEARING: dict[str, object] = {
     "designation": "X1",

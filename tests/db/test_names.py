@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from lambda_db.catalogue import SqlCatalogue
 
-from lambda_core.errors import CatalogueError
+from lambda_core.domain.errors import CatalogueError
 
 
 def test_several_makers_are_listed(catalogue: SqlCatalogue) -> None:

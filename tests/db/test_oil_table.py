@@ -7,10 +7,10 @@ import math
 import pytest
 from lambda_db.catalogue import SqlCatalogue
 
-from lambda_core.errors import CatalogueError
-from lambda_core.physics.oil import walther
-from lambda_core.physics.oil_table import OilLaw, oil_table
-from lambda_core.registry.manager import registry
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.errors import CatalogueError
+from lambda_core.domain.oil import walther
+from lambda_core.system.oil_table import OilLaw, oil_table
 
 
 def test_bode_mineral(catalogue: SqlCatalogue) -> None:

@@ -11,7 +11,7 @@ from lambda_db.catalogue import SqlCatalogue
 from lambda_db.removal import remove_row
 from lambda_db.transfer import add_row, rows_of
 
-from lambda_core.errors import CatalogueError, UsageError
+from lambda_core.domain.errors import CatalogueError, UsageError
 
 BEARING: dict[str, object] = {
     "designation": "6208",

@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from lambda_db.catalogue import SqlCatalogue
 
-from lambda_core.errors import CatalogueError
+from lambda_core.domain.errors import CatalogueError
 
 
 def found(catalogue: SqlCatalogue, text: str, limit: int = 5) -> list[str]:
@@ -77,6 +77,7 @@ def test_lubricants_by_words(catalogue: SqlCatalogue) -> None:
     assert len(catalogue.lubricants("ester")) == 2
 
 
+@pytest.mark.clock
 def test_a_query_takes_20_ms_at_most(catalogue: SqlCatalogue) -> None:
     """The best of five tries per query, as typed letter by letter; the benchmark prints the numbers."""
     catalogue.bearings("6")

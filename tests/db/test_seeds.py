@@ -13,7 +13,7 @@ from lambda_db.records import parse_row
 from lambda_db.seed_files import BUILT_IN
 from lambda_db.transfer import rows_of
 
-from lambda_core.registry.catalogue import BearingRow, Value
+from lambda_core.catalogue.protocol import BearingRow, Value
 
 MM = 1e-3
 

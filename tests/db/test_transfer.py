@@ -9,10 +9,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from lambda_db.catalogue import SqlCatalogue
-from lambda_db.models import SEED_TABLES
+from lambda_db.seed_tables import SEED_TABLES
 from lambda_db.transfer import add_row, export_rows, import_path, rows_of
 
-from lambda_core.errors import CatalogueError, UsageError
+from lambda_core.domain.errors import CatalogueError, UsageError
 
 TABLES = list(SEED_TABLES)
 HEADER = "designation,maker,bore_diameter_mm,outside_diameter_mm,width_mm,dimensions_source,dimensions_grade\n"
@@ -171,7 +171,7 @@ def test_unit_strings_convert(catalogue: SqlCatalogue) -> None:
 def test_columns_convert_as_unit_strings_do() -> None:
     from lambda_db.units import column_si, column_unit
 
-    from lambda_core.schema.units import parse
+    from lambda_core.domain.units import parse
 
     for column in (
         "bore_diameter_mm",

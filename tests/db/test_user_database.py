@@ -16,7 +16,7 @@ from lambda_db.catalogue import SqlCatalogue, open_catalogue
 from lambda_db.paths import user_database
 from lambda_db.transfer import add_row
 
-from lambda_core.errors import CatalogueError
+from lambda_core.domain.errors import CatalogueError
 
 ROW: dict[str, object] = {
     "designation": "6208",
@@ -165,21 +165,19 @@ def test_a_newer_schema_is_left_alone(catalogue: SqlCatalogue, caplog: pytest.Lo
     again.close()
 
 
-def test_an_older_schema_is_migrated(catalogue: SqlCatalogue, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_older_schema_is_migrated(catalogue: SqlCatalogue) -> None:
+    """Version 1 knew no table of suffixes."""
     add_row(catalogue, "bearing", ROW)
     catalogue.close()
-    steps: list[int] = []
-
-    def step(connection: object) -> None:
-        steps.append(1)
-
-    monkeypatch.setattr(user, "SCHEMA_VERSION", 2)
-    monkeypatch.setitem(user.MIGRATIONS, 1, step)
-    again = open_catalogue()
-    assert steps == [1]
-    assert again.bearing("6208", "NSK").layer == "user"
     with sqlite3.connect(user_database()) as connection:
-        assert connection.execute("PRAGMA user_version").fetchone() == (2,)
+        connection.execute("DROP TABLE suffix")
+        connection.execute("PRAGMA user_version = 1")
+    again = open_catalogue()
+    assert again.bearing("6208", "NSK").layer == "user"
+    add_row(again, "suffix", {"written": "QQ7", "kind": "cage", "meaning": "brass cage", "value": "brass-machined"})
+    assert {suffix.written for suffix in again.suffixes()} >= {"QQ7", "C3"}
+    with sqlite3.connect(user_database()) as connection:
+        assert connection.execute("PRAGMA user_version").fetchone() == (user.SCHEMA_VERSION,)
     again.close()
 
 

@@ -10,9 +10,9 @@ import yaml
 
 from lambda_core import __version__
 from lambda_core.plugins import METHOD_API, ROLE_API, VIEW_API
-from lambda_core.simulate import citation
-from lambda_core.simulate.layout import LAYOUT
-from lambda_core.simulate.record import INTERFACE
+from lambda_core.results import citation
+from lambda_core.results.file_format import LAYOUT
+from lambda_core.results.record import INTERFACE
 
 ROOT = Path(__file__).parents[2]
 
@@ -53,7 +53,7 @@ def test_links_between_the_files_of_the_root_hold() -> None:
 
 def test_the_house_plan_names_every_package_and_room() -> None:
     text = (ROOT / "docs" / "contributing.md").read_text(encoding="utf-8")
-    for name in ("lambda_core", "lambda_plugins", "lambda_db", "lambda_gui", "lambda_cli"):
+    for name in ("lambda_core", "lambda_plugins", "lambda_syla2026", "lambda_db", "lambda_gui", "lambda_cli"):
         assert name in text
     rooms = {path.name for path in (ROOT / "lambda_core").iterdir() if (path / "__init__.py").exists()}
     for room in rooms:

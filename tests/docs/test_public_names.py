@@ -25,8 +25,8 @@ FUNCTIONS: dict[str, Any] = {name: item for name, item in PUBLIC.items() if not 
     if not isinstance(vars(cls).get(key), property)
 }
 # Rooms whose records are still without words for some of their fields.
-GAPS = ("lambda_core.simulate", "lambda_core.study", "lambda_core.report", "lambda_core.reproduce")
-COMPLETE = ("lambda_core.simulate.citation", "lambda_core.simulate.warmup")
+GAPS = ("lambda_core.results", "lambda_core.run", "lambda_core.batch", "lambda_core.report", "lambda_syla2026")
+COMPLETE = ("lambda_core.results.citation", "lambda_core.run.warmup")
 NOTHING = (None, "None", inspect.Signature.empty)
 
 

@@ -13,17 +13,17 @@ from lambda_cli.commands import entries
 from lambda_cli.main import _command as load
 from pydantic import BaseModel
 
-from lambda_core.physics.channels import CHANNELS
-from lambda_core.physics.model import BODIES, DOFS, ELEMENTS
-from lambda_core.registry import hookspecs
-from lambda_core.registry.collect import OWN
-from lambda_core.registry.manager import registry
-from lambda_core.registry.roles import ROLES
-from lambda_core.schema import signals
-from lambda_core.schema.case import Case
-from lambda_core.schema.problems import option_paths
-from lambda_core.schema.units import UNITS
-from lambda_core.simulate.summary import Summary
+from lambda_core.case import signals
+from lambda_core.case.case import Case
+from lambda_core.discovery import hookspecs
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.channels import CHANNELS
+from lambda_core.domain.elements import BODIES, DOFS, ELEMENTS
+from lambda_core.domain.installed import OWN
+from lambda_core.domain.option_tree import option_paths
+from lambda_core.domain.roles import ROLES
+from lambda_core.domain.units import UNITS
+from lambda_core.results.summary import Summary
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -81,7 +81,7 @@ def test_every_option_has_a_meaning_and_every_unit_is_listed() -> None:
         assert row[-1].strip(" |") not in ("", "-"), row
     for units in UNITS.values():
         assert all(f"`{unit}`" in page("reference/case.md") for unit in units)
-    for kind in signals.KINDS:
+    for kind in signals.SIGNAL_KINDS:
         assert f'`kind = "{kind}"`' in page("reference/case.md")
 
 

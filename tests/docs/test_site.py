@@ -49,6 +49,17 @@ def test_blocks_are_rendered_as_code(site: Path) -> None:
     assert not (site / "tools").exists()
 
 
+def test_formulas_are_set_as_formulas(site: Path) -> None:
+    """Every dollar of the theory has become MathML, in words that browsers know."""
+    found = 0
+    for path in (site / "theory").glob("*.html"):
+        text = path.read_text(encoding="utf-8")
+        assert "$$" not in text, path.name
+        assert "<merror" not in text, path.name
+        found += text.count("<math ")
+    assert found >= 30
+
+
 def test_images_exist_and_are_drawings(site: Path) -> None:
     for name in ("axes.svg", "contact.svg"):
         tree = ElementTree.parse(DOCS / "images" / name)

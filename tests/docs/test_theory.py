@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from lambda_core.registry.collect import OWN
-from lambda_core.registry.manager import registry
-from lambda_core.registry.roles import ROLES
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.installed import OWN
+from lambda_core.domain.roles import ROLES
 
 THEORY = Path(__file__).parents[2] / "docs" / "theory"
 TEXT = {path.stem: path.read_text(encoding="utf-8") for path in sorted(THEORY.glob("*.md"))}
@@ -66,9 +66,11 @@ def test_subjects_that_have_to_be_there() -> None:
         "cage",
         "fluid",
         "capacitance",
+        "electric",
         "equilibrium",
         "dynamics",
         "methods",
+        "thermal",
     }
     for name in set(TEXT) - {"index"}:
         assert f"({name}.md)" in TEXT["index"]

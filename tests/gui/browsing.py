@@ -151,11 +151,11 @@ class Chromium(Browser):
 
 
 @asynccontextmanager
-async def client(port: int) -> AsyncIterator[Browser]:
+async def client(address: str) -> AsyncIterator[Browser]:
     """Open the page's WebSocket, as its script does."""
     async with aiohttp.ClientSession() as session:
-        assert "lambda-bearing" in await _page(session, f"http://localhost:{port}/")
-        async with session.ws_connect(f"http://localhost:{port}/ws?width=160&height=48") as line:
+        assert "lambda-bearing" in await _page(session, address)
+        async with session.ws_connect(f"{address}ws?width=160&height=48") as line:
             browser = Client(line)
             await browser.until("which case?")
             await line.send_str(json.dumps(["focus"]))  # the page says so when it has the keyboard
@@ -163,7 +163,7 @@ async def client(port: int) -> AsyncIterator[Browser]:
 
 
 @asynccontextmanager
-async def chromium(port: int, folder: Path) -> AsyncIterator[Browser]:
+async def chromium(address: str, folder: Path) -> AsyncIterator[Browser]:
     """Open the page in headless Chromium with a profile of its own in `folder`."""
     assert CHROMIUM is not None
     options = ("--headless", "--no-sandbox", "--disable-gpu", "--window-size=1700,1000", "--remote-debugging-port=0")
@@ -180,13 +180,13 @@ async def chromium(port: int, folder: Path) -> AsyncIterator[Browser]:
         assert listening is not None
         drain = asyncio.create_task(process.stderr.read())  # what it says later must not fill the pipe
         async with aiohttp.ClientSession() as session:
-            await _page(session, f"http://localhost:{port}/")
+            await _page(session, address)
             async with session.get(f"http://{listening[1]}/json/list") as answer:
                 pages = [page for page in await answer.json(content_type=None) if page["type"] == "page"]
             async with session.ws_connect(pages[0]["webSocketDebuggerUrl"], max_msg_size=0) as line:
                 browser = Chromium(line)
                 await browser.ask("Network.enable")
-                await browser.ask("Page.navigate", url=f"http://localhost:{port}/")
+                await browser.ask("Page.navigate", url=address)
                 await browser.until("which case?")
                 await browser.ask("Runtime.evaluate", expression="document.querySelector('textarea').focus()")
                 yield browser

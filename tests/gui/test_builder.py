@@ -222,6 +222,7 @@ async def test_an_unknown_option_of_a_file_can_be_taken_out(hand_written: Path) 
         assert not builder(pilot).check.problems
 
 
+@pytest.mark.clock
 async def test_checking_takes_less_than_30_ms_and_typing_does_not_wait_for_it(hand_written: Path) -> None:
     draft, checker = api.draft(hand_written), Checker()
     checker.check(draft.tables, draft.folder)

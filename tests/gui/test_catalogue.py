@@ -5,11 +5,13 @@ from __future__ import annotations
 from contextlib import closing
 from pathlib import Path
 
+import pytest
 from driving import LARGE, SMALL, builder, checked, screen_text, wait_for, write
 from lambda_gui.app import BuilderApp
 from lambda_gui.catalogue import CatalogueScreen
 from lambda_gui.own_row import OwnRow
 from lambda_gui.rows import Row
+from lambda_gui.taken import bearing_taken
 from textual.widgets import DataTable
 
 from lambda_core import api
@@ -30,6 +32,42 @@ async def test_a_bearing_is_found_and_taken(hand_written: Path) -> None:
         await checked(pilot)
         draft = builder(pilot).draft
         assert draft.get("bearing") == {"designation": "6208", "maker": "Syla2026"}
+
+
+@pytest.mark.parametrize(
+    ("before", "typed", "after", "said"),
+    [
+        ("", "skf 6308 c3", "6308 C3", ""),
+        ("6308 C3", "SKF 6308 C4", "6308 C4", "C3 of the designation before goes"),
+        ("6308-2Z/C3", "skf 6308", "6308 2Z C3", "2Z, C3 of the designation before stays"),
+        ("6208-2Z/C3", "skf 6308", "6308 C3", "C3 of the designation before stays; 2Z of the designation before goes"),
+        ("6208 C3", "skf d=40 D=90", "6308 C3", "C3 of the designation before stays"),
+        ("6308 C3", "6308/c3 skf", "6308 C3", ""),
+    ],
+)
+def test_suffixes_of_a_designation_are_kept(before: str, typed: str, after: str, said: str) -> None:
+    with closing(api.catalogue()) as catalogue:
+        taken = bearing_taken(catalogue.bearing("6308", "SKF"), typed, before, catalogue)
+    assert (taken.name, taken.maker, taken.said) == (after, "SKF", said)
+
+
+async def test_the_clearance_that_was_typed_is_taken(hand_written: Path) -> None:
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        for typed, designation, clearance in (("6308 c3 skf", "6308 C3", 24e-6), ("6308 skf", "6308 C3", 24e-6)):
+            await pilot.press("f2")
+            await wait_for(pilot, lambda: isinstance(pilot.app.screen, CatalogueScreen))
+            await write(pilot, typed)
+            table = pilot.app.screen.query_one(DataTable)
+            await wait_for(pilot, lambda table=table: table.row_count == 1)
+            await pilot.press("enter")
+            await checked(pilot)
+            assert builder(pilot).draft.get("bearing", "designation") == designation
+            model = builder(pilot).check.model
+            assert model is not None
+            assert model.geometry.clearance == pytest.approx(clearance, abs=1e-6)  # middle of C3, not of CN (13 um)
+        said = [note.message for note in pilot.app._notifications]
+        assert "6308 C3: C3 of the designation before stays; Ctrl+Z takes it back" in said
 
 
 async def test_estimated_geometry_is_marked(hand_written: Path) -> None:

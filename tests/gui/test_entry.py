@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 from lambda_gui.entry import completed, text_of, value_of
 
-from lambda_core.schema.cards import field_card
-from lambda_core.schema.modelling import Depth, Solver
-from lambda_core.schema.motion import Loads
-from lambda_core.schema.parts import Surface
+from lambda_core.case.cards import field_card
+from lambda_core.case.modelling import Depth, Solver
+from lambda_core.case.motion import Loads
+from lambda_core.case.parts import Surface
 
 
 @pytest.mark.parametrize(

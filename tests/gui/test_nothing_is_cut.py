@@ -26,8 +26,8 @@ from textual.widget import Widget
 from textual.widgets import DataTable, Input, OptionList, Static
 
 from lambda_core import api
-from lambda_core.simulate.progress import Progress
-from lambda_core.simulate.results import Result
+from lambda_core.results.reader import Result
+from lambda_core.run.progress import Progress
 
 MIDDLE = (120, 40)
 SIZES = pytest.mark.parametrize("size", [SMALL, MIDDLE], ids=["80x24", "120x40"])

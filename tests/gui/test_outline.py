@@ -7,10 +7,10 @@ from lambda_gui.checking import Checker, by_place, node_of
 from lambda_gui.outline import Node, outline
 
 from lambda_core import api
-from lambda_core.errors import Problem
-from lambda_core.registry.roles import ROLES
-from lambda_core.schema.case import Case
-from lambda_core.schema.problems import option_paths
+from lambda_core.case.case import Case
+from lambda_core.domain.errors import Problem
+from lambda_core.domain.option_tree import option_paths
+from lambda_core.domain.roles import ROLES
 
 
 def nodes(markers: tuple[str, ...] = ()) -> list[Node]:
@@ -46,6 +46,7 @@ def test_the_tree_mirrors_the_set_up() -> None:
         "Modelling depth",
         "Solver",
         "Outputs",
+        "Electric circuit",
     ]
     keys = [node.key for node in nodes()]
     assert len(keys) == len(set(keys))
@@ -71,6 +72,8 @@ def test_the_tree_mirrors_the_set_up() -> None:
         ("markers.tip.body", "markers.tip"),
         ("operation.sped", "operation"),
         ("solver.duration", "solver"),
+        ("thermal.ambient", "thermal"),
+        ("thermal.links.flange.between", "thermal"),
     ],
 )
 def test_a_mistake_finds_its_node(where: str, key: str) -> None:

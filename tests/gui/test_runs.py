@@ -287,7 +287,7 @@ async def test_a_read_only_folder_is_said(hand_written: Path, monkeypatch: pytes
         await checked(pilot)
         builder(pilot).draft.set("loads", "radial", value="9 kN")
         await checked(pilot)
-        if os.geteuid() == 0:  # root may write everywhere: a folder of the kernel takes no files from anybody
+        if os.geteuid() == 0:  # root may write everywhere: a folder of the kernel is not writable by anybody
             builder(pilot).draft.path = Path("/proc/drive-end.toml")
         else:
             hand_written.parent.chmod(0o555)
@@ -295,7 +295,7 @@ async def test_a_read_only_folder_is_said(hand_written: Path, monkeypatch: pytes
             pilot.app._write(None, None)
             assert builder(pilot).draft.is_changed()
             monkeypatch.setattr(os, "access", lambda *_: False)
-            with pytest.raises(api.UsageError, match="takes no files"):
+            with pytest.raises(api.UsageError, match="not writable"):
                 pilot.app.queue.add("case", "", hand_written.parent)
         finally:
             if os.geteuid() != 0:

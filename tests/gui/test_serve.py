@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import os
+import re
 import socket
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import pytest
 from lambda_gui.serve import is_loopback, warning
@@ -19,7 +20,9 @@ from lambda_core import api
 pytest.importorskip("textual_serve")
 pytest.importorskip("aiohttp")
 
+import aiohttp
 from browsing import CHROMIUM, Browser, chromium, client
+from lambda_gui.door import MOST_SOCKETS
 
 
 def test_only_this_machine_unless_told_otherwise() -> None:
@@ -31,41 +34,65 @@ def test_only_this_machine_unless_told_otherwise() -> None:
 
 
 @pytest.fixture
-def served(work_folder: Path) -> Iterator[int]:
-    """Serve the builder without a case; gives the port."""
+def served(work_folder: Path) -> Iterator[str]:
+    """Serve the builder without a case; gives the address that it says."""
     with socket.socket() as found:
         found.bind(("127.0.0.1", 0))
         port = int(found.getsockname()[1])
     command = [sys.executable, "-m", "lambda_cli", "gui", "--serve", "--port", str(port)]
-    server = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, env=os.environ)
+    server = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, env=os.environ, text=True)
+    assert server.stderr is not None
     try:
-        yield port
+        said = server.stderr.readline()
+        found_address = re.search(r"http://\S+/", said)
+        assert found_address is not None, said
+        yield found_address[0]
     finally:
         server.terminate()
-        server.wait(20)
+        server.wait(60)
 
 
-def _wait_for_server(port: int) -> None:
-    end = time.monotonic() + 40.0
-    while True:
-        with socket.socket() as line:
-            if line.connect_ex(("127.0.0.1", port)) == 0:
-                return
-        assert time.monotonic() < end, "the server does not answer"
-        time.sleep(0.1)
-
-
-def test_nobody_else_is_served_and_a_port_in_use_is_said(served: int) -> None:
-    _wait_for_server(served)
+def test_nobody_else_is_served_and_a_port_in_use_is_said(served: str) -> None:
+    port = urlsplit(served).port
     with socket.socket() as line:
         line.settimeout(1.0)
         other = socket.gethostbyname(socket.gethostname())
         if not other.startswith("127."):
-            assert line.connect_ex((other, served)) != 0
-    command = [sys.executable, "-m", "lambda_cli", "gui", "--serve", "--port", str(served)]
+            assert line.connect_ex((other, port)) != 0
+    command = [sys.executable, "-m", "lambda_cli", "gui", "--serve", "--port", str(port)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60)
     assert done.returncode == 2
     assert "cannot serve" in done.stderr
+
+
+_LET_IN: tuple[tuple[str, dict[str, str], int], ...] = (
+    ("", {}, 200),
+    ("static/js/textual.js", {}, 200),
+    ("static/", {}, 403),  # no listing
+    ("../", {}, 404),  # without the secret there is nothing
+    ("../ws", {}, 404),
+    ("", {"Host": "evil.example"}, 403),
+    ("ws", {"Host": "evil.example", "Origin": "https://evil.example"}, 403),
+    ("ws", {"Origin": "http://localhost:9001"}, 403),
+    ("ws", {"Origin": "https://evil.example"}, 403),
+    ("ws", {"Origin": "null"}, 403),
+)
+
+
+async def test_c2_2_another_page_cannot_drive_the_builder(served: str) -> None:
+    async with aiohttp.ClientSession() as session:
+        for path, headers, status in _LET_IN:
+            async with session.get(served + path, headers=headers) as answer:
+                assert answer.status == status, (path, headers)
+                page = await answer.text()
+                if not path and status == 200:
+                    assert "https://" not in page
+                    assert "connect-src 'self' ws://localhost" in answer.headers["Content-Security-Policy"]
+        lines = [await session.ws_connect(f"{served}ws") for _ in range(MOST_SOCKETS)]
+        with pytest.raises(aiohttp.WSServerHandshakeError, match="503"):
+            await session.ws_connect(f"{served}ws")
+        for line in lines:
+            await line.close()
 
 
 async def build_and_run(browser: Browser) -> None:
@@ -120,14 +147,14 @@ def saw_to_it(folder: Path) -> None:
     assert api.summary(folder / "untitled.h5").simulated_s == pytest.approx(0.005, rel=0.05)
 
 
-async def test_a_case_is_built_and_run_through_the_web_socket(served: int, work_folder: Path) -> None:
+async def test_a_case_is_built_and_run_through_the_web_socket(served: str, work_folder: Path) -> None:
     async with client(served) as browser:
         await build_and_run(browser)
     await asyncio.to_thread(saw_to_it, work_folder)
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="needs chromium on PATH")
-async def test_a_case_is_built_and_run_in_chromium(served: int, work_folder: Path, tmp_path: Path) -> None:
+async def test_a_case_is_built_and_run_in_chromium(served: str, work_folder: Path, tmp_path: Path) -> None:
     async with chromium(served, tmp_path / "profile") as browser:
         await build_and_run(browser)
     await asyncio.to_thread(saw_to_it, work_folder)

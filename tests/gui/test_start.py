@@ -11,7 +11,7 @@ import pytest
 from driving import LARGE, SMALL, builder, checked, focused_place, go_to, screen_text, wait_for
 from lambda_gui.app import BuilderApp
 
-from lambda_core.registry import manager
+from lambda_core.discovery import manager
 
 FIRST_PAINT = """
 import time
@@ -26,6 +26,7 @@ Timed("6208-axial-1300").run(headless=True, size=(80, 24))
 """
 
 
+@pytest.mark.clock
 def test_the_first_picture_stands_within_a_second_and_a_half() -> None:
     taken = []
     for _ in range(2):
@@ -46,8 +47,8 @@ async def test_a_broken_plugin_is_left_out(hand_written: Path, monkeypatch: pyte
     def load() -> object:
         raise RuntimeError("this plugin is broken")
 
-    sources = [*manager.installed(), manager.Source("broken-plugin", "0.1", "broken", load)]
-    monkeypatch.setattr(manager, "installed", lambda group=manager.GROUP: sources)
+    sources = [*manager.installed(manager.PLUGINS), manager.Source("broken-plugin", "0.1", "broken", load)]
+    monkeypatch.setattr(manager, "installed", lambda group: sources)
     manager.registry.cache_clear()
     try:
         async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
@@ -65,26 +66,20 @@ async def test_a_broken_plugin_is_left_out(hand_written: Path, monkeypatch: pyte
 THIRD_PARTY = """
 import math
 
-from pydantic import BaseModel, Field
-
-from lambda_core.plugins import hookimpl, model
+from lambda_core.plugins import Parameters, law, parameter
 
 
-class Parameters(BaseModel):
-    limit_share: float = Field(0.07, gt=0.0, le=0.3, description="limiting shear stress over pressure, measured by us")
+class Limit(Parameters):
+    limit_share: float = parameter(0.07, "limiting shear stress over pressure, measured by us", gt=0.0, le=0.3)
 
 
+@law("traction", "hyperbolic-limit", Limit, role_api=2, reference="Own work 2026, eq. 7")
 def traction(slip, p, T, ln_eta, h, par, tau):
     for i in range(slip.size):
         newtonian = math.exp(min(ln_eta[i], 40.0)) * slip[i] / h
-        limit = par[0] * p[i]
+        limit = par.limit_share * p[i]
         tau[i] = newtonian * limit / (newtonian + limit + 1e-300)
     return 1
-
-
-@hookimpl
-def lambda_models(register):
-    register(model("traction", "hyperbolic-limit", traction, Parameters, reference="Own work 2026, eq. 7"))
 """
 
 
@@ -97,8 +92,8 @@ async def test_a_law_of_a_plugin_has_its_form_without_any_code_for_it(
     def load() -> object:
         return importlib.import_module("third_party_law")
 
-    sources = [*manager.installed(), manager.Source("third-party-law", "0.3", "main", load)]
-    monkeypatch.setattr(manager, "installed", lambda group=manager.GROUP: sources)
+    sources = [*manager.installed(manager.PLUGINS), manager.Source("third-party-law", "0.3", "main", load)]
+    monkeypatch.setattr(manager, "installed", lambda group: sources)
     manager.registry.cache_clear()
     try:
         async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:

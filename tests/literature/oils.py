@@ -46,6 +46,8 @@ VG100: dict[str, Any] = {
 
 # What models without defaults need: role/name -> parameters.
 REQUIRED: dict[str, dict[str, Any]] = {
+    "supply/inlet-distance": {"distance": 2.0},
+    "supply/oil-layer": {"layer": "5 um"},
     "rheology/vogel-dicke": FVA3,
     "rheology/bode": BODE_VISCOSITY,
     "rheology/roelands": VG100,

@@ -11,13 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.optimize import brentq, root
 from scipy.special import ellipe, ellipk
 
-FloatArray = NDArray[np.float64]
-
+from lambda_core.domain.arrays import FloatArray
 
 # --- load distribution with many balls (Stribeck 1901, Sjoevall 1933; Harris and Kotzalas, vol. 1, ch. 7) -----------
 

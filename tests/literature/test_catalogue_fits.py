@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lambda_core.physics import fits
-from lambda_core.physics.tolerances import (
+from lambda_core.domain import fits
+from lambda_core.domain.tolerances import (
     HOUSING_CLASSES,
     SHAFT_CLASSES,
     Limits,

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lambda_db.catalogue import SqlCatalogue
 
-from lambda_core.physics import oil
-from lambda_core.registry.catalogue import LubricantRow
+from lambda_core.catalogue.protocol import LubricantRow
+from lambda_core.domain import oil
 
 BAR = 1e5
 

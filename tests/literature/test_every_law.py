@@ -7,14 +7,15 @@ from pathlib import Path
 
 import pytest
 
-from lambda_core.registry.collect import OWN
-from lambda_core.registry.manager import registry
-from lambda_core.registry.roles import ROLES
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.installed import OWN
+from lambda_core.domain.roles import ROLES
 
 FOLDER = Path(__file__).parent
 CONTACT, LUBRICANT, FRICTION = "test_models_contact", "test_models_lubricant", "test_models_friction"
 LOSSES, CAPACITANCE, SURFACE = "test_models_losses", "test_models_capacitance", "test_models_surface"
-CLOSED = "test_models_closed_form"
+CLOSED, MIXED = "test_models_closed_form", "test_models_mixed_friction"
+SUPPLY = "test_models_supply"
 BLOW, NOTHING = (CLOSED, "test_a_blow_against_a_guide_lasts_half_a_period"), (CLOSED, "test_none_is_nothing")
 
 # role/name of every law: (module, test) that calls it.
@@ -27,6 +28,10 @@ CHECKED: dict[str, tuple[str, str]] = {
     "rheology/bode": (LUBRICANT, "test_bode_viscosity"),
     "rheology/roelands": (LUBRICANT, "test_roelands_meets_its_pole_pressure_and_viscosity"),
     "rheology/barus-limited": (LUBRICANT, "test_generic_oil_passes_its_two_points"),
+    "supply/constant": (SUPPLY, "test_half_the_film_costs_rolling_resistance_too"),
+    "supply/oil-layer": (SUPPLY, "test_film_of_a_layer"),
+    "supply/inlet-distance": (SUPPLY, "test_film_of_a_near_inlet"),
+    "supply/skf-replenishment": (SUPPLY, "test_replenishment_of_the_6319"),
     "film_thickness/chittenden": (CONTACT, "test_film_of_the_6208"),
     "film_thickness/hamrock-dowson": (CONTACT, "test_film_of_the_6208"),
     "thermal_correction/murch-wilson": (CONTACT, "test_murch_wilson_closed_form"),
@@ -46,6 +51,8 @@ CHECKED: dict[str, tuple[str, str]] = {
     "elastic_hysteresis/none": NOTHING,
     "asperity_load/zhou-hoeprich": (FRICTION, "test_load_share_of_the_sister_model"),
     "asperity_load/none": NOTHING,
+    "boundary_friction/micro-slip": (MIXED, "test_carters_creep_curve"),
+    "asperity_load/spikes-olver": (MIXED, "test_transition_of_spikes_and_olver"),
     "boundary_friction/cubic": (CLOSED, "test_teutschs_cubic_coefficient"),
     "boundary_friction/coulomb-regularised": (CLOSED, "test_regularised_coulomb_friction"),
     "cage_contact/spherical-pocket": BLOW,

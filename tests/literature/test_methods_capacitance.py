@@ -7,13 +7,13 @@ import math
 import pytest
 from lambda_plugins.methods.capacitance import evaluate
 
-from lambda_core.registry.method import (
+from lambda_core.laws.context import Material, Oil
+from lambda_core.views.method import (
     ContactLoad,
     EquilibriumState,
     MethodInputs,
     MethodTable,
 )
-from lambda_core.registry.model import Material, Oil
 
 from .paper_6208 import BALL, INNER, OUTER, PITCH, SPEED, axial_6208
 from .published import Published

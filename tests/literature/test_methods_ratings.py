@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from lambda_core.physics.ratings import (
+from lambda_core.domain.ratings import (
     dynamic_factor,
     dynamic_rating,
     fatigue_load_limit,

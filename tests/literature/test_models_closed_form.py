@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lambda_core.physics.hertz import hertz_contact
-from lambda_core.registry.probe import trial_context
+from lambda_core.domain.hertz import hertz_contact
+from lambda_core.laws.probe import trial_context
 from lambda_core.testing import evaluate
 
 from .published import Published
@@ -102,13 +102,15 @@ TEUTSCH = [(0.0, 0.0), (0.005, 0.0825), (0.01, 0.12), (0.055, 0.105), (0.1, 0.09
 @pytest.mark.parametrize(("slip", "mu"), TEUTSCH)
 def test_teutschs_cubic_coefficient(slip: float, mu: float) -> None:
     """mu = h + a d^2 (3 - 2 d) with mu_s 0.12 at 0.01 m/s and mu_d 0.09 at 0.1 m/s: 11/16 mu_s at v_s/2."""
-    found = evaluate("boundary_friction/cubic", slip=slip, p=1e9)[0]
+    found = evaluate("boundary_friction/cubic", slip=slip, p=1e9, u_mean=1.0)[0]
     Published(mu, "Wingertszahn et al. 2023, Lubricants 11, 369, eq. 21", EXACT, rel=1e-12).check(float(found))
 
 
 @pytest.mark.parametrize(("ratio", "share"), [(0.0, 0.0), (1.0, 0.70710678), (3.0, 0.9486833), (1e3, 0.9999995)])
 def test_regularised_coulomb_friction(ratio: float, share: float) -> None:
-    found = evaluate("boundary_friction/coulomb-regularised", {"mu": 0.1, "v_0": "10 mm/s"}, slip=0.01 * ratio, p=1e9)
+    found = evaluate(
+        "boundary_friction/coulomb-regularised", {"mu": 0.1, "v_0": "10 mm/s"}, slip=0.01 * ratio, p=1e9, u_mean=1.0
+    )
     assert found[0] == pytest.approx(0.1 * share, rel=1e-7)
 
 

@@ -208,7 +208,7 @@ def test_flash_temperature_of_a_band_source() -> None:
     from scipy.integrate import quad
     from scipy.special import k0e
 
-    from lambda_core.registry.probe import trial_context
+    from lambda_core.laws.probe import trial_context
 
     context = trial_context("ball_inner")
     steel = context.ball

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from lambda_plugins.immersion import kinematic_speeds
 
-from lambda_core.registry.model import Context
-from lambda_core.registry.probe import trial_context
+from lambda_core.laws.context import Context
+from lambda_core.laws.probe import trial_context
 from lambda_core.testing import evaluate
 
 from .published import Published

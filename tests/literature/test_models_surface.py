@@ -11,9 +11,9 @@ import pytest
 from numpy.typing import NDArray
 
 from lambda_core import api
-from lambda_core.physics.model import Geometry
-from lambda_core.registry.probe import trial_context
-from lambda_core.simulate.dynamics import BearingEngine
+from lambda_core.laws.probe import trial_context
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.system.bearing import Geometry
 from lambda_core.testing import evaluate
 
 INTERVAL = 1e-4  # [s] of the samples

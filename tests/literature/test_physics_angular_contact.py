@@ -16,10 +16,10 @@ import pytest
 from scipy.optimize import root
 
 from lambda_core import api
-from lambda_core.physics.compiled import layout as L
-from lambda_core.physics.compiled.observe import CONTACT_CHANNELS
-from lambda_core.physics.equilibrium import solve
-from lambda_core.physics.hertz import ball_raceway_radii, stiffness_constant
+from lambda_core.domain.hertz import ball_raceway_radii, stiffness_constant
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.equilibrium import solve
+from lambda_core.solver.sampling import CONTACT_CHANNELS
 
 from .published import Published
 from .reference import raceway_motion

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.physics.compiled.observe import CONTACT_CHANNELS
-from lambda_core.physics.equilibrium import Equilibrium, solve
-from lambda_core.physics.kinematics import cage_speed
-from lambda_core.simulate.dynamics import BearingEngine
+from lambda_core.domain.kinematics import cage_speed
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+from lambda_core.solver.sampling import CONTACT_CHANNELS
 
 from .published import Published
 

@@ -12,7 +12,7 @@ from lambda_plugins.immersion import kinematic_speeds
 from lambda_plugins.methods.schaeffler import SERIES, idle_torque
 from lambda_plugins.methods.skf_drag import drag_torque, drag_torque_2008
 
-from lambda_core.registry.model import Context, Material, Oil
+from lambda_core.laws.context import Context, Material, Oil
 from lambda_core.testing import evaluate
 
 RPM = math.pi / 30.0
@@ -41,12 +41,12 @@ def test_skf(rpm: float) -> None:
 
 @pytest.mark.parametrize("series", SERIES)
 def test_schaeffler_factors(series: str) -> None:
-    par = [float(value) for value in prepare_schaeffler(Schaeffler(fluid_share=1.0), _context(series))]
-    reference = [float(value) for value in prepare_schaeffler(Schaeffler(fluid_share=1.0, f0=1.0), _context(series))]
-    assert par[5] / reference[5] == pytest.approx(SERIES[series].f0_bath)
+    share = prepare_schaeffler(Schaeffler(fluid_share=1.0), _context(series))
+    reference = prepare_schaeffler(Schaeffler(fluid_share=1.0, f0=1.0), _context(series))
+    assert share.force / reference.force == pytest.approx(SERIES[series].f0_bath)
     per_factor = idle_torque(1.0, 0.1475, 1500 * RPM, 36.6e-6)
     assert idle_torque(SERIES[series].f0_bath, 0.1475, 1500 * RPM, 36.6e-6) == pytest.approx(
-        per_factor * par[5] / reference[5]
+        per_factor * share.force / reference.force
     )
 
 

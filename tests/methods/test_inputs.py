@@ -9,14 +9,15 @@ import numpy as np
 import pytest
 from lambda_db.catalogue import SqlCatalogue
 
-from lambda_core.errors import SolverError
-from lambda_core.physics.method_inputs import carried_load, method_inputs, permittivity_over_pressure
-from lambda_core.physics.model import BearingModel
-from lambda_core.physics.resolve import resolve
-from lambda_core.registry.manager import registry
-from lambda_core.registry.method import ContactLoad, EquilibriumState, MethodInputs, evaluate_methods
-from lambda_core.registry.model import Context, Material, NoParameters, Oil, model
-from lambda_core.schema.case_io import load_case
+from lambda_core.case.case_io import load_case
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.errors import SolverError
+from lambda_core.laws.context import Context, Material, Oil
+from lambda_core.laws.law import Law, law_of
+from lambda_core.system.bearing import BearingModel
+from lambda_core.system.method_inputs import carried_load, method_inputs, permittivity_over_pressure
+from lambda_core.system.resolve import resolve
+from lambda_core.views.method import ContactLoad, EquilibriumState, MethodInputs, evaluate_methods
 
 
 def test_carried_load_of_an_axially_loaded_bearing() -> None:
@@ -99,16 +100,16 @@ def test_loads_come_from_the_equilibrium_where_there_is_one(resolved: BearingMod
 
 
 def test_permittivity_uses_the_chosen_laws() -> None:
-    from lambda_plugins.bode import CONSTANT_PERMITTIVITY
+    from lambda_plugins.bode import constant
 
     def thin(p: np.ndarray, t: np.ndarray, par: np.ndarray, ln_eta: np.ndarray, rho: np.ndarray) -> int:
         rho[0] = 870.0
         return 2 if p[0] > 1e9 else 1
 
-    rheology = model(
-        "rheology", "thin", thin, NoParameters, reference="test", errors={2: "beyond the measured pressures"}
-    )
-    value = permittivity_over_pressure(CONSTANT_PERMITTIVITY, np.array([2.3]), rheology, np.zeros(1), 313.15)
+    rheology = Law("rheology", "thin", thin, role_api=2, reference="test", errors={2: "beyond the measured pressures"})
+    permittivity = law_of(constant)
+    assert permittivity is not None
+    value = permittivity_over_pressure(permittivity, np.array([2.3]), rheology, np.zeros(1), 313.15)
     assert value(0.5e9) == 2.3
     with pytest.raises(SolverError, match="beyond the measured pressures"):
         value(2e9)

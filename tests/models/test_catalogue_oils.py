@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from lambda_db.catalogue import SqlCatalogue
 
-from lambda_core.registry.manager import registry
-from lambda_core.registry.par import make_par
-from lambda_core.registry.probe import trial_context
+from lambda_core.discovery.manager import registry
+from lambda_core.laws.par import make_par
+from lambda_core.laws.probe import trial_context
 from lambda_core.testing import evaluate
 
 

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import ast
 import subprocess
 import sys
+from pathlib import Path
 
+import lambda_plugins
 import numpy as np
 import pytest
-from lambda_plugins import lambda_models
+from lambda_plugins import lambda_laws
 
-from lambda_core.registry.check import check_model, parameters_of
-from lambda_core.registry.kernels import compile_kernel
-from lambda_core.registry.manager import registry
-from lambda_core.registry.par import make_par
-from lambda_core.registry.probe import draw, trial_context
-from lambda_core.registry.roles import DEFAULT_MODELS, ROLES
-from lambda_core.registry.survey import split_label
+from lambda_core.discovery.manager import registry
+from lambda_core.discovery.survey import split_label
+from lambda_core.domain.roles import DEFAULT_MODELS, ROLES
+from lambda_core.laws.check import check_model, parameters_of
+from lambda_core.laws.kernels import compile_kernel
+from lambda_core.laws.par import make_par
+from lambda_core.laws.probe import draw, trial_context
+from lambda_core.plugins import OK
+from lambda_core.solver.status import Status
 
 from ..literature.oils import REQUIRED  # noqa: TID252
 
@@ -25,12 +30,13 @@ NAMES = {
     "rheology": {"vogel-dicke", "bode", "roelands", "barus-limited"},
     "film_thickness": {"chittenden", "hamrock-dowson"},
     "thermal_correction": {"murch-wilson", "zhu-cheng", "none"},
+    "supply": {"constant", "skf-replenishment", "inlet-distance", "oil-layer"},
     "contact_temperature": {"shear-heating", "isothermal"},
     "traction": {"ree-eyring", "bair-winer", "newtonian"},
     "rolling_resistance": {"biboulet-houpert", "goksem-hargreaves", "none"},
     "elastic_hysteresis": {"loss-factor", "houpert", "scheuermann", "none"},
-    "asperity_load": {"zhou-hoeprich", "none"},
-    "boundary_friction": {"cubic", "coulomb-regularised"},
+    "asperity_load": {"zhou-hoeprich", "spikes-olver", "none"},
+    "boundary_friction": {"micro-slip", "cubic", "coulomb-regularised"},
     "cage_contact": {"spherical-pocket", "cylindrical-pocket", "land-guidance", "ball-ball", "none"},
     "fluid_drag": {"skf-catalogue", "schaeffler-catalogue", "sphere-drag", "none"},
     "permittivity": {"bode", "constant"},
@@ -42,7 +48,7 @@ LABELS = [f"{role}/{name}" for role in ROLES for name in sorted(NAMES[role])]
 
 def test_every_role_has_the_agreed_models() -> None:
     found: dict[str, set[str]] = {role: set() for role in ROLES}
-    lambda_models(lambda law: found[law.role].add(law.name))
+    lambda_laws(lambda law: found[law.role].add(law.name))
     assert found == NAMES
     for role, name in DEFAULT_MODELS.items():
         assert name == "auto" or name in NAMES[role]
@@ -88,7 +94,7 @@ def test_published_ranges_are_valid_and_hold_the_default(label: str) -> None:
 
 def test_naming_the_laws_imports_none_of_them() -> None:
     code = (
-        "import sys, lambda_plugins; lambda_plugins.lambda_models(lambda law: None);"
+        "import sys, lambda_plugins; lambda_plugins.lambda_laws(lambda law: None);"
         "heavy = [m for m in sys.modules if m.split('.')[0] in ('scipy', 'numba') or m == 'lambda_plugins.traction'];"
         "sys.exit(str(heavy) if heavy else 0)"
     )
@@ -103,6 +109,7 @@ STATE = {
     "rheology": ("p", "T"),
     "film_thickness": ("u_mean", "load"),
     "thermal_correction": ("u_mean",),
+    "supply": (),
     "contact_temperature": ("T_in",),
     "traction": ("slip", "ln_eta", "p"),
     "rolling_resistance": ("u_mean", "load"),
@@ -132,3 +139,17 @@ def test_nan_is_never_swallowed(label: str) -> None:
         dispatcher(*arguments)
         outputs = [value for argument, value in zip(role.arguments, arguments, strict=True) if argument.output]
         assert any(np.isnan(value).any() for value in outputs), name
+
+
+LAW_MODULES = sorted(Path(lambda_plugins.__file__).parent.glob("*.py"))
+
+
+@pytest.mark.parametrize("path", LAW_MODULES, ids=lambda path: path.stem)
+def test_built_in_laws_use_the_door_of_every_plugin(path: Path) -> None:
+    nodes = [node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.ImportFrom)]
+    imported = {node.module for node in nodes if (node.module or "").startswith("lambda_core")}
+    assert imported <= {"lambda_core.plugins"}
+
+
+def test_the_word_of_kernels_is_the_number_of_the_solver() -> None:
+    assert Status.OK == OK

@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from lambda_plugins.immersion import immersion, kinematic_speeds
+from lambda_plugins.immersion import OilBath, immersion, kinematic_speeds
+from lambda_plugins.skf_chart import drag_loss_factor
 
-from lambda_core.registry.faults import PluginError
-from lambda_core.registry.manager import registry
-from lambda_core.registry.model import Context
-from lambda_core.registry.par import make_par
-from lambda_core.registry.probe import trial_context
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.laws.context import Context
+from lambda_core.laws.par import make_par
+from lambda_core.laws.probe import trial_context
 from lambda_core.testing import assert_symmetric, evaluate
 
 CONTEXT = dataclasses.replace(trial_context("fluid_drag"), oil_level=0.0)
@@ -43,9 +44,9 @@ def test_immersion_is_the_volume_of_the_cap() -> None:
     R = 6e-3
     for level in (-R, -0.3 * R, 0.0, 0.5 * R, R):
         cap = math.pi * (level + R) ** 2 * (3.0 * R - (level + R)) / 3.0
-        assert immersion(-0.5 * math.pi, level, 0.03, R) == pytest.approx(cap / (4.0 / 3.0 * math.pi * R**3))
-    assert immersion(0.5 * math.pi, 0.0, 0.03, R) == 0.0
-    assert immersion(0.5 * math.pi, 0.06 + R, 0.03, R) == 1.0
+        assert immersion(-0.5 * math.pi, OilBath(level, 0.03, R)) == pytest.approx(cap / (4.0 / 3.0 * math.pi * R**3))
+    assert immersion(0.5 * math.pi, OilBath(0.0, 0.03, R)) == 0.0
+    assert immersion(0.5 * math.pi, OilBath(0.06 + R, 0.03, R)) == 1.0
 
 
 @pytest.mark.parametrize("name", LAWS)
@@ -110,6 +111,23 @@ def test_viscous_term_of_the_later_edition() -> None:
     square = 0.4 * 3e-5 * ratio * 1e-12 * d_m**5 * n**2
     found = torque("skf-catalogue", CONTEXT, n * math.pi / 30.0, v_m=3e-5, edition="2018")
     assert found == pytest.approx(1e-3 * (square + viscous), rel=1e-4)
+
+
+# Oil level over mean diameter: V_M of the chart's two digitised parts, and the 6319 of Syla et al. 2026.
+@pytest.mark.parametrize(("level", "factor"), [(0.0, 0.0), (0.1017, 7.55e-5), (0.1087, 7.97e-5), (1.3, 1.25e-3)])
+def test_drag_loss_factor_of_the_chart(level: float, factor: float) -> None:
+    """Read from SKF's diagram; the two parts of the chart, 7.35e-5 and 8.58e-5 at 0.1087, are 15 % apart."""
+    assert drag_loss_factor(level) == pytest.approx(factor, rel=0.08)
+
+
+@pytest.mark.parametrize("edition", ["2018", 2018])
+def test_edition_is_a_year_as_number_or_text(edition: Any) -> None:
+    absent = torque("skf-catalogue", CONTEXT, 300.0, edition=edition)
+    level = 0.5 * 11.906 / 60.0
+    assert absent == pytest.approx(
+        torque("skf-catalogue", CONTEXT, 300.0, edition="2018", v_m=drag_loss_factor(level)), rel=0.01
+    )
+    assert absent != pytest.approx(torque("skf-catalogue", CONTEXT, 300.0, edition="2008"), rel=0.01)
 
 
 @pytest.mark.parametrize("n", [20.0, 3000.0])

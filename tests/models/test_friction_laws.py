@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from lambda_core.registry.manager import registry
-from lambda_core.registry.probe import trial_context
+from lambda_core.discovery.manager import registry
+from lambda_core.laws.probe import trial_context
 from lambda_core.testing import assert_increasing, assert_limit, evaluate
 
 CELL: dict[str, Any] = {"T": 330.0, "ln_eta": math.log(10.0), "h": 1e-6}
@@ -143,12 +143,12 @@ class TestMixedFriction:
         slip = np.array([0.0, 0.005, 0.01, 0.055, 0.1, 5.0])
         d = 0.75  # (v + v_s)/(2 v_s) at half of v_s
         rising = -0.12 + 2.0 * 0.12 * d * d * (3.0 - 2.0 * d)
-        mu = evaluate("boundary_friction/cubic", slip=slip, p=1e9)
+        mu = evaluate("boundary_friction/cubic", slip=slip, p=1e9, u_mean=1.0)
         assert mu == pytest.approx([0.0, rising, 0.12, 0.105, 0.09, 0.09])
 
     def test_cubic_friction_has_no_kink(self) -> None:
         slip = np.arange(0.0, 0.2, 1e-6)
-        slope = np.diff(evaluate("boundary_friction/cubic", slip=slip, p=1e9)) / 1e-6
+        slope = np.diff(evaluate("boundary_friction/cubic", slip=slip, p=1e9, u_mean=1.0)) / 1e-6
         assert np.max(np.abs(np.diff(slope))) < 0.01 * np.max(np.abs(slope))
 
     def test_corners_in_the_wrong_order_are_refused(self) -> None:
@@ -158,9 +158,9 @@ class TestMixedFriction:
 
     def test_coulomb(self) -> None:
         label = "boundary_friction/coulomb-regularised"
-        assert evaluate(label, slip=0.0, p=1e9)[0] == 0.0
-        assert evaluate(label, slip=0.01, p=1e9)[0] == pytest.approx(0.1 / math.sqrt(2.0))
-        assert evaluate(label, slip=10.0, p=1e9)[0] == pytest.approx(0.1, rel=1e-6)
+        assert evaluate(label, slip=0.0, p=1e9, u_mean=1.0)[0] == 0.0
+        assert evaluate(label, slip=0.01, p=1e9, u_mean=1.0)[0] == pytest.approx(0.1 / math.sqrt(2.0))
+        assert evaluate(label, slip=10.0, p=1e9, u_mean=1.0)[0] == pytest.approx(0.1, rel=1e-6)
 
 
 ROLLING: dict[str, Any] = {

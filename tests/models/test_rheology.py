@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from lambda_plugins.generic_oils import TwoPointOil, kinematic_viscosity
 from pydantic import ValidationError
 
-from lambda_core.registry.faults import PluginError
-from lambda_core.registry.manager import registry
-from lambda_core.registry.par import make_par
-from lambda_core.registry.probe import trial_context
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.laws.par import make_par
+from lambda_core.laws.probe import trial_context
 from lambda_core.testing import evaluate
 
 from ..literature.oils import BODE_PERMITTIVITY, REQUIRED, VG100  # noqa: TID252

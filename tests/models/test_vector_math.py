@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from lambda_plugins import vector_math
 from numba import float64, njit
 
-from lambda_core.registry.machine_code import OPTIONS, make_callable
-from lambda_core.registry.reach import reach
+from lambda_core.laws.jit.machine_code import OPTIONS, make_callable
+from lambda_core.laws.jit.reach import reach
 
 EPS = np.finfo(float).eps
 

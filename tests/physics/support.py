@@ -11,20 +11,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core import api
-from lambda_core.physics.assembly import Assembly, assemble
-from lambda_core.physics.channels import LOSSES
-from lambda_core.physics.compiled import bdf
-from lambda_core.physics.compiled import layout as L
-from lambda_core.physics.compiled import memory as M
-from lambda_core.physics.compiled.arrow import make_factors
-from lambda_core.physics.compiled.entry import core
-from lambda_core.physics.equilibrium import fault_sentence
-from lambda_core.physics.kernels import Kernels, derive_oil
-from lambda_core.physics.law_inputs import ContactFrame
-from lambda_core.physics.model import BearingModel
-from lambda_core.simulate.observation import observe
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import LOSSES
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.assembly import Assembly, assemble
+from lambda_core.solver.drivers.compiled_laws import Kernels, derive_oils
+from lambda_core.solver.drivers.equilibrium import fault_sentence
+from lambda_core.solver.drivers.observation import observe
+from lambda_core.solver.drivers.tables import running
+from lambda_core.solver.entry import core
+from lambda_core.solver.integrator import memory as M
+from lambda_core.solver.integrator.arrow import make_factors
+from lambda_core.solver.status import Status
+from lambda_core.system.bearing import BearingModel
+from lambda_core.system.law_context import ContactFrame
 
-FloatArray = NDArray[np.float64]
 CASE = "6319-cp10-1500"
 ALL_FREE = tuple(
     f"bodies.outer_ring.{dof}=free" for dof in ("x", "y", "z", "tilt_y", "tilt_z", "spin")
@@ -66,7 +67,7 @@ class Machine:
     def __post_init__(self) -> None:
         kernels = Kernels(self.model)
         frame = ContactFrame((self.angle, self.angle), (1000.0, 1000.0))
-        self.assembly = assemble(self.model, kernels, frame, derive_oil(self.model, kernels, frame))
+        self.assembly = assemble(self.model, kernels, frame, derive_oils(self.model, kernels, frame))
 
     @property
     def count(self) -> int:
@@ -78,8 +79,13 @@ class Machine:
         return np.asarray(self.assembly.bundle.active)
 
     def constant(self, name: str) -> FloatArray:
-        """Return a constant of the system by its name in the layout."""
-        return np.array(self.assembly.bundle.system[0][name])
+        """Return a constant by its name in the records: of the row of balls, or of each raceway or body."""
+        bundle = self.assembly.bundle
+        for table in (bundle.system, bundle.rows):
+            if name in table.dtype.names:
+                return np.array(table[name][0])
+        table = next(table for table in (bundle.raceways, bundle.bodies) if name in table.dtype.names)
+        return np.array(table[name])
 
     def vector(self, state: State) -> FloatArray:
         return np.concatenate([state.balls.ravel(), state.shared.ravel()[self.active]])
@@ -103,8 +109,9 @@ class Machine:
         ok = core().evaluate(t, y, bundle, dydt, rates, want)
         assert ok == 1, fault_sentence(self.assembly)
         losses = dict(zip(LOSSES, rates[: L.NL].tolist(), strict=True))
-        bodies = bundle.scratch[L.BODY_FM : L.BODY_FM + 3, :6].copy()
-        return Evaluation(dydt, losses, float(rates[L.I_INPUT]), float(rates[L.I_DRIVE]), bundle.ball_fm.copy(), bodies)
+        bodies, balls = (w.view(np.float64).reshape(-1, 6).copy() for w in (bundle.body_wrenches, bundle.ball_wrenches))
+        powers = running(rates)
+        return Evaluation(dydt, losses, float(powers["input"]), float(powers["drive"]), balls, bodies)
 
     def observe(self, y: FloatArray, t: float = 0.0) -> dict[str, FloatArray]:
         """Return every channel at one state, first axis dropped."""
@@ -142,17 +149,13 @@ class Machine:
     def shared_state(self, y: FloatArray, t: float) -> FloatArray:
         """Return the whole shared state (3, 12), prescribed motions included."""
         self.evaluate(y, t, want=0)
-        return self.assembly.bundle.scratch[L.SHARED, : 3 * L.NS].reshape(3, L.NS).copy()
-
-
-CHANNELS = {"motion": (L.CH_MOTION, 6), "force": (L.CH_FORCE, 3), "moment": (L.CH_MOMENT, 3)}
+        return np.array(self.assembly.bundle.shared).reshape(3, L.NS)
 
 
 def time_function(m: Machine, kind: str, body: int, component: int, t: float) -> FloatArray:
     """Return value and two derivatives of a load or motion at time t, as compiled code sees them."""
     m.evaluate(m.vector(m.at_rest()), t, want=0)
-    start, per_body = CHANNELS[kind]
-    return np.array(m.assembly.bundle.channels[start + per_body * body + component].copy())
+    return np.array(m.assembly.bundle.inputs[kind][body, component].tolist())
 
 
 @dataclass(frozen=True)
@@ -172,18 +175,19 @@ def integrate(m: Machine, y: FloatArray, duration: float, tolerance: float, samp
     """Integrate from any state, sampled at equal intervals from 0 on."""
     mem = M.make_memory(y, m.assembly.scale, tolerance, m.assembly.bundle, samples + 8)
     interval = duration / samples
-    mem.control[M.H], mem.control[M.H_MIN], mem.control[M.H_MAX] = 1e-9, 1e-16, interval
-    mem.control[M.SAMPLE_STEP] = interval
-    mem.count[M.STALE] = 1
+    control = mem.control
+    control["step"], control["shortest_step"], control["longest_step"] = 1e-9, 1e-16, interval
+    control["sample_interval"] = interval
+    mem.count["stale"] = 1
     compiled, factors = core(), make_factors(m.count, m.active.size)
-    while mem.control[M.T] < duration:
+    while control["time"][0] < duration:
         status = compiled.advance(
             compiled.evaluate_pointer, compiled.jacobian_pointer, duration, 10_000, m.assembly.bundle,
             m.assembly.blocks, factors, mem,
         )  # fmt: skip
-        assert status == bdf.OK, (status, mem.control[M.T], fault_sentence(m.assembly))
-    n = int(mem.count[M.SAMPLES])
-    return Motion(mem.sample_t[:n].copy(), mem.sample_y[:n].copy(), int(mem.count[M.STEPS]))
+        assert status in (Status.OK, Status.UNFINISHED), (Status(status), control["time"], fault_sentence(m.assembly))
+    n = int(mem.count["samples_waiting"][0])
+    return Motion(mem.sample_t[:n].copy(), mem.sample_y[:n].copy(), int(mem.count["steps"][0]))
 
 
 @cache

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.physics.compiled import balance
-from lambda_core.physics.compiled import memory as M
-from lambda_core.simulate.dynamics import BearingEngine
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.integrator import balance
+from lambda_core.solver.integrator import memory as M
 
 RIM = "6319-cp10-1500"
 
@@ -18,8 +18,8 @@ RIM = "6319-cp10-1500"
 def memory(new: float, y: float, y1: float, h: float, h1: float) -> SimpleNamespace:
     """Return what the estimate reads, for one speed of mass 1."""
     w = h / h1
-    control = np.zeros(M.N_CONTROL)
-    control[M.H1], control[M.BDF_BACK] = h1, w * w / (1.0 + 2.0 * w)
+    control = np.zeros(1, dtype=M.CONTROL).view(np.recarray)
+    control["last_step"], control["back"] = h1, w * w / (1.0 + 2.0 * w)
     values = {"new": new, "y": y, "y1": y1, "inertia": 1.0}
     return SimpleNamespace(control=control, **{name: np.array([value]) for name, value in values.items()})
 

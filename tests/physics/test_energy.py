@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.physics.compiled import layout as L
-from lambda_core.simulate.dynamics import BearingEngine
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.dynamics import BearingEngine
 
 from .support import integrate, machine
 from .test_power import HARMONIC_OUTER_RING

@@ -12,8 +12,8 @@ from contextlib import closing
 import pytest
 
 from lambda_core import api
-from lambda_core.errors import SolverError
-from lambda_core.physics.equilibrium import solve
+from lambda_core.domain.errors import SolverError
+from lambda_core.solver.drivers.equilibrium import solve
 
 HARD = [
     # balls that rest on the inner ring with a penetration of nanometres, below the step of the difference quotients

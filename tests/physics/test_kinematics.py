@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from lambda_core.physics.compiled import layout as L
-from lambda_core.physics.contact_grid import unit_grid
-from lambda_core.physics.hertz import ball_raceway_radii
+from lambda_core.domain.hertz import ball_raceway_radii
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.contact_grid import unit_grid
 
 from .support import (
     ALL_FREE,
@@ -180,7 +180,7 @@ def test_gyroscopic_moment() -> None:
 def test_unit_grid(strips: int, rows: int) -> None:
     """Area pi and Hertzian load 2 pi/3 of the unit ellipse are met exactly, second moments to second order."""
     grid = unit_grid(strips, rows)
-    place, along, pressure, area = (grid[i] for i in (L.GRID_S, L.GRID_T, L.GRID_P, L.GRID_AREA))
+    place, along, pressure, area = grid[:4]
     cells = strips * rows
     assert grid.shape[0] == 6
     assert np.all(area[:cells] > 0.0)

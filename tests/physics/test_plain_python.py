@@ -18,25 +18,37 @@ PLAIN = """
 import sys
 import numpy as np
 from lambda_core import api
-from lambda_core.physics.compiled import forces, layout as L, raceway
+from lambda_core.laws.par import flat_kernel
+from lambda_core.solver.motion import forces
+from lambda_core.solver import layout as L, records as R
+from lambda_core.solver.contact import raceway
 
 given = np.load(sys.argv[1])
 model = api.check(str(given["case"]), [str(text) for text in given["overrides"]])
 
 def law(element, role):
-    return model.laws[element][role].model.kernel
+    return flat_kernel(model.laws[element][role].model)
 
 def raceway_laws(element):
     return L.RacewayLaws(*(law(element, role) for role in L.RacewayLaws._fields))
 
 laws = L.Laws(
-    raceway_laws("ball_inner"), raceway_laws("ball_outer"),
+    (raceway_laws("ball_inner"), raceway_laws("ball_outer")),
     law("ball_cage" if model.depth.cage else "ball_ball", "cage_contact"),
-    law("cage_inner", "cage_contact"), law("cage_outer", "cage_contact"), law("fluid_drag", "fluid_drag"),
+    (law("cage_inner", "cage_contact"), law("cage_outer", "cage_contact")),
+    law("fluid_drag", "fluid_drag"),
 )
-system = np.frombuffer(given["system"].tobytes(), dtype=L.SYSTEM).copy().view(np.recarray)
+kinds = {
+    "system": R.SYSTEM, "bodies": R.BODY, "rows": R.ROW, "raceways": R.RACEWAY, "lands": R.LAND, "terms": R.TERM,
+    "inputs": R.INPUTS, "scratch": R.SCRATCH, "bodies_now": R.BODY_STATE, "body_rates": R.BODY_STATE,
+    "body_wrenches": R.WRENCH, "ball_wrenches": R.WRENCH,
+}
 arrays = {name: given[name] for name in given["arrays"]}
-bundle = L.Bundle(system=system, laws=laws, wrench=raceway.raceway_wrench, tangent=None, **arrays)
+arrays |= {name: np.frombuffer(given[name].tobytes(), kind).copy() for name, kind in kinds.items()}
+arrays["signals"] = arrays["inputs"].view(R.SIGNAL)
+arrays["shared"] = arrays["bodies_now"].view(np.float64)
+arrays["shared_rates"] = arrays["body_rates"].view(np.float64)
+bundle = L.Bundle(laws=laws, wrench=raceway.raceway_wrench, tangent=None, **arrays)
 rows, powers = [], []
 for y in given["states"]:
     dydt, rates = np.zeros(y.size), np.zeros(L.NI)
@@ -55,16 +67,19 @@ def test_right_hand_side(name: str, tmp_path: Path) -> None:
     m, time = machine(*MODELS[name]), 2e-3
     states = np.array([random_state(m, seed, mode) for seed, mode in enumerate(("rolling", "sliding"))])
     bundle = m.assembly.bundle
-    arrays = [name for name in bundle._fields if name not in ("system", "laws", "wrench", "tangent")]
+    arrays = {
+        name: values if values.dtype.names is None else np.frombuffer(values.tobytes(), np.uint8)
+        for name, values in bundle._asdict().items()
+        if name not in ("laws", "wrench", "tangent")
+    }
     np.savez(
         tmp_path / "given.npz",
         case="6319-cp10-1500",
         overrides=np.array(MODELS[name]),
         time=time,
         states=states,
-        arrays=arrays,
-        system=np.frombuffer(bundle.system.tobytes(), dtype=np.uint8),
-        **{array: getattr(bundle, array) for array in arrays},
+        arrays=np.array([name for name, values in arrays.items() if values.dtype != np.uint8]),
+        **arrays,
     )
     done = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", PLAIN, "given.npz", "plain.npz"],

@@ -7,9 +7,8 @@ import pytest
 
 from benchmarks.regimes import AXIAL, BOUND, RADIAL, REFUSED, REGIMES, Regime, refusal, run
 from lambda_core import api
-from lambda_core.physics.channels import LOSSES
-from lambda_core.physics.compiled import memory as M
-from lambda_core.simulate.dynamics import BearingEngine
+from lambda_core.domain.channels import LOSSES
+from lambda_core.solver.drivers.dynamics import BearingEngine
 
 
 @pytest.mark.parametrize("regime", REGIMES, ids=lambda regime: regime.name)
@@ -38,7 +37,7 @@ def test_a_whirling_cage_is_no_error_of_integration() -> None:
     assert loose.advance(0.06).ok
     shaken, own = loose.state(), fine.state()
     shaken["memory.weight"] = own["memory.weight"]
-    for entry in (M.TOLERANCE, M.LEAK_FLOOR):
+    for entry in ("tolerance", "leak_floor"):
         shaken["memory.control"][entry] = own["memory.control"][entry]
     quiet = _loss(fine, 0.005)
     fine.restore(shaken)

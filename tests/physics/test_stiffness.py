@@ -6,17 +6,16 @@ import dataclasses
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from lambda_core import api
-from lambda_core.physics.assembly import assemble
-from lambda_core.physics.compiled import layout as L
-from lambda_core.physics.compiled.entry import core
-from lambda_core.physics.equilibrium import Equilibrium, _settle, solve
-from lambda_core.physics.model import DofState, TimeFunction
-from lambda_core.physics.stiffness import stiffness_matrix
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.assembly import assemble
+from lambda_core.solver.drivers.equilibrium import Equilibrium, _continue, solve
+from lambda_core.solver.drivers.stiffness import stiffness_matrix
+from lambda_core.solver.entry import core
+from lambda_core.system.bearing import DofState, TimeFunction
 
-FloatArray = NDArray[np.float64]
 NAMES = ("x", "y", "z", "tilt_y", "tilt_z")
 # Of the diagonal: the contacts stiffen over the steps, and the Jacobian takes differences over 10 nm.
 ATOL = 5e-4
@@ -30,23 +29,23 @@ def load_at(found: Equilibrium, displacement: FloatArray) -> FloatArray:
     for name, value in zip(NAMES, displacement, strict=True):
         dofs[name] = DofState("prescribed", TimeFunction.constant(float(value)))
     held = dataclasses.replace(model, inner_ring=dataclasses.replace(model.inner_ring, dofs=dofs))
-    assembly = assemble(held, found.assembly.kernels, found.assembly.frame, found.assembly.oil)
+    assembly = assemble(held, found.assembly.kernels, found.assembly.frame, found.assembly.oils)
     count = model.geometry.ball_count
     state = np.zeros(assembly.size)
     state[: L.NB * count] = found.state[: L.NB * count]
-    _settle(core(), assembly, state, friction=False)
+    _continue(core(), assembly, state, friction=False)
     bundle = assembly.bundle
     bundle.system[0]["friction_on"], bundle.system[0]["guides_on"] = 0, 0
     assert core().evaluate(0.0, state, bundle, np.zeros(state.size), np.zeros(L.NI), 1) == 1
-    felt: FloatArray = bundle.scratch[L.BODY_FM, [0, 1, 2, 4, 5]].copy()
+    felt: FloatArray = np.delete(bundle.body_wrenches.view(np.float64)[:6], 3)
     return -felt
 
 
 def without_friction(found: Equilibrium) -> Equilibrium:
     """Return the equilibrium of normal forces alone, where differences and matrix are of the same state."""
-    _settle(core(), found.assembly, found.state, friction=False)
-    shared = found.assembly.bundle.scratch[L.SHARED]
-    x, y, z, ay, az = (float(shared[i]) for i in (L.SX, L.SY, L.SZ, L.SAY, L.SAZ))
+    _continue(core(), found.assembly, found.state, friction=False)
+    ring = found.assembly.bundle.bodies_now[0]
+    (x, y, z), (ay, az) = ring.position.tolist(), ring.tilt.tolist()
     return dataclasses.replace(found, displacement=(x, y, z, -az, ay))
 
 

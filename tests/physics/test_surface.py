@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.physics.compiled import layout as L
-from lambda_core.physics.contact_field import contact_field
-from lambda_core.physics.equilibrium import solve
-from lambda_core.physics.surface import longest_step
-from lambda_core.plugins import NoParameters, model
+from lambda_core.laws.law import Law
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.contact_field import contact_field
+from lambda_core.solver.drivers.equilibrium import solve
+from lambda_core.solver.drivers.surface_steps import longest_step
 
 from .support import ALL_FREE, Machine, machine
 
@@ -90,7 +90,7 @@ def unmapped(azimuth, contact_angle, par, out):  # type: ignore[no-untyped-def]
 
 
 def test_a_surface_that_refuses_is_named() -> None:
-    law = model("surface", "unmapped", unmapped, NoParameters, reference="-", errors={2: "the scan ends here"})
+    law = Law("surface", "unmapped", unmapped, role_api=2, reference="-", errors={2: "the scan ends here"})
     case = api.check("6319-cp10-1500", (TIGHT,))
     inner = case.laws["ball_inner"]
     own = dataclasses.replace(inner["surface"], model=dataclasses.replace(law, distribution="scans 1.2"))

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.physics.equilibrium import Equilibrium, solve
-from lambda_core.simulate.dynamics import BearingEngine
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 
 from .support import FloatArray
 

@@ -9,7 +9,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from lambda_core import api
-from lambda_core.physics.compiled import layout as L
+from lambda_core.solver import layout as L
 
 from .support import CASE, FloatArray, Machine, machine, time_function
 

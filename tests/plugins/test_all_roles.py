@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from lambda_core.registry.roles import CAGE, ROLES
+from lambda_core.domain.roles import CAGE, ROLES
 
 from .conftest import Installation
 
@@ -18,7 +18,7 @@ CHOICE += [f"forces.{element}.models.cage_contact=own" for element in CAGE]
 RUN = """
 import json, sys
 from lambda_core import api
-from lambda_core.simulate.dynamics import BearingEngine
+from lambda_core.solver.drivers.dynamics import BearingEngine
 
 model = api.check("6208-axial-1300", sys.argv[1:])
 engine = BearingEngine(model)

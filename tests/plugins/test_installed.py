@@ -11,44 +11,73 @@ from .conftest import Installation, write_package
 
 HEAD = """
 import math
-from pydantic import BaseModel
-from lambda_core.plugins import ROLE_API, Quantity, hookimpl, model
+from lambda_core.plugins import Parameters, Quantity, hookimpl, law, parameter
 
-class Parameters(BaseModel):
-    ratio: float = 0.07
+class Limit(Parameters):
+    ratio: float = parameter(0.07, "limiting stress over pressure")
 
 """
 LAW = """
-def law(slip, p, T, ln_eta, h, par, tau):
+@law("traction", "{name}", Limit, role_api={api}, reference="own work")
+def kernel(slip, p, T, ln_eta, h, par, tau):
     for i in range(tau.size):
         newtonian = math.exp(min(ln_eta[i], 40.0)) * slip[i] / h
-        limit = par[0] * p[i]
+        limit = {ratio} * p[i]
         tau[i] = {result}
     return {status}
 
 @hookimpl
 def {hook}(register):
-    register(model("traction", "{name}", law, Parameters, reference="own work"{more}))
+    register(kernel)
 """
 SOUND = "newtonian * limit / (newtonian + limit + 1e-300)"
 
 
-def code(result: str = SOUND, status: str = "1", hook: str = "lambda_models", name: str = "", more: str = "") -> str:
-    return HEAD + LAW.format(result=result, status=status, hook=hook, name=name, more=more)
+def code(
+    result: str = SOUND,
+    status: str = "1",
+    hook: str = "lambda_laws",
+    name: str = "",
+    api: int = 2,
+    ratio: str = "par.ratio",
+) -> str:
+    return HEAD + LAW.format(result=result, status=status, hook=hook, name=name, api=api, ratio=ratio)
+
+
+# A whole plugin as it was written for version 1.
+OLD = """
+from pydantic import BaseModel
+from lambda_core.plugins import hookimpl, model
+
+class Parameters(BaseModel):
+    ratio: float = 0.07
+
+def kernel(slip, p, T, ln_eta, h, par, tau):
+    for i in range(tau.size):
+        tau[i] = par[0] * p[i]
+    return 1
+
+@hookimpl
+def lambda_models(register):
+    register(model("traction", "old-form", kernel, Parameters, reference="own work"))
+"""
 
 
 PACKAGES = {
     # not in use at all: found at discovery
     "bad-import": "import a_library_that_is_not_installed\n",
-    "bad-hook": code(name="bad-hook", hook="lambda_modles"),
+    "bad-hook": code(name="bad-hook", hook="lambda_lwas"),
     "bad-name": code(name="ree-eyring"),
-    "bad-version": code(name="bad-version", more=", role_api=2"),
+    "bad-version": code(name="bad-version", api=1),
+    "bad-future": code(name="bad-future", api=3),
+    "old-form": OLD,
     # listed, refused when chosen or checked
     "bad-signature": code(name="bad-signature").replace("p, T, ln_eta", "T, p, ln_eta"),
     "bad-return": code(name="bad-return", status="0.7"),
     "bad-number": code(name="bad-number", result="math.nan"),
     "bad-status": code(name="bad-status", status="4"),
     "bad-index": code(name="bad-index", result="p[i + 1]"),
+    "bad-position": code(name="bad-position", ratio="par[0]"),
     "bad-speed": code(name="bad-speed", result=SOUND).replace(
         "    for i in",
         "    for k in range(500):\n        for j in range(tau.size):\n"
@@ -58,9 +87,12 @@ PACKAGES = {
 }
 SENTENCES = {
     "bad-import": "cannot be imported: ModuleNotFoundError: No module named 'a_library_that_is_not_installed'",
-    "bad-hook": '"lambda_modles" is not a known hook; nearest: lambda_models',
+    "bad-hook": '"lambda_lwas" is not a known hook; nearest: lambda_laws',
     "bad-name": 'the traction "ree-eyring" is already taken by lambda-bearing',
-    "bad-version": "traction/bad-version is written for version 2 of the role interface; this program has 1",
+    "bad-version": "traction/bad-version is written for version 1 of the role interface; this program has 2: "
+    'write @law("traction", "bad-version", Limit, role_api=2, reference=...) above the kernel and read par.ratio',
+    "bad-future": "traction/bad-future is written for version 3 of the role interface; this program has 2",
+    "old-form": "model belongs to version 1 of the role interface: write @law(",
 }
 REFUSALS = {
     "bad-signature": "takes (slip, T, p, ln_eta, h, par, tau); traction kernels take (slip, p, T, ln_eta, h, par, tau)",
@@ -68,6 +100,7 @@ REFUSALS = {
     "bad-number": "leaves shear stress [Pa] unwritten or returns NaN with status 1",
     "bad-status": "returns the status 4; declared: 1",
     "bad-index": "reads or writes outside its arrays: IndexError",
+    "bad-position": "reads par[0], but since version 2 its parameters have names: write par.ratio",
 }
 
 
@@ -192,7 +225,7 @@ def test_show_says_everything_about_a_model(site: Installation) -> None:
 
 def test_listing_imports_no_compiler(site: Installation) -> None:
     answer = site.python(
-        "import sys\nfrom lambda_core.registry.manager import registry\nregistry().names('traction')\n"
+        "import sys\nfrom lambda_core.discovery.manager import registry\nregistry().names('traction')\n"
         "print([m for m in ('numba', 'scipy', 'sqlalchemy', 'lambda_plugins.traction') if m in sys.modules])"
     )
     assert answer.out.strip() == "[]"

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from lambda_core.errors import UsageError
-from lambda_core.registry.scaffold import new_plugin
+from lambda_core.discovery.scaffold import new_plugin
+from lambda_core.domain.errors import UsageError
 
 from .conftest import Installation
 

@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import math
+import re
 import time
 from dataclasses import replace
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 import pytest
 from pydantic import BaseModel
+from scipy.special import erf
 
-from lambda_core.plugins import Model, NoParameters, model
-from lambda_core.registry.check import check_choice, check_model
-from lambda_core.registry.faults import PluginError
-from lambda_core.registry.kernels import compile_kernel
-from lambda_core.registry.par import make_par
-from lambda_core.registry.probe import RANGES, draw, trial_context
-from lambda_core.registry.roles import ROLES
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.domain.roles import ROLES
+from lambda_core.laws.check import check_choice, check_model
+from lambda_core.laws.kernels import compile_kernel
+from lambda_core.laws.law import Law
+from lambda_core.laws.par import make_par
+from lambda_core.laws.probe import RANGES, draw, trial_context
+from lambda_core.plugins import Context, NoParameters
 from lambda_core.testing import assert_increasing, assert_limit, assert_symmetric, evaluate
 from lambda_core.testing import check_model as assert_contract
 
@@ -35,13 +39,14 @@ def _own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Mon
     monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(tmp_path_factory.getbasetemp() / "kernels"))
 
 
-def scalar(kernel: Any, **more: Any) -> Model:
-    return replace(model("asperity_load", "trial", kernel, reference="own work", **more), distribution="trials 0.3")
+def scalar(kernel: Any, **more: Any) -> Law:
+    given = {"reference": "own work", "role_api": 2, "distribution": "trials 0.3"}
+    return Law("asperity_load", "trial", kernel, **(given | more))
 
 
-def elementwise(kernel: Any, **more: Any) -> Model:
-    law = model("boundary_friction", "trial", kernel, Ratio, reference="own work", **more)
-    return replace(law, distribution="trials 0.3")
+def elementwise(kernel: Any, **more: Any) -> Law:
+    given = {"reference": "own work", "role_api": 2, "distribution": "trials 0.3"}
+    return Law("boundary_friction", "trial", kernel, Ratio, **(given | more))
 
 
 # Kernels of the scalar role asperity_load.
@@ -97,7 +102,7 @@ def nan(Lambda, par, out):
 
 
 def infinite(Lambda, par, out):
-    out[0] = 1.0 / par.size
+    out[0] = math.inf
     return 1
 
 
@@ -114,7 +119,22 @@ def raises(Lambda, par, out):
 
 
 def reads_outside(Lambda, par, out):
+    out[0] = out[3]
+    return 1
+
+
+def reads_by_position(Lambda, par, out):
     out[0] = par[3]
+    return 1
+
+
+def unpacks(Lambda, par, out):
+    (out[0],) = par
+    return 1
+
+
+def misspells(Lambda, par, out):
+    out[0] = par.ratoi
     return 1
 
 
@@ -132,6 +152,11 @@ def reads_its_output(Lambda, par, out):
 def allocates(Lambda: float, par: Any, out: Any) -> int:
     share = np.zeros(1)
     out[0] = share[0]
+    return 1
+
+
+def uses_scipy(Lambda, par, out):
+    out[0] = erf(Lambda)
     return 1
 
 
@@ -163,16 +188,20 @@ def uses_a_dict(Lambda, par, out):
         (out_of_bounds, "returns share of the load psi [-], 0..1 = 1.5; allowed: 0 to 1"),
         (raises, "raises an exception in raises: return a status of 2 and up instead"),
         (reads_outside, "reads or writes outside its arrays: IndexError: index 3 is out of bounds"),
+        (reads_by_position, "reads par[3], but since version 2 its parameters have names: it has none"),
+        (unpacks, "reads par[...], but since version 2 its parameters have names"),
+        (misspells, 'reads par.ratoi: "ratoi" is not a known parameter'),
         (writes_outside, "reads or writes outside its arrays: IndexError: index 1 is out of bounds"),
         (reads_its_output, "answers differently when called again"),
         (uncompilable, "cannot be compiled: Cannot unify float64"),
         (allocates, "cannot be compiled: it makes an array or a list: a kernel works in the arrays that it is given"),
+        (uses_scipy, '"erf", used by uses_scipy, is a ufunc: a kernel may use'),
         (uses_a_dict, '"CACHED", used by uses_a_dict, is a dict'),
     ],
     ids=lambda value: getattr(value, "__name__", ""),
 )
 def test_faults_of_a_scalar_kernel(kernel: Any, words: str) -> None:
-    errors = {3: "never"} if kernel is always_invalid else None
+    errors = {3: "never"} if kernel is always_invalid else {}
     report = check_model(scalar(kernel, errors=errors))
     assert len(report.faults) == 1, report.faults
     assert report.faults[0].startswith("asperity_load/trial (trials 0.3)")
@@ -180,50 +209,50 @@ def test_faults_of_a_scalar_kernel(kernel: Any, words: str) -> None:
 
 
 # Kernels of the elementwise role boundary_friction.
-def good_cells(slip, p, par, mu):
+def good_cells(slip, p, u_mean, par, mu):
     for i in range(mu.size):
-        mu[i] = par[0] * slip[i] / (slip[i] + 0.01)
+        mu[i] = par.ratio * slip[i] / (slip[i] + 0.01)
     return 1
 
 
-def first_cell_only(slip, p, par, mu):
+def first_cell_only(slip, p, u_mean, par, mu):
     for i in range(mu.size):
-        mu[i] = par[0] * slip[0] / (slip[0] + 0.01)
+        mu[i] = par.ratio * slip[0] / (slip[0] + 0.01)
     return 1
 
 
-def neighbours(slip, p, par, mu):
+def neighbours(slip, p, u_mean, par, mu):
     for i in range(mu.size):
-        mu[i] = par[0] * slip[i - 1] / (slip[i - 1] + 0.01)
+        mu[i] = par.ratio * slip[i - 1] / (slip[i - 1] + 0.01)
     return 1
 
 
-def one_too_many(slip, p, par, mu):
+def one_too_many(slip, p, u_mean, par, mu):
     for i in range(mu.size):
-        mu[i] = par[0] * slip[i] / (slip[i] + p[i + 1])
+        mu[i] = par.ratio * slip[i] / (slip[i] + p[i + 1])
     return 1
 
 
-def writes_an_input(slip, p, par, mu):
+def writes_an_input(slip, p, u_mean, par, mu):
     for i in range(mu.size):
         slip[i] = abs(slip[i])
-        mu[i] = par[0] * slip[i] / (slip[i] + 0.01)
+        mu[i] = par.ratio * slip[i] / (slip[i] + 0.01)
     return 1
 
 
-def friction_at_rest(slip, p, par, mu):
+def friction_at_rest(slip, p, u_mean, par, mu):
     for i in range(mu.size):
-        mu[i] = par[0]
+        mu[i] = par.ratio
     return 1
 
 
-def driving(slip, p, par, mu):
+def driving(slip, p, u_mean, par, mu):
     for i in range(mu.size):
-        mu[i] = -par[0] * slip[i]
+        mu[i] = -par.ratio * slip[i]
     return 1
 
 
-def slow_cells(slip, p, par, mu):
+def slow_cells(slip, p, u_mean, par, mu):
     for i in range(mu.size):
         total = 0.0
         for k in range(2000):
@@ -251,7 +280,7 @@ def test_faults_of_an_elementwise_kernel(kernel: Any, words: str) -> None:
 
 
 @pytest.mark.parametrize("law", [scalar(good), elementwise(good_cells)], ids=["scalar", "elementwise"])
-def test_a_sound_kernel_passes(law: Model) -> None:
+def test_a_sound_kernel_passes(law: Law) -> None:
     report = assert_contract(law)
     assert report.calls >= 48
     assert 0.0 < report.seconds < 1e-5
@@ -270,7 +299,7 @@ def test_a_force_of_the_wrong_sign_is_told() -> None:
         out[0] = -delta_dot
         return 1
 
-    report = check_model(model("damping", "drive", driving_damper, reference="own work"))
+    report = check_model(Law("damping", "drive", driving_damper, role_api=2, reference="own work"))
     assert "against the sign of delta_dot" in report.faults[0]
 
 
@@ -283,6 +312,13 @@ def test_differences_between_machine_code_and_python_are_told() -> None:
     assert "between machine code and plain Python" in report.faults[0]
 
 
+class Shape(NamedTuple):
+    """A record that kernels read."""
+
+    factor: float
+    knots: FloatArray
+
+
 class TestPreparation:
     """What `prepare` returns is checked before any kernel sees it."""
 
@@ -291,19 +327,41 @@ class TestPreparation:
     @pytest.mark.parametrize(
         ("made", "words"),
         [
-            ([1.0], "prepare returns a list; a one-dimensional float64 array is due"),
-            (np.ones(2, np.float32), "an array of float32"),
-            (np.ones((2, 2)), "with 2 dimensions"),
-            (np.array([1.0, np.nan]), "prepare returns nan at index 1; finite numbers are due"),
+            (np.ones(2), "prepare returns a ndarray, its annotation is Shape"),
+            (Shape(math.nan, np.ones(2)), "prepare returns factor = nan; finite numbers are due"),
+            (Shape("thick", np.ones(2)), "prepare returns factor = 'thick', which is no number"),
+            (Shape(1.0, np.array([1.0, np.inf])), r"prepare returns knots\[1\] = inf; finite numbers are due"),
+            (Shape(1.0, np.ones((2, 2))), "prepare returns knots has 2 dimensions"),
         ],
     )
-    def test_only_finite_arrays_are_taken(self, made: Any, words: str) -> None:
-        law = scalar(good, prepare=lambda parameters, context: made)
+    def test_only_records_of_finite_numbers_are_taken(self, made: Any, words: str) -> None:
+        def prepare(parameters: NoParameters, context: Context) -> Shape:
+            return made  # type: ignore[no-any-return]
+
         with pytest.raises(PluginError, match=words):
-            make_par(law, NoParameters(), self.CONTEXT)
+            make_par(scalar(good, prepare=prepare), NoParameters(), self.CONTEXT)
+
+    @pytest.mark.parametrize(
+        ("annotation", "words"),
+        [
+            (None, "prepare returns no record: declare its names, class Constants"),
+            (np.ndarray, "prepare returns no record: declare its names"),
+            ("Nowhere", 'prepare is annotated with "Nowhere", which its module does not have at the top level'),
+        ],
+    )
+    def test_prepare_says_what_it_returns(self, annotation: Any, words: str) -> None:
+        def prepare(parameters, context):
+            return np.ones(2)
+
+        prepare.__annotations__["return"] = annotation
+        with pytest.raises(PluginError, match=re.escape(words)):
+            make_par(scalar(good, prepare=prepare), NoParameters(), self.CONTEXT)
 
     def test_an_exception_is_told_with_its_place(self) -> None:
-        law = scalar(good, prepare=lambda parameters, context: np.ones(1) / parameters.nothing)
+        def prepare(parameters: Any, context: Context) -> Shape:
+            return Shape(parameters.nothing, np.ones(1))
+
+        law = scalar(good, prepare=prepare)
         with pytest.raises(PluginError, match=r"trials 0\.3.*AttributeError.*test_check\.py, line"):
             make_par(law, NoParameters(), self.CONTEXT)
 
@@ -312,12 +370,19 @@ class TestPreparation:
         assert make_par(law, Ratio(ratio=0.05), self.CONTEXT).tolist() == [0.05]
 
 
-def test_a_choice_is_checked_with_the_parameters_of_the_run_in_milliseconds() -> None:
+@pytest.mark.clock
+def test_a_choice_is_checked_within_milliseconds() -> None:
     law = elementwise(good_cells)
     compiled = compile_kernel(law)
     start = time.perf_counter()
     check_choice(law, np.array([0.07]), compiled)
     assert time.perf_counter() - start < 0.25
+
+
+def test_a_choice_is_checked_with_the_parameters_of_the_run() -> None:
+    law = elementwise(good_cells)
+    compiled = compile_kernel(law)
+    check_choice(law, np.array([0.07]), compiled)
     with pytest.raises(PluginError, match="allowed: 0 to inf"):
         check_choice(law, np.array([-0.07]), compiled)
 
@@ -326,7 +391,7 @@ def test_missing_parameters_are_named() -> None:
     class Needed(BaseModel):
         exponent: float
 
-    law = model("asperity_load", "needy", good, Needed, reference="own work")
+    law = Law("asperity_load", "needy", good, Needed, role_api=2, reference="own work")
     assert "exponent: Field required" in check_model(law).faults[0]
     assert check_model(law, {"exponent": 2.0}).ok
 
@@ -346,7 +411,7 @@ def test_every_argument_of_every_role_has_a_range() -> None:
 class TestHelpersForTests:
     """The helpers that authors of plugins use, each with a law that passes and one that fails."""
 
-    GIVEN: ClassVar = {"p": 1e9}
+    GIVEN: ClassVar = {"p": 1e9, "u_mean": 1.0}
 
     def test_evaluate(self) -> None:
         found = evaluate(elementwise(good_cells), {"ratio": 0.1}, slip=[0.0, 0.01, 1e9], **self.GIVEN)
@@ -374,7 +439,7 @@ class TestHelpersForTests:
             out[1] = 0.0
             return 1
 
-        law = model("fluid_drag", "cube", cube, reference="own work")
+        law = Law("fluid_drag", "cube", cube, role_api=2, reference="own work")
         given = {"omega_spin": 1.0, "azimuth": 0.0, "nu": 1e-5, "rho": 850.0}
         assert_symmetric(law, "v_orbit", [1.0, 2.0], odd=True, **given)
         with pytest.raises(AssertionError, match="is not even in v_orbit"):
@@ -398,7 +463,7 @@ def wavy_with_a_slip_of_the_sign(azimuth, contact_angle, par, out):
 def test_a_slope_that_is_not_the_derivative_is_told() -> None:
     """A raceway whose slopes do not belong to its height would make energy from nothing."""
     good, bad = (
-        replace(model("surface", "trial", kernel, reference="own work"), distribution="trials 0.3")
+        replace(Law("surface", "trial", kernel, role_api=2, reference="own work"), distribution="trials 0.3")
         for kernel in (wavy, wavy_with_a_slip_of_the_sign)
     )
     assert check_model(good).faults == ()

@@ -12,13 +12,15 @@ import pytest
 
 LAW = """
 from law_package import middle
-from lambda_core.plugins import model
+from lambda_core.laws.law import law_of
+from lambda_core.plugins import law
 
+@law("asperity_load", "test-law", role_api=2, reference="own work")
 def kernel(Lambda, par, out):
     out[0] = {factor} * middle.shape(Lambda)
     return 1
 
-LAW = model("asperity_load", "test-law", kernel, reference="own work")
+LAW = law_of(kernel)
 """
 MIDDLE = """
 from law_package.deep import scale
@@ -36,7 +38,7 @@ CONSTANTS = "K = {value}\n"
 ASK = """
 import json
 import numpy as np
-from lambda_core.registry.kernels import compile_kernel
+from lambda_core.laws.kernels import compile_kernel
 from law_package.law import LAW
 
 said = []
@@ -133,6 +135,19 @@ def test_damaged_files_are_compiled_anew(package: Package) -> None:
     assert (again["value"], again["cached"]) == (6.0, False)
 
 
+@pytest.mark.parametrize("place", [0.1, 0.5, 0.9, 1.0])
+def test_flipped_bytes_in_compiled_code_are_compiled_anew_and_mended(package: Package, place: float) -> None:
+    package.ask()
+    for path in (package.root / "cache").rglob("*.nbc"):
+        data = bytearray(path.read_bytes())
+        at = round(place * (len(data) - 17))
+        data[at : at + 16] = bytes(byte ^ 0xFF for byte in data[at : at + 16])
+        path.write_bytes(data)
+    again = package.ask()
+    assert (again["value"], again["cached"]) == (6.0, False)
+    assert package.ask()["cached"] is True
+
+
 def test_code_that_nobody_used_for_months_is_dropped(package: Package) -> None:
     package.ask()
     (old,) = (package.root / "cache" / "kernels").iterdir()
@@ -148,14 +163,17 @@ def test_code_that_nobody_used_for_months_is_dropped(package: Package) -> None:
 
 def test_a_read_only_cache_does_not_stop_anything(package: Package) -> None:
     (package.root / "cache").write_text("a file where a folder should be")
-    assert package.ask()["value"] == 6.0
+    temporary = package.root / "temporary"
+    temporary.mkdir()
+    assert package.ask(TMPDIR=str(temporary))["value"] == 6.0
+    assert not list(temporary.glob("lambda-bearing-*"))
 
 
 def test_a_cached_helper_is_refused_by_name(package: Package) -> None:
     package.write("deep", "from numba import njit\n\n@njit(cache=True)\ndef scale(x):\n    return 3.0 * x\n")
     code = f"""
 import json
-from lambda_core.errors import LambdaError
+from lambda_core.domain.errors import LambdaError
 try:
     {ASK.replace(chr(10), chr(10) + "    ")}
 except LambdaError as error:
@@ -170,11 +188,11 @@ def test_a_function_without_a_source_file_compiles(package: Package) -> None:
     code = """
 import json
 import numpy as np
-from lambda_core.plugins import model
-from lambda_core.registry.kernels import compile_kernel
+from lambda_core.laws.law import Law
+from lambda_core.laws.kernels import compile_kernel
 
 exec("def kernel(Lambda, par, out):\\n    out[0] = 4.0 * Lambda\\n    return 1", globals())
-compiled = compile_kernel(model("asperity_load", "typed-in", kernel, reference="own work"))
+compiled = compile_kernel(Law("asperity_load", "typed-in", kernel, role_api=2, reference="own work"))
 out = np.zeros(1)
 compiled.dispatcher(2.0, np.empty(0), out)
 print(json.dumps(dict(value=out[0], cached=compiled.cached)))
@@ -188,8 +206,8 @@ import json
 from pathlib import Path
 from numba import types
 import numpy as np
-from lambda_core.registry.kernels import compile_host, compile_kernel, signature
-from lambda_core.registry import kernels
+from lambda_core.laws.kernels import compile_host, compile_kernel, signature
+from lambda_core.laws import kernels
 from host_package import core
 from law_package.law import LAW
 
@@ -198,7 +216,7 @@ pointer = types.FunctionType(signature("asperity_load"))
 host = compile_host(
     core.twice,
     types.float64(types.NamedUniTuple(pointer, 2, core.Laws), types.float64[::1]),
-    Path(core.__file__).parent,
+    (Path(core.__file__).parent,),
     said.append,
 )
 law = compile_kernel(LAW).pointer

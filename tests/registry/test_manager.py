@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Annotated, Any, Literal
 
 import pytest
+from pydantic import BaseModel, Field
 
-from lambda_core.errors import UsageError
-from lambda_core.plugins import LazyModel, Method, MethodTable, Model, hookimpl, model
-from lambda_core.registry import manager
-from lambda_core.registry.faults import PluginError
-from lambda_core.registry.manager import Source, discover
-from lambda_core.registry.registry import Registry
+from lambda_core.discovery import manager
+from lambda_core.discovery.manager import discover
+from lambda_core.discovery.registry import Registry
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.installed import Source
+from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.laws.law import Law, LazyLaw
+from lambda_core.plugins import Method, MethodTable, Parameters, Quantity, hookimpl, parameter
 
 
 def kernel(Lambda: float, par: Any, out: Any) -> int:
@@ -23,8 +26,26 @@ def kernel(Lambda: float, par: Any, out: Any) -> int:
     return 1
 
 
-def law(name: str = "half", **changes: Any) -> Model:
-    return model("asperity_load", name, kernel, **({"reference": "own work"} | changes))
+class Unread(BaseModel):
+    """A default that pydantic does not read."""
+
+    tau: Annotated[float, Quantity("pressure")] = Field("6 MPa")
+
+
+class Misspelt(Parameters):
+    """A default with a unit that is none."""
+
+    tau: Annotated[float, Quantity("pressure")] = parameter("6 MPs", "stress")
+
+
+class Wordy(Parameters):
+    """What no kernel can read."""
+
+    edition: Literal["2008", "2018"] = parameter("2008", "edition")
+
+
+def law(name: str = "half", *, role: str = "asperity_load", **changes: Any) -> Law:
+    return Law(role, name, kernel, **({"reference": "own work", "role_api": 2} | changes))
 
 
 def method(**changes: Any) -> Method:
@@ -39,7 +60,7 @@ def hooks(**functions: Any) -> ModuleType:
     return module
 
 
-def plugin(*items: Any, hook: str = "lambda_models") -> Any:
+def plugin(*items: Any, hook: str = "lambda_laws") -> Any:
     """Return a plugin object whose hook registers `items`."""
 
     def implementation(register: Callable[[Any], None]) -> None:
@@ -81,21 +102,28 @@ def test_models_know_their_distribution_and_keep_their_order() -> None:
     [
         (ModuleNotFoundError("No module named 'nowhere'"), ["cannot be imported", "ModuleNotFoundError", "nowhere"]),
         (SystemExit(3), ["cannot be imported", "SystemExit"]),
-        (plugin(law(), hook="lambda_modles"), ['"lambda_modles" is not a known hook', "lambda_models"]),
-        (hooks(lambda_models=hookimpl(lambda enrol: None)), ["does not fit the hooks", "enrol"]),
-        (hooks(lambda_models=lambda register: None), ["lambda_models is not marked", "@hookimpl"]),
-        (hooks(), ["implements no hook"]),
-        ({"lambda_models": 1}, ["is a dict", "has to name a module"]),
-        (hooks(lambda_models=hookimpl(lambda register: 1 / 0)), ["lambda_models raised", "ZeroDivisionError"]),
+        (plugin(law(), hook="lambda_lwas"), ['"lambda_lwas" is not a known hook', "lambda_laws"]),
+        (hooks(lambda_laws=hookimpl(lambda enrol: None)), ["does not fit the hooks", "enrol"]),
+        (hooks(lambda_laws=lambda register: None), ["lambda_laws is not marked", "@hookimpl"]),
+        (hooks(), ["has no law and implements no hook"]),
+        ({"lambda_laws": 1}, ["is a dict", "has to name a module"]),
+        (hooks(lambda_laws=hookimpl(lambda register: 1 / 0)), ["lambda_laws raised", "ZeroDivisionError"]),
         (plugin(law("good-law")), ['"good-law" is already taken by good 1.2']),
         (plugin(law("twice"), law("twice")), ['"twice" is already taken by broken 1.2']),
-        (plugin(law(role_api=2)), ["version 2 of the role interface", "this program has 1"]),
-        (plugin(model("asperity_laod", "x", kernel, reference="r")), ['"asperity_laod"', "nearest: asperity_load"]),
+        (
+            plugin(law(role_api=1)),
+            ["version 1 of the role interface; this program has 2", '@law("asperity_load", "half"'],
+        ),
+        (plugin(law(role="asperity_laod")), ['"asperity_laod"', "nearest: asperity_load"]),
+        (plugin(law(parameters=Unread)), ['the default of tau is a text: declare it with parameter("6 MPa", ']),
+        (plugin(law(parameters=Misspelt)), ["the default of tau is not valid", "MPs"]),
+        (plugin(law(parameters=Wordy)), ["Wordy.edition (Literal) is neither a number nor an array of numbers"]),
+        (plugin(law(prepare=lambda parameters, context: 1)), ["prepare does not say what it returns", "NamedTuple"]),
         (plugin(law("Half Load")), ['"Half Load" is not in lower case with hyphens']),
         (plugin(law(reference=" ")), ["has no reference"]),
         (plugin(law(parameters=dict)), ["not a pydantic BaseModel"]),
-        (plugin(kernel), ["registers a function", "model(role, name"]),
-        (plugin(LazyModel("asperity_load", "x", "no target")), ['"package.module:attribute"']),
+        (plugin(kernel), ["registers a function", "write @law(role, name"]),
+        (plugin(LazyLaw("asperity_load", "x", "no target")), ['"package.module:attribute"']),
         (plugin("/nowhere/at/all", hook="lambda_data"), ["/nowhere/at/all does not exist"]),
         (plugin(object(), hook="lambda_methods"), ["lambda_methods registers a object", "Method(name, title"]),
         (plugin(method(method_api=7), hook="lambda_methods"), ["method trial is written for version 7"]),
@@ -166,25 +194,25 @@ def test_an_unknown_model_names_the_nearest_and_everything_there_is() -> None:
         registry.model("asperity", "none")
 
 
-class TestLazyModels:
+class TestLazyLaws:
     """A law that is named without being imported."""
 
-    def lazy(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, attribute: str = "LAW") -> Registry:
+    def lazy(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, attribute: str = "kernel") -> Registry:
         (tmp_path / "lazy_laws.py").write_text(text)
         monkeypatch.syspath_prepend(str(tmp_path))
         monkeypatch.delitem(__import__("sys").modules, "lazy_laws", raising=False)
-        return discover([source("lazy", plugin(LazyModel("asperity_load", "half", f"lazy_laws:{attribute}")))])
+        return discover([source("lazy", plugin(LazyLaw("asperity_load", "half", f"lazy_laws:{attribute}")))])
 
     GOOD_TEXT = (
-        "from lambda_core.plugins import model\n"
+        "from lambda_core.plugins import law\n"
+        "@law('asperity_load', {name!r}, reference='r', role_api={api})\n"
         "def kernel(Lambda, par, out):\n    out[0] = 0.5\n    return 1\n"
-        "LAW = model('asperity_load', {name!r}, kernel, reference='r', role_api={api})\n"
     )
 
     def test_imported_when_chosen(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         import sys
 
-        registry = self.lazy(tmp_path, monkeypatch, self.GOOD_TEXT.format(name="half", api=1))
+        registry = self.lazy(tmp_path, monkeypatch, self.GOOD_TEXT.format(name="half", api=2))
         assert registry.names("asperity_load") == ("half",)
         assert "lazy_laws" not in sys.modules
         assert registry.model("asperity_load", "half").distribution == "lazy 1.2"
@@ -193,12 +221,12 @@ class TestLazyModels:
     @pytest.mark.parametrize(
         ("text", "attribute", "words"),
         [
-            ("import nowhere_at_all", "LAW", "cannot be imported: ModuleNotFoundError.*lazy_laws.py, line 1"),
-            ("LAW = (", "LAW", "cannot be imported: SyntaxError"),
-            ("", "LAW", "has no attribute 'LAW'"),
-            ("LAW = 3", "LAW", "lazy_laws:LAW is a int, not a model"),
-            (GOOD_TEXT.format(name="other", api=1), "LAW", "lazy_laws:LAW is asperity_load/other"),
-            (GOOD_TEXT.format(name="half", api=9), "LAW", "version 9 of the role interface"),
+            ("import nowhere_at_all", "kernel", "cannot be imported: ModuleNotFoundError.*lazy_laws.py, line 1"),
+            ("kernel = (", "kernel", "cannot be imported: SyntaxError"),
+            ("", "kernel", "has no attribute 'kernel'"),
+            ("kernel = 3", "kernel", "lazy_laws:kernel is a int, not a law"),
+            (GOOD_TEXT.format(name="other", api=2), "kernel", "lazy_laws:kernel is asperity_load/other"),
+            (GOOD_TEXT.format(name="half", api=9), "kernel", "version 9 of the role interface"),
         ],
     )
     def test_faults_name_the_model_and_its_distribution(
@@ -210,7 +238,7 @@ class TestLazyModels:
 
 
 def test_switch_off_knows_what_is_installed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(manager, "installed", lambda group=manager.GROUP: [GOOD])
+    monkeypatch.setattr(manager, "installed", lambda group: [GOOD])
     monkeypatch.setenv(manager.OFF_VARIABLE, " other ,")
     with pytest.raises(UsageError, match='"goo" is not a known plugin; nearest: good'):
         manager.switch_off(["goo"])

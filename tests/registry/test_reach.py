@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from lambda_core.registry.reach import UnreachableError, _instructions, reach
+from lambda_core.laws.jit.reach import UnreachableError, _instructions, reach
 
 HELPERS = """
 import math
@@ -109,9 +109,9 @@ def test_what_cannot_be_followed_is_refused_by_name(body: str, words: str) -> No
 def test_keys_of_the_core_are_equal_in_every_process() -> None:
     """Sets (the flags of fast mathematics) have another order under another hash seed."""
     code = (
-        "from lambda_core.physics.compiled import entry\n"
-        "from lambda_core.registry.kernels import host_key\n"
-        "print([host_key(function, entry._FOLDER) for function, _ in entry.UNITS.values()])"
+        "from lambda_core.solver import entry\n"
+        "from lambda_core.laws.kernels import host_key\n"
+        "print([host_key(function, entry.SOURCES) for function, _ in entry.UNITS.values()])"
     )
     found = {
         subprocess.run(
@@ -127,7 +127,7 @@ def test_keys_of_the_core_are_equal_in_every_process() -> None:
 
 
 def test_names_are_read_as_the_disassembler_reads_them() -> None:
-    from lambda_core.physics.compiled.entry import UNITS
+    from lambda_core.solver.entry import UNITS
 
     codes = {code for unit, _ in UNITS.values() for code in reach(unit, lenient=True).codes}
     crowded: dict[str, Any] = {}  # more names than an argument of one byte can count

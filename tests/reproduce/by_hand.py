@@ -13,10 +13,9 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq, fsolve
 
-FloatArray = NDArray[np.float64]
+from lambda_core.domain.arrays import FloatArray
 
 # 6319 of Syla et al. 2026, Table 3; clearance in the middle of CN, as in the blind set.
 BALLS, BALL, PITCH, GROOVES, CLEARANCE = 9, 30e-3, 147.5e-3, (15.375e-3, 15.75e-3), 24e-6

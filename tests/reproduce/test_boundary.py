@@ -7,10 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-from lambda_core.reproduce.boundary import CAGE, CASE, CRITERIA, LIMITS, TURNS, Ray, Setting, excess, search
-from lambda_core.reproduce.stability import Zone, half_zone, jackknife
-from lambda_core.reproduce.workshop import Answer, Job, Workshop
+from lambda_syla2026.boundary import CAGE, CASE, CRITERIA, LIMITS, TURNS, Ray, Setting, excess, search
+from lambda_syla2026.stability import Zone, half_zone, jackknife
+from lambda_syla2026.workshop import Answer, Job, Workshop
 
 
 def answer(s: float, t: float, error: float = 1e-6) -> Answer:
@@ -125,8 +124,9 @@ def test_natural_frequencies_of_what_centrifugal_force_holds() -> None:
     k = 25.6 N/mm; with a load zone of +-73.2 degrees 5.93 of ten balls are unloaded, cage 0.263 kg:
     sqrt(5.93 x 25600/(0.263 + 5.93 x 0.0943))/(2 pi) = 68.1 Hz.
     """
+    from lambda_syla2026.readings import axial_resonance
+
     from lambda_core import api
-    from lambda_core.reproduce.readings import axial_resonance
 
     found = axial_resonance(api.check(CASE, Setting("A", 5.0).changes()))
     assert found["ball_Hz"] == pytest.approx(82.9, rel=0.01)

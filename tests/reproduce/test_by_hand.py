@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from lambda_syla2026 import parameters as P
+from lambda_syla2026.published import LOADS, POINTS, Point
+from lambda_syla2026.readings import Numbers, friction
 
 from lambda_core import api
-from lambda_core.reproduce import parameters as P
-from lambda_core.reproduce.published import LOADS, POINTS, Point
-from lambda_core.reproduce.readings import Numbers, friction
 
 from . import by_hand
 

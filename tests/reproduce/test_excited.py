@@ -7,7 +7,7 @@ import pytest
 
 from benchmarks.excited import CASE, FREQUENCY, PEAK, REST, changes, windows
 from lambda_core import api
-from lambda_core.simulate.results import Result
+from lambda_core.results.reader import Result
 
 
 @pytest.fixture(scope="module")

@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 
 import pytest
-
-from lambda_core.reproduce.boundary import CRITERIA
-from lambda_core.reproduce.charts import fig5_chart
-from lambda_core.reproduce.fig5 import BEYOND, FREQUENCIES, Fig5, Resonance
-from lambda_core.reproduce.trends import BoundaryPoint, lines, steps
-from lambda_core.reproduce.trends import bars as verdicts
+from lambda_syla2026.boundary import CRITERIA
+from lambda_syla2026.charts import fig5_chart
+from lambda_syla2026.fig5 import BEYOND, FREQUENCIES, Fig5, Resonance
+from lambda_syla2026.trends import BoundaryPoint, lines, steps
+from lambda_syla2026.trends import bars as verdicts
 
 LOADS = (2e3, 5e3, 10e3)
 RESONANCES = [

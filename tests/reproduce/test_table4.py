@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from lambda_syla2026 import parameters as P
+from lambda_syla2026.calibration import TAU, TAU_GRID, by_law, fitted, laws_of
+from lambda_syla2026.published import POINTS
+from lambda_syla2026.readings import friction
+from lambda_syla2026.table4 import OperatingPoint
+from lambda_syla2026.workshop import Answer, Job
 
 from lambda_core import api
-from lambda_core.reproduce import parameters as P
-from lambda_core.reproduce.calibration import TAU, TAU_GRID, by_law, fitted, laws_of
-from lambda_core.reproduce.published import POINTS
-from lambda_core.reproduce.readings import friction
-from lambda_core.reproduce.table4 import OperatingPoint
-from lambda_core.reproduce.workshop import Answer, Job
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +29,7 @@ def test_quasi_static_torque_meets_a_run() -> None:
     case = "6319-cp10-3000"
     still = friction(api.check(case, P.changes()))["torque"]
     assert still is not None
-    from lambda_core.simulate.dynamics import BearingEngine
+    from lambda_core.solver.drivers.dynamics import BearingEngine
 
     model = api.check(case, (*P.changes(), "depth.strips=15"))
     engine = BearingEngine(model)
@@ -49,7 +49,7 @@ def test_quasi_static_torque_meets_a_run() -> None:
 
 @pytest.mark.parametrize("true", [4.6, 6.0, 7.7])
 def test_the_fit_finds_the_tau_that_made_the_measurement(true: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    from lambda_core.reproduce import calibration
+    from lambda_syla2026 import calibration
 
     curve = np.array([[100.0 * i + 10.0 * tau + tau**2 for i in range(6)] for tau in (*TAU_GRID, true)])
     points = tuple(type(point)(point.load, point.speed, float(curve[-1, i])) for i, point in enumerate(POINTS))
@@ -61,7 +61,7 @@ def test_the_fit_finds_the_tau_that_made_the_measurement(true: float, monkeypatc
 
 
 def test_the_fit_stays_inside_the_published_range(monkeypatch: pytest.MonkeyPatch) -> None:
-    from lambda_core.reproduce import calibration
+    from lambda_syla2026 import calibration
 
     points = tuple(type(point)(point.load, point.speed, 1e4) for point in POINTS)
     monkeypatch.setattr(calibration, "POINTS", points)
@@ -76,7 +76,7 @@ def test_the_machine_interface_of_a_point() -> None:
 
 
 def test_a_law_without_a_second_alternative_is_shown_once() -> None:
-    from lambda_core.reproduce.sensitivity import Sensitivity, ends_of
+    from lambda_syla2026.sensitivity import Sensitivity, ends_of
 
     law = P.entry("models.rolling_resistance")
     first, last = ends_of(law)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from lambda_syla2026.workshop import Answer, Job, Workshop
 
-from lambda_core.errors import SolverError
-from lambda_core.reproduce.workshop import Answer, Job, Workshop
-from lambda_core.study.director import StudyProgress
+from lambda_core.batch.scheduler import StudyProgress
+from lambda_core.domain.errors import SolverError
 
 LOADS = (2.0, 3.0, 4.0, 5.0)
 JOBS = [Job("6220-excited", (f"loads.radial={load:g} kN",), "axial resonance") for load in LOADS]

@@ -6,7 +6,7 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from lambda_core.schema.units import UNITS
+from lambda_core.domain.units import UNITS
 
 _numbers = st.floats(min_value=-1e6, max_value=1e6, allow_nan=False).map(lambda x: x + 0.0)
 _positive = st.floats(min_value=1e-6, max_value=1e6)

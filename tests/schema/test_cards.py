@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from lambda_core.schema.cards import FieldCard, field_card
-from lambda_core.schema.case import Case
-from lambda_core.schema.problems import model_at, option_paths
+from lambda_core.case.cards import FieldCard, field_card
+from lambda_core.case.case import Case
+from lambda_core.domain.option_tree import model_at, option_paths
 
 
 def card(path: str) -> FieldCard:

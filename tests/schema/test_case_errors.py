@@ -11,10 +11,10 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from lambda_core import api
-from lambda_core.errors import CaseError, UsageError
-from lambda_core.schema.case import Case
-from lambda_core.schema.case_io import load_case, parse_case
-from lambda_core.schema.problems import field_at, option_paths
+from lambda_core.case.case import Case
+from lambda_core.case.case_io import load_case, parse_case
+from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.domain.option_tree import field_at, option_paths
 
 
 def test_the_valid_case_is_valid(problems: Problems) -> None:
@@ -316,7 +316,7 @@ def test_any_value_anywhere_is_accepted_or_a_sentence(path: str, value: Any) -> 
     change: Any = value
     for part in reversed(path.split(".")):
         change = {part: change}
-    from lambda_core.schema.case import merged
+    from lambda_core.case.case import merged
 
     for problem in api.problems(merged(VALID, change)):
         assert problem.where

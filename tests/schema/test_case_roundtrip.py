@@ -9,9 +9,8 @@ import pytest
 from case_strategies import cases
 from hypothesis import HealthCheck, given, settings
 
-from lambda_core.errors import UsageError
-from lambda_core.schema.case import Case
-from lambda_core.schema.case_io import (
+from lambda_core.case.case import Case
+from lambda_core.case.case_io import (
     apply_overrides,
     builtin_cases,
     builtin_text,
@@ -19,7 +18,8 @@ from lambda_core.schema.case_io import (
     parse_case,
     validate_case,
 )
-from lambda_core.schema.case_writer import case_toml, new_case, save_case, standalone_toml
+from lambda_core.case.case_writer import case_toml, new_case, save_case, standalone_toml
+from lambda_core.domain.errors import UsageError
 
 BUILTIN = sorted(builtin_cases())
 

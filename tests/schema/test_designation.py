@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from lambda_core import api
-from lambda_core.errors import CaseError
-from lambda_core.physics.model import BearingModel
-from lambda_core.registry.designation import read_designation, without_suffixes
-from lambda_core.registry.suffixes import SUFFIXES
+from lambda_core.catalogue.designation import read_designation, without_suffixes
+from lambda_core.domain.errors import CaseError
+from lambda_core.system.bearing import BearingModel
 
+with closing(api.catalogue()) as _opened:
+    SUFFIXES = _opened.suffixes()
 KNOWN = ["608", "6208", "62/22", "618/4", "6319", "623"]
 
 
@@ -49,20 +51,20 @@ KNOWN = ["608", "6208", "62/22", "618/4", "6319", "623"]
     ],
 )
 def test_a_designation_is_taken_apart(text: str, base: str, maker: str, suffixes: list[str]) -> None:
-    found = read_designation(text, KNOWN)
+    found = read_designation(text, KNOWN, SUFFIXES)
     assert found is not None
     assert (found.base, found.maker, [written for written, _ in found.suffixes]) == (base, maker, suffixes)
 
 
 def test_a_row_whose_own_designation_has_a_suffix_comes_first() -> None:
-    found = read_designation("6208-2Z/C3", [*KNOWN, "6208-2Z"])
+    found = read_designation("6208-2Z/C3", [*KNOWN, "6208-2Z"], SUFFIXES)
     assert found is not None
     assert (found.base, [written for written, _ in found.suffixes]) == ("6208-2Z", ["C3"])
 
 
 def test_no_bearing_stands_in_it() -> None:
-    assert read_designation("62081", KNOWN) is None
-    assert read_designation("NU 208", KNOWN) is None
+    assert read_designation("62081", KNOWN, SUFFIXES) is None
+    assert read_designation("NU 208", KNOWN, SUFFIXES) is None
 
 
 @pytest.mark.parametrize(
@@ -71,7 +73,7 @@ def test_no_bearing_stands_in_it() -> None:
      ("d=40 C>30", "d=40 C>30"), ("6208 d=40", "6208 d=40"), ("618/4-2Z", "618/4"), ("6208-2RSX", "6208-2RSX")],
 )  # fmt: skip
 def test_a_search_leaves_suffixes_out(text: str, kept: str) -> None:
-    assert without_suffixes(text, KNOWN) == kept
+    assert without_suffixes(text, KNOWN, SUFFIXES) == kept
 
 
 def model(designation: str, **changes: Any) -> BearingModel:
@@ -209,6 +211,7 @@ def test_every_suffix_decides_something_the_catalogue_has_and_stands_in_the_docu
     catalogue = api.catalogue()
     cages, materials = catalogue.names("cage"), catalogue.names("material")
     catalogue.close()
+    assert len(SUFFIXES) > 80
     for suffix in SUFFIXES:
         assert suffix.matches(suffix.written), suffix
         assert f"`{suffix.written}`" in page, suffix

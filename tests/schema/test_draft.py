@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from lambda_core import api
-from lambda_core.schema.draft import Draft
+from lambda_core.case.draft import Draft
 
 HAND_WRITTEN = """\
 # Drive end of the fan.

@@ -16,21 +16,23 @@ import pytest
 from pydantic import BaseModel
 
 from lambda_core import api
-from lambda_core.errors import CaseError
-from lambda_core.physics import fits
-from lambda_core.physics.model import BODIES, ELEMENTS, BearingModel, Law, TimeFunction
-from lambda_core.physics.resolve import case_hash, resolve
-from lambda_core.physics.resolve_bodies import groove_volume, hollow_cylinder, ring_inertia
-from lambda_core.physics.time_functions import added, highest_frequency, initial, peak, scaled, time_function
-from lambda_core.physics.tolerances import Limits
-from lambda_core.registry.catalogue import Catalogue
-from lambda_core.registry.manager import registry
-from lambda_core.registry.model import Model
-from lambda_core.registry.roles import ROLES
-from lambda_core.schema.case import Case
-from lambda_core.schema.case_io import builtin_cases, parse_case
-from lambda_core.schema.modelling import Forces, Models
-from lambda_core.schema.motion import Bodies
+from lambda_core.case.builtin import builtin_cases
+from lambda_core.case.case import Case
+from lambda_core.case.case_io import parse_case
+from lambda_core.case.modelling import Forces, Models
+from lambda_core.case.motion import Bodies
+from lambda_core.catalogue.protocol import Catalogue
+from lambda_core.discovery.manager import registry
+from lambda_core.domain import fits
+from lambda_core.domain.elements import BODIES, ELEMENTS
+from lambda_core.domain.errors import CaseError
+from lambda_core.domain.roles import ROLES
+from lambda_core.domain.tolerances import Limits
+from lambda_core.laws.law import Law
+from lambda_core.system.bearing import BearingModel, ChosenLaw, TimeFunction
+from lambda_core.system.resolve import case_hash, resolve
+from lambda_core.system.resolve_bodies import groove_volume, hollow_cylinder, ring_inertia
+from lambda_core.system.time_functions import added, highest_frequency, initial, peak, scaled, time_function
 
 
 @pytest.fixture(scope="module")
@@ -137,7 +139,7 @@ def test_what_is_written_is_no_assumption(changes: dict[str, Any], sentence: str
 
 
 def test_parameter_precedence_case_then_lubricant_then_default() -> None:
-    def law(element: str, **changes: Any) -> Law:
+    def law(element: str, **changes: Any) -> ChosenLaw:
         return model_of("6319-cp10-1500", **changes).laws[element]["traction"]
 
     assert law("ball_inner").parameters.tau_eyring == 6e6  # type: ignore[attr-defined]
@@ -436,7 +438,7 @@ class TestHash:
         law = model.laws["ball_inner"]["asperity_load"]
 
         def edited(lambda_ratio: float, par: Any, out: Any) -> int:
-            out[0] = par[0]
+            out[0] = 0.25
             return 1
 
         laws = {e: dict(roles) for e, roles in model.laws.items()}
@@ -497,7 +499,7 @@ class TestForeignModels:
         def names(self, role: str) -> tuple[str, ...]:
             return (*registry().names(role), *(("loose",) if role == "asperity_load" else ()))
 
-        def model(self, role: str, name: str) -> Model:
+        def model(self, role: str, name: str) -> Law:
             if name != "loose":
                 return registry().model(role, name)
             known = registry().model(role, "none")

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lambda_core.schema.units import UNITS, parse, show
+from lambda_core.domain.units import UNITS, parse, show
 
 
 @pytest.mark.parametrize(
@@ -36,6 +36,15 @@ def test_reads_si(text: str, quantity: str, expected: float) -> None:
     ("text", "quantity", "advice"),
     [
         ("16,5 kN", "force", 'write a decimal point: "16.5 kN"'),
+        ("0,125 kN", "force", 'write a decimal point: "0.125 kN"'),
+        ("6,000 rpm", "rotational_speed", 'two ways: write "6000 rpm" or "6.000 rpm", without a comma'),
+        ("2,500 N", "force", 'two ways: write "2500 N" or "2.500 N", without a comma'),
+        ("2,500", "force", 'two ways: write "2500 N" or "2.500 N", without a comma'),
+        ("-12,000 rpm", "rotational_speed", '"-12000 rpm" or "-12.000 rpm"'),
+        ("1,234.5 N", "force", 'write the digits together: "1234.5 N"'),
+        ("1,000,000 rpm", "rotational_speed", 'write the digits together: "1000000 rpm"'),
+        ("6 000 rpm", "rotational_speed", 'write the digits together: "6000 rpm"'),
+        ("6'000 rpm", "rotational_speed", 'write the digits together: "6000 rpm"'),
         (16, "force", 'has no unit: write "16 N"'),
         ("16", "force", 'has no unit: write "16 N"'),
         ("16 rpm", "force", "rpm is not a unit of force; allowed: N, kN, MN"),

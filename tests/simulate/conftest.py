@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from lambda_core import api
-from lambda_core.simulate.provenance import Provenance
+from lambda_core.results.provenance import Provenance
 
 # The fake engine is also used by scripts in processes of their own.
 sys.path.insert(0, str(Path(__file__).parent))
@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 if TYPE_CHECKING:
     from fake_engine import MakeProvenance
 
-    from lambda_core.physics.model import BearingModel
+    from lambda_core.system.bearing import BearingModel
 
 
 @pytest.fixture(scope="session")

@@ -15,13 +15,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-from lambda_core.physics.channels import CHANNELS, DIMENSIONS, LOSSES, Channel
-from lambda_core.simulate.engine import Advance
-from lambda_core.simulate.provenance import Provenance
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import CHANNELS, DIMENSIONS, LOSSES, Channel
+from lambda_core.results.provenance import Provenance
+from lambda_core.solver.drivers.engine import Advance
 
-FloatArray = NDArray[np.float64]
 MakeProvenance = Callable[..., Provenance]
 # The engine in a process of its own: what fake_run.py does.
 _HERE = str(Path(__file__).parent)
@@ -66,11 +65,13 @@ class FakeEngine:
         self._steps = 0
         self._buffer: list[tuple[float, float]] = []
 
-    def advance(self, until: float) -> Advance:
+    def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
         while self.time < until:
             if self.time >= self.truth.fails_at:
                 return Advance(False, f"ball 3, inner ring: no step is small enough at t = {self.time:.6g} s")
             self._step()
+            if self._steps % 20 == 0 and self.time < until and pause is not None and pause():
+                break
         return Advance(True, "")
 
     def _step(self) -> None:

@@ -15,9 +15,9 @@ from pathlib import Path
 from fake_engine import FakeEngine, Truth
 
 from lambda_core import api
-from lambda_core.errors import LambdaError
-from lambda_core.simulate.provenance import Provenance
-from lambda_core.simulate.run import resume, run
+from lambda_core.domain.errors import LambdaError
+from lambda_core.results.provenance import Provenance
+from lambda_core.run.loop import resume, run
 
 
 def main() -> int:

@@ -10,8 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lambda_core.physics.channels import LOSSES
-from lambda_core.simulate.averages import COLUMNS, FloatArray, Interval, boundaries, estimate, row, spans
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import LOSSES
+from lambda_core.results.averages import COLUMNS, Interval, boundaries, estimate, row, spans
 
 ANGLE = COLUMNS.index("cage_angle")
 

@@ -6,11 +6,11 @@ import re
 
 import pytest
 
-from lambda_core.registry.manager import registry
-from lambda_core.registry.roles import ROLES
-from lambda_core.simulate.bibtex import bibtex, read
-from lambda_core.simulate.citation import METHOD, PROGRAM, TITLE, Citation, DataReference, LawReference
-from lambda_core.simulate.titles import TITLES
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.roles import ROLES
+from lambda_core.results.bibtex import bibtex, read
+from lambda_core.results.citation import METHOD, PROGRAM, TITLE, Citation, DataReference, LawReference
+from lambda_core.results.titles import TITLES
 
 LAWS = [
     LawReference(law=f"{role}/{name}", elements=["ball_inner"], distribution=PROGRAM, reference=model.reference)
@@ -169,3 +169,13 @@ def _keys(reference: str) -> list[tuple[str, str, str]]:
         return []
     author = entry.fields["author"].split(" and ")[0]
     return [(author, entry.fields["year"], entry.fields.get("journal", ""))]
+
+
+def test_a_law_is_cited_by_the_entries_that_it_brings() -> None:
+    own = "@article{carreau1972,\n  author = {P. J. Carreau},\n  doi = {10.1122/1.549276},\n}"
+    law = LawReference(
+        law="traction/carreau", elements=["ball_inner"], distribution="x 1", reference="Carreau (1972)", bibtex=own
+    )
+    written = bibtex(citation([law, law]))
+    assert written.count(own) == 1
+    assert "Carreau (1972)" not in written

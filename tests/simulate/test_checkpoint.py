@@ -18,12 +18,12 @@ import numpy as np
 import pytest
 from fake_engine import FAKE_RUN, FakeEngine, MakeProvenance, Truth
 
-from lambda_core.errors import UsageError
-from lambda_core.simulate import layout
-from lambda_core.simulate.checkpoint import Checkpoint, Position, latest
-from lambda_core.simulate.results import Result, ResultError
-from lambda_core.simulate.run import resume, run
-from lambda_core.simulate.status import Rows
+from lambda_core.domain.errors import UsageError
+from lambda_core.results import file_format as layout
+from lambda_core.results.checkpoint import Checkpoint, Position, latest
+from lambda_core.results.reader import Result, ResultError
+from lambda_core.results.run_status import Rows
+from lambda_core.run.loop import resume, run
 
 if TYPE_CHECKING:
     from warm import Started, Warm
@@ -51,7 +51,7 @@ def same(path: Path, reference: dict[str, np.ndarray]) -> None:
 
 @pytest.fixture(scope="module")
 def undisturbed(resolved, tmp_path_factory: pytest.TempPathFactory) -> dict[str, np.ndarray]:
-    from lambda_core.simulate.provenance import Provenance
+    from lambda_core.results.provenance import Provenance
 
     model = replace(resolved, solver=replace(resolved.solver, duration=DURATION))
     path = tmp_path_factory.mktemp("undisturbed") / "r.h5"

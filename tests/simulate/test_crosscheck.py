@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.errors import SolverError, UsageError
-from lambda_core.physics.equilibrium import solve
-from lambda_core.simulate.crosscheck import with_locked_cage
-from lambda_core.simulate.cvode import integrate
+from lambda_core.domain.errors import SolverError, UsageError
+from lambda_core.run.crosscheck import with_locked_cage
+from lambda_core.run.cvode import integrate
+from lambda_core.solver.drivers.equilibrium import solve
 
 
 @pytest.fixture
@@ -27,7 +27,7 @@ def sundials() -> None:
 def test_same_trajectory_with_a_locked_cage(case: str, tolerance: float) -> None:
     """Specification: dissipated power within 0.02 %, trajectories within 10 tolerances.
 
-    Balls that the inner ring has let go have a neutral azimuth, in which errors of either integrator add up.
+    Unloaded balls have a neutral azimuth, in which errors of either integrator add up.
     """
     found = api.cross_check(case, [f"solver.tolerance={tolerance}", "solver.duration=50 ms"])
     assert found.cage == "locked"
@@ -84,7 +84,7 @@ def test_mean_powers_meet_with_a_free_cage(case: str, options: list[str]) -> Non
 @pytest.mark.usefixtures("sundials")
 def test_a_wrong_equation_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """A hundredth more viscosity for one of the two alone and they no longer agree: the check can fail."""
-    from lambda_core.simulate import crosscheck
+    from lambda_core.run import crosscheck
 
     def elsewhere(start: object, times: object, tolerance: float) -> object:
         other = api.check("6208-axial-1300", ["lubricant.temperature=40.2 degC"])

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import pytest
 from fake_engine import FAKE_RUN
 
-from lambda_core.simulate.results import Result
+from lambda_core.results.reader import Result
 
 if TYPE_CHECKING:
     from warm import Warm

@@ -11,7 +11,7 @@ import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
-from lambda_core.simulate.limits import Grooves, shoulders, tolerance_warning, warnings
+from lambda_core.results.limits import Grooves, shoulders, tolerance_warning, warnings
 
 AXIAL = "6208-axial-1300"
 
@@ -87,4 +87,10 @@ def test_a_coarse_tolerance_is_said() -> None:
 
 
 def test_pressure_without_contact_is_no_warning() -> None:
-    assert warnings(333.0, math.nan, []) == []
+    assert warnings(math.nan, [], 0.0) == []
+
+
+def test_a_tilt_above_ten_minutes_of_arc_is_said() -> None:
+    assert warnings(1e9, [], math.radians(9.9 / 60.0)) == []
+    (sentence,) = warnings(1e9, [], 4.06e-3)
+    assert sentence.startswith("the inner ring tilts by 4.1 mrad: deep-groove ball bearings take up to 2.9 mrad")

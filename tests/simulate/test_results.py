@@ -11,13 +11,13 @@ import h5py
 import pytest
 from fake_engine import FakeEngine, MakeProvenance, Truth
 
-from lambda_core.errors import UsageError
-from lambda_core.physics.channels import CHANNELS, LOSSES
-from lambda_core.physics.model import BearingModel
-from lambda_core.simulate.progress import Progress
-from lambda_core.simulate.provenance import Provenance
-from lambda_core.simulate.results import Result, ResultError
-from lambda_core.simulate.run import run
+from lambda_core.domain.channels import CHANNELS, LOSSES
+from lambda_core.domain.errors import UsageError
+from lambda_core.results.provenance import Provenance
+from lambda_core.results.reader import Result, ResultError
+from lambda_core.run.loop import run
+from lambda_core.run.progress import Progress
+from lambda_core.system.bearing import BearingModel
 
 
 @pytest.fixture(scope="module")
@@ -108,7 +108,7 @@ def test_a_growing_result_is_read_by_another_process(provenance: MakeProvenance,
     path = tmp_path / "live.h5"
     seen: list[str] = []
     code = (
-        "import sys; from lambda_core.simulate.results import Result; r = Result(sys.argv[1]); "
+        "import sys; from lambda_core.results.reader import Result; r = Result(sys.argv[1]); "
         "s = r.summary(); print(s.state, r.status().alive(), len(r['time']) > 0, s.friction_torque_Nmm is not None)"
     )
 

@@ -10,12 +10,12 @@ from pathlib import Path
 import pytest
 from fake_engine import FakeEngine, MakeProvenance, Truth
 
-from lambda_core.errors import SolverError, UsageError
-from lambda_core.physics.channels import LOSSES
-from lambda_core.simulate.engine import Advance
-from lambda_core.simulate.progress import Progress
-from lambda_core.simulate.run import run
-from lambda_core.simulate.summary import Summary
+from lambda_core.domain.channels import LOSSES
+from lambda_core.domain.errors import SolverError, UsageError
+from lambda_core.results.summary import Summary
+from lambda_core.run.loop import run
+from lambda_core.run.progress import Progress
+from lambda_core.solver.drivers.engine import Advance
 
 TURN = FakeEngine().turn
 
@@ -118,7 +118,7 @@ def test_a_solver_that_gives_up_keeps_the_file(provenance: MakeProvenance, tmp_p
     path = tmp_path / "r.h5"
     with pytest.raises(SolverError, match=r"ball 3, inner ring.*is kept in .*r\.h5"):
         run(FakeEngine(Truth(fails_at=0.12)), provenance(), path)
-    from lambda_core.simulate.results import Result
+    from lambda_core.results.reader import Result
 
     summary = Result(path).summary()
     assert summary.state == "failed"
@@ -128,7 +128,7 @@ def test_a_solver_that_gives_up_keeps_the_file(provenance: MakeProvenance, tmp_p
 
 def test_an_engine_that_stands_still_is_a_solver_failure(provenance: MakeProvenance, tmp_path: Path) -> None:
     engine = FakeEngine()
-    engine.advance = lambda until: Advance(True, "")  # type: ignore[method-assign]
+    engine.advance = lambda until, pause: Advance(True, "")  # type: ignore[method-assign]
     with pytest.raises(SolverError, match="does not get past t = 0 s"):
         run(engine, provenance(), tmp_path / "r.h5")
 
@@ -214,8 +214,8 @@ def test_memory_is_flat_over_a_long_run(
             gc.collect()
             held[turn] = tracemalloc.get_traced_memory()[0]
 
-    monkeypatch.setattr("lambda_core.simulate.run._FLUSH_AFTER", 0.0)
-    monkeypatch.setattr("lambda_core.simulate.run._REPORT_AFTER", 0.0)
+    monkeypatch.setattr("lambda_core.run.loop._FLUSH_AFTER", 0.0)
+    monkeypatch.setattr("lambda_core.run.loop._REPORT_AFTER", 0.0)
     tracemalloc.start()
     try:
         result = run(FakeEngine(), provenance(duration=2.1 * TURN), tmp_path / "r.h5", report=look)

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.errors import UsageError
-from lambda_core.simulate.averages import COLUMNS
+from lambda_core.domain.errors import UsageError
+from lambda_core.results.averages import COLUMNS
 
 if TYPE_CHECKING:
-    from lambda_core.simulate.results import Result
+    from lambda_core.results.reader import Result
 
 CASE = "6319-cp10-1500"
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from typing import Any
 
 import numpy as np
@@ -11,10 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lambda_core.errors import CaseError
-from lambda_core.study.definition import parse_study, study_json_schema
-from lambda_core.study.design import Plan
-from lambda_core.study.values import scale_of
+from lambda_core.batch.definition import parse_study, study_json_schema
+from lambda_core.batch.design import Plan
+from lambda_core.batch.values import scale_of
+from lambda_core.domain.errors import CaseError
 
 HEAD = 'name = "s"\ncase = "6319-cp10-1500"\n'
 
@@ -111,6 +110,7 @@ def test_values_share_one_unit() -> None:
         (['path = "a"\nrange = ["1 kN", "3000 rpm"]\npoints = 3'], '"1 kN" and "3000 rpm" have no unit in common'),
         ([LOAD], '"20" has no unit, others have'),
         (['path = "a"\nrange = ["1,5 kN", "2 kN"]\npoints = 2'], 'write a decimal point: "1.5 kN"'),
+        (['path = "a"\nrange = ["1,500 rpm", "2 rpm"]\npoints = 2'], 'write "1500 rpm" or "1.500 rpm"'),
         (['path = "a"\nrange = ["low", "high"]\npoints = 2'], "are not numbers"),
         (['path = "a"\nrange = [1, 2]'], "points = 10"),
         (['path = "a"\nrange = [1, 2]\npoints = 0'], "points"),
@@ -174,12 +174,10 @@ def test_a_value_may_stand_twice_in_step() -> None:
 
 
 def test_a_billion_points_are_counted_without_being_made() -> None:
-    start = time.perf_counter()
     parameter = 'range = [0.0, 1.0]\npoints = 1000\npath = "a.{}"'
     found = plan(*(parameter.format(name) for name in "xyz"))
     assert found.count == 10**9
     assert found.point(10**9 - 1).coordinates == (1.0, 1.0, 1.0)
-    assert time.perf_counter() - start < 1.0
 
 
 def test_the_schema_of_study_files_names_every_option() -> None:

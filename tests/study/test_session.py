@@ -9,15 +9,16 @@ from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 import pytest
 from studies import MAP, RUNS
 
 from lambda_core import api
-from lambda_core.errors import CaseError, UsageError
-from lambda_core.registry.method import NotApplicable
-from lambda_core.registry.table import Column, StudyTable
-from lambda_core.study.sensitivity import sensitivities
+from lambda_core.batch.effects import sensitivities
+from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.views.method import NotApplicable
+from lambda_core.views.table import Column, StudyTable
 
 Write = Callable[..., Path]
 LOADS = 'path = "loads.radial"\nvalues = ["16 kN", "24600 N"]'
@@ -78,8 +79,8 @@ def test_dynamic_points_are_results_of_their_own(write: Write, inline: Executor,
         assert row["cage_speed_deviation"] == pytest.approx(spin.std() / abs(spin.mean()), rel=1e-9)
     # The same points are the same runs: nothing is computed again.
     before = {path.name: path.stat().st_mtime_ns for path in (folder / "runs").iterdir()}
-    from lambda_core.study.manifest import Manifest
-    from lambda_core.study.task import Task, work
+    from lambda_core.batch.job import Task, work
+    from lambda_core.batch.store import Manifest
 
     manifest = Manifest(folder)
     names = tuple(h.name for h in manifest.headings() if h.kind == "response")
@@ -163,6 +164,27 @@ def test_the_cost_of_runs_is_said_beforehand(write: Write) -> None:
     assert long.disk_bytes == pytest.approx(100.0 * short.disk_bytes, rel=1e-6)
 
 
+def test_the_estimate_of_disk_counts_the_samples_that_a_run_takes(write: Write, tmp_path: Path) -> None:
+    """Samples are spaced by a hundredth of a cage turn, not by the longest step of the integrator."""
+    text = RUNS.format(duration="20 ms", speeds=2, loads=2)
+    text = (
+        text[: text.index("[[parameters]]")]
+        + """
+[[parameters]]
+path = "operation.speed"
+values = ["2000 rpm"]
+"""
+    )
+    estimate = api.study_check(write(text), workers=1)
+    result = tmp_path / "one.h5"
+    api.run("6208-axial-1300", ["solver.duration=20 ms", "operation.speed=2000 rpm"], out=result)
+    with h5py.File(result) as file:
+        rows = file["time"].shape[0]
+        arrays = [file[name] for name in file if isinstance(file[name], h5py.Dataset)]
+        written = sum(array.nbytes for array in arrays if array.shape[:1] == (rows,))
+    assert estimate.disk_bytes == pytest.approx(written, rel=0.1)
+
+
 def test_a_folder_holds_one_study(write: Write, inline: Executor, tmp_path: Path) -> None:
     path = write(MAP.replace("points = 3", "points = 2"))
     folder = tmp_path / "map"
@@ -180,7 +202,7 @@ def test_a_folder_holds_one_study(write: Write, inline: Executor, tmp_path: Path
 
 
 def test_a_study_of_other_laws_does_not_go_on(write: Write, inline: Executor, tmp_path: Path) -> None:
-    from lambda_core.study.manifest import Manifest
+    from lambda_core.batch.store import Manifest
 
     folder = tmp_path / "map"
     api.study_run(write(MAP.replace("points = 3", "points = 2")), folder, executor=inline)
@@ -250,7 +272,7 @@ def made_up(design: str, inputs: np.ndarray, outputs: np.ndarray) -> StudyTable:
 
 def test_sobol_indices_of_the_ishigami_function() -> None:
     """Ishigami and Homma 1990, a = 7, b = 0.1: S = 0.3139, 0.4424, 0; S_T = 0.5576, 0.4424, 0.2437."""
-    from lambda_core.study.design import saltelli
+    from lambda_core.batch.design import saltelli
 
     shares = saltelli(2048, 3, 1)
     x = math.pi * (2.0 * shares - 1.0)
@@ -280,6 +302,7 @@ def test_regression_finds_linear_shares() -> None:
     ("inputs", "outputs", "words"),
     [
         (np.ones((9, 2)), np.arange(9.0), "no numeric parameter varies"),
+        (np.arange(9.0)[:, None], np.arange(9.0), "alone varies: there is nothing to weigh it against"),
         (np.arange(4.0)[:, None] * np.ones((1, 2)), np.arange(4.0), "too few"),
         (np.arange(9.0)[:, None] * np.ones((1, 2)), np.arange(9.0), "cannot be told apart"),
         (np.arange(18.0).reshape(9, 2) ** 2, np.ones(9), "does not vary"),

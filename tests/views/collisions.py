@@ -5,8 +5,8 @@ from __future__ import annotations
 from itertools import combinations
 from typing import Any
 
-from lambda_core.registry.chart import ViewData
-from lambda_core.registry.manager import registry
+from lambda_core.discovery.manager import registry
+from lambda_core.views.chart import ViewData
 
 
 def boxes(figure: Any) -> dict[str, Any]:

@@ -14,13 +14,13 @@ import pytest
 from PIL import Image
 
 from lambda_core import api
-from lambda_core.errors import UsageError
-from lambda_core.registry.manager import registry
-from lambda_core.registry.scene import Scene
-from lambda_core.report.scene import scene_of
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.errors import UsageError
+from lambda_core.report.run_scene import scene_of
+from lambda_core.views.scene import Scene
 
 if TYPE_CHECKING:
-    from lambda_core.simulate.results import Result
+    from lambda_core.results.reader import Result
 
 
 @pytest.fixture(scope="module")
@@ -178,7 +178,7 @@ def test_a_gltf_moves_every_part(radial_run: Result, tmp_path: Path) -> None:
     [
         ("six.avi", {}, r"\.avi.*\.gif, \.mp4, \.glb|\.gif"),
         ("six", {}, "format of animations"),
-        ("six.gif", {"frames": 1}, "1 frames make no film: choose 2 to"),
+        ("six.gif", {"frames": 1}, "1 frames are out of range: choose 2 to"),
         ("six.gif", {"fps": 500.0}, "choose 1 to 60"),
         ("six.gif", {"turns": 0.0}, "positive number"),
         ("six.gif", {"turns": math.nan}, "positive number"),

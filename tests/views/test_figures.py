@@ -12,14 +12,15 @@ import numpy as np
 import pytest
 
 from lambda_core import api
+from lambda_core.discovery.manager import discover, registry
+from lambda_core.domain.installed import Source
 from lambda_core.plugins import Axis, Field, Mark, Options, Panel, RunData, Series, View, ViewData, hookimpl
-from lambda_core.registry.manager import Source, discover, registry
 from lambda_core.report.gallery import data_of
 
 if TYPE_CHECKING:
-    from lambda_core.simulate.results import Result
+    from lambda_core.results.reader import Result
 
-OF_A_RESULT = [name for name, view in registry().views.items() if view.subject == "result"]
+OF_A_RESULT = [name for name, view in registry().views.items() if view.subject == "result" and view.offered is None]
 
 
 def drawn(data: ViewData) -> Any:
@@ -178,7 +179,7 @@ def test_a_strangers_view_is_drawn_by_the_house_or_by_itself(radial_run: Result)
     ],
 )
 def test_views_that_do_not_fit_are_named(changes: dict[str, Any], words: str) -> None:
-    from lambda_core.registry.view import view_fault
+    from lambda_core.views.view import view_fault
 
     given: dict[str, Any] = {"name": "x", "title": "t", "subject": "result", "data": len} | changes
     assert words in view_fault(View(**given))

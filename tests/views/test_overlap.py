@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from collisions import collisions, no_collision
 
-from lambda_core.registry.manager import registry
+from lambda_core.discovery.manager import registry
 from lambda_core.report.gallery import data_of
 
 if TYPE_CHECKING:
-    from lambda_core.simulate.results import Result
+    from lambda_core.results.reader import Result
 
-OF_A_RESULT = [name for name, view in registry().views.items() if view.subject == "result"]
+OF_A_RESULT = [name for name, view in registry().views.items() if view.subject == "result" and view.offered is None]
 
 
 @pytest.mark.parametrize("name", OF_A_RESULT)

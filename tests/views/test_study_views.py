@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from collisions import no_collision
 
-from lambda_core.errors import UsageError
-from lambda_core.registry.chart import Panel, Series, ViewData
-from lambda_core.registry.manager import registry
-from lambda_core.registry.method import NotApplicable
-from lambda_core.registry.table import Column, PointState, StudyTable
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.errors import UsageError
 from lambda_core.report.gallery import data_of
+from lambda_core.views.chart import Panel, Series, ViewData
+from lambda_core.views.method import NotApplicable
+from lambda_core.views.table import Column, PointState, StudyTable
 
 SPEEDS, LOADS = (500.0, 1000.0, 2000.0, 4000.0), (1.0, 2.0, 4.0)
 
@@ -79,6 +79,47 @@ def test_a_map_is_the_table_on_a_mesh() -> None:
     np.testing.assert_allclose(field.y[0], LOADS)
     assert all(field.values.min() <= level <= field.values.max() for level in field.levels)
     assert len(field.levels) >= 3
+
+
+def with_a_third(design: str) -> StudyTable:
+    """Return the study with an oil temperature that goes up and down from point to point."""
+    oil = Column("lubricant.temperature", "degC", "oil temperature", tuple(40.0 + 30.0 * (i % 2) for i in range(12)))
+    return StudyTable(**{**vars(table()), "parameters": (*table().parameters, oil), "design": design})
+
+
+@pytest.mark.parametrize("design", ["crossed", "saltelli", "sobol", "latin-hypercube", "zipped"])
+@pytest.mark.parametrize("view", ["study-map", "stability-map"])
+def test_no_map_is_drawn_through_points_that_differ_in_a_third_parameter(design: str, view: str) -> None:
+    with pytest.raises(NotApplicable, match="oil temperature varies too"):
+        data(with_a_third(design), view)
+
+
+def test_points_scattered_over_two_parameters_are_interpolated_and_it_is_said() -> None:
+    found = data(table(design="latin-hypercube"), "study-map", response="friction_torque_Nmm")
+    assert found.notes == ("interpolated linearly between 12 scattered points",)
+
+
+def test_methods_stand_on_one_axis_with_the_simulation() -> None:
+    """The comparison is the point: one panel for the friction torque, whoever computed it."""
+    torques = table().response("friction_torque_Nmm")
+    skf = Column("skf/friction/total", "N mm", "total friction torque", tuple(2.0 * v for v in torques.numbers()))
+    film = Column("min_film_um", "um", "smallest film under load", torques.values)
+    both = StudyTable(**{**vars(table()), "responses": (torques, film, skf)})
+    found = data(both, "study-curves")
+    first, second = found.panels
+    assert (first.y.text, second.y.text) == ("friction torque [N mm]", "smallest film under load [um]")
+    names = [s.name for s in first.series]
+    assert names[0] == "simulation, radial load 1 kN"
+    assert names[3] == "SKF, radial load 1 kN"
+    np.testing.assert_allclose(first.series[3].y, 2.0 * first.series[0].y)
+    static = StudyTable(**{**vars(both), "mode": "quasi-static"})
+    assert data(static, "study-curves").notes == ("the quasi-static solution has no cage",)
+
+
+def test_one_parameter_alone_has_no_sensitivity() -> None:
+    one = StudyTable(**{**vars(table()), "parameters": table().parameters[:1]})
+    with pytest.raises(NotApplicable, match="speed alone varies"):
+        data(one, "sensitivity")
 
 
 def test_points_without_a_result_are_holes_with_a_mark() -> None:

@@ -6,43 +6,34 @@ import math
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import BaseModel, Field
-
-from lambda_core.plugins import Quantity, hookimpl, model
+from lambda_core.plugins import OK, Parameters, Quantity, hookimpl, law, parameter
 
 
-class Parameters(BaseModel):
+class LimitingShear(Parameters):
     """Limiting shear stress: tau_L = ambient + slope * p."""
 
-    ambient: Annotated[float, Quantity("pressure")] = Field(
-        "2 MPa", validate_default=True, gt=0.0, description="limiting shear stress at ambient pressure"
+    ambient: Annotated[float, Quantity("pressure")] = parameter(
+        "2 MPa", "limiting shear stress at ambient pressure", gt=0.0
     )
-    slope: float = Field(0.065, gt=0.0, le=0.3, description="rise of the limiting shear stress with pressure")
+    slope: float = parameter(0.065, "rise of the limiting shear stress with pressure", gt=0.0, le=0.3)
 
 
+@law(
+    "traction",
+    "gecim-winer",
+    LimitingShear,
+    role_api=2,
+    reference="Gecim and Winer 1980, J. Lubr. Technol. 102, 213: limiting shear stress effect on the film",
+    validity="viscous shear of the film; limiting stress linear in pressure, the same at every temperature",
+)
 def gecim_winer(slip, p, T, ln_eta, h, par, tau):
     """Shear stress of a film, tau = tau_L tanh(eta gamma_dot/tau_L), gamma_dot = v/h."""
     film = max(h, 1e-10)
     for i in range(tau.size):
-        limit = par[0] + par[1] * p[i]
+        limit = par.ambient + par.slope * p[i]
         newtonian = math.exp(min(ln_eta[i], 60.0)) * slip[i] / film
         tau[i] = limit * math.tanh(newtonian / limit)
-    return 1
-
-
-LAW = model(
-    "traction",
-    "gecim-winer",
-    gecim_winer,
-    Parameters,
-    reference="Gecim and Winer 1980, J. Lubr. Technol. 102, 213: limiting shear stress effect on the film",
-    validity="viscous shear of the film; limiting stress linear in pressure, the same at every temperature",
-)
-
-
-@hookimpl
-def lambda_models(register):
-    register(LAW)
+    return OK
 
 
 @hookimpl

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from lambda_core.registry.method import Method
+    from lambda_core.plugins import Method
 
 
 def register_methods(register: Callable[[Method], None]) -> None:

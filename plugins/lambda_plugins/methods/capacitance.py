@@ -11,9 +11,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from lambda_core.physics.hertz import ball_raceway_radii, reduced_modulus
-from lambda_core.physics.kinematics import entrainment_speed
-from lambda_core.registry.method import Method, MethodInputs, MethodRow, MethodTable, NotApplicable
+from lambda_core.domain.hertz import ball_raceway_radii, reduced_modulus
+from lambda_core.domain.kinematics import entrainment_speed
+from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable, NoParameters, NotApplicable
 
 VACUUM_PERMITTIVITY = 8.8541878188e-12  # [F/m], CODATA 2022
 
@@ -41,7 +41,7 @@ def plate_contact(inputs: MethodInputs, load: float, contact_angle: float, *, in
     import numpy as np
 
     from lambda_plugins.capacitance import schneider
-    from lambda_plugins.film_thickness import chittenden
+    from lambda_plugins.film_thickness import FilmFloors, chittenden
     from lambda_plugins.normal_contact import hamrock_brewe
 
     if inputs.permittivity is None:
@@ -59,12 +59,12 @@ def plate_contact(inputs: MethodInputs, load: float, contact_angle: float, *, in
     speed = entrainment_speed(
         inputs.inner_speed, inputs.outer_speed, inputs.ball_diameter, inputs.pitch_diameter, contact_angle
     )
-    ellipse, film, whole, no_floors = np.empty(4), np.empty(2), np.empty(1), np.zeros(3)
-    hamrock_brewe(1e-6, radius_x, radius_y, e_eff, no_floors, ellipse)
+    ellipse, film, whole = np.empty(4), np.empty(2), np.empty(1)
+    hamrock_brewe(1e-6, radius_x, radius_y, e_eff, NoParameters(), ellipse)
     growth = (load / float(ellipse[0])) ** (1.0 / 3.0)  # semi-axes and pressure grow with Q^(1/3)
     semi_a, semi_b = float(ellipse[1]) * growth, float(ellipse[2]) * growth
-    p_max, oil = float(ellipse[3]) * growth, inputs.oil
-    chittenden(speed, 0.0, load, radius_x, radius_y, e_eff, oil.viscosity, oil.alpha_p, no_floors, film)
+    p_max, oil, floors = float(ellipse[3]) * growth, inputs.oil, FilmFloors(0.0, 0.0, 0.0, 0.0)
+    chittenden(speed, 0.0, load, radius_x, radius_y, e_eff, oil.viscosity, oil.alpha_p, floors, film)
     central, area, permittivity = float(film[0]), math.pi * semi_a * semi_b, inputs.permittivity(p_max)
     hertz = VACUUM_PERMITTIVITY * permittivity * area / central
     parameters = (
@@ -73,7 +73,7 @@ def plate_contact(inputs: MethodInputs, load: float, contact_angle: float, *, in
         load / (e_eff * radius_x**2),
         inputs.permittivity(0.0),
     )
-    schneider(hertz, central, semi_a, semi_b, radius_x, radius_y, *parameters, no_floors, whole)
+    schneider(hertz, central, semi_a, semi_b, radius_x, radius_y, *parameters, NoParameters(), whole)
     return PlateContact(area, central, p_max, permittivity, hertz, float(whole[0]))
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.physics.kinematics import ball_speed, cage_speed, diameter_ratio, frequency_orders
-from lambda_core.registry.method import Method, MethodInputs, MethodRow, MethodTable
+from lambda_core.domain.kinematics import ball_speed, cage_speed, diameter_ratio, frequency_orders
+from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable
 
 
 def _mean_angle(inputs: MethodInputs) -> float:
@@ -44,7 +44,9 @@ def evaluate(inputs: MethodInputs) -> MethodTable:
     ):
         rows.append(MethodRow("kinematics", f"{name} order", order, "1/rev", meaning))
         rows.append(MethodRow("kinematics", name, order * hertz, "Hz", meaning))
-    return MethodTable(tuple(rows), (f"contact angle {math.degrees(angle):.2f} deg", "pure rolling"))
+    return MethodTable(
+        tuple(rows), (f"mean contact angle {math.degrees(angle):.2f} deg, weighted by load", "pure rolling")
+    )
 
 
 KINEMATIC = Method(

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.registry.method import (
+from lambda_core.domain.loading import loaded_balls
+from lambda_core.views.method import (
     EquilibriumState,
     Method,
     MethodInputs,
@@ -13,6 +14,7 @@ from lambda_core.registry.method import (
     NotApplicable,
 )
 
+_MOST = "contact angle of the ball that the inner ring loads most"
 _AXES = ("x", "y", "z", "tilt_y", "tilt_z")
 # sums that stand beside M_rr, M_sl and M_drag of the catalogue
 _SUMS = {
@@ -35,13 +37,15 @@ def _stiffness_rows(stiffness: tuple[tuple[float, ...], ...]) -> list[MethodRow]
 
 def _load_rows(state: EquilibriumState) -> list[MethodRow]:
     most = max(state.contacts, key=lambda contact: contact.load_inner)
-    loaded = sum(contact.load_inner > 0.0 for contact in state.contacts)
+    outer = max(contact.load_outer for contact in state.contacts)
+    loaded = loaded_balls([contact.load_inner for contact in state.contacts])
     x, y, z = (value * 1e6 for value in state.displacement[:3])
     return [
-        MethodRow("load", "largest ball load", most.load_inner, "N", "at the inner ring"),
-        MethodRow("load", "contact angle inner", math.degrees(most.angle_inner), "deg", "of that ball"),
-        MethodRow("load", "contact angle outer", math.degrees(most.angle_outer), "deg", "of that ball"),
-        MethodRow("load", "loaded balls", float(loaded), "-"),
+        MethodRow("load", "largest contact load, inner", most.load_inner, "N"),
+        MethodRow("load", "largest contact load, outer", outer, "N"),
+        MethodRow("load", "angle, most loaded, inner", math.degrees(most.angle_inner), "deg", _MOST),
+        MethodRow("load", "angle, most loaded, outer", math.degrees(most.angle_outer), "deg", _MOST),
+        MethodRow("load", "loaded balls", float(loaded), "-", "by the inner ring, with over 1 % of its largest load"),
         MethodRow("load", "displacement x", x, "um"),
         MethodRow("load", "displacement y", y, "um"),
         MethodRow("load", "displacement z", z, "um"),

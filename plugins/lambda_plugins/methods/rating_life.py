@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lambda_core.physics.life import (
+from lambda_core.domain.life import (
     basic_rating_life,
     contamination_range,
     dynamic_equivalent_load,
@@ -12,8 +12,8 @@ from lambda_core.physics.life import (
     reference_viscosity,
     static_equivalent_load,
 )
-from lambda_core.physics.ratings import dynamic_rating, fatigue_load_limit, static_factor, static_rating
-from lambda_core.registry.method import Method, MethodInputs, MethodRow, MethodTable, NotApplicable
+from lambda_core.domain.ratings import dynamic_rating, fatigue_load_limit, static_factor, static_rating
+from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable, NotApplicable
 
 
 def _ratings(inputs: MethodInputs, assumptions: list[str]) -> tuple[float, float, float]:

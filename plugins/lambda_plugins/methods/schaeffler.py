@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from lambda_core.errors import unknown_name
-from lambda_core.registry.method import Method, MethodInputs, MethodRow, MethodTable, NotApplicable
+from lambda_core.domain.errors import unknown_name
+from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable, NotApplicable
 
 
 @dataclass(frozen=True)

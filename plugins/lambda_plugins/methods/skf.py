@@ -10,9 +10,10 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from lambda_core.errors import unknown_name
-from lambda_core.registry.method import Lubrication, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
+from lambda_core.domain.errors import unknown_name
+from lambda_core.views.method import Lubrication, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
 from lambda_plugins.methods.skf_drag import K_Z, drag_torque, drag_torque_2008
+from lambda_plugins.skf_chart import UNCERTAINTY, drag_loss_factor
 
 MU_BOUNDARY = 0.12  # mu_bl while running
 MU_BOUNDARY_STARTING = 0.15  # mu_bl at rest
@@ -20,9 +21,6 @@ _STARVATION = {"oil bath": 3e-8, "oil jet": 3e-8, "oil-air": 6e-8, "grease": 6e-
 # Axial load below this share of the radial one counts as none: the catalogue has separate formulas for F_a = 0, and
 # the axial load of a computed equilibrium is never exactly zero.
 NEGLIGIBLE_AXIAL_SHARE = 1e-3
-# V_M of the newer formula that Table 4 of Syla et al. 2026 does not tell apart (6319, oil to the middle of the
-# lowest ball): with the FVA3 oil between 60 and 63 degC each explains the printed SKF row within 5 %
-VOLUME_FACTOR_RANGE = (0.0, 4.5e-5)
 
 
 @dataclass(frozen=True)
@@ -218,18 +216,10 @@ def evaluate(inputs: MethodInputs) -> MethodTable:
         assumptions.append("oil level not given: no drag loss")
     volume_factor = inputs.drag_volume_factor
     if volume_factor is None and height > 0.0:
-        upper, _ = drag_torque(
-            inputs.bore_diameter,
-            inputs.outside_diameter,
-            inputs.relative_speed,
-            inputs.kinematic_viscosity,
-            height,
-            VOLUME_FACTOR_RANGE[1],
-        )
-        assumptions.append(
-            "V_M is a chart of the catalogue that is not available as numbers: taken as 0; "
-            f"V_M = {VOLUME_FACTOR_RANGE[1]:g} would add {upper * 1e3:.0f} N mm"
-        )
+        mean_diameter = 0.5 * (inputs.bore_diameter + inputs.outside_diameter)
+        volume_factor = drag_loss_factor(height / mean_diameter, inputs.drag_edition)
+        how = f"from SKF's chart, read within {UNCERTAINTY:.0%}" if inputs.drag_edition == "2018" else "assumed"
+        assumptions.append(f"V_M = {volume_factor:.3g} in the drag formula of {inputs.drag_edition}, {how}")
     elif volume_factor is not None:
         assumptions.append(f"V_M = {volume_factor:g} in the drag formula of {inputs.drag_edition}")
     result = skf_friction(

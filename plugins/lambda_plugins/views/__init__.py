@@ -16,12 +16,27 @@ def register_views(register: Callable[[View], None]) -> None:
         capacitance,
         comparison,
         contact_map,
+        electric,
         energy,
         friction,
+        heat,
         ring,
         study,
     )
 
-    for module in (azimuth, contact_map, friction, energy, balls, cage, ring, capacitance, comparison, study):
+    for module in (
+        azimuth,
+        contact_map,
+        friction,
+        energy,
+        heat,
+        balls,
+        cage,
+        ring,
+        capacitance,
+        electric,
+        comparison,
+        study,
+    ):
         for view in module.VIEWS:
             register(view)

@@ -15,10 +15,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Circle
 from numpy.typing import NDArray
 
-from lambda_core.plugins import Scene
+from lambda_core.plugins import FloatArray, Scene
 from lambda_plugins.views.style import INK, RC, ROLES, SOFT
 
-FloatArray = NDArray[np.float64]
 _SIZE, _DPI = (12.8, 7.2), 80  # inch, dots per inch: 1024 x 576
 _RING, _CAGE = "#e9e9e9", ROLES["cage"].colour
 _LONGEST = 0.42  # length of the longest load vector over the radial room of a ring and a ball

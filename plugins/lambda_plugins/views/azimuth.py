@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from lambda_core.physics.channels import RINGS
-from lambda_core.plugins import Axis, Mark, NotApplicable, Options, Panel, RunData, Series, View, ViewData
-from lambda_plugins.views.common import FloatArray, Span, averaging, of_ring, over_azimuth, source
+from lambda_core.domain.channels import RINGS
+from lambda_core.plugins import Axis, FloatArray, Mark, NotApplicable, Options, Panel, RunData, Series, View, ViewData
+from lambda_plugins.views.common import Span, averaging, of_ring, over_azimuth, source
 
 AZIMUTH = Axis("azimuth", "deg", low=0.0, high=360.0, ticks=(0.0, 90.0, 180.0, 270.0, 360.0))
 _FRAME = "azimuth from the horizontal +y towards the vertical +z, seen with x pointing at the reader"

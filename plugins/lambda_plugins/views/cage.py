@@ -6,19 +6,9 @@ import math
 
 import numpy as np
 
-from lambda_core.plugins import Axis, Mark, NotApplicable, Options, Panel, RunData, Series, View, ViewData
+from lambda_core.plugins import Axis, FloatArray, Mark, NotApplicable, Options, Panel, RunData, Series, View, ViewData
 from lambda_plugins.views.azimuth import AZIMUTH
-from lambda_plugins.views.common import (
-    BODY,
-    FloatArray,
-    averaging,
-    number,
-    over_azimuth,
-    require_cage,
-    source,
-    speeds,
-    trace,
-)
+from lambda_plugins.views.common import BODY, averaging, number, over_azimuth, require_cage, source, speeds, trace
 
 _WHIRL_WINDOW = 0.1  # cage revolutions over which the whirl speed is averaged
 

@@ -8,13 +8,25 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from pydantic import Field as Declared
 
-from lambda_core.errors import CaseError, SolverError, UsageError
-from lambda_core.plugins import Arrows, Axis, Field, NotApplicable, Options, Panel, RunData, Series, View, ViewData
-from lambda_plugins.views.common import FloatArray, source
+from lambda_core.domain.errors import CaseError, SolverError, UsageError
+from lambda_core.plugins import (
+    Arrows,
+    Axis,
+    Field,
+    FloatArray,
+    NotApplicable,
+    Options,
+    Panel,
+    RunData,
+    Series,
+    View,
+    ViewData,
+)
+from lambda_plugins.views.common import source
 
 if TYPE_CHECKING:
-    from lambda_core.physics.assembly import Assembly
-    from lambda_core.physics.contact_field import ContactField
+    from lambda_core.solver.drivers.assembly import Assembly
+    from lambda_core.solver.drivers.contact_field import ContactField
 
 _STRIPS, _ROWS = 61, 41
 _ARROWS = (9, 5)  # across and along rolling
@@ -72,9 +84,9 @@ def _moment(run: RunData, time: float) -> tuple[int, dict[str, FloatArray]]:
 def _field(run: RunData, sample: dict[str, FloatArray], ball: int, ring: str) -> ContactField:
     """Assemble the model of the run again and run its pipeline at the recorded state."""
     from lambda_core import api
-    from lambda_core.physics.contact_field import contact_field, contact_state
-    from lambda_core.physics.equilibrium import solve
-    from lambda_core.schema.case_io import parse_case
+    from lambda_core.case.case_io import parse_case
+    from lambda_core.solver.drivers.contact_field import contact_field, contact_state
+    from lambda_core.solver.drivers.equilibrium import solve
 
     try:
         assembly = solve(api.resolve(parse_case(run.case_toml, str(run.path)))).assembly
@@ -86,7 +98,7 @@ def _field(run: RunData, sample: dict[str, FloatArray], ball: int, ring: str) ->
 
 def _refuse_other_physics(run: RunData, assembly: Assembly, ring: str) -> None:
     """Refuse a map of other physics than the run's: catalogue or laws of the contact may have changed since."""
-    from lambda_core.simulate.provenance import differences, model_data
+    from lambda_core.results.provenance import differences, model_data
 
     element, keys = f"ball_{ring}", assembly.kernels.keys()
     changed = [

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from lambda_core.physics.channels import LOSSES
+from lambda_core.domain.channels import LOSSES
 from lambda_core.plugins import Axis, Mark, NotApplicable, Options, Panel, RunData, Series, View, ViewData
-from lambda_core.simulate.averages import COLUMNS
-from lambda_core.simulate.convergence import ENERGY_TOLERANCE
+from lambda_core.results.averages import COLUMNS
+from lambda_core.results.convergence import ENERGY_TOLERANCE
 from lambda_plugins.views.common import source
 
 _LOSS = [COLUMNS.index(f"loss.{name}") for name in LOSSES]

@@ -6,7 +6,7 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.ticker import MaxNLocator, NullFormatter, ScalarFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter, ScalarFormatter
 from matplotlib.transforms import ScaledTranslation
 
 from lambda_plugins.views.style import SOFT
@@ -19,6 +19,7 @@ TITLE = 42  # the same of a title
 _RESTLESS = 3.0  # way up and down over the range of values, from which a line fills its panel
 _HEADROOM = 1.06  # above the data, on axes that begin at a given value
 _LEGEND_BELOW = 0.58  # [inch] below the axes: under the numbers and the label
+_DECADES = 100.0  # end over beginning of a logarithmic axis with plain numbers
 _OUTSIDE = 4  # a longer legend stands beside the axes
 
 
@@ -76,6 +77,8 @@ def _scale(axes: Any, axis: Axis, which: str) -> None:
         getattr(axes, f"set_{which}scale")("log")
     getattr(axes, f"set_{which}label")(textwrap.fill(axis.text, LABEL))
     _limit(axes, axis, which)
+    if axis.log:
+        _few_decades(getattr(axes, f"{which}axis"), *getattr(axes, f"get_{which}lim")())
     if axis.categories:
         longest = max(len(name) for name in axis.categories)
         turned = which == "x" and longest * len(axis.categories) > 42
@@ -88,6 +91,14 @@ def _scale(axes: Any, axis: Axis, which: str) -> None:
     elif axis.ticks:
         getattr(axes, f"set_{which}ticks")(axis.ticks, [f"{tick:g}" for tick in axis.ticks])
         getattr(axes, f"{which}axis").set_minor_formatter(NullFormatter())
+
+
+def _few_decades(axis: Any, low: float, high: float) -> None:
+    """Write 500, 1000, 2000 on a short logarithmic axis: powers of ten at every mark would lie over each other."""
+    if high < _DECADES * low:
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_formatter(NullFormatter())
 
 
 def _limit(axes: Any, axis: Axis, which: str) -> None:

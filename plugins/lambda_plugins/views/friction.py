@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from lambda_core.physics.channels import LOSSES
-from lambda_core.plugins import Axis, Mark, NotApplicable, Options, Panel, RunData, Series, View, ViewData
-from lambda_core.simulate.averages import COLUMNS, torque_by_revolution
-from lambda_plugins.views.common import FloatArray, averaging, source
+from lambda_core.domain.channels import LOSSES
+from lambda_core.plugins import Axis, FloatArray, Mark, NotApplicable, Options, Panel, RunData, Series, View, ViewData
+from lambda_core.results.averages import COLUMNS, torque_by_revolution
+from lambda_plugins.views.common import averaging, source
 
 PER_RING = ("sliding", "spin", "rolling", "hysteresis", "boundary", "damping")
 REST = ("cage", "drag", "support")

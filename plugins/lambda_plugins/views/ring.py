@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lambda_core.physics.channels import DIMENSIONS
+from lambda_core.domain.channels import DIMENSIONS
 from lambda_core.plugins import Axis, Mark, NotApplicable, Options, Panel, RunData, Series, View, ViewData
 from lambda_plugins.views.common import BODY, averaging, source, spectrum, speeds, trace
 

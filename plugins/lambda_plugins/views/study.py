@@ -1,4 +1,4 @@
-"""Studies: responses over one or two parameters, friction stacked, sensitivities, stability."""
+"""Studies: responses over two parameters, friction stacked, sensitivities, stability."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from lambda_core.batch.effects import Sensitivity, sensitivities
 from lambda_core.plugins import (
     Axis,
     Column,
     Field,
+    FloatArray,
     Mark,
     NotApplicable,
     Panel,
@@ -19,9 +21,8 @@ from lambda_core.plugins import (
     View,
     ViewData,
 )
-from lambda_core.study.sensitivity import Sensitivity, sensitivities
-from lambda_plugins.views.common import FloatArray
 from lambda_plugins.views.friction import PER_RING, REST
+from lambda_plugins.views.study_curves import study_curves
 from lambda_plugins.views.study_table import (
     BREAKDOWN,
     STEADINESS,
@@ -38,37 +39,7 @@ from lambda_plugins.views.study_table import (
     varied,
 )
 
-_CURVES = 9  # curves in a panel
 _MECHANISMS = (*PER_RING, *REST)
-
-
-def study_curves(table: StudyTable, options: Curves) -> ViewData:
-    """Every response over one parameter, a curve for each combination of the others."""
-    numeric = numeric_parameters(table)
-    if not numeric:
-        raise NotApplicable("no numeric parameter varies in this study")
-    x = table.parameter(options.x) if options.x else numeric[0]
-    groups = rows_by_label(table, x)
-    sampled = len(groups) > 0.5 * len(table)
-    if not sampled and len(groups) > _CURVES:
-        step = (len(groups) - 1) / (_CURVES - 1)
-        kept = {round(index * step) for index in range(_CURVES)}
-        groups = {label: rows for index, (label, rows) in enumerate(groups.items()) if index in kept}
-    panels = []
-    for response in responses(table, options.response):
-        if sampled:
-            series: tuple[Series, ...] = (Series("points", x.numbers(), response.numbers(), "points", unlisted=True),)
-        else:
-            series = tuple(_curve(x, response, rows, label) for label, rows in groups.items())
-        panels.append(Panel("", axis_of(x), Axis(response.label, response.unit), series))
-    notes = ("points: all other parameters vary too",) if sampled else ()
-    return ViewData("study-curves", "Responses over a parameter", source_line(table), tuple(panels), 2, notes)
-
-
-def _curve(x: Column, response: Column, rows: list[int], label: str) -> Series:
-    places, values = x.numbers()[rows], response.numbers()[rows]
-    order = np.argsort(places)
-    return Series(label or response.label, places[order], values[order], "line", unlisted=not label)
 
 
 def _surface(
@@ -76,7 +47,9 @@ def _surface(
 ) -> tuple[Column, Column, FloatArray, FloatArray, FloatArray]:
     """Return two parameters and the mesh of one response over them.
 
-    A crossed study fills the mesh as it is; scattered points are interpolated linearly between neighbours.
+    A crossed study fills the mesh as it is; points scattered over these two parameters are interpolated linearly
+    between neighbours. Where a third parameter varies there is no map: neighbours would differ for a reason that it
+    does not show.
     """
     numeric = numeric_parameters(table)
     x = table.parameter(options.x) if options.x else (numeric[0] if numeric else None)
@@ -85,8 +58,11 @@ def _surface(
         raise NotApplicable("a map needs two numeric parameters that vary")
     px, py, values = x.numbers(), y.numbers(), response.numbers()
     extra = [c.label for c in varied(table) if c.name not in (x.name, y.name)]
-    if extra and table.design == "crossed":
-        raise NotApplicable(f"a map shows two parameters; {', '.join(extra)} varies too: choose it with x or y")
+    if extra:
+        raise NotApplicable(
+            f"a map shows two parameters, and {', '.join(extra)} varies too: what differs would not be due to the two; "
+            "cross two parameters with the others fixed, or look at study-curves"
+        )
     gx, gy = np.unique(px), np.unique(py)
     if gx.size * gy.size == len(table):
         mesh = np.full((gx.size, gy.size), np.nan)
@@ -125,6 +101,8 @@ def study_map(table: StudyTable, options: Surface) -> ViewData:
     if not panels:
         raise NotApplicable("no response varies over the points that have a result")
     notes = ("crosses: points without a result",) if any(panel.series for panel in panels) else ()
+    if table.design != "crossed":
+        notes = (*notes, f"interpolated linearly between {len(table)} scattered points")
     return ViewData("study-map", "Responses over two parameters", source_line(table), tuple(panels), 2, notes)
 
 

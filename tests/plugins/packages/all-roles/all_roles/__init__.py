@@ -9,134 +9,129 @@ so the torque is Z M d_m/D_w, whatever contact angle, load and speed.
 
 import math
 
-from pydantic import BaseModel
-
-from lambda_core.plugins import hookimpl, model
+from lambda_core.plugins import OK, Parameters, law, parameter
 
 
-class Moment(BaseModel):
+class Moment(Parameters):
     """Rolling moment of each contact [N m]."""
 
-    moment: float = 2e-4
+    moment: float = parameter(2e-4, "rolling moment [N m]")
 
 
+@law("normal_contact", "own", role_api=2, reference="own work")
 def normal_contact(delta, R_x, R_y, E_eff, par, out):
     out[0] = 1e8 * delta
     out[1] = 1e-6
     out[2] = 1e-6
     out[3] = 1.5 * out[0] / (math.pi * 1e-12)
-    return 1
+    return OK
 
 
+@law("damping", "own", role_api=2, reference="own work")
 def damping(delta, delta_dot, load, par, out):
     force = 100.0 * delta_dot
     out[0] = force if force > -load else -load
-    return 1
+    return OK
 
 
+@law("rheology", "own", role_api=2, reference="own work")
 def rheology(p, T, par, ln_eta, rho):
     for i in range(p.size):
         ln_eta[i] = math.log(0.05) + 2e-8 * min(p[i], 1e9) - 0.03 * (T[i] - 313.15)
         rho[i] = 870.0
-    return 1
+    return OK
 
 
+@law("film_thickness", "own", role_api=2, reference="own work")
 def film_thickness(u_mean, theta, load, R_x, R_y, E_eff, eta0, alpha_p, par, out):
     out[0] = 1e-6
     out[1] = 5e-7
-    return 1
+    return OK
 
 
+@law("thermal_correction", "own", role_api=2, reference="own work")
 def thermal_correction(u_mean, u_slide, p_max, E_eff, eta0, beta, k_oil, par, out):
     out[0] = 1.0
-    return 1
+    return OK
 
 
+@law("contact_temperature", "own", role_api=2, reference="own work")
 def contact_temperature(T_in, u_mean, h, semi_b, tau, slip, par, T):
     for i in range(T.size):
         T[i] = T_in
-    return 1
+    return OK
 
 
+@law("traction", "own", role_api=2, reference="own work")
 def traction(slip, p, T, ln_eta, h, par, tau):
     for i in range(tau.size):
         tau[i] = 1e15 * slip[i]
-    return 1
+    return OK
 
 
+@law("rolling_resistance", "own", role_api=2, reference="own work")
 def rolling_resistance(u_mean, load, semi_a, semi_b, R_x, R_y, E_eff, eta0, alpha_p, beta, k_oil, par, out):
     out[0] = 0.0
-    return 1
+    return OK
 
 
+@law("elastic_hysteresis", "own", Moment, role_api=2, reference="own work")
 def elastic_hysteresis(load, semi_a, semi_b, R_x, R_y, R_ball, par, out):
-    out[0] = par[0]
-    return 1
+    out[0] = par.moment
+    return OK
 
 
+@law("asperity_load", "own", role_api=2, reference="own work")
 def asperity_load(Lambda, par, out):
     out[0] = 0.0
-    return 1
+    return OK
 
 
-def boundary_friction(slip, p, par, mu):
+@law("supply", "own", role_api=2, reference="own work")
+def supply(u_mean, load, semi_a, semi_b, R_x, h_cen, h_min, par, out):
+    out[0] = 1.0
+    out[1] = 1.0
+    return OK
+
+
+@law("boundary_friction", "own", role_api=2, reference="own work")
+def boundary_friction(slip, p, u_mean, par, mu):
     for i in range(mu.size):
         mu[i] = 0.0
-    return 1
+    return OK
 
 
+@law("cage_contact", "own", role_api=2, reference="own work")
 def cage_contact(r, v_rel, omega_rel, eta0, par, out):
     for i in range(6):
         out[i] = 0.0
-    return 1
+    return OK
 
 
+@law("fluid_drag", "own", role_api=2, reference="own work")
 def fluid_drag(v_orbit, omega_spin, azimuth, nu, rho, par, out):
     out[0] = 0.0
     out[1] = 0.0
-    return 1
+    return OK
 
 
+@law("permittivity", "own", role_api=2, reference="own work")
 def permittivity(p, T, rho, par, eps_r):
     for i in range(p.size):
         eps_r[i] = 2.0
-    return 1
+    return OK
 
 
+@law("capacitance", "own", role_api=2, reference="own work")
 def capacitance(C_hertz, h, semi_a, semi_b, R_x, R_y, U, G, W, eps_r0, par, out):
     out[0] = C_hertz
-    return 1
+    return OK
 
 
+@law("surface", "own", role_api=2, reference="own work")
 def surface(azimuth, contact_angle, par, out):
     """Both raceways a micrometre higher all around: another clearance."""
     out[0] = 1e-6
     out[1] = 0.0
     out[2] = 0.0
-    return 1
-
-
-KERNELS = [
-    normal_contact,
-    damping,
-    rheology,
-    film_thickness,
-    thermal_correction,
-    contact_temperature,
-    traction,
-    rolling_resistance,
-    asperity_load,
-    boundary_friction,
-    cage_contact,
-    fluid_drag,
-    permittivity,
-    capacitance,
-    surface,
-]
-
-
-@hookimpl
-def lambda_models(register):
-    for kernel in KERNELS:
-        register(model(kernel.__name__, "own", kernel, reference="own work"))
-    register(model("elastic_hysteresis", "own", elastic_hysteresis, Moment, reference="own work"))
+    return OK

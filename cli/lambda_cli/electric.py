@@ -1,0 +1,71 @@
+"""The command electric: bearing voltage and discharges of a case or a run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lambda_cli.options import CaseArgument, ForceOption, JsonOption, SetOption
+from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+
+SourceArgument = Annotated[
+    str, typer.Argument(metavar="CASE|RESULT", help="Case file, name of a built-in case, or result file of a run.")
+]
+
+
+def electric(
+    source: SourceArgument,
+    changes: SetOption = None,
+    udc: Annotated[str | None, typer.Option("--udc", metavar="VOLTAGE", help='Dc link, "800V".')] = None,
+    fsw: Annotated[str | None, typer.Option("--fsw", metavar="FREQUENCY", help='Switching, "10kHz".')] = None,
+    rise_time: Annotated[str | None, typer.Option("--rise-time", metavar="TIME", help='Of an edge, "50ns".')] = None,
+    duration: Annotated[str | None, typer.Option("--duration", metavar="TIME", help='That is computed, "1s".')] = None,
+    seed: Annotated[int | None, typer.Option("--seed", metavar="N", help="Key of the random numbers.")] = None,
+    out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Table of discharges, .csv or .h5.")] = None,
+    force: ForceOption = False,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Bearing voltage, discharges and impedance in the circuit of an electric machine.
+
+    The circuit is the section electric of the case; what it leaves open has defaults, which are listed. A case is
+    computed on the films of its quasi-static equilibria, a result on the films of the run.
+    """
+    from lambda_core import api
+
+    short = {"inverter.dc_link": udc, "inverter.switching_frequency": fsw, "inverter.rise_time": rise_time}
+    short |= {"duration": duration, "seed": None if seed is None else str(seed)}
+    overrides = [f"electric.{path}={value}" for path, value in short.items() if value is not None]
+    if out is not None:
+        api.check_discharges_file(out, overwrite=force)
+    with talk(progress, quiet) as speaker:
+        found = api.electric(source, [*(changes or ()), *overrides], announce=speaker.say)
+    if out is not None:
+        api.write_discharges(found, out, overwrite=force)
+    typer.echo(found.outcome.model_dump_json(indent=2) if as_json else found.outcome.text())
+
+
+def film(
+    case: CaseArgument,
+    measured: Annotated[
+        Path,
+        typer.Argument(metavar="CSV", help='Columns "time" and "capacitance".'),
+    ],
+    changes: SetOption = None,
+    frequency: Annotated[str | None, typer.Option("--frequency", metavar="F", help="Of a measured impedance.")] = None,
+    uncertainty: Annotated[float, typer.Option("--uncertainty", metavar="SHARE", help="Of the capacitance.")] = 0.02,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Film thickness and starvation from a measured capacitance or impedance of the bearing."""
+    from lambda_core import api
+
+    with talk(progress, quiet) as speaker:
+        found = api.film_from_outside(
+            case, measured, changes or (), frequency=frequency, uncertainty=uncertainty, announce=speaker.say
+        )
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text())

@@ -1,0 +1,55 @@
+"""The second Ctrl+C, or request to terminate, ends the program at once, whatever it is doing.
+
+Python hears signals only between two instructions of its own: inside a law that never returns it hears none. A thread
+of its own does, for compiled code lets other threads work meanwhile.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import socket
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+_HEARD = (signal.SIGINT, signal.SIGTERM)
+_GRACE = 0.5  # [s] for the program's own way out, which is the better one
+
+
+@contextmanager
+def second_signal_ends(code: int) -> Iterator[None]:
+    """End the process with this exit code `_GRACE` after the second signal, if it is still in here then.
+
+    Nothing is lost that was written: result files are good at any moment.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    ours, theirs = socket.socketpair()
+    theirs.setblocking(False)
+    left = threading.Event()
+    before = signal.set_wakeup_fd(theirs.fileno(), warn_on_full_buffer=False)
+    threading.Thread(target=_watch, args=(ours, left, code), name="signals", daemon=True).start()
+    try:
+        yield
+    finally:
+        left.set()
+        if signal.set_wakeup_fd(before) not in (theirs.fileno(), -1):  # an event loop of a face came and went
+            signal.set_wakeup_fd(-1)
+        theirs.close()
+
+
+def _watch(ours: socket.socket, left: threading.Event, code: int) -> None:
+    heard = 0
+    with ours:
+        while heard < 2:
+            numbers = ours.recv(64)
+            if not numbers:
+                return
+            heard += sum(number in _HEARD for number in numbers)
+    if not left.wait(_GRACE):
+        with contextlib.suppress(OSError):
+            os.write(2, b"interrupted: what was written is kept\n")
+        os._exit(code)

@@ -1,0 +1,67 @@
+"""The command thermal: temperatures that a bearing's own losses give it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lambda_cli.options import JsonOption, SetOption
+from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+
+TransientOption = Annotated[
+    str | None,
+    typer.Option("--transient", metavar="TIME", help='Follow the temperatures over a time, for example "1 h".'),
+]
+
+
+def thermal(
+    source: Annotated[
+        str, typer.Argument(metavar="CASE|RESULT", help="Case file, built-in case, or the result file of a run.")
+    ],
+    changes: SetOption = None,
+    transient: TransientOption = None,
+    draw: Annotated[
+        Path | None, typer.Option("--draw", metavar="DIR", help="Also write pictures (svg and png) into this folder.")
+    ] = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Find the temperatures of a bearing and its surroundings under its own losses.
+
+    The network stands in the section thermal of the case. Clearance, viscosity and films follow the temperatures.
+    With a result file the losses are the averages of that run. Exit codes: 0 found, 3 invalid case, 4 no steady
+    temperatures (a runaway is named with the gain that caused it), 5 a warm-up that passed thermal.limit.
+    """
+    from lambda_core import api
+    from lambda_core.domain.errors import PartialResultError
+
+    with talk(progress, quiet) as speaker:
+        if transient is None:
+            steady = api.thermal(source, changes or (), announce=speaker.say)
+            views, shown = api.thermal_pictures(steady), steady.model_dump_json(indent=2) if as_json else steady.text()
+            reason = ""
+        else:
+            course = api.warm_up(source, _seconds(transient), changes or (), announce=speaker.say)
+            views, shown = api.thermal_pictures(course), course.model_dump_json(indent=2) if as_json else course.text()
+            reason = course.reason
+    typer.echo(shown)
+    if draw is not None:
+        for view in views:
+            for path in api.draw(view, draw, api.view_stem([source])):
+                typer.echo(str(path), err=True)
+    if reason:
+        raise PartialResultError(reason)
+
+
+def _seconds(text: str) -> float:
+    """Read a time with its unit."""
+    from lambda_core.domain.errors import UsageError
+    from lambda_core.domain.units import parse
+
+    try:
+        return parse(text, "time")
+    except ValueError as error:
+        raise UsageError(f"--transient {error}") from None

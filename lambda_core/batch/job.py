@@ -1,0 +1,226 @@
+"""One point of a study in a worker process: resolve, solve or run, and read the responses.
+
+A task is plain data; kernels, catalogue and base case are kept by the process for the next task.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+from lambda_core.domain.errors import LambdaError, SolverError, UsageError
+
+if TYPE_CHECKING:
+    from lambda_core.case.case import Case
+    from lambda_core.catalogue.protocol import Catalogue
+    from lambda_core.results.reader import Result
+    from lambda_core.solver.drivers.compiled_laws import Kernels
+    from lambda_core.solver.drivers.equilibrium import Equilibrium
+    from lambda_core.system.bearing import BearingModel
+
+RUNS = "runs"
+State = Literal["done", "partial", "failed", "stopped"]
+# Of a worker process: the request went to the run that it had in hand; tasks that wait behind it are not begun.
+_asked_to_stop = False
+_HASH_DIGITS = 20  # of the hash in the name of a result file
+
+
+@dataclass(frozen=True)
+class Task:
+    """What one point needs; everything can be pickled."""
+
+    number: int
+    case_toml: str
+    changes: tuple[str, ...]
+    mode: Literal["quasi-static", "dynamic"]
+    responses: tuple[str, ...]
+    folder: str  # of the study, on a file system that all workers see (dynamic)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a point.
+
+    `state` is ``done``; ``partial``: a run whose averages have not converged; ``failed``: with the reason;
+    ``stopped``: somebody asked the run to stop, it goes on next time.
+    """
+
+    number: int
+    state: State
+    reason: str
+    hash: str
+    values: Mapping[str, float | None]
+    file: str
+    seconds: float
+
+
+def work(task: Task) -> Outcome:
+    """Do one task; never raises for what is wrong with the point."""
+    global _asked_to_stop
+    start = time.perf_counter()
+    hash_, state, reason, values, file = "", "failed", "", {}, ""
+    if _asked_to_stop:
+        return Outcome(task.number, "stopped", "the worker was asked to stop", "", {}, "", 0.0)
+    try:
+        model = resolve_point(task.case_toml, task.changes)
+        hash_ = point_hash(model)
+        model = with_temperatures(model)
+        if task.mode == "quasi-static":
+            state, values = "done", _static(model, task.responses)
+        else:
+            file = f"{RUNS}/{hash_[:_HASH_DIGITS]}.h5"
+            state, reason, values = _dynamic(model, Path(task.folder) / file, task.responses)
+    except LambdaError as error:
+        reason = str(error)
+    except Exception as error:  # a bug, or a law that breaks in a way nobody foresaw: the other points go on
+        reason = f"unexpected {type(error).__name__}: {' '.join(str(error).split())}"
+    _asked_to_stop = state == "stopped" and multiprocessing.parent_process() is not None
+    return Outcome(task.number, state, reason, hash_, values, file, time.perf_counter() - start)  # type: ignore[arg-type]
+
+
+def resolve_point(case_toml: str, changes: tuple[str, ...]) -> BearingModel:
+    """Return the model of one point; CaseError with everything that is wrong with it."""
+    from lambda_core.case.case_io import apply_overrides
+    from lambda_core.discovery.manager import registry
+    from lambda_core.system.resolve import resolve
+
+    return resolve(apply_overrides(_base(case_toml), changes), registry(), _catalogue())
+
+
+def with_temperatures(model: BearingModel) -> BearingModel:
+    """Return the model at its own temperatures, where the case wants them computed."""
+    from lambda_core.discovery.manager import registry
+    from lambda_core.system.resolve import resolve
+    from lambda_core.thermal.operating import at_own_temperatures
+
+    return at_own_temperatures(model, lambda case: resolve(case, registry(), _catalogue()))
+
+
+def point_hash(model: BearingModel) -> str:
+    """Return the hash that a point is known by."""
+    from lambda_core.system.resolve import case_hash
+
+    return case_hash(model)
+
+
+@lru_cache(maxsize=4)
+def _base(case_toml: str) -> Case:
+    from lambda_core.case.case_io import parse_case
+
+    return parse_case(case_toml, "the case of the study")
+
+
+@lru_cache(maxsize=1)
+def _catalogue() -> Catalogue:
+    from lambda_core.discovery.manager import registry
+
+    return registry().catalogue()
+
+
+_kernels: dict[tuple[tuple[str, str, str], ...], Kernels] = {}
+
+
+def kernels_of(model: BearingModel) -> Kernels:
+    """Return the compiled laws of a model; equal choices of laws are compiled once in a process."""
+    from lambda_core.solver.drivers.compiled_laws import Kernels
+
+    key = tuple((e, r, law.model.label) for e, roles in model.laws.items() for r, law in roles.items())
+    if key not in _kernels:
+        _kernels[key] = Kernels(model)
+    return _kernels[key]
+
+
+def _equilibrium(model: BearingModel) -> Equilibrium:
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    return solve(model, kernels_of(model))
+
+
+def _static(model: BearingModel, names: tuple[str, ...]) -> dict[str, float | None]:
+    from lambda_core.batch.responses import StaticPoint, evaluate
+    from lambda_core.results.quasistatic import quasistatic_of
+
+    found = _equilibrium(model)
+    return evaluate(names, StaticPoint(found, quasistatic_of(found)), method_rows(found, names))
+
+
+def method_rows(found: Equilibrium, names: tuple[str, ...]) -> dict[str, float | None]:
+    """Return the rows of comparison methods among `names`; None where a method does not apply.
+
+    Raises
+    ------
+    UsageError
+        For a row that does not exist.
+    """
+    return {name: value for name, (value, _, _) in method_columns(found, names).items()}
+
+
+def method_columns(found: Equilibrium, names: tuple[str, ...]) -> dict[str, tuple[float | None, str, str]]:
+    """Return value, unit and meaning of the rows of comparison methods among `names`."""
+    wanted = [name for name in names if "/" in name]
+    if not wanted:
+        return {}
+    from lambda_core.discovery.manager import registry
+    from lambda_core.run.compare_methods import comparison_inputs
+    from lambda_core.views.method import NotApplicable
+
+    inputs = comparison_inputs(found)
+    columns: dict[str, tuple[float | None, str, str]] = {}
+    for name in wanted:
+        label, _, row = name.partition("/")
+        group, _, item = row.partition("/")
+        method = registry().method(label)
+        try:
+            table = method.evaluate(inputs)
+        except NotApplicable:
+            columns[name] = (None, "", f"{label}: {item} (does not apply)")
+            continue
+        rows = {f"{r.group}/{r.name}": r for r in table.rows}
+        if row not in rows:
+            from lambda_core.domain.errors import unknown_name
+
+            raise UsageError(unknown_name(f"row of {label}", row, rows))
+        unit = rows[row].unit
+        columns[name] = (rows[row].value, "" if unit == "-" else unit, f"{label}: {group} {item}")
+    return columns
+
+
+def _dynamic(model: BearingModel, path: Path, names: tuple[str, ...]) -> tuple[State, str, dict[str, float | None]]:
+    """Run a point, or go on with what there is of it, and read its responses."""
+    from lambda_core.batch.responses import DynamicPoint, evaluate
+
+    result = _run(model, path)
+    status = result.status()
+    if status.state == "interrupted":
+        return "stopped", status.message, {}
+    summary = result.summary()
+    methods = method_rows(_equilibrium(model), names) if any("/" in name for name in names) else {}
+    values = evaluate(names, DynamicPoint(result, summary), methods)
+    return ("done", "", values) if summary.converged else ("partial", "; ".join(summary.reasons), values)
+
+
+def _run(model: BearingModel, path: Path) -> Result:
+    from lambda_core.results.reader import Result, ResultError
+    from lambda_core.run.launch import launch, relaunch
+
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if path.exists():
+        try:
+            before = Result(path)
+            if before.status().state in ("finished", "stopped"):
+                return before
+            if before.status().state != "failed":
+                return relaunch(path, model)
+        except ResultError as error:
+            if "still being written" in str(error):
+                raise
+        except SolverError:
+            raise
+        except UsageError:  # nothing left to do
+            return Result(path)
+    return launch(model, path, force=True)

@@ -1,0 +1,206 @@
+"""What a study can ask of a point: responses by name, with unit and meaning.
+
+Names are those of the machine interface (:class:`~lambda_core.results.summary.Summary` and
+:class:`~lambda_core.results.quasistatic.QuasiStatic`), where it has them. ``friction_breakdown_Nmm`` stands for
+all its parts, and ``METHOD/GROUP/ROW`` for a row of a comparison method ("skf/friction/total").
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.batch import measures
+from lambda_core.domain.channels import LOSSES
+from lambda_core.domain.errors import CaseError, Problem, nearest
+
+if TYPE_CHECKING:
+    from lambda_core.results.quasistatic import QuasiStatic
+    from lambda_core.results.reader import Result
+    from lambda_core.results.summary import Summary
+    from lambda_core.solver.drivers.equilibrium import Equilibrium
+
+Number = float | None
+BREAKDOWN = "friction_breakdown_Nmm"
+
+
+@dataclass
+class StaticPoint:
+    """A quasi-static point: the equilibrium, and the same in the words of the machine interface."""
+
+    equilibrium: Equilibrium
+    summary: QuasiStatic
+
+
+@dataclass
+class DynamicPoint:
+    """A dynamic point: the result file and its summary."""
+
+    result: Result
+    summary: Summary
+
+
+@dataclass(frozen=True)
+class Response:
+    """One number of a point; a mode that does not have it has None."""
+
+    name: str
+    unit: str
+    meaning: str
+    static: Callable[[StaticPoint], Number] | None = None
+    dynamic: Callable[[DynamicPoint], Number] | None = None
+
+
+def _field(name: str, index: int | None = None) -> Callable[[Any], Number]:
+    def read(point: Any) -> Number:
+        value = getattr(point.summary, name)
+        if index is not None:
+            value = value[index] if value else None
+        return None if value is None else float(value)
+
+    return read
+
+
+def _part(name: str) -> Callable[[Any], Number]:
+    def read(point: Any) -> Number:
+        value: Number = getattr(point.summary, BREAKDOWN)[name]
+        return value
+
+    return read
+
+
+def _parts() -> list[Response]:
+    names = [*(name for name in LOSSES if name not in ("pocket", "land")), "cage"]
+    return [
+        Response(f"{BREAKDOWN}.{name}", "N mm", f"friction torque: {name.replace('_', ' ')}", _part(name), _part(name))
+        for name in names
+    ]
+
+
+def _axes() -> list[Response]:
+    shift, tilt = "inner_ring_displacement_um", "inner_ring_tilt_mrad"
+    found = [
+        Response(f"{shift}.{axis}", "um", f"inner ring displacement {axis}", _field(shift, i), _field(shift, i))
+        for i, axis in enumerate("xyz")
+    ]
+    return found + [
+        Response(f"{tilt}.{axis}", "mrad", f"inner ring tilt about {axis}", _field(tilt, i))
+        for i, axis in enumerate("yz")
+    ]
+
+
+def _catalogue() -> dict[str, Response]:
+    both = [
+        ("friction_torque_Nmm", "N mm", "friction torque"),
+        ("max_pressure_GPa", "GPa", "largest contact pressure"),
+    ]
+    dynamic = [
+        ("friction_torque_ci_Nmm", "N mm", "95 % confidence half-width of the friction torque"),
+        ("input_torque_Nmm", "N mm", "input torque"),
+        ("cage_speed_ratio", "", "cage speed over inner ring speed"),
+        ("cage_speed_over_epicyclic", "", "cage speed over kinematic speed"),
+        ("energy_residual", "", "energy residual"),
+        ("wall_per_revolution_s", "s", "wall time per revolution"),
+        ("simulated_s", "s", "simulated time"),
+    ]
+    static = [
+        ("loaded_balls", "", "balls that the inner ring loads"),
+        ("orbit_speed_ratio", "", "orbital speed of the balls over inner ring speed"),
+    ]
+    found = [
+        *(Response(name, unit, meaning, _field(name), _field(name)) for name, unit, meaning in both),
+        Response("power_loss_W", "W", "power loss", measures.static_power, measures.dynamic_power),
+        *_parts(),
+        Response("max_load_N", "N", "largest contact load of both rings", _field("max_load_N"), measures.max_load),
+        Response("min_film_um", "um", "smallest film under load", measures.static_film, _field("min_film_um")),
+        Response(
+            "min_film_parameter", "", "smallest Lambda under load", measures.static_lambda, measures.dynamic_lambda
+        ),
+        Response(
+            "bearing_capacitance_nF", "nF", "capacitance of the bearing", measures.static_capacitance,
+            measures.dynamic_capacitance,
+        ),
+        *_axes(),
+        *(Response(name, unit, meaning, _field(name)) for name, unit, meaning in static),
+        *(Response(name, unit, meaning, None, _field(name)) for name, unit, meaning in dynamic),
+        Response("converged", "", "1 when converged", None, lambda point: float(point.summary.converged)),
+        Response(
+            "cage_speed_deviation", "", "standard deviation of the cage speed over its mean", None,
+            measures.cage_speed_deviation,
+        ),
+        Response(
+            "ball_speed_deviation", "", "rms deviation of unloaded balls' speed from kinematic", None,
+            measures.ball_speed_deviation,
+        ),
+        Response("pocket_touch_share", "", "share of time a pocket touches its ball", None, measures.pocket_share),
+    ]  # fmt: skip
+    return {response.name: response for response in found}
+
+
+RESPONSES: Mapping[str, Response] = _catalogue()
+USUAL: Mapping[str, tuple[str, ...]] = {
+    "quasi-static": (
+        "friction_torque_Nmm", BREAKDOWN, "max_load_N", "max_pressure_GPa", "min_film_um", "min_film_parameter",
+    ),
+    "dynamic": (
+        "friction_torque_Nmm", "friction_torque_ci_Nmm", BREAKDOWN, "cage_speed_over_epicyclic", "max_pressure_GPa",
+        "min_film_um", "energy_residual", "converged",
+    ),
+}  # fmt: skip
+
+
+def chosen(names: Sequence[str], mode: str, source: str) -> tuple[str, ...]:
+    """Return the names of the responses of a study, groups written out.
+
+    Raises
+    ------
+    CaseError
+        For unknown names, and those that the mode does not have.
+    """
+    found: list[str] = []
+    wrong: list[Problem] = []
+    for name in names or USUAL[mode]:
+        if name == BREAKDOWN:
+            found += [part for part in RESPONSES if part.startswith(f"{BREAKDOWN}.")]
+        elif "/" in name:
+            found.append(name)
+        elif name not in RESPONSES:
+            close = nearest(name, RESPONSES) or sorted(RESPONSES)
+            wrong.append(Problem("responses", f'"{name}" is not a known response; nearest: {", ".join(close)}'))
+        elif _of_mode(RESPONSES[name], mode) is None:
+            other = "dynamic" if mode == "quasi-static" else "quasi-static"
+            wrong.append(Problem("responses", f'"{name}" exists in {other} studies only'))
+        else:
+            found.append(name)
+    if wrong:
+        raise CaseError(source, wrong)
+    return tuple(dict.fromkeys(found))
+
+
+def _of_mode(response: Response, mode: str) -> Callable[[Any], Number] | None:
+    return response.static if mode == "quasi-static" else response.dynamic
+
+
+def evaluate(
+    names: Sequence[str], point: StaticPoint | DynamicPoint, methods: Mapping[str, Number]
+) -> dict[str, Number]:
+    """Return the responses of a point; a number that does not exist is None.
+
+    Parameters
+    ----------
+    methods : mapping
+        Values of the responses that are rows of comparison methods.
+    """
+    mode = "quasi-static" if isinstance(point, StaticPoint) else "dynamic"
+    found: dict[str, Number] = {}
+    for name in names:
+        if "/" in name:
+            found[name] = methods.get(name)
+            continue
+        read = _of_mode(RESPONSES[name], mode)
+        assert read is not None
+        value = read(point)
+        found[name] = value if value is not None and math.isfinite(value) else None
+    return found

@@ -1,0 +1,100 @@
+"""The case: one bearing, how it is held, loaded, lubricated and modelled, in the engineer's language."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import PrivateAttr, model_validator
+
+from lambda_core.case.electric import Electric
+from lambda_core.case.modelling import Depth, Forces, Models, Output, Parameters, Solver
+from lambda_core.case.motion import Bodies, Gravity, Loads, Marker, Operation
+from lambda_core.case.option import Section, option
+from lambda_core.case.parts import Bearing, Lubricant, Materials, Surface
+from lambda_core.case.thermal import Thermal
+
+NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]*$"
+
+
+class Case(Section):
+    """What a case file says; values in SI, written as unit strings.
+
+    Build one with :func:`lambda_core.case.case_io.load_case` or ``parse_case``; change one
+    with :meth:`with_`. Every field is declared once, with help and limits.
+    """
+
+    name: str = option(description="short name, used for files", pattern=NAME_PATTERN)
+    description: str = option("", "what this case is, for people")
+    assumptions: list[str] = option([], "what the author of the case assumed, repeated with every result")
+    bearing: Bearing = option(description="the bearing")
+    materials: Materials = option({}, "materials of the parts")
+    lubricant: Lubricant = option(description="the oil")
+    surface: Surface = option({}, "surfaces")
+    loads: Loads = option({}, "external loads")
+    operation: Operation = option(description="what drives the bearing")
+    bodies: Bodies = option({}, "masses and boundary conditions")
+    thermal: Thermal = option({}, "thermal network of the bearing and its surroundings")
+    markers: dict[str, Marker] = option({}, "named points whose motion is written")
+    models: Models = option({}, "model by role")
+    parameters: Parameters = option({}, "parameters by role, for every force element with that role")
+    forces: Forces = option({}, "models and parameters of single force elements")
+    gravity: Gravity = option({}, "acceleration of gravity")
+    depth: Depth = option({}, "modelling depth")
+    solver: Solver = option({}, "integrator and averages")
+    output: Output = option({}, "what is written")
+    electric: Electric | None = option(None, "the bearing in the circuit of an electric machine")
+    _folder: Path | None = PrivateAttr(default=None)
+
+    @model_validator(mode="after")
+    def _remember_folder(self, info: Any) -> Case:
+        self._folder = (info.context or {}).get("folder")
+        return self
+
+    @property
+    def folder(self) -> Path | None:
+        """Folder that file names in the case are relative to; None is the working directory."""
+        return self._folder
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Case) and self.model_dump() == other.model_dump()
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def written(self) -> dict[str, Any]:
+        """Return what stands in the case's file: plain tables with unit strings, no defaults."""
+        return self.model_dump(mode="json", exclude_unset=True, exclude_none=True)
+
+    def with_(self, **changes: Any) -> Case:
+        """Return a copy with `changes` merged in, section by section.
+
+        Examples
+        --------
+        ``case.with_(operation={"speed": "2750 rpm"}, bearing={"clearance": "C3"})``; None
+        takes an option back to its default.
+
+        Raises
+        ------
+        CaseError
+            With every problem of the changed case.
+        """
+        from lambda_core.case.case_io import validate_case
+
+        return validate_case(merged(self.written(), changes), self.name, self._folder)
+
+
+def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Merge tables key by key; None removes a key, a table with a ``kind`` replaces as a whole."""
+    result = dict(base)
+    for key, value in changes.items():
+        old = result.get(key)
+        if value is None:
+            result.pop(key, None)
+        elif isinstance(value, Mapping) and isinstance(old, Mapping) and "kind" not in value:
+            result[key] = merged(old, value)
+        elif isinstance(value, Mapping):
+            result[key] = merged({}, value)
+        else:
+            result[key] = value
+    return result

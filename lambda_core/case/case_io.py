@@ -1,0 +1,157 @@
+"""Reading, changing and writing cases: TOML in, TOML out, every mistake at once."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from lambda_core.case.builtin import builtin_cases, builtin_text
+from lambda_core.case.case import Case, merged
+from lambda_core.case.salvage import invalid_case
+from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
+from lambda_core.domain.files import read_text
+from lambda_core.domain.option_tree import field_at
+
+_DEEPEST = 20  # levels of tables and lists
+_LOCATION = re.compile(r"\(at (?:line (\d+), column (\d+)|end of document)\)")
+_BARE_UNIT = re.compile(r"^(\s*[\w.\"-]+\s*=\s*)([+-]?[\d.,]+\s*[A-Za-z/][^#\"]*?)\s*(#.*)?$")
+_FILES = 8  # most names that an error lists
+
+
+def load_case(source: str | Path) -> Case:
+    """Read a case from a TOML file, or a built-in case by its name.
+
+    Raises
+    ------
+    UsageError
+        When there is neither such a file nor such a built-in case.
+    CaseError
+        With every problem of the case.
+    """
+    path = Path(source)
+    if path.is_file():
+        return parse_case(_read(path), source=path.name, folder=path.resolve().parent)
+    if str(source) in builtin_cases():
+        return parse_case(builtin_text(str(source)), source=str(source))
+    if path.is_dir():
+        raise UsageError(f'"{source}" is a folder, not a case file')
+    names = list(builtin_cases())
+    close = nearest(str(source), names)
+    files = sorted(file.name for file in path.parent.glob("*.toml")) if path.suffix == ".toml" else []
+    if Path(f"{source}.toml").is_file():
+        hint = f"the file is {source}.toml"
+    elif files:
+        listed = ", ".join([*files[:_FILES], "..."] if len(files) > _FILES else files)
+        likely = ", ".join(nearest(path.name, files))
+        hint = f"nearest files there: {likely}" if likely else f"files there: {listed}"
+    elif close:
+        hint = f"nearest built-in cases: {', '.join(close)}"
+    else:
+        hint = f"built-in cases: {', '.join(names)}; lambda-bearing init starts one for any bearing (--bearing)"
+    raise UsageError(f'"{source}" is neither a file nor a built-in case; {hint}')
+
+
+def _read(path: Path) -> str:
+    try:
+        return read_text(path)
+    except UnicodeDecodeError:
+        raise CaseError(path.name, [Problem("", "is not a text file in UTF-8")]) from None
+    except OSError as error:
+        raise UsageError(f'cannot read "{path}": {error.strerror}') from None
+
+
+def parse_case(text: str, source: str = "case", folder: Path | None = None) -> Case:
+    """Read a case from TOML text; `folder` is where its file names are looked up."""
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise CaseError(source, [syntax_problem(str(error), text)]) from None
+    except RecursionError:
+        raise CaseError(source, [Problem("", "is nested too deeply")]) from None
+    return validate_case(data, source, folder)
+
+
+def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> Case:
+    """Check plain tables as a case; CaseError with every problem at once."""
+    if isinstance(data.get("parameters"), list) and "bearing" not in data:
+        raise CaseError(source, [Problem("", f"is a study, not a case: lambda-bearing study run {source}")])
+    if _is_deep(data):
+        raise CaseError(source, [Problem("", "is nested too deeply")])
+    try:
+        return Case.model_validate(data, context={"folder": folder})
+    except ValidationError as error:
+        raise invalid_case(source, error, data, folder) from None
+
+
+def _is_deep(data: Any) -> bool:
+    """Tell whether tables and lists are nested beyond what any case needs, without a call for each level."""
+    level = [data]
+    for _ in range(_DEEPEST):
+        level = [
+            item for part in level if isinstance(part, (Mapping, list))
+            for item in (part.values() if isinstance(part, Mapping) else part)
+        ]  # fmt: skip
+        if not level:
+            return False
+    return True
+
+
+def syntax_problem(message: str, text: str) -> Problem:
+    """Say what is wrong with the TOML itself, with its line and a fix for the usual slip."""
+    location = _LOCATION.search(message)
+    if location is None or location[1] is None:
+        return Problem("end of the file", message.split(" (at")[0])
+    number, column = int(location[1]), int(location[2])
+    lines = text.splitlines()
+    line = lines[number - 1] if number <= len(lines) else ""
+    bare = _BARE_UNIT.match(line)
+    where = f"line {number}"
+    if bare:
+        value = re.sub(r"(\d),(\d)", r"\1.\2", bare[2].strip())
+        return Problem(where, f'{line.strip()}: write the value in quotes: {bare[1].strip()} "{value}"')
+    return Problem(where, f"{line.strip()}: {message[: location.start()].strip()} (column {column})")
+
+
+def apply_overrides(case: Case, overrides: Iterable[str]) -> Case:
+    """Return the case with ``path=value`` texts applied in order, as ``--set`` does.
+
+    Raises
+    ------
+    UsageError
+        When a text is not of the form ``path=value``.
+    CaseError
+        When the changed case is invalid.
+    """
+    data, texts = case.written(), list(overrides)
+    for text in texts:
+        path, equals, value = text.partition("=")
+        parts = [part.strip() for part in path.split(".")]
+        if not equals or not all(parts):
+            raise UsageError(f'"{text}": write path=value, for example loads.radial="20 kN"')
+        change: Any = _value(".".join(parts), value.strip())
+        for part in reversed(parts):
+            change = {part: change}
+        data = merged(data, change)
+    return validate_case(data, f"{case.name} with {', '.join(texts)}" if texts else case.name, case.folder)
+
+
+def _value(path: str, text: str) -> Any:
+    """Read the right-hand side of an override: TOML where the option wants it, else the text itself."""
+    try:
+        parsed = tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return text
+    info = field_at(Case, path)
+    wants_text = info is not None and "str" in str(info.annotation)
+    return text if wants_text and isinstance(parsed, int | float) and not isinstance(parsed, bool) else parsed
+
+
+def case_json_schema() -> dict[str, Any]:
+    """Return the JSON schema of a case file, for editors."""
+    schema = Case.model_json_schema(mode="validation")
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "lambda-bearing case", **schema}

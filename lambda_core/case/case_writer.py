@@ -1,0 +1,195 @@
+"""Writing a case as TOML that diffs well: comments and untouched spellings stay."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import tomlkit
+from tomlkit.toml_document import TOMLDocument
+
+from lambda_core.case.builtin import builtin_cases, builtin_text
+from lambda_core.case.case import Case
+from lambda_core.case.case_io import load_case, parse_case
+from lambda_core.case.electric import Series
+from lambda_core.case.signals import Table as TimeTableFile
+from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.domain.files import check_target
+
+_INLINE_KEYS = frozenset({"kind", "mode", "points"})  # small tables that read best on one line
+
+
+def case_toml(case: Case, original: str | None = None) -> str:
+    """Write a case as TOML.
+
+    Parameters
+    ----------
+    case : Case
+        What to write.
+    original : str, optional
+        Text of the file it came from; its comments, order and the spelling of unchanged
+        values are kept.
+    """
+    written = case.written()
+    if original is None:
+        document = tomlkit.document()
+        _fill(document, written)
+        return tomlkit.dumps(document)
+    try:
+        before = parse_case(original, folder=case.folder).written()
+    except CaseError:
+        before = {}
+    document = tomlkit.parse(original)
+    _update(document, before, written)
+    return tomlkit.dumps(document)
+
+
+def standalone_toml(case: Case) -> str:
+    """Write a case that needs no other file: CSV tables become points in the text."""
+    return case_toml(Case.model_validate(_inlined(case, case.written()), context={"folder": case.folder}))
+
+
+def tables_toml(tables: Mapping[str, Any], original: str = "") -> str:
+    """Write plain tables, right or wrong, as TOML; what they have in common with `original` keeps its text."""
+    document = tomlkit.parse(original)
+    if original.strip():
+        _update(document, tomllib.loads(original), tables)
+    else:
+        _fill(document, tables)
+    return tomlkit.dumps(document)
+
+
+def save_case(case: Case, path: str | Path, original: str | None = None) -> None:
+    """Write a case to `path` in one step (a crash leaves the old file whole).
+
+    `original` defaults to the text that stands in `path`, so that saving keeps comments.
+
+    Raises
+    ------
+    UsageError
+        When the file cannot be written.
+    """
+    target = Path(path)
+    if original is None and target.is_file():
+        try:
+            original = target.read_text(encoding="utf-8-sig")
+        except OSError as error:
+            raise UsageError(f'cannot read "{target}": {error.strerror}') from None
+    save_text(case_toml(case, original), target)
+
+
+def save_text(text: str, target: Path) -> None:
+    """Write a file in one step: it holds the old text or the new one, never a part.
+
+    Raises
+    ------
+    UsageError
+        When the file cannot be written; nothing is left behind.
+    """
+    check_target(target)
+    temporary = ""
+    try:
+        handle, temporary = tempfile.mkstemp(dir=target.resolve().parent, prefix=f".{target.name}.")
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
+            stream.write(text)
+        os.chmod(temporary, target.stat().st_mode & 0o777 if target.exists() else 0o644)
+        os.replace(temporary, target)
+    except OSError as error:
+        if temporary:
+            Path(temporary).unlink(missing_ok=True)
+        raise UsageError(f'cannot write "{target}": {error.strerror}') from None
+
+
+def new_case(name: str, start: str, path: Path, overwrite: bool) -> Path:
+    """Write the case `start`, comments included, under another name; see :func:`lambda_core.api.init_case`."""
+    original = builtin_text(start) if start in builtin_cases() else None
+    source = load_case(start)
+    try:
+        renamed = source.with_(name=name)
+    except CaseError as error:
+        raise CaseError(f'new case "{name}"', error.problems) from None
+    if original is None:
+        original = Path(start).read_text(encoding="utf-8-sig")
+    return write_new(renamed, original, path, overwrite)
+
+
+def write_new(case: Case, original: str, path: Path, overwrite: bool) -> Path:
+    """Write a case with the comments of `original` to a file that does not exist yet.
+
+    Raises
+    ------
+    UsageError
+        When the file exists and may not be overwritten, or cannot be written.
+    """
+    if path.exists() and not overwrite:
+        raise UsageError(f'"{path}" exists: choose another name, or --force to overwrite it')
+    save_case(case, path, original)
+    return path
+
+
+def _inlined(section: Any, written: Any) -> Any:
+    """Replace tables that name a CSV file by tables that carry its points."""
+    if isinstance(section, TimeTableFile | Series) and section.file is not None:
+        return section.inlined()
+    if isinstance(written, Mapping):
+        get = section.get if isinstance(section, Mapping) else lambda key: getattr(section, key)
+        return {key: _inlined(get(key), value) for key, value in written.items()}
+    if isinstance(written, list) and isinstance(section, list):
+        return [_inlined(part, value) for part, value in zip(section, written, strict=True)]
+    return written
+
+
+def _is_inline(value: Mapping[str, Any]) -> bool:
+    return bool(_INLINE_KEYS & value.keys())
+
+
+def _item(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        table: Any = tomlkit.inline_table() if _is_inline(value) else tomlkit.table(is_super_table=_only_tables(value))
+        _fill(table, value)
+        return table
+    if isinstance(value, list):
+        array = tomlkit.array()
+        for entry in value:
+            if isinstance(entry, Mapping):
+                inline = tomlkit.inline_table()
+                inline.update(entry)
+                array.append(inline)
+            else:
+                array.append(entry)
+        return array
+    return tomlkit.item(value)
+
+
+def _only_tables(value: Mapping[str, Any]) -> bool:
+    return bool(value) and all(isinstance(v, Mapping) and not _is_inline(v) for v in value.values())
+
+
+def _fill(container: Any, values: Mapping[str, Any]) -> None:
+    """Add plain values first, then sub-tables: TOML reads that order without repeated headers."""
+    plain = [key for key, value in values.items() if not isinstance(value, Mapping) or _is_inline(value)]
+    for key in [*plain, *(key for key in values if key not in plain)]:
+        if isinstance(container, TOMLDocument) and key not in plain:
+            container.add(tomlkit.nl())
+        container.add(key, _item(values[key]))
+
+
+def _update(container: Any, before: Mapping[str, Any], after: Mapping[str, Any]) -> None:
+    """Bring a parsed file from what it says (`before`) to `after`, touching only what differs."""
+    for key in [key for key in container if key not in after]:
+        container.remove(key)
+    for key, value in after.items():
+        if key in container and key in before and before[key] == value:
+            continue
+        old = container.get(key)
+        if isinstance(value, Mapping) and not _is_inline(value) and isinstance(old, Mapping):
+            known = before.get(key)
+            _update(old, known if isinstance(known, Mapping) else {}, value)
+        elif key in container:
+            container[key] = _item(value)
+        else:
+            container.add(key, _item(value))

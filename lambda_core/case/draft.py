@@ -1,0 +1,242 @@
+"""A case while it is being edited: plain tables as they stand in its file, right or wrong."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from copy import deepcopy
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from lambda_core.case.builtin import builtin_cases, builtin_text
+from lambda_core.case.case import Case
+from lambda_core.case.case_io import load_case, syntax_problem, validate_case
+from lambda_core.case.case_writer import save_text, tables_toml
+from lambda_core.domain.elements import DOFS
+from lambda_core.domain.errors import CaseError, UsageError
+from lambda_core.domain.files import read_text
+
+Keys = tuple[str, ...]
+# A degree of freedom may be written short: "free" instead of {mode = "free"}.
+_MODE = "mode"
+
+
+@dataclass(frozen=True)
+class _Change:
+    keys: Keys
+    before: Any  # None: nothing was written
+    after: Any
+
+
+_SEAL = _Change((), None, None)
+
+
+@dataclass
+class Draft:
+    """What an editor of a case holds.
+
+    Values are set one by one, may be wrong, can be undone, and are written to the file
+    with everything else in it left as it was.
+
+    Attributes
+    ----------
+    path : pathlib.Path or None
+        The file; None for a case that has none yet.
+    original : str
+        Text of the file when it was last read or written: comments and spellings are kept from it.
+    tables : dict
+        What the file would say now.
+    """
+
+    path: Path | None
+    original: str
+    tables: dict[str, Any]
+    folder: Path | None = None  # that file names in the tables are relative to; None: the working directory
+    _saved: dict[str, Any] = field(default_factory=dict)
+    _done: list[_Change] = field(default_factory=list)
+    _undone: list[_Change] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self._saved = deepcopy(self.tables)
+
+    # -- values --
+
+    def get(self, *keys: str) -> Any:
+        """Return what is written at a place, None where nothing is."""
+        value: Any = self.tables
+        for key in keys:
+            if isinstance(value, str) and key == _MODE and _is_dof(keys[:-1]):
+                return value
+            if not isinstance(value, Mapping) or key not in value:
+                return None
+            value = value[key]
+        return value
+
+    def set(self, *keys: str, value: Any) -> None:
+        """Write a value, or take it out with None; empty tables go with their last value.
+
+        Changes of one place that follow each other are undone together.
+
+        Parameters
+        ----------
+        *keys : str
+            Path of the option.
+        value : object
+            What would stand in the file.
+        """
+        before = deepcopy(self.get(*keys))
+        if before == value and type(before) is type(value):
+            return
+        self._put(keys, value)
+        last = self._done[-1] if self._done else None
+        if last is not None and last.keys == keys and not self._undone:
+            self._done[-1] = _Change(keys, last.before, deepcopy(value))
+        else:
+            self._done.append(_Change(keys, before, deepcopy(value)))
+        self._undone.clear()
+
+    def replace(self, tables: Mapping[str, Any]) -> None:
+        """Put other tables in the place of all; each is undone on its own."""
+        keys = dict.fromkeys((*self.tables, *tables))
+        self.seal()
+        for key in keys:
+            self.set(key, value=tables.get(key))
+
+    def seal(self) -> None:
+        """End a series of changes of one place: the next one is undone on its own."""
+        if self._done and self._done[-1].keys:
+            self._done.append(_SEAL)
+
+    def undo(self) -> Keys | None:
+        """Take the last change back; return its place, None when there is none."""
+        while self._done and not self._done[-1].keys:
+            self._done.pop()
+        if not self._done:
+            return None
+        change = self._done.pop()
+        self._undone.append(change)
+        self._put(change.keys, change.before)
+        return change.keys
+
+    def redo(self) -> Keys | None:
+        """Bring back what `undo` took; return its place, None when there is nothing."""
+        if not self._undone:
+            return None
+        change = self._undone.pop()
+        self._done.append(change)
+        self._put(change.keys, change.after)
+        return change.keys
+
+    def _put(self, keys: Keys, value: Any) -> None:
+        tables: list[dict[str, Any]] = [self.tables]
+        for key in keys[:-1]:
+            inner = tables[-1].get(key)
+            if not isinstance(inner, dict):
+                inner = {_MODE: inner} if isinstance(inner, str) and _is_dof(keys[:-1]) else {}
+            tables[-1][key] = inner
+            tables.append(inner)
+        if value is None:
+            tables[-1].pop(keys[-1], None)
+        else:
+            tables[-1][keys[-1]] = deepcopy(value)
+        for table, key in zip(reversed(tables[:-1]), reversed(keys[:-1]), strict=True):
+            if not table[key]:
+                del table[key]
+            elif _is_dof(keys[:-1]) and set(table[key]) == {_MODE}:
+                table[key] = table[key][_MODE]
+
+    # -- what it means --
+
+    def case(self) -> Case:
+        """Return the case; CaseError with every mistake of the file itself."""
+        return validate_case(self.tables, str(self.tables.get("name", "case")), self.folder)
+
+    def is_changed(self, *keys: str) -> bool:
+        """Tell whether what stands at a place (everything without one) differs from the file."""
+        saved: Any = self._saved
+        for key in keys:
+            if isinstance(saved, Mapping):
+                saved = saved.get(key)
+            elif key != _MODE or not _is_dof(keys[:-1]):
+                saved = None
+        return bool((self.get(*keys) if keys else self.tables) != saved)
+
+    # -- the file --
+
+    def text(self) -> str:
+        """Return the file's text as it would be saved now."""
+        return tables_toml(self.tables, self.original)
+
+    def save(self, path: Path | None = None) -> Path:
+        """Write the file in one step and return it.
+
+        Raises
+        ------
+        UsageError
+            When there is no path yet, or the file cannot be written; the draft stays as it is.
+        """
+        target = path or self.path
+        if target is None:
+            raise UsageError("this case has no file yet: say where to save it")
+        text = self.text()
+        save_text(text, target)
+        self.path, self.folder, self.original = target, target.resolve().parent, text
+        self._saved = deepcopy(self.tables)
+        self.seal()
+        return target
+
+    def changed_on_disk(self) -> bool:
+        """Tell whether somebody else has written the file since it was read or saved here."""
+        if self.path is None:
+            return False
+        try:
+            return self.path.read_text(encoding="utf-8-sig") != self.original
+        except (OSError, UnicodeDecodeError):
+            return True
+
+
+def _is_dof(keys: Keys) -> bool:
+    return len(keys) == 3 and keys[0] == "bodies" and keys[2] in DOFS
+
+
+def new_draft(name: str = "untitled") -> Draft:
+    """Return a draft that says nothing but its name."""
+    return Draft(None, "", {"name": name}, Path.cwd())
+
+
+def open_draft(source: str | Path) -> Draft:
+    """Open a case file, or a copy of a built-in case, for editing; it may hold mistakes.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file or built-in case.
+    CaseError
+        When the file is not TOML at all.
+    """
+    path = Path(source)
+    if path.is_file():
+        return draft_of(_read(path), path)
+    if str(source) in builtin_cases():
+        return draft_of(builtin_text(str(source)), None)
+    load_case(source)  # says what there is instead
+    raise AssertionError("neither a file nor a built-in case, and no error says so")
+
+
+def draft_of(text: str, path: Path | None) -> Draft:
+    """Return the draft of a file's text; CaseError when it is not TOML."""
+    try:
+        tables = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise CaseError(path.name if path else "case", [syntax_problem(str(error), text)]) from None
+    return Draft(path, text, tables, path.resolve().parent if path else Path.cwd())
+
+
+def _read(path: Path) -> str:
+    try:
+        return read_text(path)
+    except UnicodeDecodeError:
+        raise UsageError(f'"{path}" is not a text file in UTF-8') from None
+    except OSError as error:
+        raise UsageError(f'cannot read "{path}": {error.strerror}') from None

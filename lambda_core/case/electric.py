@@ -1,0 +1,226 @@
+"""The bearing in an electric circuit: the section electric."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import PrivateAttr, ValidationInfo, model_validator
+
+from lambda_core.case.option import Section, option
+from lambda_core.case.signals import read_table
+from lambda_core.domain.units import (
+    Capacitance,
+    Conductivity,
+    Current,
+    FieldStrength,
+    Frequency,
+    NumberDensity,
+    Resistance,
+    SmallLength,
+    Time,
+    Voltage,
+    parse,
+    show,
+)
+
+
+class Inverter(Section):
+    """Common-mode voltage of a two-level inverter with three phases and sine-triangle modulation."""
+
+    dc_link: Voltage = option("800 V", "voltage of the dc link", gt=0.0)
+    switching_frequency: Frequency = option("10 kHz", "frequency of the triangle", gt=0.0)
+    rise_time: Time = option("50 ns", "duration of a switching edge", gt=0.0)
+    modulation: float = option(0.8, "amplitude of the sine over that of the triangle", ge=0.0, le=1.0)
+    pole_pairs: int = option(4, "of the machine: its fundamental is pole pairs times speed", ge=1)
+
+    @model_validator(mode="after")
+    def _edges_fit(self) -> Inverter:
+        if self.rise_time * self.switching_frequency > 0.05:
+            raise ValueError("rise_time is more than 1/20 of a switching period: the edges would overlap")
+        return self
+
+
+class Sine(Section):
+    """Sinusoidal common-mode voltage."""
+
+    amplitude: Voltage = option(description="amplitude", gt=0.0)
+    frequency: Frequency = option(description="frequency", gt=0.0)
+    points: int = option(200, "corners of the polygon per period", ge=16)
+
+
+class Step(Section):
+    """One edge of the common-mode voltage from zero."""
+
+    amplitude: Voltage = option(description="voltage after the edge")
+    time: Time = option("0 s", "when the edge begins", ge=0.0)
+    rise_time: Time = option("50 ns", "duration of the edge", gt=0.0)
+
+
+class Series(Section):
+    """Measured common-mode voltage, repeated from its start when it is over."""
+
+    points: list[str] | None = option(None, 'times and voltages in place of a file, ["0 s, 0 V", "1 us, 5 V", ...]')
+    file: str | None = option(None, 'CSV file whose header is "time [s],voltage [V]"', min_length=1)
+    _rows: tuple[tuple[float, float], ...] = PrivateAttr(default=())
+
+    @model_validator(mode="after")
+    def _read(self, info: ValidationInfo) -> Series:
+        if (self.points is None) == (self.file is None):
+            raise ValueError("give either points or file")
+        if self.points is not None:
+            rows = tuple(_point(text) for text in self.points)
+        else:
+            rows = read_table(Path((info.context or {}).get("folder") or ".") / str(self.file), "voltage")
+        check_series(rows, self.file or "points")
+        self._rows = rows
+        return self
+
+    @property
+    def rows(self) -> tuple[tuple[float, float], ...]:
+        """Points as (time [s], voltage [V])."""
+        return self._rows
+
+    def inlined(self) -> dict[str, Any]:
+        """Return the series with its points written out, for a case that must stand alone."""
+        return {"points": [f"{show(t, 'time')}, {show(v, 'voltage')}" for t, v in self.rows]}
+
+
+def _point(text: str) -> tuple[float, float]:
+    time, comma, volts = text.partition(",")
+    if not comma:
+        raise ValueError(f'"{text}": write a time and a voltage, for example "1 us, 5 V"')
+    return parse(time, "time"), parse(volts, "voltage")
+
+
+def check_series(rows: tuple[tuple[float, float], ...], name: str) -> None:
+    """Refuse a measured series that is too short, runs backwards, or has gaps.
+
+    Raises
+    ------
+    ValueError
+        With a sentence that names the file and the line.
+    """
+    if len(rows) < 3:
+        raise ValueError(f'"{name}": a series needs at least three rows')
+    steps = [later[0] - earlier[0] for earlier, later in pairwise(rows)]
+    usual = sorted(steps)[len(steps) // 2]
+    for number, step in enumerate(steps, start=3):
+        if step <= 0.0:
+            raise ValueError(f'"{name}" line {number}: the times must increase')
+        if step > _GAP * usual:
+            raise ValueError(
+                f'"{name}" line {number}: a gap of {step:.4g} s where the rows are {usual:.4g} s apart; '
+                "cut the series there, or fill the gap"
+            )
+
+
+_GAP = 20.0  # times the usual distance of rows
+
+
+class Machine(Section):
+    """Capacitances of the machine between winding, rotor and frame."""
+
+    winding_rotor: Capacitance = option(
+        "50 pF", "C_wr, winding to rotor", reference="order of size, Muetze and Binder 2007, IEEE TIE 54, 1614", gt=0.0
+    )
+    rotor_frame: Capacitance = option(
+        "800 pF", "C_rf, rotor to frame", reference="order of size, Muetze and Binder 2007, IEEE TIE 54, 1614", ge=0.0
+    )
+    other_bearings: Capacitance | None = option(
+        None, "of all other bearings of the machine; absent: one more like this", ge=0.0
+    )
+
+
+class Grounding(Section):
+    """What leads the current past the bearing, or keeps it away."""
+
+    brush: Resistance | None = option(None, "resistance of a grounding brush on the shaft; absent: no brush", gt=0.0)
+    insulation: Capacitance | None = option(
+        None, "of a coating or sleeve on the outer ring; absent: the ring touches the frame", gt=0.0
+    )
+    insulation_resistance: Resistance = option("1 GOhm", "of that coating", gt=0.0)
+    shunt: Resistance | None = option(None, "that bridges the insulation, to measure the current", gt=0.0)
+
+    @model_validator(mode="after")
+    def _shunt_needs_insulation(self) -> Grounding:
+        if self.shunt is not None and self.insulation is None:
+            raise ValueError("a shunt bridges an insulation: give insulation too")
+        return self
+
+
+class Film(Section):
+    """The lubricating film and its surroundings as electric parts."""
+
+    conductivity: Conductivity = option("1e-10 S/m", "of the oil", reference="order of size of mineral oils", ge=0.0)
+    metal_resistance: Resistance = option("1 Ohm", "of a contact whose asperities touch", reference="assumed", gt=0.0)
+    roughness: Literal["smooth", "gamma"] = option(
+        "smooth", "whether roughness raises the capacitance of the Hertzian area"
+    )
+    surroundings: Capacitance | None = option(
+        None, "of the rings against each other past the balls; absent: shoulders as coaxial cylinders in air", ge=0.0
+    )
+
+
+class Breakdown(Section):
+    """Voltage that a film stands."""
+
+    law: Literal["statistical", "field", "particles"] = option(
+        "statistical", "rough film, smooth film, or rough film with particles"
+    )
+    strength: FieldStrength = option(
+        "30 V/um", "E_b, field that breaks the oil down", reference="second-hand: 15 to 30 V/um and more", gt=0.0
+    )
+    correlation_length: SmallLength = option("10 um", "distance at which roughness is independent", gt=0.0)
+    least_voltage: Voltage = option("0.5 V", "below which nothing breaks down", gt=0.0)
+    particle_size: SmallLength = option("0.3 um", "of conducting particles", gt=0.0)
+    particle_density: NumberDensity = option("1000 1/mm3", "of conducting particles in the oil", ge=0.0)
+
+
+class Discharge(Section):
+    """The arc in a film that broke down."""
+
+    resistance: Resistance = option("10 Ohm", "of the arc", reference="assumed", gt=0.0)
+    voltage: Voltage = option("0 V", "fall that does not depend on the current", ge=0.0)
+    least_current: Current = option("10 mA", "below which the arc dies", gt=0.0)
+
+
+class Electric(Section):
+    """The bearing in the circuit of an electric machine; absent: the circuit is not computed."""
+
+    inverter: Inverter | None = option(None, "source: two-level inverter; without any source this with its defaults")
+    sine: Sine | None = option(None, "source: sinusoidal common-mode voltage")
+    step: Step | None = option(None, "source: one edge of the common-mode voltage")
+    series: Series | None = option(None, "source: measured common-mode voltage")
+    machine: Machine = option({}, "capacitances of the machine")
+    grounding: Grounding = option({}, "brush, insulation, shunt")
+    film: Film = option({}, "conduction and surroundings of the films")
+    breakdown: Breakdown = option({}, "when a film breaks down")
+    discharge: Discharge = option({}, "what burns then")
+    seed: int = option(1, "key of the random numbers: the same seed gives the same discharges", ge=0, lt=2**31)
+    duration: Time | None = option(
+        None, "time that is computed; absent: the averaging window of a run, 10 turns of the cage of a case", gt=0.0
+    )
+
+    @property
+    def source(self) -> Inverter | Sine | Step | Series:
+        """What feeds the circuit."""
+        return self.sine or self.step or self.series or self.inverter or Inverter()
+
+    @model_validator(mode="after")
+    def _one_source(self) -> Electric:
+        given = [name for name in ("inverter", "sine", "step", "series") if getattr(self, name) is not None]
+        if len(given) > 1:
+            raise ValueError(f"{' and '.join(given)} are both sources: give one of inverter, sine, step, series")
+        return self
+
+    @model_validator(mode="after")
+    def _arcs_can_burn(self) -> Electric:
+        least = self.discharge.voltage + self.discharge.resistance * self.discharge.least_current
+        if self.breakdown.least_voltage <= least:
+            raise ValueError(
+                f"breakdown.least_voltage must be above {least:.4g} V, which the least current of an arc needs "
+                "(discharge.voltage + discharge.resistance * discharge.least_current)"
+            )
+        return self

@@ -1,0 +1,195 @@
+"""How it is moved and loaded: the sections loads, operation, bodies, gravity, markers."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import GetJsonSchemaHandler, model_serializer, model_validator
+from pydantic_core import CoreSchema
+
+from lambda_core.case.option import Section, option
+from lambda_core.case.signals import AngleSignal, ForceSignal, LengthSignal, MomentSignal, SpeedSignal
+from lambda_core.domain.elements import BodyName
+from lambda_core.domain.units import (
+    Acceleration,
+    Angle,
+    AngularDamping,
+    AngularStiffness,
+    Damping,
+    Inertia,
+    Length,
+    Mass,
+    SmallLength,
+    Stiffness,
+    Unbalance,
+)
+
+Mode = Literal["free", "locked", "prescribed"]
+
+
+class _Dof(Section):
+    """One degree of freedom; the short form is only its mode ("free", "locked")."""
+
+    mode: Mode = option("free", "free, locked, or prescribed by a motion")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _short_form(cls, value: Any) -> Any:
+        return {"mode": value} if isinstance(value, str) else value
+
+    @model_validator(mode="after")
+    def _consistent(self) -> _Dof:
+        motion = getattr(self, "motion", None)
+        elastic = getattr(self, "stiffness", 0.0) or getattr(self, "damping", 0.0)
+        if self.mode == "prescribed" and motion is None and "motion" in type(self).model_fields:
+            raise ValueError('mode = "prescribed" needs a motion')
+        if motion is not None and self.mode != "prescribed":
+            raise ValueError(f'a motion needs mode = "prescribed", not "{self.mode}"')
+        if elastic and self.mode != "free":
+            raise ValueError(f'stiffness and damping of a support need mode = "free", not "{self.mode}"')
+        return self
+
+    @model_serializer(mode="wrap")
+    def _shorten(self, handler: Any) -> Any:
+        written = handler(self)
+        return self.mode if self.model_fields_set <= {"mode"} else {"mode": self.mode, **written}
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {"anyOf": [{"enum": ["free", "locked", "prescribed"]}, handler(schema)]}
+
+
+class Translation(_Dof):
+    """Boundary condition along one axis."""
+
+    motion: LengthSignal | None = option(None, "prescribed position over time")
+    stiffness: Stiffness = option("0 N/m", "elastic support to ground", ge=0.0)
+    damping: Damping = option("0 N s/m", "damping of the support", ge=0.0)
+
+
+class Tilt(_Dof):
+    """Boundary condition of a rotation about y or z."""
+
+    motion: AngleSignal | None = option(None, "prescribed angle over time")
+    stiffness: AngularStiffness = option("0 N m/rad", "elastic support to ground", ge=0.0)
+    damping: AngularDamping = option("0 N m s/rad", "damping of the support", ge=0.0)
+
+
+class Spin(_Dof):
+    """Boundary condition of the rotation about the body's own axis."""
+
+    motion: SpeedSignal | None = option(None, "prescribed speed over time")
+    damping: AngularDamping = option("0 N m s/rad", "resistance to the rotation", ge=0.0)
+
+
+class InnerSpin(_Dof):
+    """Rotation of the inner ring; its speed over time is operation.speed."""
+
+    damping: AngularDamping = option("0 N m s/rad", "resistance to the rotation", ge=0.0)
+
+
+class _Body(Section):
+    mass: Mass | None = option(None, "mass; absent: from the geometry", gt=0.0)
+    transverse_inertia: Inertia | None = option(None, "moment of inertia about a diameter; absent: estimated", gt=0.0)
+    polar_inertia: Inertia | None = option(None, "moment of inertia about the axis; absent: estimated", gt=0.0)
+    unbalance: Unbalance = option("0 g mm", "mass times eccentricity of the centre of mass", ge=0.0)
+
+
+class InnerRing(_Body):
+    """The inner ring with its shaft."""
+
+    shaft_mass: Mass = option("0 kg", "mass of the shaft that moves with the inner ring", ge=0.0)
+    shaft_transverse_inertia: Inertia | None = option(None, "of the shaft; absent: bar filling the bore", ge=0.0)
+    shaft_polar_inertia: Inertia | None = option(None, "of the shaft; absent: bar filling the bore", ge=0.0)
+    x: Translation = option("free", "axial")
+    y: Translation = option("free", "horizontal")
+    z: Translation = option("free", "vertical")
+    tilt_y: Tilt = option("free", "rotation about y")
+    tilt_z: Tilt = option("free", "rotation about z")
+    spin: InnerSpin = option("prescribed", "rotation: prescribed (operation.speed) or free (operation.torque)")
+
+
+class OuterRing(_Body):
+    """The outer ring; fixed by default. Where it moves, its mass may include the housing's."""
+
+    x: Translation = option("locked", "axial")
+    y: Translation = option("locked", "horizontal")
+    z: Translation = option("locked", "vertical")
+    tilt_y: Tilt = option("locked", "rotation about y")
+    tilt_z: Tilt = option("locked", "rotation about z")
+    spin: Spin = option("locked", "rotation about the axis")
+
+
+class CageBody(_Body):
+    """The cage: its type from the catalogue, single values replaced here."""
+
+    type: str = option("steel-ribbon", "catalogue name of the cage type", min_length=1)
+    guidance: Literal["ball", "inner ring", "outer ring"] | None = option(None, "what centres the cage")
+    pocket_clearance: SmallLength | None = option(None, "diametral clearance of ball and pocket", gt=0.0)
+    land_clearance: SmallLength | None = option(None, "diametral clearance of cage and guiding ring", gt=0.0)
+    width: Length | None = option(None, "axial width", gt=0.0)
+    radial_thickness: Length | None = option(None, "radial thickness", gt=0.0)
+    x: Translation = option("free", "axial")
+    y: Translation = option("free", "horizontal")
+    z: Translation = option("free", "vertical")
+    tilt_y: Tilt = option("free", "rotation about y")
+    tilt_z: Tilt = option("free", "rotation about z")
+    spin: Spin = option("free", "rotation about the axis")
+
+
+class Bodies(Section):
+    """Masses and boundary conditions of the bodies."""
+
+    inner_ring: InnerRing = option({}, "inner ring with shaft")
+    outer_ring: OuterRing = option({}, "outer ring with housing")
+    cage: CageBody = option({}, "cage")
+
+
+class BodyLoads(Section):
+    """External force and moment on one body, in the inertial frame."""
+
+    force_x: ForceSignal = option("0 N", "force along the shaft")
+    force_y: ForceSignal = option("0 N", "horizontal force")
+    force_z: ForceSignal = option("0 N", "vertical force, upwards")
+    moment_y: MomentSignal = option("0 N m", "moment about y")
+    moment_z: MomentSignal = option("0 N m", "moment about z")
+
+
+class Loads(Section):
+    """External loads; the first four act on the inner ring."""
+
+    radial: ForceSignal = option("0 N", "radial load on the inner ring")
+    radial_direction: Angle = option("270 deg", "azimuth of the radial load, from +y to +z; 270 deg is down")
+    axial: ForceSignal = option("0 N", "axial load on the inner ring, along +x")
+    moment_y: MomentSignal = option("0 N m", "moment on the inner ring about y")
+    moment_z: MomentSignal = option("0 N m", "moment on the inner ring about z")
+    inner_ring: BodyLoads | None = option(None, "further loads on the inner ring")
+    outer_ring: BodyLoads | None = option(None, "loads on the outer ring")
+    cage: BodyLoads | None = option(None, "loads on the cage")
+
+
+class Operation(Section):
+    """What drives the bearing."""
+
+    speed: SpeedSignal = option(description="speed of the inner ring over time (initial speed where its spin is free)")
+    torque: MomentSignal | None = option(None, "driving torque on the inner ring; needs bodies.inner_ring.spin free")
+    temperatures: Literal["given", "computed"] = option(
+        "given", 'of oil and parts: as the case says, or "computed" by the network of [thermal] for t = 0'
+    )
+
+
+class Gravity(Section):
+    """Acceleration of gravity."""
+
+    x: Acceleration = option("0 m/s2", "along the shaft")
+    y: Acceleration = option("0 m/s2", "horizontal")
+    z: Acceleration = option("-9.80665 m/s2", "vertical", reference="standard gravity, ISO 80000-3")
+
+
+class Marker(Section):
+    """A named point on a body whose motion is written to the result."""
+
+    body: BodyName = option(description="body that carries the point")
+    x: Length = option("0 mm", "position in the body's frame, axial")
+    y: Length = option("0 mm", "position in the body's frame, horizontal at t = 0")
+    z: Length = option("0 mm", "position in the body's frame, vertical at t = 0")

@@ -1,0 +1,48 @@
+"""One declaration per option: default, help, limits and source, rendered in files, forms, help and docs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from lambda_core.domain.units import Quantity
+
+
+class Section(BaseModel):
+    """Base of every table of a case: no unknown keys, immutable, defaults checked like input."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, allow_inf_nan=False)
+
+
+def option(default: Any = ..., description: str = "", *, reference: str = "", **limits: Any) -> Any:
+    """Declare one option of a case.
+
+    Parameters
+    ----------
+    default : object
+        What holds when nothing is written, as it would stand in a file (``"0.1 um"``); ``...`` means required.
+    description : str
+        One sentence for people.
+    reference : str
+        Where the default or the meaning comes from.
+    **limits
+        Passed to :func:`pydantic.Field` (``ge``, ``gt``, ``le``, ``lt``, ``min_length`` ...), in SI.
+    """
+    extra: dict[str, Any] = {"x-reference": reference} if reference else {}
+    return Field(default, description=description, json_schema_extra=extra or None, **limits)
+
+
+def quantity_of(model: type[BaseModel], name: str) -> str:
+    """Return the quantity of a plain dimensional field, "" for any other field."""
+    info = model.model_fields.get(name)
+    if info is None:
+        return ""
+    pending: list[Any] = [info.annotation, *info.metadata]
+    while pending:
+        item = pending.pop()
+        if isinstance(item, Quantity):
+            return item.name
+        pending.extend(getattr(item, "__metadata__", ()))
+        pending.extend(getattr(item, "__args__", ()))
+    return ""

@@ -1,0 +1,187 @@
+"""The bearing and what it is made of: the sections bearing, materials, lubricant, surface."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Tag, field_validator
+
+from lambda_core.case.option import Section, option
+from lambda_core.domain.units import (
+    Density,
+    Force,
+    KinematicViscosity,
+    Length,
+    Modulus,
+    SmallLength,
+    SpecificHeat,
+    Temperature,
+    ThermalConductivity,
+    ThermalExpansion,
+    parse,
+)
+
+CLEARANCE_CLASSES = ("C2", "CN", "C3", "C4", "C5")
+# Behind a class: its lower half, its upper half, its middle, or its upper half with the lower half of the next class.
+CLEARANCE_PARTS = "LHMP"
+
+
+class InlineGeometry(Section):
+    """Inner geometry written in the case; beside a designation it replaces single catalogue values."""
+
+    ball_count: int | None = option(None, "number of balls", ge=3, le=60)
+    ball_diameter: Length | None = option(None, "ball diameter D_w", gt=0.0)
+    pitch_diameter: Length | None = option(None, "pitch diameter d_m", gt=0.0)
+    groove_radius_inner: Length | None = option(None, "radius of the inner groove r_i", gt=0.0)
+    groove_radius_outer: Length | None = option(None, "radius of the outer groove r_o", gt=0.0)
+    conformity_inner: float | None = option(None, "r_i / D_w, in place of the groove radius", gt=0.5, le=0.7)
+    conformity_outer: float | None = option(None, "r_o / D_w, in place of the groove radius", gt=0.5, le=0.7)
+    race_diameter_inner: Length | None = option(None, "inner raceway diameter at the groove's bottom", gt=0.0)
+    race_diameter_outer: Length | None = option(None, "outer raceway diameter at the groove's bottom", gt=0.0)
+    shoulder_diameter_inner: Length | None = option(None, "diameter of the inner ring's shoulders", gt=0.0)
+    shoulder_diameter_outer: Length | None = option(None, "diameter of the outer ring's shoulders", gt=0.0)
+    bore_diameter: Length | None = option(None, "bore d", gt=0.0)
+    outside_diameter: Length | None = option(None, "outside diameter D", gt=0.0)
+    width: Length | None = option(None, "width B", gt=0.0)
+    series: Literal["60", "62", "63", "64", "618", "619"] | None = option(None, "dimension series")
+    dynamic_rating: Force | None = option(None, "basic dynamic load rating C", gt=0.0)
+    static_rating: Force | None = option(None, "basic static load rating C0", gt=0.0)
+
+
+class Fits(Section):
+    """Seats of the rings; an interference fit takes clearance away."""
+
+    shaft: str | None = option(None, 'ISO 286 tolerance of the shaft ("k5") or a diametral interference ("12 um")')
+    housing: str | None = option(None, 'ISO 286 tolerance of the housing ("H7") or a diametral interference ("0 um")')
+    shaft_bore: Length = option("0 mm", "bore of a hollow shaft", ge=0.0)
+    housing_outside_diameter: Length | None = option(None, "outside diameter of the housing; absent: rigid", gt=0.0)
+
+    @field_validator("shaft", "housing")
+    @classmethod
+    def _tolerance_or_value(cls, text: str | None) -> str | None:
+        if text is None or re.fullmatch(r"[A-Za-z]{1,2}\d{1,2}", text.strip()):
+            return text.strip() if text else text
+        parse(text, "small_length")
+        return text
+
+
+class PartTemperatures(Section):
+    """Temperatures in operation, for thermal expansion; absent parts have the oil's temperature."""
+
+    reference: Temperature = option("20 degC", "temperature at which clearance and diameters were measured")
+    inner_ring: Temperature | None = option(None, "inner ring")
+    outer_ring: Temperature | None = option(None, "outer ring")
+    balls: Temperature | None = option(None, "balls")
+    shaft: Temperature | None = option(None, "shaft; absent: as the inner ring")
+    housing: Temperature | None = option(None, "housing; absent: as the outer ring")
+
+
+class Bearing(Section):
+    """Which bearing it is, and its clearance."""
+
+    designation: str | None = option(
+        None,
+        'catalogue designation, for example "6208"; suffixes ("6208-2RS1/C3") decide what the case leaves open',
+        min_length=1,
+    )
+    maker: str | None = option(None, "whose design, where several makers are in the catalogue", min_length=1)
+    geometry: InlineGeometry | None = option(None, "inner geometry written here")
+    clearance: str | None = option(
+        None,
+        'radial internal clearance (diametral measure): a class ("CN"; "C3L", "C3H", "C3M", "C3P": lower half, upper '
+        'half, middle, upper half and lower half of the next), a value ("14 um") or "geometry" (follows from the '
+        "raceway diameters); absent: the suffix's, or CN",
+        reference="ISO 5753-1 for the classes",
+    )
+    clearance_pick: Literal["minimum", "middle", "maximum"] = option("middle", "which value of a clearance class")
+    fits: Fits | None = option(None, "seats of the rings; absent: the clearance is that of the mounted bearing")
+    temperatures: PartTemperatures | None = option(
+        None, "temperatures of the parts; absent: the clearance is that at operating temperature"
+    )
+
+    @field_validator("clearance")
+    @classmethod
+    def _class_or_value(cls, text: str | None) -> str | None:
+        if text is None:
+            return None
+        folded = text.strip().upper()
+        if folded in (*CLEARANCE_CLASSES, "C0"):
+            return "CN" if folded == "C0" else folded
+        if folded[:2] in CLEARANCE_CLASSES and len(folded) == 3 and folded[2] in CLEARANCE_PARTS:
+            return folded
+        if text.strip().casefold() == "geometry":
+            return "geometry"
+        if not re.search(r"\d", text) or re.fullmatch(r"\s*[Cc]\d+\s*", text):
+            known = ", ".join(CLEARANCE_CLASSES)
+            raise ValueError(f'"{text}" is not a clearance class; write {known}, a value like "14 um", or "geometry"')
+        parse(text, "small_length")
+        return text
+
+
+class InlineMaterial(Section):
+    """A material written in the case."""
+
+    youngs_modulus: Modulus = option(description="Young's modulus E", gt=0.0)
+    poisson_ratio: float = option(description="Poisson's ratio", ge=0.0, lt=0.5)
+    density: Density = option(description="density", gt=0.0)
+    thermal_conductivity: ThermalConductivity = option(description="thermal conductivity", gt=0.0)
+    specific_heat: SpecificHeat = option(description="specific heat capacity", gt=0.0)
+    thermal_expansion: ThermalExpansion = option("0 1/K", "linear thermal expansion", ge=0.0)
+
+
+def _name_or_table(value: Any) -> str:
+    return "kind:table" if isinstance(value, dict | Section) else "kind:name"
+
+
+MaterialChoice = Annotated[
+    Annotated[str, Tag("kind:name")] | Annotated[InlineMaterial, Tag("kind:table")], Discriminator(_name_or_table)
+]
+
+
+class Materials(Section):
+    """Material of each part: a catalogue name or a table of properties."""
+
+    inner: MaterialChoice = option("100Cr6", "inner ring")
+    outer: MaterialChoice = option("100Cr6", "outer ring")
+    balls: MaterialChoice = option("100Cr6", 'balls; "Si3N4" makes a hybrid bearing')
+    cage: MaterialChoice | None = option(None, "cage; absent: the material of the cage type")
+
+
+class InlineLubricant(Section):
+    """An oil written in the case: what every oil needs; its laws take parameters.<role>."""
+
+    base_type: str = option("mineral", "kind of base oil", min_length=1)
+    rheology: str = option(description="rheology model that the parameters are for", min_length=1)
+    thermal_conductivity: ThermalConductivity = option(description="thermal conductivity", gt=0.0)
+    specific_heat: SpecificHeat = option(description="specific heat capacity", gt=0.0)
+    kinematic_viscosity_40: KinematicViscosity | None = option(None, "kinematic viscosity at 40 degC", gt=0.0)
+    kinematic_viscosity_100: KinematicViscosity | None = option(None, "kinematic viscosity at 100 degC", gt=0.0)
+    density_15: Density | None = option(None, "density at 15 degC", gt=0.0)
+
+
+class Lubricant(Section):
+    """The oil and how much of it there is."""
+
+    name: str = option(description='catalogue name, for example "FVA3A"; with properties: any name', min_length=1)
+    properties: InlineLubricant | None = option(None, "the oil's properties, in place of the catalogue's")
+    temperature: Temperature = option(description="temperature of the oil bath and of the contact inlets")
+    oil_level: Length = option(
+        "0 mm",
+        "height of the oil above the lowest point of the pitch circle; 0 is the centre of the lowest ball",
+        reference="usual oil bath level at standstill",
+    )
+    starvation: float = option(
+        1.0, "factor on the film by the supply law constant, rolling resistance falls with it; 1: none", gt=0.0, le=1.0
+    )
+
+
+class Surface(Section):
+    """Roughness of the rolling surfaces."""
+
+    roughness: SmallLength = option(
+        "0.1 um",
+        "composite rms roughness sigma of ball and raceway",
+        reference="Wingertszahn et al. 2023, Lubricants 11, 369, use 0.10 and 0.16 um",
+        gt=0.0,
+    )

@@ -1,0 +1,130 @@
+"""Every mistake in a case as one clear sentence at its path: from pydantic's errors to ours."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, get_args
+
+from pydantic import BaseModel, ValidationError
+
+from lambda_core.case.option import quantity_of
+from lambda_core.case.signals import SIGNAL_KINDS
+from lambda_core.domain.errors import Problem, nearest
+from lambda_core.domain.option_tree import model_at, option_paths
+from lambda_core.domain.units import show
+
+_LIMITS = {
+    "greater_than": ("gt", "must be greater than"),
+    "greater_than_equal": ("ge", "must be at least"),
+    "less_than": ("lt", "must be less than"),
+    "less_than_equal": ("le", "must be at most"),
+}
+_EXPECTED = {
+    "string_type": "text in quotes",
+    "int_type": "a whole number",
+    "int_parsing": "a whole number",
+    "int_from_float": "a whole number",
+    "float_type": "a number without a unit",
+    "float_parsing": "a number without a unit",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+    "list_type": "a list in brackets",
+    "dict_type": "a table",
+    "model_type": "a table",
+    "model_attributes_type": "a table",
+    "tuple_type": "a pair in brackets",
+    "finite_number": "a finite number",
+}
+
+
+def problems(error: ValidationError, model: type[BaseModel], data: Any, prefix: str = "") -> list[Problem]:
+    """Turn a failed validation into one sentence for every mistake.
+
+    Parameters
+    ----------
+    error : pydantic.ValidationError
+        From validating `data` with `model`.
+    data : object
+        What stands in the file, as plain tables.
+    prefix : str
+        Path of `data` within the whole file.
+    """
+    found: dict[str, Problem] = {}
+    for item in error.errors(include_url=False):
+        path = _path(item["loc"])
+        where = ".".join(str(part) for part in ([prefix] if prefix else []) + path)
+        found.setdefault(where, Problem(where, _message(item, path, model)))
+    return list(found.values())
+
+
+def _path(location: Sequence[int | str]) -> list[int | str]:
+    """Drop the parts of pydantic's location that are no keys of the file (union tags)."""
+    return [part for part in location if not (isinstance(part, str) and part.startswith("kind:"))]
+
+
+def _message(item: Any, path: list[int | str], model: type[BaseModel]) -> str:
+    kind, value, context = item["type"], item.get("input"), item.get("ctx", {})
+    parent, name = model_at(model, path[:-1]), str(path[-1]) if path else ""
+    if kind == "extra_forbidden":
+        return _unknown_key(name, parent, model)
+    if kind == "missing":
+        return f"is required{_help(parent, name)}"
+    if kind == "value_error":
+        return str(context["error"])
+    if kind == "union_tag_not_found":
+        given = value.get("kind") if isinstance(value, dict) else None
+        close = nearest(str(given), SIGNAL_KINDS)
+        hint = f"; nearest: {close[0]}" if given and close else ""
+        known = ", ".join(f'"{known}"' for known in SIGNAL_KINDS)
+        what = f'"{given}" is not a kind of time function' if given else "a time function needs its kind"
+        return f"{what}: write kind = one of {known}{hint}"
+    if kind == "literal_error":
+        choices = _choices(parent, name)
+        close = nearest(str(value), choices)
+        hint = f"; nearest: {close[0]}" if close else ""
+        return f"{_quoted(value)} is not allowed: write {' or '.join(_quoted(choice) for choice in choices)}{hint}"
+    if kind in _LIMITS:
+        key, words = _LIMITS[kind]
+        quantity = quantity_of(parent, name) if parent else ""
+        limit = show(float(context[key]), quantity) if quantity else f"{context[key]:g}"
+        given = show(float(value), quantity) if quantity and isinstance(value, int | float) else value
+        return f"{given if isinstance(given, str) else _quoted(given)}: {words} {limit}"
+    if kind == "string_pattern_mismatch":
+        return f"{_quoted(value)}: use letters, digits, dot, dash and underscore only, the first a letter or digit"
+    if kind == "string_type" and isinstance(value, int | float) and not isinstance(value, bool):
+        return f'write it in quotes: "{value}"'
+    if kind in _EXPECTED:
+        return f"{_quoted(value)} is not {_EXPECTED[kind]}{_help(parent, name)}"
+    return str(item["msg"])
+
+
+def _quoted(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, Mapping):
+        return "a table"
+    return f'"{value}"' if isinstance(value, str) else str(value)
+
+
+def _help(parent: type[BaseModel] | None, name: str) -> str:
+    info = parent.model_fields.get(name) if parent else None
+    return f": {info.description}" if info is not None and info.description else ""
+
+
+def _choices(parent: type[BaseModel] | None, name: str) -> list[str]:
+    info = parent.model_fields.get(name) if parent else None
+    if info is None:
+        return []
+    members = [info.annotation, *get_args(info.annotation)]
+    return [str(choice) for member in members for choice in get_args(member) if isinstance(choice, str)]
+
+
+def _unknown_key(name: str, parent: type[BaseModel] | None, root: type[BaseModel]) -> str:
+    siblings = list(parent.model_fields) if parent else []
+    close = nearest(name, siblings)
+    if close:
+        return f"is not a known option; nearest: {', '.join(close)}"
+    elsewhere = [path for path in option_paths(root) if path.rpartition(".")[2] == name][:3]
+    if elsewhere:
+        return f"is not an option here; did you mean {' or '.join(elsewhere)}?"
+    return f"is not a known option; here are: {', '.join(siblings)}"

@@ -1,0 +1,198 @@
+"""Time functions of a case: every load, moment, speed and motion is a value or one of these tables.
+
+A plain unit string is a constant; a table says more, for example
+``{kind = "harmonic", amplitude = "10 um", frequency = "200 Hz"}``. All kinds of one signal
+carry the signal's own quantity, so that a force cannot ramp up to a speed.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, TypeVar
+
+from pydantic import Discriminator, PrivateAttr, Tag, ValidationInfo, model_validator
+
+from lambda_core.case.option import Section, option
+from lambda_core.domain.files import read_text
+from lambda_core.domain.units import Angle, Frequency, Quantity, Time, parse
+
+V = TypeVar("V")
+SIGNAL_KINDS = ("constant", "ramp", "harmonic", "table", "sum")
+
+
+class TimeTable(Section):
+    """Base of the kinds of time function."""
+
+    @classmethod
+    def model_parametrized_name(cls, params: tuple[Any, ...]) -> str:
+        """Name the class after its quantity, for schemas and messages."""
+        names = [item.name for param in params for item in getattr(param, "__metadata__", ()) if type(item) is Quantity]
+        return f"{cls.__name__}_{'_'.join(names)}" if names else super().model_parametrized_name(params)
+
+
+class Constant(TimeTable, Generic[V]):
+    """The same value at all times."""
+
+    kind: Literal["constant"]
+    value: V = option(description="the value")
+
+
+class Ramp(TimeTable, Generic[V]):
+    """Linear from one value to another, constant before and after."""
+
+    kind: Literal["ramp"]
+    start: V = option(description="value before the ramp")
+    end: V = option(description="value after the ramp")
+    start_time: Time = option("0 s", "when the ramp begins", ge=0.0)
+    end_time: Time = option(description="when the ramp ends", gt=0.0)
+
+    @model_validator(mode="after")
+    def _forward(self) -> Ramp[V]:
+        if self.end_time <= self.start_time:
+            raise ValueError("end_time must be later than start_time")
+        return self
+
+
+class Harmonic(TimeTable, Generic[V]):
+    """amplitude * sin(2 pi frequency t + phase)."""
+
+    kind: Literal["harmonic"]
+    amplitude: V = option(description="amplitude")
+    frequency: Frequency = option(description="frequency", gt=0.0)
+    phase: Angle = option("0 deg", "phase at t = 0")
+
+
+class Table(TimeTable, Generic[V]):
+    """Values at points in time, joined by a cubic spline and held constant outside.
+
+    ``points`` stand in the case; ``file`` names a CSV file beside it whose header is
+    ``time [s],value [kN]`` (the units in brackets are those of the columns).
+    """
+
+    kind: Literal["table"]
+    points: list[tuple[Time, V]] | None = option(None, 'pairs of time and value, [["0 s", "0 N"], ["1 s", "5 kN"]]')
+    file: str | None = option(None, "CSV file with two columns, relative to the case file", min_length=1)
+    _rows: tuple[tuple[float, float], ...] = PrivateAttr(default=())
+
+    @model_validator(mode="after")
+    def _read(self, info: ValidationInfo) -> Table[V]:
+        if (self.points is None) == (self.file is None):
+            raise ValueError("give either points or file")
+        if self.points is not None:
+            rows = tuple((time, float(value)) for time, value in self.points)  # type: ignore[arg-type]
+        else:
+            folder = Path((info.context or {}).get("folder") or ".")
+            rows = read_table(folder / str(self.file), self._quantity())
+        if len(rows) < 2:
+            raise ValueError("a table needs at least two points")
+        if any(later <= earlier for (earlier, _), (later, _) in pairwise(rows)):
+            raise ValueError("the times of a table must increase")
+        self._rows = rows
+        return self
+
+    @classmethod
+    def _quantity(cls) -> str:
+        (value_type,) = cls.__pydantic_generic_metadata__["args"]
+        return next(item.name for item in value_type.__metadata__ if isinstance(item, Quantity))
+
+    @property
+    def rows(self) -> tuple[tuple[float, float], ...]:
+        """Points as (time [s], value [SI])."""
+        return self._rows
+
+    def inlined(self) -> dict[str, Any]:
+        """Return the table with its points written out, for a case that must stand alone."""
+        from lambda_core.domain.units import show
+
+        quantity = self._quantity()
+        return {"kind": "table", "points": [[show(time, "time"), show(value, quantity)] for time, value in self.rows]}
+
+
+def _kind(value: Any) -> str | None:
+    kind = value.get("kind") if isinstance(value, dict) else getattr(value, "kind", "value")
+    return f"kind:{kind}" if kind in (*SIGNAL_KINDS, "value") else None
+
+
+class Sum(TimeTable, Generic[V]):
+    """Sum of other time functions."""
+
+    kind: Literal["sum"]
+    terms: list[
+        Annotated[
+            Annotated[V, Tag("kind:value")]
+            | Annotated[Constant[V], Tag("kind:constant")]
+            | Annotated[Ramp[V], Tag("kind:ramp")]
+            | Annotated[Harmonic[V], Tag("kind:harmonic")]
+            | Annotated[Table[V], Tag("kind:table")],
+            Discriminator(_kind),
+        ]
+    ] = option(description="values and tables that are added", min_length=1)
+
+
+_MOST_POINTS, _LARGEST_TABLE = 100_000, 16 * 2**20  # points, byte
+_HEADER = re.compile(r"^\s*(.*?)\s*\[\s*(.*?)\s*\]\s*$")
+
+
+def read_table(path: Path, quantity: str) -> tuple[tuple[float, float], ...]:
+    """Read a CSV file of time and value; the header names the units in brackets.
+
+    Returns
+    -------
+    tuple of (time [s], value [SI])
+
+    Raises
+    ------
+    ValueError
+        With a sentence naming the file and the line.
+    """
+    try:
+        lines = [row for row in csv.reader(read_text(path, _LARGEST_TABLE).splitlines()) if row]
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "is not UTF-8 text"
+        raise ValueError(f'cannot read "{path}": {reason}') from None
+    headers = [_HEADER.match(cell) for cell in lines[0]] if lines else []
+    if len(headers) != 2 or headers[0] is None or headers[1] is None:
+        raise ValueError(f'"{path}": the first line must name both columns with units, like "time [s],value [N]"')
+    units = (headers[0][2], headers[1][2])
+    if len(lines) > _MOST_POINTS + 1:
+        raise ValueError(f'"{path}" has {len(lines) - 1} points: at most {_MOST_POINTS}')
+    rows = []
+    for number, cells in enumerate(lines[1:], start=2):
+        if len(cells) != 2:
+            raise ValueError(f'"{path}" line {number}: expected two columns, found {len(cells)}')
+        try:
+            rows.append((parse(f"{cells[0]} {units[0]}", "time"), parse(f"{cells[1]} {units[1]}", quantity)))
+        except ValueError as error:
+            raise ValueError(f'"{path}" line {number}: {error}') from None
+    return tuple(rows)
+
+
+if TYPE_CHECKING:
+    # What a checker may rely on; at run time each alias also validates its own quantity.
+    ForceSignal = float | TimeTable
+    MomentSignal = float | TimeTable
+    LengthSignal = float | TimeTable
+    AngleSignal = float | TimeTable
+    SpeedSignal = float | TimeTable
+else:
+
+    def _signal(quantity: str) -> Any:
+        value = Annotated[float, Quantity(quantity)]
+        return Annotated[
+            Annotated[value, Tag("kind:value")]
+            | Annotated[Constant[value], Tag("kind:constant")]
+            | Annotated[Ramp[value], Tag("kind:ramp")]
+            | Annotated[Harmonic[value], Tag("kind:harmonic")]
+            | Annotated[Table[value], Tag("kind:table")]
+            | Annotated[Sum[value], Tag("kind:sum")],
+            Discriminator(_kind),
+        ]
+
+    ForceSignal = _signal("force")
+    MomentSignal = _signal("moment")
+    LengthSignal = _signal("length")
+    AngleSignal = _signal("angle")
+    SpeedSignal = _signal("rotational_speed")

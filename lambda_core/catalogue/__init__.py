@@ -1,0 +1,1 @@
+"""The catalogue's contract and the reading of designations."""

@@ -1,0 +1,172 @@
+"""The catalogue as the core sees it: rows with a source and a grade for every value.
+
+The store behind it (SQLite, in ``lambda_db``) is plugged in through the hook
+``lambda_catalogue``; the core never imports it.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, Protocol
+
+from pydantic import BaseModel, ConfigDict
+
+from lambda_core.catalogue.suffixes import Suffix
+
+Status = Literal["published", "derived", "assumed"]
+
+
+class Frozen(BaseModel):
+    """Base of catalogue rows: immutable, no unknown fields."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class Value(Frozen):
+    """One number with where it comes from. `value` is in SI units."""
+
+    value: float
+    source: str
+    grade: str  # A published and cross-read, B good, C weak, D not to be used
+    status: Status = "published"
+
+
+class Parameter(Frozen):
+    """One parameter of a lubricant for one model, in the unit it was published in."""
+
+    value: float
+    unit: str  # "" for a plain number
+    source: str
+    grade: str
+
+    def text(self) -> str | float:
+        """Return what a case file would say for this parameter."""
+        return f"{self.value!r} {self.unit}" if self.unit else self.value
+
+
+class Design(Frozen):
+    """One candidate for an inner geometry that no catalogue prints (SI)."""
+
+    ball_count: int
+    ball_diameter: float  # [m]
+    pitch_diameter: float  # [m]
+    score: float  # weighted sum of squared residuals, smaller is better
+    filling_angle: float  # [rad]
+    weight: float  # relative likelihood among the ranked candidates, 0..1
+
+
+class BearingRow(Frozen):
+    """A deep-groove ball bearing: boundary dimensions, ratings and inner geometry (SI)."""
+
+    designation: str
+    maker: str
+    series: str
+    bore_diameter: Value
+    outside_diameter: Value
+    width: Value
+    chamfer: Value | None = None
+    dynamic_rating: Value | None = None  # C [N]
+    static_rating: Value | None = None  # C0 [N]
+    fatigue_limit: Value | None = None  # Cu [N]
+    rating_type: str = ""
+    reference_speed: Value | None = None  # [rad/s]
+    limiting_speed: Value | None = None  # [rad/s]
+    mass: Value | None = None  # [kg]
+    ball_count: Value | None = None
+    ball_diameter: Value | None = None
+    pitch_diameter: Value | None = None
+    race_diameter_inner: Value | None = None  # at the groove's bottom
+    race_diameter_outer: Value | None = None
+    groove_radius_inner: Value | None = None
+    groove_radius_outer: Value | None = None
+    shoulder_diameter_inner: Value | None = None
+    shoulder_diameter_outer: Value | None = None
+    candidates: tuple[Design, ...] = ()
+    layer: Literal["core", "plugin", "user"] = "core"
+
+
+class ClearanceRow(Frozen):
+    """Limits of the radial internal clearance of one class for one bore (ISO 5753-1), SI."""
+
+    clearance_class: str
+    minimum: float  # [m]
+    maximum: float  # [m]
+    source: str
+    grade: str
+
+
+class MaterialRow(Frozen):
+    """A ring, ball or cage material (SI)."""
+
+    name: str
+    youngs_modulus: Value
+    poisson_ratio: Value
+    density: Value
+    thermal_conductivity: Value
+    specific_heat: Value
+    thermal_expansion: Value
+    permittivity: Value | None = None
+    note: str = ""
+
+
+class CageRow(Frozen):
+    """A cage type: guidance, clearances and the constants of its mass formula (SI)."""
+
+    name: str
+    suffix: str
+    guidance: str  # "ball", "outer ring", "inner ring"
+    material: str  # name of a MaterialRow
+    pocket_clearance_ratio: Value  # diametral, over ball diameter
+    land_clearance_ratio: Value | None = None  # diametral, over ball diameter
+    # Ring-shaped body: mass = density * fill * pi * pitch * (radial * D_w) * (axial * D_w)
+    fill: Value
+    radial_ratio: Value  # radial thickness over ball diameter
+    axial_ratio: Value  # width over ball diameter
+    friction: Value | None = None
+    maximum_temperature: Value | None = None
+    note: str = ""
+
+
+class LubricantRow(Frozen):
+    """A lubricant: general properties (SI) and the parameters of every model that knows it."""
+
+    name: str
+    base_type: str
+    rheology: str  # the model that "auto" stands for
+    properties: dict[str, Value]  # density_15, kinematic_viscosity_40, thermal_conductivity, ...
+    parameters: dict[str, dict[str, dict[str, Parameter]]]  # role -> model -> name -> parameter
+    note: str = ""
+    layer: Literal["core", "plugin", "user"] = "core"
+
+
+class Catalogue(Protocol):
+    """Look-ups that the core needs; an unknown name raises CatalogueError with the nearest ones."""
+
+    def bearing(self, designation: str, maker: str | None = None) -> BearingRow:
+        """Return one bearing; several makers and none given is an error that lists them."""
+
+    def bearings(self, text: str = "", limit: int = 50) -> list[BearingRow]:
+        """Return the rows that match `text` (designation, bore, series, maker), best first."""
+
+    def lubricant(self, name: str) -> LubricantRow:
+        """Return one lubricant by its name or one of its aliases."""
+
+    def lubricants(self, text: str = "", limit: int = 50) -> list[LubricantRow]:
+        """Return the lubricants that match `text`."""
+
+    def material(self, name: str) -> MaterialRow:
+        """Return one material."""
+
+    def cage(self, name: str) -> CageRow:
+        """Return one cage type."""
+
+    def clearance(self, bore_diameter: float, clearance_class: str) -> ClearanceRow:
+        """Return the limits for a bore [m] and a class such as "CN"."""
+
+    def suffixes(self) -> tuple[Suffix, ...]:
+        """Return every suffix that may stand behind a designation."""
+
+    def names(self, kind: Literal["bearing", "lubricant", "material", "cage", "clearance_class"]) -> list[str]:
+        """Return every valid name of one kind."""
+
+    def close(self) -> None:
+        """Release the files behind the catalogue."""

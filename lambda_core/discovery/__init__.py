@@ -1,0 +1,1 @@
+"""Plugins: hooks, entry points, what is installed, starting a new one."""

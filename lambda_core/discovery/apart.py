@@ -1,0 +1,101 @@
+"""Trying models out in a process of its own: a law that loops for ever or writes out of bounds ends only that."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator, Sequence
+from queue import Empty, Queue
+
+from lambda_core.discovery.registry import Registry
+from lambda_core.discovery.survey import CheckCard, check_installed, chosen
+
+LIMIT = 120.0  # [s] for one law; a kernel of 400 branches takes 50 s to compile
+
+
+def check_apart(registry: Registry, wanted: Sequence[str] = (), limit: float = LIMIT) -> Iterator[CheckCard]:
+    """Try models out as :func:`survey.check_installed` does, each within a limit of time.
+
+    Parameters
+    ----------
+    registry : Registry
+        What is installed.
+    wanted : sequence of str
+        Distributions, roles, or "role/name"; all models when empty.
+    limit : float
+        Wall time that one law may take [s].
+
+    Raises
+    ------
+    UsageError
+        For a name that is none of these.
+    """
+    left = list(chosen(registry, wanted))
+    while left:
+        with _Trials([f"{role}/{name}" for role, name in left]) as trials:
+            while left:
+                answer = trials.next(limit)
+                role, name = left.pop(0)
+                if isinstance(answer, CheckCard):
+                    yield answer
+                    continue
+                origin = registry.origin(role, name)
+                fault = f"{role}/{name} ({origin}) {answer}"
+                yield CheckCard(
+                    role=role, name=name, distribution=origin, ok=False, faults=[fault], warnings=[], not_tried="",
+                    nanoseconds=None,
+                )  # fmt: skip
+                break
+
+
+class _Trials:
+    """The process, and what it says."""
+
+    def __init__(self, labels: Sequence[str]) -> None:
+        command = [sys.executable, "-P", "-m", __name__, *labels]
+        self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
+        self._lines: Queue[str] = Queue()
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def __enter__(self) -> _Trials:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._process.kill()
+        self._process.wait()
+
+    def _read(self) -> None:
+        assert self._process.stdout is not None
+        with self._process.stdout as lines:
+            for line in lines:
+                self._lines.put(line)
+        self._lines.put("")
+
+    def next(self, limit: float) -> CheckCard | str:
+        """Return what came out of the next model, or a sentence of what it did instead."""
+        try:
+            line = self._lines.get(timeout=limit)
+        except Empty:
+            return f"did not come to an end within {limit:g} s: it loops, or takes that long to compile"
+        if line:
+            return CheckCard.model_validate_json(line)
+        code = self._process.wait()
+        how = signal.Signals(-code).name if code < 0 else f"exit code {code}"
+        return f"ended the process that tried it ({how}): machine code checks no bounds"
+
+
+def _main(labels: Sequence[str]) -> None:
+    """Try models out and write a line for each; whatever plugins print goes to stderr."""
+    from lambda_core.discovery.manager import registry
+
+    with os.fdopen(os.dup(1), "w", encoding="utf-8") as answers:
+        os.dup2(2, 1)
+        for card in check_installed(registry(), labels):
+            print(card.model_dump_json(), file=answers, flush=True)
+
+
+if __name__ == "__main__":
+    _main(sys.argv[1:])

@@ -1,0 +1,168 @@
+"""What plugins have registered so far, and the rules that each item has to meet."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field, is_dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel
+
+from lambda_core.domain.errors import unknown_name
+from lambda_core.domain.installed import OWN
+from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.domain.roles import ROLE_API, ROLES
+from lambda_core.laws.law import Law, LazyLaw, law_of
+from lambda_core.laws.old_form import new_form
+from lambda_core.laws.par import par_layout
+from lambda_core.laws.parameter import default_fault
+from lambda_core.views.method import METHOD_API, Method
+from lambda_core.views.view import view_fault
+
+_NAME = re.compile(r"[a-z0-9]+(?:-[a-z0-9]+)*")
+_TARGET = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*")
+_KINDS = {"lambda_methods": "method", "lambda_views": "view"}
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One call of ``register`` in a hook."""
+
+    hook: str
+    distribution: str
+    item: Any
+
+
+@dataclass
+class Collection:
+    """Everything registered, by kind; `take` is all or nothing for one plugin."""
+
+    models: dict[tuple[str, str], Law | LazyLaw] = field(default_factory=dict)
+    named: dict[tuple[str, str], Any] = field(default_factory=dict)  # ("method" or "view", name) -> item
+    folders: list[tuple[str, Path]] = field(default_factory=list)  # (distribution, folder)
+    origins: dict[tuple[str, str], str] = field(default_factory=dict)  # (kind or role, name) -> distribution
+
+    def take(self, entries: Sequence[Entry]) -> str:
+        """Add one plugin's entries, or return the sentence that says why none of them."""
+        claimed: dict[tuple[str, str], str] = {}
+        for entry in entries:
+            message = _fault(entry)
+            if message:
+                return message
+            if entry.hook == "lambda_data":
+                continue
+            key = _key(entry)
+            owner = self.origins.get(key) or claimed.get(key)
+            if owner:
+                return f'the {key[0]} "{key[1]}" is already taken by {owner}'
+            claimed[key] = entry.distribution
+        for entry in entries:
+            self._add(entry)
+        return ""
+
+    def _add(self, entry: Entry) -> None:
+        if entry.hook == "lambda_data":
+            self.folders.append((entry.distribution, Path(entry.item)))
+            return
+        key = _key(entry)
+        self.origins[key] = entry.distribution
+        if law := law_of(entry.item):
+            self.models[key] = replace(law, distribution=entry.distribution)
+        elif isinstance(entry.item, LazyLaw):
+            self.models[key] = entry.item
+        else:
+            self.named[key] = with_distribution(entry.item, entry.distribution)
+
+
+def is_own(distribution: str) -> bool:
+    """Tell whether "name version" is this program's own distribution."""
+    return distribution.split(" ")[0] == OWN
+
+
+def with_distribution(item: Any, distribution: str) -> Any:
+    """Return a copy of a dataclass that knows where it comes from, other objects unchanged."""
+    if is_dataclass(item) and not isinstance(item, type) and hasattr(item, "distribution"):
+        return replace(item, distribution=distribution)
+    return item
+
+
+def _key(entry: Entry) -> tuple[str, str]:
+    if entry.hook == "lambda_laws":
+        law = law_of(entry.item) or entry.item
+        return (law.role, law.name)
+    return (_KINDS[entry.hook], entry.item.name)
+
+
+def _fault(entry: Entry) -> str:
+    """Say what is wrong with one registration, or nothing."""
+    item = entry.item
+    if entry.hook == "lambda_data":
+        return _folder_fault(item)
+    if entry.hook == "lambda_laws":
+        if law := law_of(item):
+            return law_fault(law)
+        if isinstance(item, LazyLaw):
+            return _lazy_fault(item)
+        return f"lambda_laws registers a {type(item).__name__}: write @law(role, name, ...) above the kernel"
+    if entry.hook == "lambda_methods":
+        return _method_fault(item)
+    return view_fault(item) or _name_fault("view", item.name)
+
+
+def _name_fault(kind: str, name: str) -> str:
+    if _NAME.fullmatch(name):
+        return ""
+    return f'the {kind} name "{name}" is not in lower case with hyphens ("my-law")'
+
+
+def _lazy_fault(item: LazyLaw) -> str:
+    if item.role not in ROLES:
+        return unknown_name("role", item.role, ROLES)
+    if not _TARGET.fullmatch(item.target):
+        return f'the target "{item.target}" of {item.role}/{item.name} is not of the form "package.module:attribute"'
+    return _name_fault(item.role, item.name)
+
+
+def law_fault(item: Law) -> str:
+    """Say what keeps a law from being registered, or nothing."""
+    label = f"{item.role}/{item.name}"
+    if item.role_api != ROLE_API:
+        return f"{label} is written for version {item.role_api} of the role interface; this program has {ROLE_API}" + (
+            f": {new_form(item)}" if item.role_api < ROLE_API else ""
+        )
+    if item.role not in ROLES:
+        return unknown_name("role", item.role, ROLES)
+    if not callable(item.kernel):
+        return f"the kernel of {label} is a {type(item.kernel).__name__}, not a function"
+    if not (isinstance(item.parameters, type) and issubclass(item.parameters, BaseModel)):
+        return f"the parameters of {label} are not a pydantic BaseModel class"
+    if not item.reference.strip():
+        return f'{label} has no reference: name its source ("own work" is one)'
+    try:
+        par_layout(item)
+    except PluginError as error:
+        return str(error)
+    fault = default_fault(item.parameters)
+    return f"{label}: {fault}" if fault else _name_fault(item.role, item.name)
+
+
+def _method_fault(item: Any) -> str:
+    if not isinstance(item, Method):
+        return f"lambda_methods registers a {type(item).__name__}: wrap the function in Method(name, title, ...)"
+    if item.method_api != METHOD_API:
+        return f"the method {item.name} is written for version {item.method_api} of the interface; this is {METHOD_API}"
+    if not callable(item.evaluate):
+        return f"the method {item.name} evaluates with a {type(item.evaluate).__name__}, not a function"
+    if not item.reference.strip():
+        return f'the method {item.name} has no reference: name its source ("own work" is one)'
+    return _name_fault("method", item.name)
+
+
+def _folder_fault(item: Any) -> str:
+    if not isinstance(item, str | Path):
+        return f"lambda_data registers a {type(item).__name__}: hand over a folder (a str or Path)"
+    if not Path(item).is_dir():
+        return f"the data folder {item} does not exist"
+    return ""

@@ -1,0 +1,63 @@
+"""The hooks that plugins implement (pluggy project name ``lambda_core``)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
+import pluggy
+
+from lambda_core.laws.law import LazyLaw
+from lambda_core.views.method import Method
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from lambda_core.catalogue.protocol import Catalogue
+    from lambda_core.views.chart import ViewData
+    from lambda_core.views.scene import Scene
+    from lambda_core.views.view import Figure, View
+
+PROJECT = "lambda_core"
+hookspec = pluggy.HookspecMarker(PROJECT)
+hookimpl = pluggy.HookimplMarker(PROJECT)
+
+
+@hookspec
+def lambda_laws(register: Callable[[Callable[..., int] | LazyLaw], None]) -> None:
+    """Register laws of other modules than the entry point's: ``register(function)``, with ``@law(...)`` above it.
+
+    A package with many laws registers ``LazyLaw("traction", "my-law", "package.module:function")``
+    instead, which imports the module when the law is chosen.
+    """
+
+
+@hookspec
+def lambda_methods(register: Callable[[Method], None]) -> None:
+    """Register comparison methods (case -> table), shown beside the simulation."""
+
+
+@hookspec
+def lambda_views(register: Callable[[View], None]) -> None:
+    """Register views: ``register(View("my-view", "What it shows", "result", data))``."""
+
+
+@hookspec(firstresult=True)
+def lambda_figure(data: ViewData) -> Figure | None:
+    """Draw the data of a view that brings no drawing of its own."""
+
+
+@hookspec(firstresult=True)
+def lambda_frames(scene: Scene) -> Iterator[NDArray[np.uint8]] | None:
+    """Draw the frames of an animation, one after the other: RGB, shape (height, width, 3), all of one even size."""
+
+
+@hookspec
+def lambda_data(register: Callable[[Any], None]) -> None:
+    """Register catalogue rows: ``register(path)`` with a folder of seed files of this package."""
+
+
+@hookspec(firstresult=True)
+def lambda_catalogue(seed_folders: list[Any]) -> Catalogue | None:
+    """Open the catalogue over the built-in seeds and the folders that plugins bring."""

@@ -1,0 +1,165 @@
+"""Discovery of plugins: entry points in, a frozen registry of everything they bring out.
+
+Each entry point of the group ``lambda_bearing.plugins`` is loaded on its own. One that
+fails, misspells a hook, claims a taken name or is written for another version of the
+role interface is switched off as a whole and kept as a named fault; the rest works.
+"""
+
+from __future__ import annotations
+
+import logging
+import os
+from collections.abc import Hashable, Iterable, Sequence
+from functools import lru_cache
+from types import ModuleType
+from typing import Any
+
+import pluggy
+
+from lambda_core.discovery import hookspecs
+from lambda_core.discovery.collect import Collection, Entry
+from lambda_core.discovery.registry import Registry
+from lambda_core.domain.errors import UsageError, nearest, unknown_name
+from lambda_core.domain.installed import CASES, COMMANDS, OFF_VARIABLE, PLUGINS, Source, installed, switched_off
+from lambda_core.domain.plugin_errors import PluginError, PluginFault, describe
+from lambda_core.laws.law import law_of
+
+_REGISTERING_HOOKS = ("lambda_laws", "lambda_methods", "lambda_views", "lambda_data")
+
+log = logging.getLogger("lambda_core")
+
+
+def switch_off(names: Iterable[str]) -> None:
+    """Switch plugins off for this process and those it starts (``--no-plugin NAME``).
+
+    Parameters
+    ----------
+    names : iterable of str
+        Distributions or entry points.
+
+    Raises
+    ------
+    UsageError
+        When a name is not installed.
+    """
+    groups = (PLUGINS, COMMANDS, CASES)
+    known = {name for group in groups for source in installed(group) for name in (source.project, source.name)}
+    for name in names:
+        if name not in known:
+            raise UsageError(unknown_name("plugin", name, known))
+    os.environ[OFF_VARIABLE] = ",".join(dict.fromkeys((*switched_off(), *names)))
+    registry.cache_clear()
+
+
+@lru_cache(maxsize=1)
+def registry() -> Registry:
+    """Return the registry of this process, discovered at the first call; broken plugins are logged."""
+    found = discover(installed(PLUGINS), off=switched_off())
+    for fault in found.faults:
+        if fault.is_broken:
+            log.warning("plugin not in use: %s", fault)
+    return found
+
+
+def discover(sources: Sequence[Source], off: Iterable[str] = ()) -> Registry:
+    """Load every plugin of `sources` in its own try and freeze what they register.
+
+    Parameters
+    ----------
+    sources : sequence of Source
+        In order of precedence: of two that claim one name, the first keeps it.
+    off : iterable of str
+        Distributions or entry points to leave out.
+    """
+    off = tuple(dict.fromkeys(off))
+    known = {name for source in sources for name in (source.project, source.name)}
+    faults = [
+        PluginFault(name, OFF_VARIABLE, "is switched off but not installed" + _did_you_mean(name, known))
+        for name in off
+        if name not in known
+    ]
+    manager = pluggy.PluginManager(hookspecs.PROJECT)
+    manager.add_hookspecs(hookspecs)
+    collection = Collection()
+    in_use: list[str] = []
+    for source in sources:
+        if source.project in off or source.name in off:
+            faults.append(PluginFault(source.distribution, source.name, "is switched off", is_broken=False))
+            continue
+        message = _add(manager, source, collection)
+        if message:
+            faults.append(PluginFault(source.distribution, source.name, message))
+        else:
+            in_use.append(source.distribution)
+    return Registry(collection, tuple(dict.fromkeys(in_use)), tuple(faults), manager)
+
+
+def _did_you_mean(name: str, known: Iterable[str]) -> str:
+    close = nearest(name, known)
+    return f"; nearest: {', '.join(close)}" if close else ""
+
+
+def _add(manager: pluggy.PluginManager, source: Source, collection: Collection) -> str:
+    """Load one plugin and take what it registers; return why not, or nothing."""
+    try:
+        plugin = source.load()
+    except PluginError as error:
+        return str(error)
+    except (Exception, SystemExit) as error:
+        return f"cannot be imported: {describe(error)}"
+    if not isinstance(plugin, Hashable):
+        return f"is a {type(plugin).__name__}: the entry point has to name a module with hooks"
+    name = f"{source.project}:{source.name}"
+    try:
+        manager.register(plugin, name=name)
+    except (ValueError, pluggy.PluginValidationError) as error:
+        _forget(manager, name)
+        return f"does not fit the hooks: {' '.join(str(error).split())}"
+    message = _misspelled(manager, plugin) or _collect(manager, plugin, source, collection)
+    if message:
+        _forget(manager, name)
+    return message
+
+
+def _forget(manager: pluggy.PluginManager, name: str) -> None:
+    if manager.has_plugin(name):
+        manager.unregister(name=name)
+
+
+def _misspelled(manager: pluggy.PluginManager, plugin: object) -> str:
+    """Say which hook of `plugin` does not exist (pluggy alone would ignore it)."""
+    known = [name for name in vars(hookspecs) if name.startswith("lambda_")]
+    mine = manager.get_hookcallers(plugin) or []
+    for hook in mine:
+        if not hook.has_spec():
+            return unknown_name("hook", hook.name, known)
+    if not mine and not _own_laws(plugin):
+        unmarked = [name for name in dir(plugin) if name in known]
+        if unmarked:
+            return f"{unmarked[0]} is not marked: write @hookimpl above it"
+        return f"has no law and implements no hook; there are: {', '.join(known)}"
+    return ""
+
+
+def _own_laws(plugin: object) -> list[Any]:
+    """Return the functions with ``@law(...)`` above them that the entry point's module defines."""
+    own = [each for each in vars(plugin).values() if law_of(each)] if isinstance(plugin, ModuleType) else []
+    return [each for each in own if getattr(each, "__module__", "") == getattr(plugin, "__name__", None)]
+
+
+def _collect(manager: pluggy.PluginManager, plugin: object, source: Source, collection: Collection) -> str:
+    """Call the registering hooks of one plugin; all of it is taken, or nothing."""
+    others = [other for other in manager.get_plugins() if other is not plugin]
+    entries: list[Entry] = []
+    for hook_name in _REGISTERING_HOOKS:
+
+        def register(item: Any, hook_name: str = hook_name) -> None:
+            entries.append(Entry(hook_name, source.distribution, item))
+
+        try:
+            manager.subset_hook_caller(hook_name, others)(register=register)
+        except (Exception, SystemExit) as error:
+            return f"{hook_name} raised {describe(error)}"
+    registered = {id(entry.item) for entry in entries}
+    own = [each for each in _own_laws(plugin) if id(each) not in registered]
+    return collection.take([*(Entry("lambda_laws", source.distribution, each) for each in own), *entries])

@@ -1,0 +1,56 @@
+"""Roles and quantities in pages: `python -m lambda_core.discovery.reference docs/kernels.md docs/plugins.md`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from lambda_core.domain.roles import ROLES, Role
+from lambda_core.domain.units import UNITS
+
+
+def roles_markdown() -> str:
+    """Return every role with its arguments as Markdown."""
+    return "\n".join(_role(role) for role in ROLES.values())
+
+
+def _role(role: Role) -> str:
+    lines = [
+        f"### {role.name}",
+        "",
+        f"{role.summary[0].upper()}{role.summary[1:]}{'; elementwise' if role.elementwise else ''}. "
+        f"Carried by {', '.join(role.elements)}.",
+        "",
+        f"`{role.name}({', '.join(argument.name for argument in role.arguments)})`",
+        "",
+        "| argument | kind | meaning |",
+        "|---|---|---|",
+    ]
+    for argument in role.arguments:
+        kind = {"f": "float", "a": "array"}[argument.kind] + (", output" if argument.output else "")
+        meaning = "; ".join(role.outputs) if argument.meaning == "results" else argument.meaning
+        lines.append(f"| `{argument.name}` | {kind} | {meaning} |")
+    return "\n".join([*lines, ""])
+
+
+def quantities_markdown() -> str:
+    """Return the names of all quantities with their units, as :class:`lambda_core.plugins.Quantity` takes them."""
+    lines = [f"| `{name}` | {', '.join(units)} |" for name, units in UNITS.items()]
+    return "\n".join(["| quantity | units |", "|---|---|", *lines, ""])
+
+
+def renewed(page: str) -> str:
+    """Return a page with the parts between its marks replaced by what the code has today."""
+    for mark, made in (("roles", roles_markdown), ("quantities", quantities_markdown)):
+        begin, end = f"<!-- {mark}:begin -->\n", f"<!-- {mark}:end -->\n"
+        if begin in page:
+            head, rest = page.split(begin)
+            _, tail = rest.split(end)
+            page = f"{head}{begin}\n{made()}\n{end}{tail}"
+    return page
+
+
+if __name__ == "__main__":
+    for name in sys.argv[1:]:
+        path = Path(name)
+        path.write_text(renewed(path.read_text(encoding="utf-8")), encoding="utf-8")

@@ -1,0 +1,192 @@
+"""The frozen registry: every model, method, view and data folder that can be chosen."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import pluggy
+
+from lambda_core.discovery.collect import Collection, is_own, law_fault
+from lambda_core.domain.errors import nearest, unknown_name
+from lambda_core.domain.plugin_errors import PluginError, PluginFault, describe
+from lambda_core.domain.roles import ROLES
+from lambda_core.laws.law import Law, LazyLaw, law_of
+from lambda_core.views.method import Method
+from lambda_core.views.view import Figure, View
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from lambda_core.catalogue.protocol import Catalogue
+    from lambda_core.views.chart import ViewData
+    from lambda_core.views.scene import Scene
+
+
+class Registry:
+    """What the installed plugins offer; does not change after discovery.
+
+    Attributes
+    ----------
+    distributions : tuple of str
+        Name and version of the plugins in use.
+    faults : tuple of PluginFault
+        Installed plugins that are not in use, and why.
+    methods : mapping of str to Method
+        Comparison methods by name.
+    views : mapping of str to View
+        Views by name.
+    data_folders : tuple of (str, pathlib.Path)
+        Distribution and folder of catalogue rows.
+    """
+
+    def __init__(
+        self,
+        collection: Collection,
+        distributions: tuple[str, ...],
+        faults: tuple[PluginFault, ...],
+        hooks: pluggy.PluginManager,
+    ) -> None:
+        self._models = dict(collection.models)
+        self._origins = dict(collection.origins)
+        self._loaded: dict[tuple[str, str], Law] = {}
+        self._hooks = hooks
+        self.distributions = distributions
+        self.faults = faults
+        self.methods: Mapping[str, Method] = _of_kind(collection, "method")
+        self.views: Mapping[str, View] = _of_kind(collection, "view")
+        self.data_folders: tuple[tuple[str, Path], ...] = tuple(collection.folders)
+
+    def names(self, role: str) -> tuple[str, ...]:
+        """Return the names of the models for `role`, built-in ones first; imports nothing."""
+        if role not in ROLES:
+            raise PluginError(unknown_name("role", role, ROLES))
+        return tuple(name for known, name in self._models if known == role)
+
+    def origin(self, kind: str, name: str) -> str:
+        """Return the distribution ("my-traction 0.1") of a model (by its role), method or view."""
+        return self._origins[kind, name]
+
+    def model(self, role: str, name: str) -> Law:
+        """Return one model, importing its module if needed.
+
+        Raises
+        ------
+        PluginError
+            When `role` has no such model (with the nearest names and what exists), or
+            when its module cannot be imported.
+        """
+        if name not in self.names(role):
+            raise PluginError(self._unknown(role, name))
+        key = (role, name)
+        if key not in self._loaded:
+            found = self._models[key]
+            self._loaded[key] = _load(found, self._origins[key]) if isinstance(found, LazyLaw) else found
+        return self._loaded[key]
+
+    def models(self, role: str) -> dict[str, Law]:
+        """Return every model for `role` by name; one that cannot be imported is an error."""
+        return {name: self.model(role, name) for name in self.names(role)}
+
+    def method(self, name: str) -> Method:
+        """Return one comparison method; PluginError with the nearest names when unknown."""
+        found: Method = self._named("method", name, self.methods)
+        return found
+
+    def view(self, name: str) -> View:
+        """Return one view; PluginError with the nearest names when unknown."""
+        found: View = self._named("view", name, self.views)
+        return found
+
+    def figure(self, view: View | None, data: ViewData) -> Figure:
+        """Draw the data of a view: its own drawing, or that of the house; data of no view (None) by the house.
+
+        Raises
+        ------
+        PluginError
+            When neither exists.
+        """
+        if view is not None and view.figure is not None:
+            return view.figure(data)
+        found: Figure | None = self._hooks.hook.lambda_figure(data=data)
+        if found is None:
+            raise PluginError(f"no plugin draws figures{self._not_loaded()}")
+        return found
+
+    def frames(self, scene: Scene) -> Iterator[NDArray[np.uint8]]:
+        """Draw the frames of an animation.
+
+        Raises
+        ------
+        PluginError
+            When no plugin does.
+        """
+        found: Iterator[NDArray[np.uint8]] | None = self._hooks.hook.lambda_frames(scene=scene)
+        if found is None:
+            raise PluginError(f"no plugin draws animations{self._not_loaded()}")
+        return found
+
+    def catalogue(self) -> Catalogue:
+        """Open the catalogue over the built-in rows and the folders that plugins bring.
+
+        The caller closes it.
+
+        Raises
+        ------
+        PluginError
+            When no installed plugin provides one.
+        """
+        found: Catalogue | None = self._hooks.hook.lambda_catalogue(seed_folders=[f for _, f in self.data_folders])
+        if found is None:
+            raise PluginError(f"no plugin provides a catalogue{self._not_loaded()}")
+        return found
+
+    def _named(self, kind: str, name: str, known: Mapping[str, Any]) -> Any:
+        if name not in known:
+            raise PluginError(unknown_name(kind, name, known) + self._not_loaded())
+        return known[name]
+
+    def _unknown(self, role: str, name: str) -> str:
+        """Say that `role` has no model `name`: nearest names, everything there is, and what is missing."""
+        names = self.names(role)
+        shown = [n if is_own(self._origins[role, n]) else f"{n} ({self._origins[role, n]})" for n in names]
+        close = nearest(name, names)
+        hint = f"nearest: {', '.join(close)}; " if close else ""
+        article = "an" if role[0] in "aeiou" else "a"
+        text = f'"{name}" is not {article} {role} model; {hint}available: {", ".join(shown) or "none"}'
+        return text + self._not_loaded()
+
+    def _not_loaded(self) -> str:
+        if not self.faults:
+            return ""
+        return f"; not in use: {', '.join(dict.fromkeys(fault.distribution for fault in self.faults))}"
+
+
+def _of_kind(collection: Collection, kind: str) -> Mapping[str, Any]:
+    return MappingProxyType({name: item for (known, name), item in collection.named.items() if known == kind})
+
+
+def _load(lazy: LazyLaw, distribution: str) -> Law:
+    """Import the model that a lazy registration stands for."""
+    label = f"{lazy.role}/{lazy.name} ({distribution})"
+    module, _, attribute = lazy.target.partition(":")
+    try:
+        target = getattr(importlib.import_module(module), attribute)
+    except PluginError as error:
+        raise PluginError(f"{label}: {error}") from None
+    except (Exception, SystemExit) as error:
+        raise PluginError(f"{label} cannot be imported: {describe(error)}") from error
+    found = law_of(target)
+    if found is None:
+        raise PluginError(f"{label}: {lazy.target} is a {type(target).__name__}, not a law: write @law(...) above it")
+    if (found.role, found.name) != (lazy.role, lazy.name):
+        raise PluginError(f"{label}: {lazy.target} is {found.role}/{found.name}")
+    message = law_fault(found)
+    if message:
+        raise PluginError(f"{label}: {message}")
+    return replace(found, distribution=distribution)

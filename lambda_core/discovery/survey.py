@@ -1,0 +1,281 @@
+"""What is installed, in full: every model with its parameters, every method and view, every fault.
+
+Plain data for faces and documentation; `check_installed` tries every model out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, Literal
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from lambda_core.case.cards import FieldCard, field_card
+from lambda_core.discovery.registry import Registry
+from lambda_core.domain.errors import UsageError, nearest, unknown_name
+from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.domain.roles import DEFAULT_MODELS, ROLE_API, ROLES
+from lambda_core.laws.check import ModelReport, check_model
+from lambda_core.laws.law import Law
+
+Kind = Literal["model", "method", "view", "data"]
+
+
+class ParameterCard(FieldCard):
+    """One parameter of a model, as people read it."""
+
+    published_range: list[str]
+    source: str
+    status: str
+
+
+class ModelCard(BaseModel):
+    """One model: what it is, where it comes from, and what can be set."""
+
+    version: int = 1  # of this form
+    role: str  # stage of the pipeline
+    name: str
+    distribution: str
+    summary: str  # one line for people
+    reference: str
+    validity: str  # range in which the law was established
+    default: bool  # whether it fills the role when a case says nothing
+    elements: list[str]  # force elements that carry the role
+    outputs: list[str]  # what the kernel writes, with units
+    errors: dict[int, str]  # sentence of each status from 2 on
+    parameters: list[ParameterCard]  # with units, limits, defaults and sources
+
+
+class Item(BaseModel):
+    """One line of the list of everything installed."""
+
+    kind: Kind
+    role: str  # "" unless it is a model
+    name: str
+    distribution: str
+    reference: str
+
+
+class FaultCard(BaseModel):
+    """A plugin, or one of its models, that cannot be used."""
+
+    distribution: str
+    entry_point: str  # name of the entry point, or "role/name" of the model
+    message: str  # one sentence
+    is_broken: bool = True  # False when it was switched off on purpose
+
+
+class Inventory(BaseModel):
+    """Everything installed."""
+
+    version: int = 1  # of this form
+    items: list[Item]  # models, methods, views, data folders
+    faults: list[FaultCard]  # plugins that are not in use, and why
+
+
+class CheckCard(BaseModel):
+    """What came out of trying one model."""
+
+    role: str  # stage of the pipeline
+    name: str
+    distribution: str
+    ok: bool  # whether the model may be used
+    faults: list[str]  # sentences that keep it from being used
+    warnings: list[str]  # sentences that do not (slow)
+    not_tried: str  # why, when no parameters were at hand
+    nanoseconds: float | None  # per call, or per cell of an elementwise role
+
+
+class Verdict(BaseModel):
+    """What came out of trying models, and the plugins that could not be loaded at all."""
+
+    version: int = 1  # of this form
+    models: list[CheckCard]
+    faults: list[FaultCard]
+
+
+def inventory(registry: Registry) -> Inventory:
+    """List every model, method, view and data folder, and every plugin that is not in use."""
+    items, faults = [], [FaultCard(**vars(fault)) for fault in registry.faults]
+    for role in ROLES:
+        for name in registry.names(role):
+            origin = registry.origin(role, name)
+            try:
+                found = registry.model(role, name)
+            except PluginError as error:
+                faults.append(FaultCard(distribution=origin, entry_point=f"{role}/{name}", message=str(error)))
+                continue
+            items.append(Item(kind="model", role=role, name=name, distribution=origin, reference=found.reference))
+    kinds: tuple[tuple[Kind, Any], ...] = (("method", registry.methods), ("view", registry.views))
+    for kind, named in kinds:
+        for name, item in named.items():
+            reference = str(getattr(item, "reference", ""))
+            items.append(
+                Item(kind=kind, role="", name=name, distribution=registry.origin(kind, name), reference=reference)
+            )
+    for distribution, folder in registry.data_folders:
+        items.append(Item(kind="data", role="", name=folder.name, distribution=distribution, reference=str(folder)))
+    return Inventory(items=items, faults=faults)
+
+
+def model_card(registry: Registry, label: str) -> ModelCard:
+    """Return everything about one model, named "role/name", or by its name where one role alone has it.
+
+    Raises
+    ------
+    UsageError
+        When there is no such role, no such model, or models of several roles have the name.
+    PluginError
+        When the role has no such model, or it cannot be imported.
+    """
+    role, name = split_label(label if "/" in label else _label_of(registry, label))
+    found = registry.model(role, name)
+    return ModelCard(
+        role=role,
+        name=name,
+        distribution=found.distribution,
+        summary=found.summary,
+        reference=found.reference,
+        validity=found.validity,
+        default=DEFAULT_MODELS.get(role) == name,
+        elements=list(ROLES[role].elements),
+        outputs=list(ROLES[role].outputs),
+        errors=dict(found.errors),
+        parameters=[_parameter(found, field, info) for field, info in found.parameters.model_fields.items()],
+    )
+
+
+def _label_of(registry: Registry, name: str) -> str:
+    """Return "role/name" of the one model that has a name; UsageError when none or several have it."""
+    labels = [f"{role}/{known}" for role in ROLES for known in registry.names(role)]
+    found = [label for label in labels if label.partition("/")[2] == name]
+    if len(found) > 1:
+        raise UsageError(f'models of several roles are called "{name}", choose one: {", ".join(found)}')
+    if not found:
+        near = nearest(name, {label.partition("/")[2] for label in labels})
+        close = [label for known in near for label in labels if label.partition("/")[2] == known]
+        raise UsageError(
+            f'"{name}" is not a known model; '
+            + (f"nearest: {', '.join(close)}" if close else "write ROLE/NAME, for example traction/ree-eyring")
+        )
+    return found[0]
+
+
+def split_label(label: str) -> tuple[str, str]:
+    """Split "role/name"; UsageError when it is not of that form or the role does not exist."""
+    role, slash, name = label.partition("/")
+    if not slash:
+        raise UsageError(f'"{label}" is not of the form ROLE/NAME, for example traction/ree-eyring')
+    if role not in ROLES:
+        raise UsageError(unknown_name("role", role, ROLES))
+    return role, name
+
+
+def check_installed(registry: Registry, wanted: Sequence[str] = ()) -> Iterator[CheckCard]:
+    """Try models out one after the other (compiling takes a moment each).
+
+    Parameters
+    ----------
+    registry : Registry
+        What is installed.
+    wanted : sequence of str
+        Distributions, roles, or "role/name"; all models when empty.
+
+    Yields
+    ------
+    CheckCard
+        In order of the pipeline. A model whose parameters have no defaults is tried with
+        those of the first lubricant in the catalogue that has them.
+    """
+    asked = list(chosen(registry, wanted))
+    lubricants: dict[tuple[str, str], dict[str, Any]] | None = None
+    for role, name in asked:
+        try:
+            found = registry.model(role, name)
+        except PluginError as error:
+            yield _card(ModelReport(_absent(role, name, registry), (str(error),)))
+            continue
+        required = [field for field, info in found.parameters.model_fields.items() if info.is_required()]
+        if not required:
+            yield _card(check_model(found))
+            continue
+        if lubricants is None:
+            lubricants = _lubricant_parameters(registry)
+        if (role, name) in lubricants:
+            yield _card(check_model(found, lubricants[role, name]))
+        else:
+            yield _card(ModelReport(found), f"has no defaults for {', '.join(required)} and no lubricant brings them")
+
+
+def broken(registry: Registry, wanted: Sequence[str] = ()) -> list[FaultCard]:
+    """Return the plugins of the distributions `wanted` (all when empty) that could not be taken into use."""
+    return [
+        FaultCard(**vars(fault))
+        for fault in registry.faults
+        if fault.is_broken and (not wanted or fault.distribution.split(" ")[0] in wanted)
+    ]
+
+
+def chosen(registry: Registry, wanted: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Return role and name of the models of distributions, roles or "role/name"; UsageError for anything else."""
+    every = [(role, name) for role in ROLES for name in registry.names(role)]
+    known: dict[str, list[tuple[str, str]]] = {}
+    for role, name in every:
+        for word in (role, f"{role}/{name}", registry.origin(role, name).split(" ")[0]):
+            known.setdefault(word, []).append((role, name))
+    for distribution in (*registry.distributions, *(fault.distribution for fault in registry.faults)):
+        known.setdefault(distribution.split(" ")[0], [])
+    for word in wanted:
+        if word not in known:
+            raise UsageError(unknown_name("distribution, role or ROLE/NAME", word, known))
+    keep = {pair for word in wanted for pair in known[word]}
+    return (pair for pair in every if not wanted or pair in keep)
+
+
+def _absent(role: str, name: str, registry: Registry) -> Law:
+    """Return a stand-in that names a model which could not be imported."""
+
+    def kernel() -> int:
+        return 0
+
+    return Law(role, name, kernel, role_api=ROLE_API, reference="", distribution=registry.origin(role, name))
+
+
+def _lubricant_parameters(registry: Registry) -> dict[tuple[str, str], dict[str, Any]]:
+    """Return the parameters of the first lubricant for each (role, model), as a case would write them."""
+    found: dict[tuple[str, str], dict[str, Any]] = {}
+    catalogue = registry.catalogue()
+    try:
+        for row in catalogue.lubricants(limit=10_000):
+            for role, models in row.parameters.items():
+                for name, values in models.items():
+                    found.setdefault((role, name), {key: value.text() for key, value in values.items()})
+    finally:
+        catalogue.close()
+    return found
+
+
+def _card(report: ModelReport, not_tried: str = "") -> CheckCard:
+    tried = report.seconds == report.seconds
+    return CheckCard(
+        role=report.model.role,
+        name=report.model.name,
+        distribution=report.model.distribution,
+        ok=report.ok,
+        faults=list(report.faults),
+        warnings=list(report.warnings),
+        not_tried=not_tried,
+        nanoseconds=report.seconds * 1e9 if tried else None,
+    )
+
+
+def _parameter(model: Law, name: str, info: FieldInfo) -> ParameterCard:
+    extra = info.json_schema_extra if isinstance(info.json_schema_extra, dict) else {}
+    published = extra.get("published_range", [])
+    return ParameterCard(
+        **field_card(model.parameters, name).model_dump(),
+        published_range=[str(end) for end in published] if isinstance(published, list) else [],
+        source=str(extra.get("source", "")),
+        status=str(extra.get("status", "")),
+    )

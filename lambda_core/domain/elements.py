@@ -1,0 +1,23 @@
+"""Bodies, their degrees of freedom, and the force elements between them: every name, once."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+BodyName = Literal["inner_ring", "outer_ring", "cage"]
+BODIES: dict[BodyName, str] = {
+    "inner_ring": "inner ring with shaft",
+    "outer_ring": "outer ring with housing",
+    "cage": "cage",
+}
+TRANSLATIONS = {"x": "axial", "y": "horizontal", "z": "vertical"}
+TILTS = {"tilt_y": "rotation about y", "tilt_z": "rotation about z"}
+SPIN = "spin"
+DOFS = (*TRANSLATIONS, *TILTS, SPIN)
+
+RACEWAYS = {"ball_inner": "balls and inner raceway", "ball_outer": "balls and outer raceway"}
+POCKETS = {"ball_cage": "balls and cage pockets"}
+NEIGHBOURS = {"ball_ball": "neighbouring balls, where there is no cage"}
+LANDS = {"cage_inner": "cage and inner ring's land", "cage_outer": "cage and outer ring's land"}
+OIL = {"fluid_drag": "oil on the balls"}
+ELEMENTS = RACEWAYS | POCKETS | NEIGHBOURS | LANDS | OIL

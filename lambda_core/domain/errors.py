@@ -1,0 +1,81 @@
+"""Errors that people see: what was wrong, where, what is allowed, and the process's exit code."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+_SHOWN = 24  # of the names that are there, where none is near
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing that is wrong with an input: where it stands and what to do about it."""
+
+    where: str
+    message: str
+
+    def __str__(self) -> str:
+        return f"{self.where:<22} {self.message}" if self.where else self.message
+
+
+class LambdaError(Exception):
+    """Base of every error with a message for people; anything else is a bug."""
+
+    exit_code = 1
+
+
+class UsageError(LambdaError):
+    """The command line or the call asks for something that does not exist."""
+
+    exit_code = 2
+
+
+class CaseError(LambdaError):
+    """A case, catalogue row or plugin choice is invalid; carries every problem at once."""
+
+    exit_code = 3
+
+    def __init__(self, source: str, problems: Sequence[Problem]) -> None:
+        self.source = source
+        self.problems = tuple(problems)
+        count = len(self.problems)
+        head = f"{source}: {count} error{'s' if count != 1 else ''}"
+        super().__init__("\n".join([head, *(f"  {problem}" for problem in self.problems)]))
+
+
+class CatalogueError(CaseError):
+    """A catalogue request cannot be answered; exits like an invalid case."""
+
+
+class SolverError(LambdaError):
+    """The integrator could not go on."""
+
+    exit_code = 4
+
+
+class PartialResultError(LambdaError):
+    """A run ended before it met the definition of converged; the file is kept."""
+
+    exit_code = 5
+
+
+def nearest(name: str, choices: Iterable[str], count: int = 3) -> list[str]:
+    """Return the `count` choices that read most like `name` (case ignored); two neighbours swapped come first."""
+    by_folded = {choice.casefold(): choice for choice in choices}
+    text = name.casefold()
+    swapped = [text[:i] + text[i + 1] + text[i] + text[i + 2 :] for i in range(len(text) - 1)]
+    matches = difflib.get_close_matches(text, by_folded, n=count, cutoff=0.5)
+    found = dict.fromkeys([*(word for word in swapped if word in by_folded and word != text), *matches])
+    return [by_folded[match] for match in found][:count]
+
+
+def unknown_name(kind: str, name: str, choices: Iterable[str]) -> str:
+    """Say that `name` is not a known `kind`, with the nearest valid names or the whole list."""
+    known = sorted(set(choices))
+    close = nearest(name, known)
+    if close:
+        return f'"{name}" is not a known {kind}; nearest: {", ".join(close)}'
+    shown = known if len(known) <= _SHOWN else [*known[:_SHOWN], f"... ({len(known)} in all)"]
+    return f'"{name}" is not a known {kind}; available: {", ".join(shown) or "none"}'

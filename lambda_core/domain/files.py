@@ -1,0 +1,66 @@
+"""Which files are written and read: regular ones only, and of a size that fits into memory."""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+
+from lambda_core.domain.errors import UsageError
+
+LARGEST_TEXT = 64 * 2**20  # [byte] of a case, a table, a document
+_KINDS = (
+    (stat.S_ISDIR, "a folder"),
+    (stat.S_ISFIFO, "a pipe"),
+    (stat.S_ISSOCK, "a socket"),
+    (stat.S_ISCHR, "a device"),
+    (stat.S_ISBLK, "a device"),
+)
+
+
+def kind_of(path: Path) -> str:
+    """Return what stands at a path that is no regular file ("a folder", "a pipe"); "" for a regular one or none."""
+    try:
+        mode = path.stat().st_mode
+    except OSError:
+        return ""
+    return "" if stat.S_ISREG(mode) else next((name for test, name in _KINDS if test(mode)), "no file")
+
+
+def check_target(path: Path) -> Path:
+    """Return a path that may be written to: free, or a regular file.
+
+    Raises
+    ------
+    UsageError
+        For a folder, a device, a pipe or a socket, links to them included: replaced, they would be lost to everybody.
+    """
+    kind = kind_of(path)
+    if kind:
+        raise UsageError(f'cannot write "{path}": it is {kind}, and only regular files are written')
+    return path
+
+
+def read_bytes(path: Path, largest: int = LARGEST_TEXT) -> bytes:
+    """Return the content of a regular file.
+
+    Raises
+    ------
+    OSError
+        With a sentence in `strerror`: for what is no regular file, is larger than `largest`, or cannot be read.
+    """
+    # Opening a pipe would wait for its writer.
+    with open(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)), "rb") as file:
+        mode = os.fstat(file.fileno()).st_mode
+        if not stat.S_ISREG(mode):
+            kind = next((name for test, name in _KINDS if test(mode)), "no file")
+            raise OSError(0, f"it is {kind}, not a regular file")
+        content = file.read(largest + 1)
+    if len(content) > largest:
+        raise OSError(0, f"it is larger than {largest // 2**20} MiB")
+    return content
+
+
+def read_text(path: Path, largest: int = LARGEST_TEXT) -> str:
+    """Return the text of a regular file in UTF-8, without a byte order mark; errors as :func:`read_bytes`."""
+    return read_bytes(path, largest).decode("utf-8-sig")

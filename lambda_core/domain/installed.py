@@ -1,0 +1,72 @@
+"""Installed packages that extend the program: what they name in their entry points, none imported."""
+
+from __future__ import annotations
+
+import ast
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from importlib.metadata import EntryPoint, entry_points
+from importlib.util import find_spec
+from pathlib import Path
+
+PLUGINS = "lambda_bearing.plugins"  # modules with hooks
+COMMANDS = "lambda_bearing.commands"  # functions or typer applications
+CASES = "lambda_bearing.cases"  # packages of case files
+OFF_VARIABLE = "LAMBDA_BEARING_NO_PLUGIN"
+OWN = "lambda-bearing"  # the distribution of the built-in plugins
+
+
+@dataclass(frozen=True)
+class Source:
+    """One plugin to load: where it comes from and how to get it."""
+
+    project: str  # name of the distribution
+    version: str
+    name: str  # of the entry point
+    load: Callable[[], object] = field(repr=False, compare=False)
+    target: str = ""  # module:attribute
+
+    @property
+    def distribution(self) -> str:
+        """Name and version, as messages show them."""
+        return f"{self.project} {self.version}".rstrip()
+
+
+def _source(point: EntryPoint) -> Source:
+    distribution = point.dist
+    if distribution is None:
+        return Source(point.module, "", point.name, point.load, point.value)
+    return Source(distribution.name, distribution.version, point.name, point.load, point.value)
+
+
+def installed(group: str) -> list[Source]:
+    """Return the installed plugins of `group`, our own first, none imported."""
+    sources = {(s.project, s.name): s for s in map(_source, entry_points(group=group))}
+    return sorted(sources.values(), key=lambda s: (s.project != OWN, s.project, s.name))
+
+
+def switched_off() -> tuple[str, ...]:
+    """Return the names in ``LAMBDA_BEARING_NO_PLUGIN`` (comma separated)."""
+    return tuple(name for name in map(str.strip, os.environ.get(OFF_VARIABLE, "").split(",")) if name)
+
+
+def in_use(group: str) -> dict[str, Source]:
+    """Return what is installed of `group` by name, without what is switched off; of two with one name the first."""
+    off = set(switched_off())
+    found: dict[str, Source] = {}
+    for source in installed(group):
+        if not off & {source.project, source.name}:
+            found.setdefault(source.name, source)
+    return found
+
+
+def first_line(target: str) -> str:
+    """Return the first line of what the module of an entry point says of itself, without importing it."""
+    top, *rest = target.partition(":")[0].split(".")
+    spec = find_spec(top)
+    for folder in (spec.submodule_search_locations or ()) if spec is not None else ():
+        file = Path(folder).joinpath(*rest).with_suffix(".py")
+        if rest and file.is_file():
+            return (ast.get_docstring(ast.parse(file.read_text(encoding="utf-8"))) or "").partition("\n")[0]
+    return ""

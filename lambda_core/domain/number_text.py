@@ -1,0 +1,30 @@
+"""Numbers as people read them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+NONE = "-"  # stands where there is no number
+
+
+def number(value: float | None, digits: int = 1) -> str:
+    """Write a number with `digits` decimals and groups of three; a dash for none."""
+    if value is None or not math.isfinite(value):
+        return NONE
+    return f"{round(value, digits) + 0.0:,.{digits}f}".replace(",", " ")  # + 0.0 turns -0.0 into 0.0
+
+
+def plus_minus(value: float | None, half_width: float | None) -> str:
+    """Write a mean with its confidence, to two digits of the latter."""
+    if value is None or half_width is None or half_width <= 0.0:
+        return number(value)
+    digits = max(0, 1 - math.floor(math.log10(half_width)))
+    return f"{number(value, digits)} ± {number(half_width, digits)}"
+
+
+def interval(values: Sequence[float], digits: int) -> str:
+    """Write a smallest and a largest number as 0.51..0.74."""
+    if not values:
+        return NONE
+    return f"{number(values[0], digits)}..{number(values[1], digits)}"

@@ -1,0 +1,65 @@
+"""The tree of declared options: which tables and which options stand where, read from pydantic classes."""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from typing import Any, Union, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+
+def members(annotation: Any) -> Iterator[type[BaseModel]]:
+    """Yield the tables that a field's annotation allows (through unions, Annotated and dict values)."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+        return
+    origin, arguments = get_origin(annotation), get_args(annotation)
+    if origin in (Union, types.UnionType):
+        for argument in arguments:
+            yield from members(argument)
+    elif hasattr(annotation, "__metadata__") or origin is list:
+        yield from members(arguments[0])
+    elif origin is dict:
+        yield from members(arguments[1])
+
+
+def model_at(root: type[BaseModel], path: Sequence[int | str]) -> type[BaseModel] | None:
+    """Return the table's class at `path`, None where the path leaves the declared tables."""
+    candidates: list[type[BaseModel]] = [root]
+    open_keys = False
+    for part in path:
+        if isinstance(part, int) or open_keys:
+            open_keys = False
+            continue
+        infos = [info for c in candidates if (info := c.model_fields.get(part)) is not None]
+        candidates = [member for info in infos for member in members(info.annotation)]
+        open_keys = any(get_origin(info.annotation) is dict for info in infos)
+    return candidates[0] if candidates else None
+
+
+def field_at(root: type[BaseModel], path: str) -> FieldInfo | None:
+    """Return the declaration of the option at a dotted path, None if there is none."""
+    *parents, name = path.split(".")
+    parent = model_at(root, parents)
+    return parent.model_fields.get(name) if parent else None
+
+
+@lru_cache(maxsize=4)
+def option_paths(root: type[BaseModel]) -> tuple[str, ...]:
+    """Return the dotted path of every declared option (time functions count as one option)."""
+    paths: list[str] = []
+
+    def walk(model: type[BaseModel], prefix: str) -> None:
+        for name, info in model.model_fields.items():
+            path = f"{prefix}{name}"
+            tables = [t for t in members(info.annotation) if "kind" not in t.model_fields]
+            if tables and get_origin(info.annotation) is not dict:
+                walk(tables[0], f"{path}.")
+            else:
+                paths.append(path)
+
+    walk(root, "")
+    return tuple(paths)

@@ -1,0 +1,302 @@
+"""The roles of the contact pipeline: for each, the kernel's arguments and what it returns.
+
+A kernel is a plain Python function of float64 scalars (``f``) and contiguous float64
+arrays (``a``), SI units, that writes its outputs and returns an int64 status: 1 is OK,
+2 and up are its own declared errors, 0 means that it raised. ``par`` is a record: the law's
+parameters, or what its `prepare` returns, by name; to the solver it is one flat array.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from lambda_core.domain import elements
+
+ROLE_API = 2
+OK = 1  # what a kernel returns for a valid result; the number of lambda_core.solver.status.Status.OK
+
+
+@dataclass(frozen=True)
+class Argument:
+    """One argument of a kernel."""
+
+    name: str
+    kind: str  # "f": float64 scalar, "a": float64[:] contiguous
+    meaning: str
+    output: bool = False
+
+
+@dataclass(frozen=True)
+class Role:
+    """A stage of the pipeline that exactly one model fills per force element."""
+
+    name: str
+    summary: str
+    arguments: tuple[Argument, ...]
+    outputs: tuple[str, ...]  # meaning of out[0], out[1], ... or of the elementwise output
+    elements: tuple[str, ...]  # force elements that carry this role
+    elementwise: bool = False
+    # Of valid outputs; the solver relies on them (a dissipator never drives).
+    bounds: tuple[tuple[float, float], ...] = ()
+    sign_of: str = ""  # argument whose sign the first output has, or it is zero
+    vanishes_with: str = ""  # argument of an elementwise law where whose zeros its output is zero
+    # (output, of which output, by which argument) that must be derivatives: forces come from them, energy has to close
+    slopes: tuple[tuple[int, int, str], ...] = ()
+
+
+_POSITIVE = (0.0, math.inf)
+_ANY = (-math.inf, math.inf)
+RACEWAYS = tuple(elements.RACEWAYS)
+CAGE = (*elements.POCKETS, *elements.LANDS)
+GUIDES = (*CAGE, *elements.NEIGHBOURS)
+
+
+def _arguments(spec: str) -> tuple[Argument, ...]:
+    """Read ``name kind meaning; ...``; a kind of ``A`` is an output array."""
+    result = []
+    for part in spec.split(";"):
+        name, kind, meaning = part.strip().split(" ", 2)
+        result.append(Argument(name, kind.lower(), meaning, output=kind == "A"))
+    return tuple(result)
+
+
+_MATERIAL = (
+    "R_x f reduced radius along rolling [m]; R_y f reduced radius across rolling [m]; "
+    "E_eff f E' with 2/E' = sum (1-nu^2)/E [Pa]"
+)
+_OIL = "eta0 f viscosity at ambient pressure [Pa s]; alpha_p f pressure-viscosity coefficient [1/Pa]"
+
+ROLES: dict[str, Role] = {
+    role.name: role
+    for role in (
+        Role(
+            "normal_contact",
+            "load and contact ellipse from penetration",
+            _arguments(f"delta f penetration, > 0 [m]; {_MATERIAL}; par a parameters; out A results"),
+            ("load [N]", "semi-axis across rolling a [m]", "semi-axis along rolling b [m]", "maximum pressure [Pa]"),
+            RACEWAYS,
+            bounds=(_POSITIVE,) * 4,
+        ),
+        Role(
+            "damping",
+            "normal force opposing the penetration velocity",
+            _arguments(
+                "delta f penetration [m]; delta_dot f penetration velocity [m/s]; load f elastic load [N]; "
+                "par a parameters; out A results"
+            ),
+            ("force along the elastic load, of the sign of delta_dot [N]",),
+            RACEWAYS,
+            sign_of="delta_dot",
+        ),
+        Role(
+            "rheology",
+            "viscosity and density of the oil at pressure and temperature",
+            _arguments(
+                "p a pressure [Pa]; T a temperature [K]; par a parameters; "
+                "ln_eta A natural logarithm of the viscosity in Pa s; rho A density [kg/m3]"
+            ),
+            ("ln(viscosity / Pa s)", "density [kg/m3]"),
+            RACEWAYS,
+            elementwise=True,
+            bounds=(_ANY, _POSITIVE),
+        ),
+        Role(
+            "film_thickness",
+            "isothermal, fully flooded film",
+            _arguments(
+                "u_mean f mean surface velocity, >= 0 [m/s]; "
+                "theta f angle of entrainment to the rolling direction [rad]; "
+                f"load f normal load [N]; {_MATERIAL}; {_OIL}; par a parameters; out A results"
+            ),
+            ("central film thickness [m]", "minimum film thickness [m]"),
+            RACEWAYS,
+            bounds=(_POSITIVE,) * 2,
+        ),
+        Role(
+            "thermal_correction",
+            "factor on the film for heating in the inlet",
+            _arguments(
+                "u_mean f mean surface velocity [m/s]; u_slide f sliding velocity at the contact's centre [m/s]; "
+                "p_max f maximum pressure [Pa]; E_eff f E' [Pa]; eta0 f viscosity at ambient pressure [Pa s]; "
+                "beta f -d ln(eta)/dT [1/K]; k_oil f thermal conductivity of the oil [W/(m K)]; "
+                "par a parameters; out A results"
+            ),
+            ("factor on the film [-], 0..1",),
+            RACEWAYS,
+            bounds=((0.0, 1.0),),
+        ),
+        Role(
+            "supply",
+            "factors on film and rolling resistance for oil that is missing in the inlet",
+            _arguments(
+                "u_mean f mean surface velocity [m/s]; load f normal load [N]; "
+                "semi_a f semi-axis across rolling [m]; semi_b f semi-axis along rolling [m]; "
+                "R_x f reduced radius along rolling [m]; h_cen f central film of the flooded contact [m]; "
+                "h_min f minimum film of the flooded contact [m]; par a parameters; out A results"
+            ),
+            ("factor on the film [-], 0..1", "factor on the rolling resistance [-], 0..1"),
+            RACEWAYS,
+            bounds=((0.0, 1.0), (0.0, 1.0)),
+        ),
+        Role(
+            "contact_temperature",
+            "temperature of the film in each cell",
+            _arguments(
+                "T_in f oil temperature at the inlet [K]; u_mean f mean surface velocity [m/s]; h f central film [m]; "
+                "semi_b f semi-axis along rolling [m]; tau a shear stress [Pa]; slip a slip velocity [m/s]; "
+                "par a parameters; T A film temperature [K]"
+            ),
+            ("film temperature [K]",),
+            RACEWAYS,
+            elementwise=True,
+            bounds=(_POSITIVE,),
+        ),
+        Role(
+            "traction",
+            "shear stress of the film from its rate of shear",
+            _arguments(
+                "slip a slip velocity, >= 0 [m/s]; p a pressure [Pa]; T a temperature [K]; "
+                "ln_eta a ln(viscosity / Pa s); h f central film [m]; par a parameters; tau A shear stress, >= 0 [Pa]"
+            ),
+            ("shear stress [Pa]",),
+            RACEWAYS,
+            elementwise=True,
+            bounds=(_POSITIVE,),
+            vanishes_with="slip",
+        ),
+        Role(
+            "rolling_resistance",
+            "hydrodynamic force of the inlet on each surface",
+            _arguments(
+                "u_mean f mean surface velocity [m/s]; load f normal load [N]; semi_a f semi-axis across rolling [m]; "
+                f"semi_b f semi-axis along rolling [m]; {_MATERIAL}; {_OIL}; beta f -d ln(eta)/dT [1/K]; "
+                "k_oil f thermal conductivity of the oil [W/(m K)]; par a parameters; out A results"
+            ),
+            ("force on each body, >= 0 [N]",),
+            RACEWAYS,
+            bounds=(_POSITIVE,),
+        ),
+        Role(
+            "elastic_hysteresis",
+            "couple that resists rolling by losses in the solids",
+            _arguments(
+                "load f normal load [N]; semi_a f semi-axis across rolling [m]; semi_b f semi-axis along rolling [m]; "
+                "R_x f reduced radius along rolling [m]; R_y f reduced radius across rolling [m]; "
+                "R_ball f ball radius [m]; par a parameters; out A results"
+            ),
+            ("moment against the relative rolling, >= 0 [N m]",),
+            RACEWAYS,
+            bounds=(_POSITIVE,),
+        ),
+        Role(
+            "asperity_load",
+            "share of the load carried by touching asperities",
+            _arguments("Lambda f film over composite roughness [-]; par a parameters; out A results"),
+            ("share of the load psi [-], 0..1",),
+            RACEWAYS,
+            bounds=((0.0, 1.0),),
+        ),
+        Role(
+            "boundary_friction",
+            "coefficient of friction of touching asperities",
+            _arguments(
+                "slip a slip velocity, >= 0 [m/s]; p a pressure [Pa]; u_mean f mean surface velocity, >= 0 [m/s]; "
+                "par a parameters; mu A coefficient [-]"
+            ),
+            ("coefficient of friction [-], >= 0, 0 at rest",),
+            RACEWAYS,
+            elementwise=True,
+            bounds=(_POSITIVE,),
+            vanishes_with="slip",
+        ),
+        Role(
+            "cage_contact",
+            "force between the cage and a ball (pocket) or a ring (land), or of two balls where there is no cage",
+            _arguments(
+                "r a position of the guided body's centre from the pocket's (ball) or the cage's centre from the "
+                "land's (cage), (axial, radial or y, tangential or z) [m]; v_rel a its velocity in that frame [m/s]; "
+                "omega_rel a its angular velocity relative to the partner [rad/s]; "
+                "eta0 f viscosity at ambient pressure [Pa s]; par a parameters; "
+                "out A force on the moving body [N] (3), point of action from the frame's origin [m] (3)"
+            ),
+            ("force[3] [N]", "point[3] [m]"),
+            GUIDES,
+        ),
+        Role(
+            "fluid_drag",
+            "drag force and churning moment of the oil on one ball",
+            _arguments(
+                "v_orbit f orbital speed of the ball's centre, signed [m/s]; omega_spin f spin speed, >= 0 [rad/s]; "
+                "azimuth f azimuth from +y to +z [rad]; nu f kinematic viscosity [m2/s]; rho f density [kg/m3]; "
+                "par a parameters; out A results"
+            ),
+            ("force against the orbital motion, of the sign of v_orbit [N]", "moment against the spin, >= 0 [N m]"),
+            tuple(elements.OIL),
+            sign_of="v_orbit",
+        ),
+        Role(
+            "permittivity",
+            "relative permittivity of the oil",
+            _arguments(
+                "p a pressure [Pa]; T a temperature [K]; rho a density [kg/m3]; par a parameters; "
+                "eps_r A relative permittivity"
+            ),
+            ("relative permittivity [-]",),
+            RACEWAYS,
+            elementwise=True,
+            bounds=((1.0, math.inf),),
+        ),
+        Role(
+            "capacitance",
+            "whole capacitance of one contact from that of its Hertzian area",
+            _arguments(
+                "C_hertz f capacitance of the Hertzian area [F]; h f central film [m]; "
+                "semi_a f semi-axis across rolling [m]; semi_b f semi-axis along rolling [m]; "
+                "R_x f reduced radius along rolling [m]; R_y f reduced radius across rolling [m]; "
+                "U f Hamrock-Dowson speed parameter [-]; G f material parameter [-]; W f load parameter [-]; "
+                "eps_r0 f relative permittivity at ambient pressure [-]; par a parameters; out A results"
+            ),
+            ("capacitance of the contact [F]",),
+            RACEWAYS,
+            bounds=(_POSITIVE,),
+        ),
+        Role(
+            "surface",
+            "deviation of a raceway from its nominal surface: waviness, defects",
+            _arguments(
+                "azimuth f place on the raceway, turning with the ring, -pi..pi from +y towards +z [rad]; "
+                "contact_angle f place across the groove, positive where thrust on the inner ring presses [rad]; "
+                "par a parameters; out A results"
+            ),
+            (
+                "height along the normal, towards the ball [m]",
+                "its derivative by azimuth [m/rad]",
+                "its derivative by contact angle [m/rad]",
+            ),
+            RACEWAYS,
+            slopes=((1, 0, "azimuth"), (2, 0, "contact_angle")),
+        ),
+    )
+}
+
+# Built-in default per role; "auto" is resolved to the model for which the lubricant has data.
+DEFAULT_MODELS: dict[str, str] = {
+    "normal_contact": "hamrock-brewe",
+    "damping": "cubic",
+    "rheology": "auto",
+    "film_thickness": "chittenden",
+    "thermal_correction": "murch-wilson",
+    "supply": "constant",
+    "contact_temperature": "shear-heating",
+    "traction": "ree-eyring",
+    "rolling_resistance": "biboulet-houpert",
+    "elastic_hysteresis": "loss-factor",
+    "asperity_load": "zhou-hoeprich",
+    "boundary_friction": "cubic",
+    "cage_contact": "spherical-pocket",
+    "fluid_drag": "skf-catalogue",
+    "permittivity": "bode",
+    "capacitance": "schneider",
+    "surface": "none",
+}

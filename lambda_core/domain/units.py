@@ -1,0 +1,288 @@
+"""Unit strings at the door, SI floats inside.
+
+Each physical quantity has a closed list of units. A dimensional field is written as a
+string ("16 kN"); a bare number, a decimal comma or a unit of another quantity is an
+error that says what to write instead.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from lambda_core.domain.errors import nearest
+
+_RPM = math.pi / 30.0
+_ZERO_CELSIUS = Decimal("273.15")
+
+# quantity -> {unit: factor to SI}; the first unit is the one engineers read, used for output.
+UNITS: dict[str, dict[str, float]] = {
+    "length": {"mm": 1e-3, "um": 1e-6, "nm": 1e-9, "m": 1.0, "cm": 1e-2},
+    "small_length": {"um": 1e-6, "nm": 1e-9, "mm": 1e-3, "m": 1.0},
+    "force": {"N": 1.0, "kN": 1e3, "MN": 1e6},
+    "moment": {"N m": 1.0, "N mm": 1e-3, "kN m": 1e3},
+    "pressure": {"MPa": 1e6, "GPa": 1e9, "kPa": 1e3, "Pa": 1.0, "bar": 1e5},
+    "modulus": {"GPa": 1e9, "MPa": 1e6, "Pa": 1.0},
+    "rotational_speed": {"rpm": _RPM, "1/min": _RPM, "rad/s": 1.0},
+    "velocity": {"m/s": 1.0, "mm/s": 1e-3},
+    "acceleration": {"m/s2": 1.0, "mm/s2": 1e-3},
+    "temperature": {"degC": 1.0, "K": 1.0},
+    "temperature_difference": {"K": 1.0},
+    "time": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0},
+    "frequency": {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6},
+    "mass": {"kg": 1.0, "g": 1e-3},
+    "inertia": {"kg m2": 1.0, "kg mm2": 1e-6},
+    "angle": {"deg": math.pi / 180.0, "rad": 1.0, "mrad": 1e-3},
+    "stiffness": {"N/m": 1.0, "N/um": 1e6, "N/mm": 1e3, "kN/mm": 1e6},
+    "damping": {"N s/m": 1.0, "N s/mm": 1e3},
+    "angular_stiffness": {"N m/rad": 1.0, "N m/mrad": 1e3},
+    "angular_damping": {"N m s/rad": 1.0},
+    "viscosity": {"mPa s": 1e-3, "Pa s": 1.0},
+    "kinematic_viscosity": {"mm2/s": 1e-6, "cSt": 1e-6, "m2/s": 1.0},
+    "density": {"kg/m3": 1.0, "g/cm3": 1e3},
+    "thermal_conductivity": {"W/(m K)": 1.0},
+    "specific_heat": {"J/(kg K)": 1.0, "kJ/(kg K)": 1e3},
+    "thermal_expansion": {"1/K": 1.0, "1e-6/K": 1e-6},
+    "pressure_viscosity": {"1/GPa": 1e-9, "mm2/N": 1e-6, "1/Pa": 1.0},
+    "volume": {"mm3": 1e-9, "m3": 1.0, "ml": 1e-6, "l": 1e-3},
+    "area": {"mm2": 1e-6, "cm2": 1e-4, "m2": 1.0},
+    "power": {"W": 1.0, "kW": 1e3, "mW": 1e-3},
+    "thermal_conductance": {"W/K": 1.0, "mW/K": 1e-3},
+    "heat_transfer": {"W/(m2 K)": 1.0},
+    "heat_capacity": {"J/K": 1.0, "kJ/K": 1e3},
+    "volume_flow": {"l/min": 1e-3 / 60.0, "ml/min": 1e-6 / 60.0, "mm3/s": 1e-9, "m3/s": 1.0},
+    "unbalance": {"g mm": 1e-6, "kg m": 1.0, "kg mm": 1e-3},
+    "voltage": {"V": 1.0, "mV": 1e-3, "kV": 1e3},
+    "current": {"A": 1.0, "mA": 1e-3, "uA": 1e-6, "kA": 1e3},
+    "resistance": {"Ohm": 1.0, "mOhm": 1e-3, "kOhm": 1e3, "MOhm": 1e6, "GOhm": 1e9},
+    "capacitance": {"pF": 1e-12, "nF": 1e-9, "uF": 1e-6, "F": 1.0},
+    "field_strength": {"V/um": 1e6, "kV/mm": 1e6, "MV/m": 1e6, "V/mm": 1e3, "V/m": 1.0},
+    "conductivity": {"S/m": 1.0, "pS/m": 1e-12, "nS/m": 1e-9, "uS/m": 1e-6},
+    "number_density": {"1/mm3": 1e9, "1/m3": 1.0},
+}
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_VALUE = re.compile(rf"^\s*({_NUMBER})\s*(.*?)\s*$")
+_COMMA = re.compile(r"^\s*([+-]?\d+),(\d+)\s*(.*?)\s*$")
+# Thousands set apart: "6,000", "1,234.5", "6 000", "6'000"
+_GROUPED = re.compile(
+    r"^\s*([+-]?[1-9]\d{0,2})((?:,\d{3})+|(?:[ '\u00a0\u2009\u202f]\d{3})+)(\.\d*)?(?!\d)\s*(.*?)\s*$"
+)
+
+
+def _spelling(unit: str) -> str:
+    """Fold the spellings people use for one unit (micro sign, dots, superscripts, spaces)."""
+    table = str.maketrans({"µ": "u", "μ": "u", "·": " ", "*": " ", "²": "2", "³": "3", "°": "deg"})
+    folded = re.sub(r"\s+", " ", unit.translate(table)).strip().replace("^", "")
+    return {"deg C": "degC", "C": "degC", "min-1": "1/min", "Nm": "N m", "Nmm": "N mm"}.get(folded, folded)
+
+
+def misread(text: str, unit: str = "") -> str:
+    """Say what to write in place of a number with a comma or with grouped digits; "" when there is neither.
+
+    Where two readings are possible ("6,000 rpm") both are named and none is advised. `unit` stands where `text` has
+    none.
+    """
+    grouped = _GROUPED.match(text)
+    if grouped:
+        head, groups, fraction, rest = grouped[1], grouped[2], grouped[3] or "", grouped[4] or unit
+        whole = f"{head}{re.sub(r'[^0-9]', '', groups)}{fraction} {rest}".rstrip()
+        if groups.count(",") == 1 and not fraction:
+            point = f"{head}.{groups[1:]} {rest}".rstrip()
+            return f'"{text}" can be read two ways: write "{whole}" or "{point}", without a comma'
+        return f'"{text}": write the digits together: "{whole}"'
+    comma = _COMMA.match(text)
+    if comma:
+        point = f"{comma[1]}.{comma[2]} {comma[3] or unit}".rstrip()
+        return f'"{text}": write a decimal point: "{point}"'
+    return ""
+
+
+def parse(text: object, quantity: str) -> float:
+    """Read a unit string as an SI float.
+
+    Parameters
+    ----------
+    text : object
+        What stands in the file, for example ``"16 kN"``.
+    quantity : str
+        Key of :data:`UNITS`.
+
+    Returns
+    -------
+    float
+        Value in SI units (temperatures in K, angles in rad, speeds of rotation in rad/s).
+
+    Raises
+    ------
+    ValueError
+        With a sentence that says what to write.
+    """
+    units = UNITS[quantity]
+    first = next(iter(units))
+    if isinstance(text, bool) or not isinstance(text, int | float | str):
+        raise ValueError(f'expected a {quantity} with its unit, for example "1 {first}"')
+    if isinstance(text, int | float):
+        raise ValueError(f'{text:g} has no unit: write "{text:g} {first}" (allowed: {", ".join(units)})')
+    if mistake := misread(text, first):
+        raise ValueError(mistake)
+    match = _VALUE.match(text)
+    if not match:
+        raise ValueError(f'"{text}" is not a number with a unit, for example "1 {first}"')
+    unit = _spelling(match[2])
+    if not unit:
+        raise ValueError(f'"{text}" has no unit: write "{match[1]} {first}" (allowed: {", ".join(units)})')
+    if unit not in units:
+        close = nearest(unit, units)
+        hint = f"; did you mean {close[0]}?" if close else ""
+        raise ValueError(f'"{text}": {unit} is not a unit of {quantity}; allowed: {", ".join(units)}{hint}')
+    # Decimal arithmetic rounds once: "0.1 um" is 1e-07, not 9.999999999999999e-08.
+    try:
+        exact = Decimal(match[1]) * Decimal(repr(units[unit]))
+        value = float(exact + _ZERO_CELSIUS if quantity == "temperature" and unit == "degC" else exact)
+    except ArithmeticError:
+        value = math.inf
+    if not math.isfinite(value):
+        raise ValueError(f'"{text}" is not a finite number')
+    if quantity == "temperature" and value <= 0.0:
+        raise ValueError(f'"{text}" is at or below absolute zero')
+    return value
+
+
+def from_si(value: float, quantity: str, unit: str | None = None) -> float:
+    """Convert an SI float to `unit` (default: the first of the quantity)."""
+    units = UNITS[quantity]
+    unit = unit or next(iter(units))
+    exact = Decimal(repr(float(value)))
+    if quantity == "temperature" and unit == "degC":
+        return float(exact - _ZERO_CELSIUS)
+    return float(exact / Decimal(repr(units[unit])))
+
+
+def show(value: float, quantity: str, digits: int | None = None) -> str:
+    """Write an SI float as a unit string; exact (reads back equal) unless `digits` is given.
+
+    The exact spelling takes the first unit of the quantity in which the number is short and
+    between 0.1 and 1000.
+    """
+    if digits is not None:
+        return _rounded(value, quantity, digits)
+    spellings: list[tuple[bool, bool, str]] = []
+    for unit in UNITS[quantity]:
+        converted = from_si(value, quantity, unit)
+        if not math.isfinite(converted):
+            continue
+        for number in (f"{converted:.12g}", repr(converted)):
+            if _reads_back(f"{number} {unit}", quantity, value):
+                handy = value == 0.0 or 0.1 <= abs(converted) < 1000.0 or quantity == "temperature"
+                spellings.append((len(number) > 9, not handy, f"{number} {unit}"))
+                break
+    if not spellings:
+        raise ValueError(f"{value!r} has no exact spelling as a {quantity}")
+    return min(spellings, key=lambda spelling: spelling[:2])[2]
+
+
+def _reads_back(text: str, quantity: str, value: float) -> bool:
+    try:
+        return parse(text, quantity) == value
+    except ValueError:  # rounding at the end of the floats' range
+        return False
+
+
+# Quantities that people read in one unit, whatever the magnitude.
+_ONE_UNIT = ("temperature", "rotational_speed", "angle")
+
+
+def _rounded(value: float, quantity: str, digits: int) -> str:
+    """Write a number for people: the first unit in which it lies between 0.1 and 1000."""
+    units = list(UNITS[quantity])
+    handy = [u for u in units if 0.1 <= abs(from_si(value, quantity, u)) < 1000.0]
+    unit = units[0] if quantity in _ONE_UNIT or not handy else handy[0]
+    return f"{from_si(value, quantity, unit):.{digits}g} {unit}"
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Annotation of a dimensional field: ``Annotated[float, Quantity("force")]``.
+
+    In files the field is a unit string, in Python an SI float. A Python float passes
+    as SI only when the model is built with ``context={"si": True}`` (``model_validate``).
+    """
+
+    name: str
+
+    def __post_init__(self) -> None:
+        if self.name not in UNITS:
+            raise ValueError(f'"{self.name}" is not a quantity; known: {", ".join(UNITS)}')
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        def validate(value: Any, info: core_schema.ValidationInfo) -> float:
+            if info.context and info.context.get("si") and type(value) in (int, float):
+                return float(value)
+            return parse(value, self.name)
+
+        return core_schema.with_info_before_validator_function(
+            validate,
+            handler(source),
+            serialization=core_schema.plain_serializer_function_ser_schema(
+                lambda value: show(value, self.name) if isinstance(value, float) else value, when_used="json"
+            ),
+        )
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        units = list(UNITS[self.name])
+        return {
+            "type": "string",
+            "x-quantity": self.name,
+            "x-units": units,
+            "examples": [f"1 {units[0]}"],
+        }
+
+
+Length = Annotated[float, Quantity("length")]
+SmallLength = Annotated[float, Quantity("small_length")]
+Force = Annotated[float, Quantity("force")]
+Moment = Annotated[float, Quantity("moment")]
+Pressure = Annotated[float, Quantity("pressure")]
+Modulus = Annotated[float, Quantity("modulus")]
+RotationalSpeed = Annotated[float, Quantity("rotational_speed")]
+Velocity = Annotated[float, Quantity("velocity")]
+Acceleration = Annotated[float, Quantity("acceleration")]
+Temperature = Annotated[float, Quantity("temperature")]
+Time = Annotated[float, Quantity("time")]
+Frequency = Annotated[float, Quantity("frequency")]
+Mass = Annotated[float, Quantity("mass")]
+Inertia = Annotated[float, Quantity("inertia")]
+Angle = Annotated[float, Quantity("angle")]
+Stiffness = Annotated[float, Quantity("stiffness")]
+Damping = Annotated[float, Quantity("damping")]
+AngularStiffness = Annotated[float, Quantity("angular_stiffness")]
+AngularDamping = Annotated[float, Quantity("angular_damping")]
+Viscosity = Annotated[float, Quantity("viscosity")]
+KinematicViscosity = Annotated[float, Quantity("kinematic_viscosity")]
+Density = Annotated[float, Quantity("density")]
+ThermalConductivity = Annotated[float, Quantity("thermal_conductivity")]
+SpecificHeat = Annotated[float, Quantity("specific_heat")]
+ThermalExpansion = Annotated[float, Quantity("thermal_expansion")]
+PressureViscosity = Annotated[float, Quantity("pressure_viscosity")]
+Unbalance = Annotated[float, Quantity("unbalance")]
+Volume = Annotated[float, Quantity("volume")]
+VolumeFlow = Annotated[float, Quantity("volume_flow")]
+Area = Annotated[float, Quantity("area")]
+Power = Annotated[float, Quantity("power")]
+ThermalConductance = Annotated[float, Quantity("thermal_conductance")]
+HeatTransfer = Annotated[float, Quantity("heat_transfer")]
+HeatCapacity = Annotated[float, Quantity("heat_capacity")]
+Voltage = Annotated[float, Quantity("voltage")]
+Current = Annotated[float, Quantity("current")]
+Resistance = Annotated[float, Quantity("resistance")]
+Capacitance = Annotated[float, Quantity("capacitance")]
+FieldStrength = Annotated[float, Quantity("field_strength")]
+Conductivity = Annotated[float, Quantity("conductivity")]
+NumberDensity = Annotated[float, Quantity("number_density")]

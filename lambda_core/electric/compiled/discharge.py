@@ -1,0 +1,168 @@
+"""One discharge: arcs through the films of one ball, from the breakdown until the last one quenches.
+
+The first film that breaks down lets the ball's voltage collapse within a nanosecond; the other film of the ball then
+stands the whole bearing voltage. Where it breaks down too, the rotor's charge flows through both: both contacts of a
+ball make one discharge. Balls are followed one at a time: after the first the voltage is gone.
+"""
+
+from __future__ import annotations
+
+from lambda_core.electric import columns as L
+from lambda_core.electric.compiled.arc import book, open_network, reduce_network, restore_charges, until_change
+from lambda_core.electric.compiled.assembly import across_bearing
+from lambda_core.electric.compiled.layout import helper, shared_helper
+from lambda_core.electric.compiled.modes import amplitudes, charges, modes, propagate, voltages
+from lambda_core.electric.compiled.source import slope_at, source_work, voltage_at
+
+# First step over the fastest mode's time, after an arc opens or dies and after a corner of the source; each step over
+# the one before.
+_FIRST, _CORNER, _GROWTH = 0.3, 1.0, 1.9
+_MOST_CHANGES, _MOST_STEPS = 1000, 100000
+_AS_WEAK = 2.0  # times the least current
+_SHORT = 1e-6  # a film that leaks slower than this does nothing during a discharge [s]
+
+
+@shared_helper
+def joined(n, shared, ball, c, g):
+    """Return 1 where metal joins another ball to a ring, so that it takes part in a discharge."""
+    for other in range(shared, n):
+        if other != shared + ball and g[other, other] * _SHORT > c[other, other]:
+            return 1
+    return 0
+
+
+@shared_helper
+def record(trace, total, window, now, volt, bearing, current):
+    """Write one row of the record while it is inside its window and there is room."""
+    row = int(total[L.T_TRACE])
+    if row < trace.shape[0] and window[0] <= now <= window[1]:
+        trace[row, 0], trace[row, 1], trace[row, 2], trace[row, 3] = now, volt, bearing, current
+        total[L.T_TRACE] += 1.0
+
+
+@helper
+def _open_channel(ring, now, shared, node, v, state, rows):
+    """Let a channel conduct, in the direction that its voltage drives."""
+    voltage = (v[ring] if ring < shared else 0.0) - v[node]
+    state[ring, 0] = 1.0
+    state[ring, 1] = 1.0 if voltage >= 0.0 else -1.0
+    if rows[ring, L.E_CONTACT_VOLTAGE] == 0.0:
+        rows[ring, L.E_TIME] = now
+        rows[ring, L.E_CONTACT_VOLTAGE] = voltage
+        rows[ring, L.E_BEARING_VOLTAGE] = across_bearing(shared, v)
+
+
+@helper
+def _quench(ring, now, shared, node, law, state, v, rows):
+    """Let an arc die, and the other one with it that is in series with it and as weak."""
+    for which in range(2):
+        if state[which, 0] == 0.0:
+            continue
+        voltage = (v[which] if which < shared else 0.0) - v[node]
+        current = abs(voltage - state[which, 1] * law[L.F_FALL]) / law[L.F_RESISTANCE]
+        if which == ring or current < _AS_WEAK * law[L.F_QUENCH]:
+            state[which, 0] = 0.0
+            rows[which, L.E_DURATION] = now - rows[which, L.E_TIME]
+
+
+@helper
+def _largest_current(shared, node, law, state, v, rows):
+    """Keep the peaks of the open channels' currents, and return the larger one now [A]."""
+    largest = 0.0
+    for ring in range(2):
+        if state[ring, 0] != 0.0:
+            voltage = (v[ring] if ring < shared else 0.0) - v[node]
+            current = abs(voltage - state[ring, 1] * law[L.F_FALL]) / law[L.F_RESISTANCE]
+            rows[ring, L.E_PEAK] = max(rows[ring, L.E_PEAK], current)
+            largest = max(largest, current)
+    return largest
+
+
+@shared_helper
+def burn(
+    now, size, shared, node, law, state, stand, decay, s, y, fall, machine, source_t, source_v, place,
+    g_r, v, vectors, rows, total, trace, window,
+):  # fmt: skip
+    """March with the same channels open until one opens or quenches; return the time and the ring (-1: never)."""
+    after, area, drive = vectors[9], vectors[10], vectors[12]
+    fastest = 0.0
+    for a in range(size):
+        fastest = max(fastest, decay[a])
+    dt, segment = 0.0, -1
+    _largest_current(shared, node, law, state, v, rows)
+    for _ in range(_MOST_STEPS):
+        slope, end = slope_at(now, source_t, source_v, place)
+        if place[0] == segment:
+            dt *= _GROWTH
+        else:
+            dt = (_FIRST if segment < 0 else _CORNER) / fastest
+            segment = place[0]
+        volt = voltage_at(now, source_t, source_v, place)
+        fall[L.ROTOR] += machine[L.M_WINDING] * slope
+        amplitudes(size, s, fall, drive)
+        fall[L.ROTOR] -= machine[L.M_WINDING] * slope
+        part, ring = until_change(
+            size, shared, node, law, state, stand, decay, s, y, drive, min(dt, end - now), after, area
+        )
+        book(size, shared, node, law, state, decay, s, y, drive, part, after, g_r, vectors[14], rows, total)
+        before = v[L.ROTOR]
+        propagate(size, decay, y, drive, part, after, area)
+        for a in range(size):
+            y[a] = after[a]
+        voltages(size, s, y, v)
+        total[L.T_SOURCE] += source_work(size, machine[L.M_WINDING], volt, slope, part, before, v[L.ROTOR], s, area)
+        now += part
+        current = _largest_current(shared, node, law, state, v, rows)
+        record(trace, total, window, now, volt + slope * part, across_bearing(shared, v), current)
+        if ring >= 0:
+            return now, ring
+    return now, -1
+
+
+@shared_helper
+def discharge(
+    now, ball, ring, n, shared, c, g, q, v, stand, law, machine, source_t, source_v, place,
+    work, vectors, rows, state, total, trace, window,
+):  # fmt: skip
+    """Follow a discharge that begins at `now` in one contact; return when it is over, < 0 where it never is.
+
+    Parameters
+    ----------
+    q, v : float64[:]
+        Charges of the nodes, left as they are after the discharge; potentials before it.
+    stand : float64[:], shape (2,)
+        Voltages that the two films of the ball stand [V].
+    rows : float64[:, :], shape (2, N_EVENT)
+        What the arcs did; the peak current is 0 for a film that held.
+    state : float64[:, :], shape (2, 2)
+        Workspace: whether a channel is open, and the sign of its current.
+    """
+    c_r, g_r, g_o, low, b, s = work[3], work[4], work[5], work[6], work[7], work[8]
+    q_r, v_r, y, decay, fall = vectors[6], vectors[7], vectors[8], vectors[11], vectors[13]
+    keep = joined(n, shared, ball, c, g)
+    size = reduce_network(n, shared, ball, keep, c, g, q, c_r, g_r, q_r)
+    node = shared + ball if keep == 1 else shared
+    for i in range(size):
+        v_r[i] = v[shared + ball] if keep == 0 and i == shared else v[i]
+    rows[:, :] = 0.0
+    state[:, :] = 0.0
+    for _ in range(_MOST_CHANGES):
+        if state[ring, 0] == 0.0:
+            _open_channel(ring, now, shared, node, v_r, state, rows)
+        else:
+            _quench(ring, now, shared, node, law, state, v_r, rows)
+            if state[0, 0] == 0.0 and state[1, 0] == 0.0:
+                restore_charges(n, shared, ball, keep, c, v_r, size, c_r, q, q_r)
+                return now
+        open_network(size, shared, node, law, state, g_r, g_o, fall)
+        if modes(size, c_r, g_o, low, b, s, decay) == 0:
+            return -1.0
+        charges(size, c_r, v_r, q_r)
+        amplitudes(size, s, q_r, y)
+        now, ring = burn(
+            now, size, shared, node, law, state, stand, decay, s, y, fall, machine, source_t, source_v, place,
+            g_r, v_r, vectors, rows, total, trace, window,
+        )  # fmt: skip
+        if ring < 0:
+            return -1.0
+    return -1.0

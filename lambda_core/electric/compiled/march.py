@@ -1,0 +1,257 @@
+"""The network through time: from switching edge to switching edge, and through every discharge on the way."""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.electric import columns as L
+from lambda_core.electric.compiled.assembly import across, across_bearing, assemble
+from lambda_core.electric.compiled.breakdown import threshold
+from lambda_core.electric.compiled.discharge import discharge, record
+from lambda_core.electric.compiled.layout import array1, array2, array3, f8, helper, i8, iarray1, iarray2, shared_helper
+from lambda_core.electric.compiled.modes import amplitudes, charges, heat, modes, propagate, voltages
+from lambda_core.electric.compiled.source import slope_at, source_work, voltage_at
+
+march_sig = i8(
+    array1, array1, array1, array3, array3, array3, array3, array3, array3, array1, array1, i8, i8, i8, f8,
+    array3, array2, array3, iarray2, array3, array2, array2, iarray1, array2, array2, array2, array1, array1,
+)  # fmt: skip
+N_WORK, N_VECTORS, N_HELD = 9, 19, 7
+
+
+@helper
+def _between(table, i, x, out):
+    """Write a row of a table of samples, interpolated linearly between samples i and i + 1."""
+    for j in range(out.shape[0]):
+        for ring in range(2):
+            out[j, ring] = (1.0 - x) * table[i, j, ring] + x * table[i + 1, j, ring]
+
+
+@helper
+def _closed(film, i, out):
+    """Take out the film of contacts that have none at one end of the interval: half a film would break down at once."""
+    for j in range(out.shape[0]):
+        for ring in range(2):
+            if film[i, j, ring] <= 0.0 or film[i + 1, j, ring] <= 0.0:
+                out[j, ring] = 0.0
+
+
+@helper
+def _dot(n, one, other):
+    total = 0.0
+    for a in range(n):
+        total += one[a] * other[a]
+    return total
+
+
+@helper
+def _energy(n, q, v):
+    """Return the energy q v / 2 of charged nodes [J]."""
+    return 0.5 * _dot(n, q, v)
+
+
+@helper
+def _sum(n, q):
+    total = 0.0
+    for i in range(n):
+        total += q[i]
+    return total
+
+
+@helper
+def _patch(spin, rate, elapsed):
+    """Return the number of the patch of surface that a contact is on."""
+    return math.floor(spin + rate * elapsed)
+
+
+@shared_helper
+def first_breakdown(shared, v, v1, film, spots, particles, rolled, rate, elapsed, law, seed, known, drawn):
+    """Return the part of the step after which a film breaks down (2: none does), its ball and its ring.
+
+    Between the ends of a step the voltages are straight lines.
+    """
+    best, at_ball, at_ring = 2.0, -1, -1
+    for j in range(film.shape[0]):
+        for ring in range(2):
+            end = across(shared, v1, j, ring)
+            if film[j, ring] <= 0.0 or abs(end) < law[L.F_LEAST]:
+                continue
+            patch = _patch(rolled[j, ring], rate[j, ring], elapsed)
+            stands = threshold(
+                j, ring, patch, film[j, ring], spots[j, ring], particles[j, ring], law, seed, known, drawn
+            )
+            if abs(end) < stands:
+                continue
+            sign = 1.0 if end > 0.0 else -1.0
+            begin = sign * across(shared, v, j, ring)
+            part = 0.0 if begin >= stands else (stands - begin) / (abs(end) - begin)
+            if part < best:
+                best, at_ball, at_ring = part, j, ring
+    return best, at_ball, at_ring
+
+
+@shared_helper
+def _store(events, total, rows, ball, sample):
+    """Append what a discharge did, the contact that broke down first before the other; 0 when the table is full."""
+    both = rows[0, L.E_PEAK] > 0.0 and rows[1, L.E_PEAK] > 0.0
+    turned = both and rows[1, L.E_TIME] < rows[0, L.E_TIME]
+    for place in range(2):
+        ring = 1 - place if turned else place
+        if rows[ring, L.E_PEAK] == 0.0:
+            continue
+        k = int(total[L.T_EVENTS])
+        if k >= events.shape[0]:
+            return 0
+        for column in range(L.N_EVENT):
+            events[k, column] = rows[ring, column]
+        events[k, L.E_BALL], events[k, L.E_RACEWAY] = ball, ring
+        events[k, L.E_DISCHARGE], events[k, L.E_SAMPLE] = total[L.T_DISCHARGES], sample
+        total[L.T_EVENTS] += 1.0
+    total[L.T_DISCHARGES] += 1.0
+    return 1
+
+
+@helper
+def _leaks(n, g, s, out):
+    """Write the current to ground through the conductances per amplitude of each mode."""
+    for a in range(n):
+        out[a] = 0.0
+        for i in range(n):
+            for k in range(n):
+                out[a] += g[k, i] * s[a, i]
+
+
+def march(
+    source_t, source_v, t, cap, cond, film, spots, particles, rolled, machine, law, insulated, seed, substeps, longest,
+    work, vectors, held, known, drawn, rows, state, place, extremes, events, trace, window, total,
+):  # fmt: skip
+    """March the network of one bearing through time; an entry point.
+
+    Parameters
+    ----------
+    source_t, source_v : float64[:], shape (k,)
+        Corners of the common-mode voltage [s], [V].
+    t : float64[:], shape (n,)
+        Times of the contact samples [s].
+    cap, cond, film, spots, particles, rolled : float64[:, :, :], shape (n, Z, 2)
+        Capacitance [F] and conductance [S] of the contacts, film that breaks down (0: none) [m], independent spots in
+        the contact, mean number of particles in it, patches of surface rolled over since the start.
+    machine, law : float64[:]
+        Constants (M_*, F_*).
+    insulated, seed, substeps : int
+        Whether the outer ring is a node; key of the random numbers; intervals of constant capacitance per sample.
+    longest : float
+        Longest step, so that no patch is passed over [s].
+    work, vectors, held, known, drawn, rows, state, place
+        Workspace (march_arrays).
+    extremes : float64[:, :], shape (n - 1, 2)
+        Smallest and largest bearing voltage between samples [V].
+    events, trace : float64[:, :]
+        Discharges (E_*); moments inside `window` [s].
+    total : float64[:]
+        Sums (T_*).
+
+    Returns
+    -------
+    int
+        OK, EVENTS_FULL, NOT_POSITIVE or ENDLESS.
+    """
+    shared = 2 if insulated == 1 else 1
+    c, g, s = work[0], work[1], work[2]
+    y, v, v1, after, area, decay = vectors[0], vectors[1], vectors[2], vectors[3], vectors[4], vectors[5]
+    q, drive, stand, leaks = vectors[15], vectors[16], vectors[17], vectors[18]
+    now, n, winding = t[0], shared + cap.shape[1], machine[L.M_WINDING]
+    slope_at(now, source_t, source_v, place)
+    for i in range(n):
+        q[i], v[i] = 0.0, 0.0
+    q[L.ROTOR] = winding * voltage_at(now, source_t, source_v, place)
+    total[L.T_CHARGE_0] = q[L.ROTOR]
+    began = 0
+    for i in range(t.size - 1):
+        extremes[i, 0], extremes[i, 1] = math.inf, -math.inf
+        length = (t[i + 1] - t[i]) / substeps
+        for ring in range(2):
+            for j in range(cap.shape[1]):
+                held[6, j, ring] = (rolled[i + 1, j, ring] - rolled[i, j, ring]) / (t[i + 1] - t[i])
+        for part in range(substeps):
+            begin = t[i] + part * length
+            stop = t[i + 1] if part == substeps - 1 else t[i] + (part + 1) * length
+            if stop <= now:
+                continue  # a discharge went on beyond this interval
+            middle = (part + 0.5) / substeps
+            _between(cap, i, middle, held[0])
+            _between(cond, i, middle, held[1])
+            _between(film, i, middle, held[2])
+            _closed(film, i, held[2])
+            _between(spots, i, middle, held[3])
+            _between(particles, i, middle, held[4])
+            _between(rolled, i, part / substeps, held[5])
+            before, held_at = _energy(n, q, v), v[L.ROTOR]
+            assemble(insulated, machine, held[0], held[1], c, g)
+            if modes(n, c, g, work[3], work[4], s, decay) == 0:
+                return L.NOT_POSITIVE
+            _leaks(n, g, s, leaks)
+            amplitudes(n, s, q, y)
+            voltages(n, s, y, v)
+            volt = voltage_at(now, source_t, source_v, place)
+            if began == 1:
+                total[L.T_MOTION] += _energy(n, q, v) - before
+                total[L.T_SOURCE] -= winding * volt * (v[L.ROTOR] - held_at)
+            else:
+                began = 1
+                total[L.T_STORED_0] = _energy(n, q, v) + winding * volt * (0.5 * volt - v[L.ROTOR])
+                record(trace, total, window, now, volt, across_bearing(shared, v), 0.0)
+            while now < stop:
+                total[L.T_SEGMENTS] += 1.0
+                slope, end = slope_at(now, source_t, source_v, place)
+                volt = voltage_at(now, source_t, source_v, place)
+                dt = min(min(stop, end) - now, longest)
+                for a in range(n):
+                    drive[a] = s[a, L.ROTOR] * winding * slope
+                propagate(n, decay, y, drive, dt, after, area)
+                voltages(n, s, after, v1)
+                best, ball, raceway = first_breakdown(
+                    shared, v, v1, held[2], held[3], held[4], held[5], held[6], now + dt - begin, law, seed, known,
+                    drawn,
+                )  # fmt: skip
+                patch_time = now + dt - begin
+                if best <= 1.0:
+                    dt *= best
+                    propagate(n, decay, y, drive, dt, after, area)
+                    voltages(n, s, after, v1)
+                total[L.T_OHMIC] += heat(n, decay, y, drive, dt)
+                total[L.T_SOURCE] += source_work(n, winding, volt, slope, dt, v[L.ROTOR], v1[L.ROTOR], s, area)
+                total[L.T_LEAK] += _dot(n, leaks, area)
+                for a in range(n):
+                    y[a], v[a] = after[a], v1[a]
+                now += dt
+                bearing = across_bearing(shared, v)
+                extremes[i, 0], extremes[i, 1] = min(extremes[i, 0], bearing), max(extremes[i, 1], bearing)
+                record(trace, total, window, now, volt + slope * dt, bearing, 0.0)
+                if best > 1.0:
+                    continue
+                charges(n, c, v, q)
+                for ring in range(2):
+                    stand[ring] = math.inf
+                    if held[2, ball, ring] > 0.0:
+                        patch = _patch(held[5, ball, ring], held[6, ball, ring], patch_time)
+                        stand[ring] = threshold(
+                            ball, ring, patch, held[2, ball, ring], held[3, ball, ring], held[4, ball, ring], law,
+                            seed, known, drawn,
+                        )  # fmt: skip
+                sample = i + (now - t[i]) / (t[i + 1] - t[i])
+                now = discharge(
+                    now, ball, raceway, n, shared, c, g, q, v, stand, law, machine, source_t, source_v, place,
+                    work, vectors, rows, state, total, trace, window,
+                )  # fmt: skip
+                if now < 0.0:
+                    return L.ENDLESS
+                if _store(events, total, rows, ball, sample) == 0:
+                    return L.EVENTS_FULL
+                amplitudes(n, s, q, y)
+                voltages(n, s, y, v)
+            charges(n, c, v, q)
+    volt = voltage_at(now, source_t, source_v, place)
+    total[L.T_STORED] = _energy(n, q, v) + winding * volt * (0.5 * volt - v[L.ROTOR])
+    total[L.T_CHARGE], total[L.T_TIME] = _sum(n, q), now
+    return L.OK

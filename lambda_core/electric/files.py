@@ -1,0 +1,94 @@
+"""The table of discharges in a file: CSV for spreadsheets, HDF5 with everything that belongs to it."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import h5py
+import numpy as np
+
+from lambda_core.domain.errors import UsageError
+from lambda_core.electric.circuit import bearing_capacitance
+
+if TYPE_CHECKING:
+    from lambda_core.electric.simulation import Simulation
+
+# Column -> unit and meaning; the order is that of the rows.
+COLUMNS: dict[str, tuple[str, str]] = {
+    "time": ("s", "of the breakdown"),
+    "ball": ("", "from 1"),
+    "ring": ("", "0 inner, 1 outer"),
+    "discharge": ("", "number of the discharge; both films of a ball may belong to one"),
+    "angle": ("rad", "place on the raceway, turning with the ring, from +y towards +z"),
+    "contact_voltage": ("V", "across the film at the breakdown, ring less ball"),
+    "bearing_voltage": ("V", "inner less outer ring at the breakdown"),
+    "energy": ("J", "heat in this film"),
+    "charge": ("C", "through this film"),
+    "peak": ("A", "largest current"),
+    "duration": ("s", "until the arc died"),
+    "film": ("m", "central film thickness"),
+    "film_parameter": ("", "Lambda"),
+    "area": ("m2", "Hertzian area"),
+}
+
+
+def check_target(path: Path, overwrite: bool) -> None:
+    """Say before the work what would stop the writing at its end.
+
+    Raises
+    ------
+    UsageError
+        When the ending is neither .csv nor .h5, the file exists, or its folder does not.
+    """
+    if path.suffix not in (".csv", ".h5"):
+        raise UsageError(f'"{path}": the table of discharges is written as .csv or .h5')
+    if path.exists() and not overwrite:
+        raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
+    if not path.absolute().parent.is_dir():
+        raise UsageError(f"cannot write {path}: the folder {path.absolute().parent} does not exist")
+
+
+def write(simulation: Simulation, path: Path) -> Path:
+    """Write the discharges; HDF5 also holds voltages and capacitance over time, and the outcome as JSON."""
+    try:
+        if path.suffix == ".csv":
+            _write_csv(simulation, path)
+        else:
+            _write_hdf5(simulation, path)
+    except OSError as error:
+        raise UsageError(f"cannot write {path}: {error.strerror or error}") from None
+    return path
+
+
+def _write_csv(simulation: Simulation, path: Path) -> None:
+    events = simulation.events
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow([f"{name} [{unit}]" if unit else name for name, (unit, _) in COLUMNS.items()])
+        writer.writerows(zip(*(getattr(events, name).tolist() for name in COLUMNS), strict=True))
+
+
+def _write_hdf5(simulation: Simulation, path: Path) -> None:
+    march, films = simulation.march, simulation.films
+    with h5py.File(path, "w") as file:
+        file.attrs["title"], file.attrs["case"] = "bearing currents", simulation.case
+        file["outcome_json"] = simulation.outcome.model_dump_json()
+        group = file.create_group("events")
+        for name, (unit, meaning) in COLUMNS.items():
+            group[name] = getattr(simulation.events, name)
+            group[name].attrs["units"], group[name].attrs["long_name"] = unit, meaning
+        series = {
+            "time": (films.time, "s", "time of the samples"),
+            "bearing_capacitance": (
+                bearing_capacitance(films),
+                "F",
+                "balls in parallel, films of a ball in series",
+            ),
+            "least_voltage": (np.append(march.extremes[:, 0], np.nan), "V", "until the next sample, inner less outer"),
+            "largest_voltage": (np.append(march.extremes[:, 1], np.nan), "V", "until the next sample"),
+        }
+        for name, (values, unit, meaning) in series.items():
+            file[name] = values
+            file[name].attrs["units"], file[name].attrs["long_name"] = unit, meaning

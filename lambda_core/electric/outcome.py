@@ -1,0 +1,201 @@
+"""Bearing voltage, discharges and impedance in the words of the machine interface."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.case.electric import Inverter, Sine, Step
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.electric import columns as L
+from lambda_core.electric.circuit import bearing_capacitance, impedance, voltage_ratio
+from lambda_core.electric.events import discharges_of, sector_shares
+from lambda_core.electric.limits import LIMITS, Limit
+from lambda_core.results.record import INTERFACE, Record
+
+if TYPE_CHECKING:
+    from lambda_core.electric.simulation import Simulation
+
+
+_FREQUENCIES = (1e3, 1e4, 1e5, 1e6)
+_BINS = 20
+
+
+class Histogram(Record):
+    """How many discharges fall between edges."""
+
+    unit: str
+    edges: list[float]
+    counts: list[int]
+
+
+class Outcome(Record):
+    """What the circuit of one bearing does; spans are smallest, middle (median) and largest."""
+
+    interface: int = INTERFACE
+    case: str
+    source: str = Field(description="common-mode voltage")
+    films: str = Field(description="where the films come from")
+    simulated_s: float
+    speed_rpm: float
+    bearing_capacitance_pF: list[float]
+    unloaded_share: float = Field(description="of the capacitance: balls that one ring does not touch under load")
+    rings_capacitance_pF: float
+    rotor_capacitance_pF: float = Field(description="everything between the rotor and its surroundings")
+    shorted_share: float = Field(description="of contacts and time: asperities touch, metal conducts")
+    bearing_voltage_ratio: float = Field(description="bearing over common-mode voltage, by capacitances alone")
+    bearing_voltage_V: list[float] = Field(description="smallest and largest between the rings")
+    impedance_kOhm: dict[str, float] = Field(description="frequency -> magnitude, mean over time")
+    impedance_phase_deg: dict[str, float]
+    discharges: int = Field(description="through both films of a ball: the rotor's charge flows")
+    discharges_per_s: float
+    partial_discharges: int = Field(description="through one film of a ball: only the ball's charge flows")
+    breakdown_voltage_V: list[float] | None = Field(description="of the bearing at discharges: 10, 50, 90 %")
+    peak_current_A: list[float] | None = Field(description="10, 50, 90 % of discharges")
+    energy_nJ: list[float] | None = Field(description="heat of one discharge: 10, 50, 90 %")
+    arc_power_mW: float
+    hertz_area_mm2: float = Field(description="of the loaded contacts of one raceway, mean of both")
+    current_density_A_per_mm2: float | None = Field(description="median peak current over that area, J_b")
+    power_density_VA_per_mm2: float | None = Field(description="median of voltage times peak current over it, S_b")
+    sector_share_inner: list[float] = Field(description="of breakdowns, sectors from +y towards +z, turning with it")
+    sector_share_outer: list[float]
+    voltage_histogram: Histogram | None
+    energy_histogram: Histogram | None
+    energy_residual: float = Field(description="of the energy that flowed")
+    charge_residual: float = Field(description="of the charge that flowed")
+    seed: int
+    wall_per_simulated_second: float
+    limits: list[Limit] = Field(description="in circulation; nothing is decided by them")
+    assumptions: list[str]
+
+    def text(self) -> str:
+        """Return the lines for people."""
+        from lambda_core.electric.text import outcome_text
+
+        return outcome_text(self)
+
+
+def outcome_of(simulation: Simulation) -> Outcome:
+    """Put a simulation into the units of the interface."""
+    events = simulation.events
+    each = discharges_of(events)
+    through = each.through
+    voltage, peak, energy = each.voltage[through], each.peak[through], each.energy[through]
+    films, circuit, contacts = simulation.films, simulation.circuit, simulation.contacts
+    capacitance = bearing_capacitance(films)
+    area = float(contacts.area.sum(axis=1).mean())
+    meter = impedance(films, circuit.rings, np.array(_FREQUENCIES)).mean(axis=0)
+    names = [f"{frequency:g} Hz" for frequency in _FREQUENCIES]
+    total, length = simulation.march.total, simulation.duration
+    some = bool(through.any())
+    extremes = simulation.march.extremes
+    return Outcome(
+        case=simulation.case,
+        source=source_words(simulation),
+        films=contacts.origin,
+        simulated_s=length,
+        speed_rpm=simulation.speed * 30.0 / math.pi,
+        bearing_capacitance_pF=[1e12 * float(f(capacitance)) for f in (np.min, np.median, np.max)],
+        unloaded_share=unloaded_share(simulation),
+        rings_capacitance_pF=1e12 * circuit.rings,
+        rotor_capacitance_pF=1e12 * (circuit.winding + circuit.rotor + circuit.rings + float(capacitance.mean())),
+        shorted_share=float(contacts.shorted.mean()),
+        bearing_voltage_ratio=voltage_ratio(circuit, float(capacitance.mean())),
+        bearing_voltage_V=[float(np.nanmin(extremes[:, 0])), float(np.nanmax(extremes[:, 1]))],
+        impedance_kOhm=dict(zip(names, (1e-3 * np.abs(meter)).tolist(), strict=True)),
+        impedance_phase_deg=dict(zip(names, np.degrees(np.angle(meter)).tolist(), strict=True)),
+        discharges=int(through.sum()),
+        discharges_per_s=float(through.sum()) / length,
+        partial_discharges=int((~through).sum()),
+        breakdown_voltage_V=_quantiles(voltage) if some else None,
+        peak_current_A=_quantiles(peak) if some else None,
+        energy_nJ=_quantiles(1e9 * energy) if some else None,
+        arc_power_mW=1e3 * float(total[L.T_ARC]) / length,
+        hertz_area_mm2=1e6 * 0.5 * area,
+        current_density_A_per_mm2=float(np.median(peak)) / (0.5e6 * area) if some else None,
+        power_density_VA_per_mm2=float(np.median(voltage * peak)) / (0.5e6 * area) if some else None,
+        sector_share_inner=sector_shares(events, 0).tolist(),
+        sector_share_outer=sector_shares(events, 1).tolist(),
+        voltage_histogram=_histogram(voltage, "V") if some else None,
+        energy_histogram=_histogram(1e9 * energy, "nJ") if some else None,
+        energy_residual=energy_residual(total),
+        charge_residual=charge_residual(simulation),
+        seed=simulation.options.seed,
+        wall_per_simulated_second=simulation.wall / length,
+        limits=list(LIMITS),
+        assumptions=assumptions(simulation),
+    )
+
+
+def unloaded_share(simulation: Simulation) -> float:
+    """Return the share of the bearing's capacitance that balls carry which a ring does not press on."""
+    capacitance = simulation.films.capacitance
+    each = capacitance[:, :, 0] * capacitance[:, :, 1] / capacitance.sum(axis=2)
+    open_ = ~simulation.contacts.loaded.all(axis=2)
+    return float((each * open_).sum() / each.sum())
+
+
+def energy_residual(total: FloatArray) -> float:
+    """Return source work + work of moving surfaces - heat - arcs - stored, over the sum of their absolute values."""
+    flows = total[[L.T_SOURCE, L.T_MOTION, L.T_OHMIC, L.T_ARC]]
+    stored = total[L.T_STORED] - total[L.T_STORED_0]
+    rest = flows[0] + flows[1] - flows[2] - flows[3] - stored
+    whole = float(np.abs(flows).sum() + abs(stored))
+    return float(rest) / whole if whole > 0.0 else 0.0
+
+
+def charge_residual(simulation: Simulation) -> float:
+    """Return charge brought by the source - leaked - through arcs - kept, over the charge that the source moved."""
+    total, (times, volts) = simulation.march.total, simulation.source
+    end = float(np.interp(total[L.T_TIME], times, volts))
+    winding = simulation.circuit.winding
+    rest = winding * (end - volts[0]) - total[L.T_LEAK] - total[L.T_ARC_CHARGE]
+    rest -= total[L.T_CHARGE] - total[L.T_CHARGE_0]
+    whole = winding * float(np.abs(np.diff(volts)).sum() + abs(volts[0]))
+    return float(rest) / whole if whole > 0.0 else 0.0
+
+
+def source_words(simulation: Simulation) -> str:
+    """Say what feeds the circuit."""
+    source = simulation.options.source
+    if isinstance(source, Inverter):
+        return (
+            f"two-level inverter, dc link {source.dc_link:g} V, {1e-3 * source.switching_frequency:g} kHz, "
+            f"edges {1e9 * source.rise_time:g} ns, modulation {source.modulation:g}"
+        )
+    if isinstance(source, Sine):
+        return f"sine, {source.amplitude:g} V, {source.frequency:g} Hz"
+    if isinstance(source, Step):
+        return f"step to {source.amplitude:g} V in {1e9 * source.rise_time:g} ns"
+    return f"measured series, {len(source.rows)} rows"
+
+
+def assumptions(simulation: Simulation) -> list[str]:
+    """Return what the options leave to defaults that no measurement of this machine stands behind."""
+    options, found = simulation.options, []
+    written = options.machine.model_fields_set
+    for name, words in (("winding_rotor", "C_wr"), ("rotor_frame", "C_rf")):
+        if name not in written:
+            found.append(f"{words} is {1e12 * getattr(options.machine, name):g} pF: an order of size, not this machine")
+    if options.machine.other_bearings is None:
+        found.append("the machine has one more bearing like this, of the mean capacitance")
+    if options.film.surroundings is None:
+        found.append("between the rings there is air outside the balls; cage and seals are left out")
+    if "strength" not in options.breakdown.model_fields_set:
+        found.append("films break down at 30 V/um of local gap; values of 15 to more than 30 V/um are in circulation")
+    if options.breakdown.law != "field":
+        found.append("heights of rough spots are Gaussian and independent; each patch of two contact widths is new")
+    found.append("contacts without load do not break down; craters do not change the surfaces")
+    return found
+
+
+def _quantiles(values: FloatArray) -> list[float]:
+    return [float(x) for x in np.quantile(values, (0.1, 0.5, 0.9))]
+
+
+def _histogram(values: FloatArray, unit: str) -> Histogram:
+    counts, edges = np.histogram(values, bins=_BINS)
+    return Histogram(unit=unit, edges=edges.tolist(), counts=counts.tolist())

@@ -1,0 +1,70 @@
+"""What the set-up of a law sees: frozen geometry, materials and oil of one force element, SI."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Material:
+    """Solid properties of one body, SI."""
+
+    name: str
+    youngs_modulus: float  # [Pa]
+    poisson_ratio: float  # [-]
+    density: float  # [kg/m3]
+    thermal_conductivity: float  # [W/(m K)]
+    specific_heat: float  # [J/(kg K)]
+
+
+@dataclass(frozen=True)
+class Oil:
+    """Properties of the lubricant at the run's bulk temperature, SI.
+
+    The first block comes from the catalogue; the second is derived by the host from the
+    chosen rheology kernel and is NaN in the context handed to that kernel's own `prepare`.
+    """
+
+    name: str
+    base_type: str  # "mineral", "PAO", ...
+    temperature: float  # bulk and inlet temperature [K]
+    thermal_conductivity: float  # [W/(m K)]
+    specific_heat: float  # [J/(kg K)]
+    viscosity: float = float("nan")  # at ambient pressure [Pa s]
+    density: float = float("nan")  # at ambient pressure [kg/m3]
+    alpha_p: float = float("nan")  # d ln(eta)/dp at p = 0 [1/Pa]
+    beta: float = float("nan")  # -d ln(eta)/dT [1/K]
+
+
+@dataclass(frozen=True)
+class Context:
+    """Everything a law's `prepare` may look at: frozen geometry, materials and oil, SI.
+
+    Lengths that a force element does not have are NaN (a cage contact has no groove).
+    """
+
+    element: str  # "ball_inner", "ball_outer", "ball_cage", "ball_ball", "cage_inner", "cage_outer", "fluid_drag"
+    ball_count: int  # Z
+    ball_diameter: float  # [m]
+    pitch_diameter: float  # [m]
+    bore_diameter: float  # [m]
+    outside_diameter: float  # [m]
+    width: float  # [m]
+    series: str  # "60", "62", "63", "64", "618", "619" or "" when unknown
+    speed: float  # |Omega_i - Omega_o| at the start or its largest planned value [rad/s]
+    mean_load: float  # mean normal load of the loaded contacts at equilibrium [N]
+    ball: Material  # of the balls
+    partner: Material  # ring or cage
+    oil: Oil  # at the bulk temperature
+    contact_angle: float = float("nan")  # at which R_x is frozen [rad]
+    groove_radius: float = float("nan")  # [m]
+    race_diameter: float = float("nan")  # at the groove's bottom [m]
+    radius_x: float = float("nan")  # reduced radius along rolling [m]
+    radius_y: float = float("nan")  # reduced radius across rolling [m]
+    e_eff: float = float("nan")  # E' with 2/E' = sum (1-nu^2)/E [Pa]
+    pocket_clearance: float = float("nan")  # diametral clearance of ball and pocket [m]
+    land_clearance: float = float("nan")  # diametral clearance of cage and land [m]
+    land_diameter: float = float("nan")  # diameter of the guiding land [m]
+    cage_width: float = float("nan")  # [m]
+    starvation: float = 1.0  # share of the flooded film that the case prescribes
+    oil_level: float = float("nan")  # height of the oil above the lowest point of the pitch circle [m]

@@ -1,0 +1,145 @@
+"""Compiled code on disk, through Numba's own cache: in a folder that we name, without loading the compiler on a hit."""
+
+# Numba's caching classes carry only part of their types.
+# mypy: disable-error-code="no-untyped-call,attr-defined,assignment"
+from __future__ import annotations
+
+import atexit
+import contextlib
+import functools
+import hashlib
+import io
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile, _CacheLocator
+from numba.core.registry import cpu_target
+from numba.core.runtime.nrt import rtsys
+
+KNOWN = all(
+    hasattr(kind, name)
+    for kind, names in (
+        (FunctionCache, ("_load_overload", "_guard_against_spurious_io_errors")),
+        (IndexDataCacheFile, ("_load_index", "_load_data", "_open_for_write", "_data_path")),
+    )
+    for name in names
+)
+
+
+class _FolderLocator(_CacheLocator):
+    """Keeps a function in one given folder, whose name already says everything about its content."""
+
+    folder: Path
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self._py_file = function.__code__.co_filename
+        self._place = f"{function.__module__}-{function.__code__.co_firstlineno}"
+
+    def get_cache_path(self) -> str:
+        return str(self.folder)
+
+    def get_source_stamp(self) -> str:
+        return ""
+
+    def get_disambiguator(self) -> str:
+        return self._place
+
+    @classmethod
+    def from_function(cls, py_func: Callable[..., Any], py_file: str) -> _FolderLocator | None:
+        self = cls(py_func)
+        try:
+            self.ensure_cache_path()
+        except OSError:
+            # A read-only home: work from a folder of this process instead of not at all.
+            type(self).folder = _own_folder()
+        return self
+
+
+@functools.cache
+def _own_folder() -> Path:
+    """Return the one temporary folder of this process, gone when it ends."""
+    made, maker = Path(tempfile.mkdtemp(prefix="lambda-bearing-")), os.getpid()
+
+    def remove() -> None:
+        if os.getpid() == maker:  # not a fork of it
+            shutil.rmtree(made, ignore_errors=True)
+
+    atexit.register(remove)
+    return made
+
+
+class _SealedFiles(IndexDataCacheFile):
+    """Files of a cache that end in a hash of what they hold: machine code with a flipped bit would end the process."""
+
+    def _load_index(self) -> Any:
+        return super()._load_index() if _sealed(Path(self._index_path)) else {}
+
+    def _load_data(self, name: str) -> Any:
+        path = Path(self._data_path(name))
+        if not _sealed(path):
+            raise FileNotFoundError(path)  # which counts as a miss: it is compiled, and written over
+        return super()._load_data(name)
+
+    @contextlib.contextmanager
+    def _open_for_write(self, filepath: str) -> Iterator[io.BytesIO]:
+        with super()._open_for_write(filepath) as stream:
+            held = io.BytesIO()
+            yield held
+            stream.write(held.getvalue() + hashlib.sha256(held.getvalue()).digest())
+
+
+def _sealed(path: Path) -> bool:
+    """Tell whether a file is there and ends in the hash of what stands before it."""
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return False
+    size = hashlib.sha256().digest_size
+    return hashlib.sha256(content[:-size]).digest() == content[-size:]
+
+
+def attach(dispatcher: Any, function: Callable[..., Any], folder: Path, on_miss: Callable[[], None]) -> None:
+    """Give a dispatcher a cache for `function` in `folder` that calls `on_miss` before compiling."""
+    locator = type("FolderLocator", (_FolderLocator,), {"folder": folder})
+    implementation = type("FolderCacheImpl", (CompileResultCacheImpl,), {"_locator_classes": [locator]})
+
+    class FolderCache(FunctionCache):
+        _impl_class = implementation
+
+        def __init__(self, py_func: Callable[..., Any]) -> None:
+            super().__init__(py_func)
+            self._cache_file = _SealedFiles(
+                self._cache_path, self._impl.filename_base, self._impl.locator.get_source_stamp()
+            )
+
+        def load_overload(self, sig: Any, target_context: Any) -> Any:
+            try:
+                # The inherited method first loads all that a compiler needs, half a second even when nothing is
+                # compiled; on a miss the compiler does so itself.
+                rtsys.initialize(target_context)
+                with self._guard_against_spurious_io_errors():
+                    found = self._load_overload(sig, target_context)
+            except Exception:  # a file cut short by a full disk or a killed process: compile anew
+                found = None
+                self.flush()
+            if found is None:
+                on_miss()
+            return found
+
+    dispatcher._cache = FolderCache(function)
+
+
+def processor() -> tuple[Any, ...]:
+    """Return what tells machines apart: processor and its features."""
+    found: tuple[Any, ...] = cpu_target.target_context.codegen().magic_tuple()
+    return found
+
+
+def callback(dispatcher: Any, signature: Any) -> tuple[int, object]:
+    """Return the address of a compiled function for C, and what keeps it alive."""
+    compiled = dispatcher.get_compile_result(signature)
+    return int(compiled.library.get_pointer_to_function(compiled.fndesc.llvm_cfunc_wrapper_name)), dispatcher

@@ -1,0 +1,17 @@
+"""Options of ``numba.njit`` for functions that exist inside their compiled callers only (:mod:`parts`); none on the
+plain way."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lambda_core.laws.jit.plain import is_plain
+
+OPTIONS: dict[str, Any] = {}
+APART: dict[
+    str, Any
+] = {}  # the same for a function none of whose arrays shares memory with another one that is written
+if not is_plain():
+    from lambda_core.laws.jit import parts
+
+    OPTIONS, APART = parts.OPTIONS, parts.APART

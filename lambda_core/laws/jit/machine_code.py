@@ -1,0 +1,137 @@
+"""Numba's side of the compiled-code service: its documented part; the rest is in `parts` and `disk_cache`.
+
+Import it inside functions: Numba takes more than a second to load.
+"""
+
+# Numba's caching classes carry only part of their types.
+# mypy: disable-error-code="no-untyped-call,attr-defined,assignment"
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import importlib.metadata
+import os
+import platform
+import shutil
+import time
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from types import FunctionType, ModuleType
+from typing import Any
+from weakref import WeakSet
+
+from numba import config, njit, types
+from numba.core.errors import NumbaExperimentalFeatureWarning
+from numba.extending import register_jitable
+
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.roles import Role
+from lambda_core.laws.jit import inlined, plain
+from lambda_core.laws.jit.plain import is_plain
+
+_KEEP = 90.0 * 86400.0  # compiled code that was not used for this long is dropped [s]
+_known_helpers: WeakSet[FunctionType] = WeakSet()
+
+# How all machine code is made. Products and sums fuse: twice as fast in polynomials, the same on every machine that
+# can. No reference counting: kernels do not allocate, and counting a view in and out takes an atomic operation each.
+OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}} | ({} if is_plain() else {"_nrt": False})
+
+
+def _way() -> ModuleType:
+    """Return how code is kept and pointed at: through Numba's internals, or the plain way."""
+    if is_plain():
+        return plain
+    from lambda_core.laws.jit import disk_cache
+
+    return disk_cache
+
+
+def role_signature(role: Role) -> Any:
+    """Return the Numba signature of a role's kernel: ``int64(float64, ..., float64[::1], ...)``."""
+    kinds = {"f": types.float64, "a": types.float64[::1]}
+    return types.int64(*(kinds[argument.kind] for argument in role.arguments))
+
+
+def make_callable(helpers: tuple[FunctionType, ...]) -> None:
+    """Let compiled kernels call plain Python functions; the functions themselves stay as they are."""
+    for helper in helpers:
+        if helper not in _known_helpers:
+            register_jitable(**OPTIONS, **inlined.OPTIONS)(helper)
+            _known_helpers.add(helper)
+
+
+def returned_type(dispatcher: Any) -> Any:
+    """Return the type that Numba inferred for the result of the only compiled signature."""
+    (compiled,) = dispatcher.overloads.values()
+    return types.unliteral(compiled.signature.return_type)
+
+
+def environment_key() -> str:
+    """Return a hash of what compiled code depends on beside its sources (hex, 16 characters).
+
+    Versions of Python, numpy, Numba and llvmlite, the processor and its features, the
+    optimisation level, how code is made here, and the bounds-check flag, to which Numba's own cache is blind.
+    """
+    words: list[object] = [platform.python_implementation(), platform.python_version()]
+    words += [importlib.metadata.version(name) for name in ("numpy", "numba", "llvmlite")]
+    words += _way().processor()
+    words += [str(config.OPT), config.BOUNDSCHECK, config.DEBUGINFO_DEFAULT]
+    words += [OPTIONS["error_model"], sorted(OPTIONS["fastmath"]), is_plain()]
+    words.append(Path(__file__).with_name("parts.py").read_bytes())
+    return hashlib.sha256(repr(words).encode()).hexdigest()[:16]
+
+
+def compile_into(
+    function: Callable[..., Any], signature: Any, folder: Path, on_miss: Callable[[], None], **options: Any
+) -> Any:
+    """Compile `function` for one explicit `signature`, or load it from `folder`.
+
+    `signature` may be a tuple of argument types: the return type is then inferred.
+    Returns the Numba dispatcher, closed for other signatures.
+    """
+    if config.DISABLE_JIT:
+        raise UsageError("NUMBA_DISABLE_JIT is set: the solver calls compiled code only; unset it")
+    _touch(folder)
+    dispatcher = njit(**{**OPTIONS, **options})(function)
+    _way().attach(dispatcher, function, folder, on_miss)
+    with warnings.catch_warnings():
+        # Function types as arguments are marked experimental; the tests of this project watch over them.
+        warnings.simplefilter("ignore", NumbaExperimentalFeatureWarning)
+        dispatcher.compile(signature)
+    dispatcher.disable_compile()
+    return dispatcher
+
+
+def _touch(folder: Path) -> None:
+    """Date a folder as used now; where there is a new one, drop those that nobody has used for long."""
+    if folder.exists():
+        with contextlib.suppress(OSError):
+            os.utime(folder)
+        return
+    oldest = time.time() - _KEEP
+    with contextlib.suppress(OSError):
+        for other in folder.parent.iterdir():
+            if other.stat().st_mtime < oldest:
+                shutil.rmtree(other, ignore_errors=True)
+
+
+class Pointer(types.WrapperAddressProtocol):
+    """Address of a compiled kernel, to be passed to compiled code as a first-class function.
+
+    It keeps the code alive and is never pickled: another process compiles (or loads) its own.
+    """
+
+    def __init__(self, dispatcher: Any, signature: Any) -> None:
+        self._signature = signature
+        self._address: int
+        self._address, self._kept = _way().callback(dispatcher, signature)
+
+    def __wrapper_address__(self) -> int:
+        return self._address
+
+    def signature(self) -> Any:
+        return self._signature
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a pointer to compiled code lives in one process: compile the kernel again in the other")

@@ -1,0 +1,257 @@
+"""What a function reaches: its code, the functions it calls and every constant they use.
+
+Numba stamps a cached function with its own source file only, so an edited helper or an
+edited constant in another file would silently leave the old physics running. The hash
+made here covers all of it and names the folder in which the compiled code is kept.
+"""
+
+from __future__ import annotations
+
+import builtins
+import dis
+import hashlib
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import cache
+from types import BuiltinFunctionType, CodeType, FunctionType, ModuleType
+from typing import Any
+
+import numpy as np
+
+from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.laws.jit.plain import instructions, is_forced
+
+# Modules that Numba implements itself: their content belongs to the interpreter and to
+# numpy, whose versions are part of the cache's environment.
+_LIBRARIES = frozenset(sys.stdlib_module_names) | {"numpy", "numba", "llvmlite"}
+_IMPURE = frozenset({"random", "numpy.random", "time", "datetime", "os", "sys"})
+_MISSING = object()
+
+
+class UnreachableError(PluginError):
+    """A kernel uses something whose content cannot be followed or may change unseen."""
+
+
+@dataclass(frozen=True)
+class Reach:
+    """All that a function depends on.
+
+    Attributes
+    ----------
+    key : str
+        Hash (hex) of bytecode, constants, default values and values of globals, recursively.
+    helpers : tuple of function
+        Plain Python functions that it calls, directly or through others, itself excluded.
+    codes : tuple of code
+        Every code object that was followed, its own first.
+    """
+
+    key: str
+    helpers: tuple[FunctionType, ...]
+    codes: tuple[CodeType, ...]
+
+
+def reach(function: Callable[..., Any], *, lenient: bool = False) -> Reach:
+    """Follow everything that `function` reaches.
+
+    Parameters
+    ----------
+    function : function or Numba dispatcher
+        Where to start.
+    lenient : bool
+        Take objects of unknown content (types, intrinsics) by their name instead of refusing.
+
+    Raises
+    ------
+    UnreachableError
+        For a helper with a compiled-code cache of its own, one that calls itself, and a
+        global whose value cannot be hashed; the sentence names it.
+    """
+    walk = _Walk(lenient)
+    walk.value(function, "the function itself")
+    root = _plain(function)
+    helpers = tuple(helper for helper in walk.functions if helper is not root)
+    return Reach(walk.hash.hexdigest(), helpers, tuple(walk.codes))
+
+
+def _plain(function: Any) -> Any:
+    """Return the Python function behind a Numba dispatcher, or the object itself."""
+    return getattr(function, "py_func", function)
+
+
+@dataclass
+class _Walk:
+    lenient: bool
+    hash: Any = field(default_factory=hashlib.sha256)
+    functions: list[FunctionType] = field(default_factory=list)
+    codes: list[CodeType] = field(default_factory=list)
+    seen: dict[int, int] = field(default_factory=dict)
+    within: list[FunctionType] = field(default_factory=list)  # functions being followed now
+
+    def add(self, *words: object) -> None:
+        for word in words:
+            data = word if isinstance(word, bytes) else str(word).encode()
+            self.hash.update(len(data).to_bytes(8, "little") + data)
+
+    def value(self, value: Any, where: str) -> None:
+        """Add one value: a constant, a function, or a container of them."""
+        if value is None or value is Ellipsis or isinstance(value, bool | int | float | complex | str | bytes):
+            self.add("constant", type(value).__name__, repr(value))
+        elif isinstance(value, np.ndarray | np.generic):
+            array = np.asarray(value)
+            if array.dtype.hasobject:
+                raise UnreachableError(f"{where} is an array of Python objects: use numbers")
+            self.add("array", array.dtype.str, array.shape, np.ascontiguousarray(array).tobytes())
+        elif isinstance(value, tuple):
+            self.add("tuple", type(value).__qualname__, len(value))
+            for index, item in enumerate(value):
+                self.value(item, f"{where}[{index}]")
+        elif isinstance(value, frozenset):
+            self.add("set", sorted(map(repr, value)))
+        elif isinstance(value, CodeType):
+            self.code(value, {}, {}, where)
+        elif isinstance(value, FunctionType):
+            self.function(value, where)
+        elif hasattr(value, "py_func") and hasattr(value, "targetoptions"):
+            self.dispatcher(value, where)
+        elif _of_library(value):
+            self.add("library", _module(value), _name(value))
+        elif self.lenient:
+            self.add("other", type(value).__module__, type(value).__qualname__, _name(value))
+        else:
+            raise UnreachableError(
+                f"{where} is a {type(value).__name__}: a kernel may use numbers, strings, tuples, "
+                "numpy arrays, plain Python functions and those of math and numpy"
+            )
+
+    def function(self, function: FunctionType, where: str) -> None:
+        if function in self.within and not self.lenient:
+            raise UnreachableError(f"{function.__qualname__} calls itself: write a loop")
+        if id(function) in self.seen:
+            self.add("again", self.seen[id(function)])
+            return
+        self.seen[id(function)] = len(self.seen)
+        self.functions.append(function)
+        for index, default in enumerate(function.__defaults__ or ()):
+            self.value(default, f"default {index} of {function.__qualname__} ({where})")
+        for name, default in sorted((function.__kwdefaults__ or {}).items()):
+            self.value(default, f"default of {name} in {function.__qualname__} ({where})")
+        free: dict[str, Any] = {}
+        for name, cell in zip(function.__code__.co_freevars, function.__closure__ or (), strict=True):
+            free[name] = cell.cell_contents
+        self.within.append(function)
+        self.code(function.__code__, function.__globals__, free, function.__qualname__)
+        self.within.pop()
+
+    def code(self, code: CodeType, scope: dict[str, Any], free: dict[str, Any], where: str) -> None:
+        """Add one code object: what it does, its constants and the globals it reads."""
+        self.codes.append(code)
+        self.add("code", code.co_code, code.co_argcount, code.co_kwonlyargcount, code.co_flags)
+        self.add(code.co_varnames, code.co_names, code.co_freevars, code.co_cellvars)
+        for constant in code.co_consts:
+            if isinstance(constant, CodeType):
+                self.code(constant, scope, free, f"{where}.{constant.co_name}")
+            else:
+                self.value(constant, f"a constant of {where}")
+        for name, value in sorted(free.items()):
+            if name in code.co_freevars:
+                self.value(value, f'"{name}", used by {where},')
+        for name, value in _globals_read(code, scope, where):
+            self.add("global", name)
+            self.value(value, f'"{name}", used by {where},')
+
+    def dispatcher(self, dispatcher: Any, where: str) -> None:
+        if getattr(getattr(dispatcher, "_cache", None), "cache_path", None) is not None:
+            name = f"{dispatcher.py_func.__module__}.{dispatcher.py_func.__qualname__}"
+            raise UnreachableError(
+                f"{name} is compiled with cache=True, which hides edits in other files: "
+                "write it as a plain Python function"
+            )
+        self.add("dispatcher", sorted((key, _ordered(item)) for key, item in dispatcher.targetoptions.items()))
+        self.function(dispatcher.py_func, where)
+
+
+def _ordered(value: Any) -> str:
+    """Write an option; sets in order, which otherwise differs from process to process."""
+    return repr(sorted(value)) if isinstance(value, set | frozenset) else repr(value)
+
+
+def _name(value: Any) -> str:
+    name = getattr(value, "__qualname__", None) or getattr(value, "__name__", None)
+    return name if isinstance(name, str) else ""
+
+
+def _of_library(value: Any) -> bool:
+    """Tell whether a function or type belongs to Python, numpy or Numba."""
+    if not isinstance(value, BuiltinFunctionType | np.ufunc | type) and not callable(value):
+        return False
+    if isinstance(value, np.ufunc) and getattr(np, value.__name__, None) is not value:
+        return False  # scipy's: Numba does not know it
+    return bool(_name(value)) and _module(value).split(".")[0] in _LIBRARIES
+
+
+def _module(value: Any) -> str:
+    """Return the module of a function or type; ufuncs name none before numpy 2.2."""
+    return getattr(value, "__module__", None) or "builtins"
+
+
+def raises(code: CodeType) -> bool:
+    """Tell whether a function has a raise or an assert."""
+    return dis.opmap["RAISE_VARARGS"] in code.co_code[::2]
+
+
+_READS = {dis.opmap[name]: name for name in ("LOAD_GLOBAL", "LOAD_ATTR", "LOAD_METHOD") if name in dis.opmap}
+# The lowest bit of these arguments is a flag: of LOAD_GLOBAL always, of LOAD_ATTR since LOAD_METHOD went into it with
+# Python 3.12. The table of operations does not tell: it goes on naming LOAD_METHOD, which compiled code never holds.
+_FLAGGED = {"LOAD_GLOBAL", "LOAD_ATTR"} if sys.version_info >= (3, 12) else {"LOAD_GLOBAL"}
+_SKIPPED = {dis.opmap["CACHE"]}
+_UNREAD = (3, 14)  # of Python; its code was not read here yet
+
+
+@cache
+def _instructions(code: CodeType) -> tuple[tuple[str, str], ...]:
+    """Return (operation, name) of every instruction, without a name where it reads none.
+
+    The standard library's disassembler says the same, with much else that takes a tenth of a second at every start.
+    """
+    if is_forced() or sys.version_info >= _UNREAD:
+        return instructions(code)
+    found: list[tuple[str, str]] = []
+    argument = 0
+    for operation, low in zip(code.co_code[::2], code.co_code[1::2], strict=True):
+        argument = argument << 8 | low
+        if operation == dis.EXTENDED_ARG:
+            continue
+        if (name := _READS.get(operation)) is not None:
+            found.append((name, code.co_names[argument >> (name in _FLAGGED)]))
+        elif operation not in _SKIPPED:
+            found.append(("", ""))
+        argument = 0
+    return tuple(found)
+
+
+def _globals_read(code: CodeType, scope: dict[str, Any], where: str) -> Iterator[tuple[str, Any]]:
+    """Yield (dotted name, value) of every global that `code` loads, through modules.
+
+    A module is followed only along the attributes that are read from it.
+    """
+    found: dict[str, Any] = {}
+    path, value = "", _MISSING
+    for operation, name in _instructions(code):
+        if isinstance(value, ModuleType):
+            if operation not in ("LOAD_ATTR", "LOAD_METHOD"):
+                raise UnreachableError(f'{where} hands the module "{path}" on: call {path}.function(...) directly')
+            path, value = f"{path}.{name}", getattr(value, name, _MISSING)
+        elif operation == "LOAD_GLOBAL":
+            path, value = name, scope.get(name, getattr(builtins, name, _MISSING))
+        else:
+            continue
+        if value is _MISSING:
+            raise UnreachableError(f'{where} uses "{path}", which does not exist')
+        if isinstance(value, ModuleType):
+            if value.__name__ in _IMPURE:
+                raise UnreachableError(f'{where} uses "{value.__name__}": a kernel is a function of its arguments only')
+        else:
+            found[path], value = value, _MISSING
+    yield from sorted(found.items(), key=lambda item: item[0])

@@ -1,0 +1,331 @@
+"""Compiled kernels: from a model's plain Python function to a pointer that compiled code calls.
+
+Compiled code is kept on disk in folders named by everything it depends on, so an edited
+law, an edited helper two files down and an edited constant are all seen by the next
+process, and nothing else is compiled again.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import os
+import re
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from types import FunctionType
+from typing import Any
+
+from lambda_core.domain.errors import unknown_name
+from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.domain.roles import ROLES
+from lambda_core.laws.jit import binding
+from lambda_core.laws.jit.reach import Reach, UnreachableError, reach
+from lambda_core.laws.law import Law
+from lambda_core.laws.par import par_layout
+
+Announce = Callable[[str], None]
+# What Numba says where memory would have to be managed, which machine code of kernels does not do.
+_ALLOCATES = ("NRT required", "Only accept returning of array passed into the function")
+_LOWERED = re.compile(r" at (\S+\.py) \((\d+)\)")
+_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+
+
+def cache_folder() -> Path:
+    """Return the folder of all compiled code: ``LAMBDA_BEARING_CACHE`` or the user's cache."""
+    base = os.environ.get("LAMBDA_BEARING_CACHE")
+    if base:
+        return Path(base).expanduser() / "kernels"
+    import platformdirs
+
+    return Path(platformdirs.user_cache_dir("lambda-bearing")) / "kernels"
+
+
+@dataclass(frozen=True)
+class CompiledKernel:
+    """A model's kernel as machine code.
+
+    Attributes
+    ----------
+    pointer : Pointer
+        First-class function for compiled code, of type ``FunctionType(signature(role))``; it
+        keeps the code alive and refuses to be pickled.
+    key : str
+        Hash of everything the kernel reaches (result files store it; worker processes compare it).
+    dispatcher : numba dispatcher
+        The same code, callable from Python.
+    cached : bool
+        Whether it came from disk.
+    seconds : float
+        Time to compile or load [s].
+    """
+
+    pointer: Any = field(repr=False)
+    key: str
+    dispatcher: Any = field(repr=False)
+    cached: bool
+    seconds: float
+
+
+def signature(role: str) -> Any:
+    """Return the Numba signature of the kernels of `role`: ``int64(float64 or float64[::1], ...)``."""
+    if role not in ROLES:
+        raise PluginError(unknown_name("role", role, ROLES))
+    from lambda_core.laws.jit.machine_code import role_signature
+
+    return role_signature(ROLES[role])
+
+
+def kernel_reach(model: Law) -> Reach:
+    """Return everything that a model's kernel reaches.
+
+    Raises
+    ------
+    PluginError
+        When the kernel is no plain Python function or reaches something that cannot be followed.
+    """
+    kernel = plain_function(model)
+    _check_arguments(model, kernel)
+    try:
+        return reach(kernel)
+    except UnreachableError as error:
+        raise UnreachableError(f"{model.label}: {error}") from None
+
+
+def plain_function(model: Law) -> FunctionType:
+    """Return a law's kernel; PluginError when it is no plain Python function."""
+    if not isinstance(model.kernel, FunctionType):
+        raise PluginError(
+            f"{model.label}: the kernel is a {type(model.kernel).__name__}: write a plain Python function "
+            "without a decorator, the program compiles it"
+        )
+    return model.kernel
+
+
+def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKernel:
+    """Compile a model's kernel, or load it from disk.
+
+    Parameters
+    ----------
+    model : Law
+        With a plain Python kernel; the functions that it calls are plain too.
+    announce : callable, optional
+        Called with one sentence before a compilation; not called when the disk has it.
+
+    Raises
+    ------
+    PluginError
+        When the kernel cannot be compiled, returns anything but int64, or reaches something
+        whose content cannot be followed; the sentence names the model and its distribution.
+    """
+    start = time.perf_counter()
+    kernel, reached = plain_function(model), kernel_reach(model)
+    arguments, layout = argument_names(model.role), par_layout(model)
+    words = f"{model.role} {reached.key} {binding.source(arguments, layout)}"
+    key = hashlib.sha256(words.encode()).hexdigest()
+    folder = cache_folder() / f"{model.role}-{key[:24]}-{_environment()}"
+    if folder in _in_memory:
+        return _in_memory[folder]
+    from lambda_core.laws.jit import machine_code
+
+    missed: list[str] = []
+
+    def on_miss() -> None:
+        missed.append(model.name)
+        if announce is not None:
+            announce(f"compiling {model.label} (once)")
+
+    machine_code.make_callable((*reached.helpers, kernel))
+    wanted, flat = signature(model.role), binding.bound(kernel, arguments, layout)
+    try:
+        dispatcher = machine_code.compile_into(flat, wanted.args, folder, on_miss)
+    except Exception as error:  # Numba answers odd source code with exceptions of many kinds
+        raise PluginError(f"{model.label} cannot be compiled: {_gist(error)}") from None
+    _check_return(model, machine_code.returned_type(dispatcher), wanted.return_type)
+    pointer = machine_code.Pointer(dispatcher, wanted)
+    compiled = CompiledKernel(pointer, key, dispatcher, not missed, time.perf_counter() - start)
+    _in_memory[folder] = compiled
+    return compiled
+
+
+def argument_names(role: str) -> tuple[str, ...]:
+    """Return the names of a role's arguments in order."""
+    return tuple(argument.name for argument in ROLES[role].arguments)
+
+
+def _check_arguments(model: Law, kernel: FunctionType) -> None:
+    """Compare names and order with the role: two swapped arrays would compile without a word."""
+    if model.role not in ROLES:
+        raise PluginError(unknown_name("role", model.role, ROLES))
+    taken, wanted = inspect.signature(kernel), argument_names(model.role)
+    plain = all(each.kind is inspect.Parameter.POSITIONAL_OR_KEYWORD for each in taken.parameters.values())
+    if tuple(taken.parameters) != wanted or not plain:
+        bare = taken.replace(
+            parameters=[each.replace(annotation=inspect.Parameter.empty) for each in taken.parameters.values()],
+            return_annotation=inspect.Signature.empty,
+        )
+        raise PluginError(f"{model.label} takes {bare}; {model.role} kernels take ({', '.join(wanted)})")
+
+
+_in_memory: dict[Path, CompiledKernel] = {}
+
+
+def _check_return(model: Law, found: Any, wanted: Any) -> None:
+    if found != wanted:
+        some = "nothing, or a number on some paths only," if str(found).startswith(("none", "Optional")) else str(found)
+        raise PluginError(
+            f"{model.label} returns {some} where an int64 status is due: "
+            "return 1 for a valid result, 2 and up for errors of your own"
+        )
+
+
+def _gist(error: Exception) -> str:
+    """Return what a Numba error says about the plugin's own code: the innermost function's fault and its place."""
+    whole = [line.strip() for line in _COLOUR.sub("", str(error)).splitlines()]
+    start = max((n for n, line in enumerate(whole) if line.startswith("Rejected as")), default=-1)
+    places = [line for line in whole[start + 1 :] + whole[start::-1] if line.startswith("File ")]
+    places += [f'File "{path}", line {n}' for path, n in _LOWERED.findall(" ".join(whole))]
+    place = next((line.strip(" :") for line in places if "numba/" not in line and binding.FILE not in line), "")
+    if any(words in str(error) for words in _ALLOCATES):
+        return f"it makes an array or a list: a kernel works in the arrays that it is given {place}".rstrip()
+    noise = ("Failed in", "TypingError: Failed in", "File ", "File:", "During:", "raised from", "<source", "^", "-")
+    idle = (*noise, "There are", "With argument", "Overload ")
+    said = [line.removeprefix(">>> ") for line in whole[start + 1 :] if line and not line.startswith(idle)]
+    return f"{' '.join(said[: 3 if start < 0 else 1])} {place}".rstrip()
+
+
+@dataclass(frozen=True)
+class CompiledHost:
+    """An entry point of the core's own compiled code.
+
+    Attributes
+    ----------
+    dispatcher : numba dispatcher
+        Callable from Python with exactly the compiled signature.
+    key : str
+        Hash of the sources it was compiled from (result files store it).
+    cached : bool
+        Whether it came from disk.
+    seconds : float
+        Time to compile or load [s].
+    """
+
+    dispatcher: Any = field(repr=False)
+    key: str
+    cached: bool
+    seconds: float
+
+
+def sources_key(*places: Path) -> str:
+    """Return a hash (hex) of every ``*.py`` among and below `places`, names included."""
+    digest = hashlib.sha256()
+    for place in places:
+        for path in [place] if place.is_file() else sorted(place.rglob("*.py")):
+            data = path.read_bytes()
+            digest.update(f"{path.relative_to(place.parent).as_posix()} {len(data)}\n".encode() + data)
+    return digest.hexdigest()
+
+
+@cache
+def _host_content(function: Callable[..., Any], sources: tuple[Path, ...]) -> tuple[str, str]:
+    """Return the hashes of the sources and of what the entry point reaches, found once per process."""
+    return sources_key(*sources), reach(function, lenient=True).key
+
+
+def host_key(function: Callable[..., Any], sources: tuple[Path, ...], **options: Any) -> str:
+    """Return the hash of all that :func:`compile_host` would compile for this entry point."""
+    words = (*_host_content(function, sources), repr(sorted(options.items())))
+    return hashlib.sha256("\n".join(words).encode()).hexdigest()
+
+
+def host_folder(key: str) -> Path:
+    """Return where the code of an entry point with this key is kept; exists once it was compiled."""
+    return cache_folder() / f"host-{key[:24]}-{_environment()}"
+
+
+@contextmanager
+def _one_at_a_time(folder: Path) -> Iterator[None]:
+    """Let one process compile into an empty folder while others wait and then load what it left.
+
+    Without a lock (Windows, a cache that cannot be written) each compiles for itself, which is only slower.
+    """
+    if any(folder.rglob("*.nbc")):
+        yield
+        return
+    try:
+        import fcntl
+
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        handle = (folder.parent / f"{folder.name}.lock").open("w")
+    except (ImportError, OSError):
+        yield
+        return
+    with handle:
+        fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+
+
+def compile_host(
+    function: Callable[..., Any],
+    signature: Any,
+    sources: tuple[Path, ...],
+    announce: Announce | None = None,
+    **options: Any,
+) -> CompiledHost:
+    """Compile one entry point of the core for one signature, or load it from disk.
+
+    The cache folder is named by the hash of all sources in `sources`, of everything
+    that `function` reaches (constants imported from elsewhere included) and of the
+    environment (Python, Numba, processor, bounds checks). Functions that `function`
+    calls carry a plain ``numba.njit(error_model="numpy")`` and no ``cache=True``: a
+    reachable cached one is refused.
+
+    Parameters
+    ----------
+    function : function
+        Undecorated Python function at the top level of a module.
+    signature : numba signature
+        Return type and arguments, for example ``types.int64(types.float64[::1])``;
+        NamedTuple classes in it must live in an importable module.
+    sources : tuple of pathlib.Path
+        Files and folders of the compiled code, for example ``(Path(__file__).parent,)``.
+    announce : callable, optional
+        Called with one sentence before a compilation; not called when the disk has it.
+    **options
+        Further options of ``numba.njit`` (``fastmath``, ``boundscheck``).
+
+    Raises
+    ------
+    lambda_core.laws.jit.reach.UnreachableError
+        For a helper that is cached by itself.
+
+    Examples
+    --------
+    >>> host = compile_host(step, signature, (Path(__file__).parent,), announce=print)  # doctest: +SKIP
+    >>> host.dispatcher(state, rates)  # doctest: +SKIP
+    """
+    key = host_key(function, sources, **options)
+    missed: list[str] = []
+
+    def on_miss() -> None:
+        missed.append(function.__qualname__)
+        if announce is not None:
+            announce(f"compiling {function.__qualname__} (once)")
+
+    from lambda_core.laws.jit import machine_code
+
+    start = time.perf_counter()
+    with _one_at_a_time(host_folder(key)):
+        dispatcher = machine_code.compile_into(function, signature, host_folder(key), on_miss, **options)
+    return CompiledHost(dispatcher, key, not missed, time.perf_counter() - start)
+
+
+@cache
+def _environment() -> str:
+    from lambda_core.laws.jit.machine_code import environment_key
+
+    return environment_key()

@@ -1,0 +1,190 @@
+"""A law: a kernel that fills one role of the contact pipeline, its parameters, and where it comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import KW_ONLY, dataclass, field
+from types import FunctionType, MappingProxyType
+from typing import Any, TypeVar
+
+from pydantic import BaseModel
+
+from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.laws.context import Context
+from lambda_core.laws.parameter import NoParameters
+
+Prepare = Callable[[Any, Context], Any]
+Kernel = TypeVar("Kernel", bound=Callable[..., int])
+_MARK = "lambda_law"  # attribute of a function that is the kernel of a law
+
+
+def _no_errors() -> Mapping[int, str]:
+    return MappingProxyType({})
+
+
+@dataclass(frozen=True)
+class Law:
+    """One law for one role.
+
+    Attributes
+    ----------
+    role, name : str
+        Which stage of the pipeline it fills; how a case names it.
+    kernel : callable
+        Plain Python function with the role's arguments (:mod:`lambda_core.domain.roles`).
+    parameters : type of pydantic.BaseModel
+        Fields with units, ranges and sources; rendered in files, help and forms.
+    role_api : int
+        Version of the role interface that it is written for.
+    reference : str
+        Paper and equation number.
+    summary : str
+        One line for people; the first line of the kernel's docstring if not given.
+    validity : str
+        Range in which the law was established.
+    prepare : callable or None
+        ``prepare(parameters, context)`` returns the record that the kernel reads as ``par`` and is annotated with its
+        type; None means the fields of `parameters`, SI.
+    errors : mapping of int to str
+        Sentences for the kernel's own status codes (2 and up).
+    bibtex : str
+        The reference as BibTeX, where it is to be cited in other words than `reference` says it.
+    distribution : str
+        Package that brought it, with its version; filled in when it is registered.
+    """
+
+    role: str
+    name: str
+    kernel: Callable[..., int]
+    parameters: type[BaseModel] = NoParameters
+    _: KW_ONLY
+    role_api: int
+    reference: str
+    summary: str = ""
+    validity: str = ""
+    prepare: Prepare | None = None
+    errors: Mapping[int, str] = field(default_factory=_no_errors)
+    bibtex: str = ""
+    distribution: str = ""
+
+    def __post_init__(self) -> None:
+        """Take the summary from the kernel, and keep the errors from being changed."""
+        doc = (self.kernel.__doc__ or "").strip().splitlines()
+        object.__setattr__(self, "summary", self.summary or (doc[0] if doc else ""))
+        object.__setattr__(self, "errors", MappingProxyType(dict(self.errors)))
+
+    @property
+    def label(self) -> str:
+        """Role, name and distribution as messages show them."""
+        return f"{self.role}/{self.name} ({self.distribution})" if self.distribution else f"{self.role}/{self.name}"
+
+
+@dataclass(frozen=True)
+class LazyLaw:
+    """A law that is named now and imported when somebody chooses it.
+
+    A package with many laws registers these, so that starting the program, or running
+    a case that uses other laws, does not import its modules.
+
+    Attributes
+    ----------
+    role, name : str
+        As in the law itself.
+    target : str
+        ``"package.module:function"``, where :func:`law` stands above the function.
+    """
+
+    role: str
+    name: str
+    target: str
+
+
+def law(
+    role: str,
+    name: str,
+    parameters: type[BaseModel] = NoParameters,
+    *,
+    role_api: int,
+    reference: str,
+    summary: str = "",
+    validity: str = "",
+    prepare: Prepare | None = None,
+    errors: Mapping[int, str] | None = None,
+    bibtex: str = "",
+) -> Callable[[Kernel], Kernel]:
+    """Make the function below a law.
+
+    The function itself stays as it is: other kernels may call it. Laws in the module that an entry point names are
+    registered by themselves; from other modules by ``register(function)`` in ``lambda_laws``.
+
+    Parameters
+    ----------
+    role, name : str
+        A role of :data:`lambda_core.domain.roles.ROLES`; the name by which a case chooses the law.
+    parameters : type of pydantic.BaseModel
+        Fields with defaults, units, limits and sources; the kernel reads them by name from ``par``, SI.
+    role_api : int
+        Version of the role interface that the law is written for, as a number: 2.
+    reference : str
+        Publication and equation numbers, "-" where there is nothing to cite.
+    summary, validity : str
+        One line about the law (default: first line of the docstring); range in which it was established.
+    prepare : callable, optional
+        ``prepare(parameters, context)``, annotated with the record type that it returns (a NamedTuple or dataclass of
+        numbers and arrays): what the kernel reads as ``par``, made once per run and force element.
+    errors : mapping of int to str, optional
+        A sentence for each status of the kernel from 2 on.
+    bibtex : str, optional
+        Entries for ``cite --bibtex``; without it they are read from `reference`.
+
+    Examples
+    --------
+    >>> from lambda_core.plugins import OK, Parameters, law, parameter
+    >>> class Limit(Parameters):
+    ...     limit_ratio: float = parameter(0.07, "limiting shear stress over pressure")
+    >>> @law("traction", "plastic", Limit, role_api=2, reference="own work")
+    ... def plastic(slip, p, T, ln_eta, h, par, tau):
+    ...     for i in range(tau.size):
+    ...         tau[i] = par.limit_ratio * p[i] if slip[i] > 0.0 else 0.0
+    ...     return OK
+
+    Returns
+    -------
+    callable
+        A decorator that turns the kernel into a law.
+
+    Raises
+    ------
+    PluginError
+        When the description of the law contradicts its kernel or its parameters.
+    """
+
+    def decorate(kernel: Kernel) -> Kernel:
+        made = Law(
+            role,
+            name,
+            kernel,
+            parameters,
+            role_api=role_api,
+            reference=reference,
+            summary=summary,
+            validity=validity,
+            prepare=prepare,
+            errors=errors or {},
+            bibtex=bibtex,
+        )
+        if not isinstance(kernel, FunctionType):
+            raise PluginError(
+                f"{made.label}: the kernel is a {type(kernel).__name__}: write a plain Python function "
+                "without a decorator, the program compiles it"
+            )
+        kernel.__dict__[_MARK] = made
+        return kernel
+
+    return decorate
+
+
+def law_of(item: object) -> Law | None:
+    """Return the law that an object is, or is the kernel of; None for any other object."""
+    found = item if isinstance(item, Law) else getattr(item, _MARK, None)
+    return found if isinstance(found, Law) else None

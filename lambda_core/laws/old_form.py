@@ -1,0 +1,32 @@
+"""What version 1 of the role interface had and version 2 has not, told with the new form."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.plugin_errors import PluginError
+
+if TYPE_CHECKING:
+    from lambda_core.laws.law import Law
+
+_GONE = ("model", "Model", "LazyModel", "default_par")
+
+
+def new_form(item: Law) -> str:
+    """Say how a law of version 1 is written now."""
+    fields = list(item.parameters.model_fields)
+    named = f", {item.parameters.__name__}" if fields else ""
+    reads = f"read par.{fields[0]}" if fields else "read parameters"
+    above = f'@law("{item.role}", "{item.name}"{named}, role_api=2, reference=...)'
+    return f"write {above} above the kernel and {reads} by name, not by position"
+
+
+def __getattr__(name: str) -> Any:
+    """Tell a plugin of version 1, which imports `model`, what to write; other names do not exist."""
+    if name in _GONE:
+        raise PluginError(
+            f"{name} belongs to version 1 of the role interface: "
+            'write @law("traction", "my-law", Parameters, role_api=2, reference=...) above the kernel, '
+            "and read par.limit_ratio by name, not by position"
+        )
+    raise AttributeError(f"module 'lambda_core.plugins' has no attribute '{name}'")

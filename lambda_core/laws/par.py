@@ -1,0 +1,106 @@
+"""From validated parameters to what a kernel reads: `prepare`, run once, and the record it returns."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from typing import Any
+
+from pydantic import BaseModel
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.plugin_errors import PluginError, describe
+from lambda_core.domain.roles import ROLES
+from lambda_core.laws.context import Context
+from lambda_core.laws.jit.binding import bound
+from lambda_core.laws.law import Law
+from lambda_core.laws.record import Layout, RecordError, flatten, is_record, layout_of
+
+_DECLARE = (
+    "declare its names, class Constants(NamedTuple): factor: float, and "
+    "def prepare(parameters, context) -> Constants; the kernel reads par.factor"
+)
+
+
+def par_layout(law: Law) -> Layout:
+    """Return the names that a law's kernel reads from ``par``.
+
+    Raises
+    ------
+    PluginError
+        When `prepare` does not say what it returns, or a name is neither a number nor an array.
+    """
+    try:
+        return layout_of(_record_type(law))
+    except RecordError as error:
+        advice = "" if law.prepare else ": give the law a prepare that makes numbers of it"
+        raise PluginError(f"{law.label}: a kernel cannot read its parameters: {error}{advice}") from None
+
+
+def make_par(law: Law, parameters: BaseModel, context: Context) -> FloatArray:
+    """Return the flat array that stands for ``par`` in the solver, for one run and force element.
+
+    Parameters
+    ----------
+    law : Law
+        The law.
+    parameters : pydantic.BaseModel
+        Instance of ``law.parameters``, SI.
+    context : Context
+        Geometry, materials and oil of the force element.
+
+    Returns
+    -------
+    ndarray of float64, shape (n,)
+        Contiguous and finite, laid out as :func:`par_layout` says.
+
+    Raises
+    ------
+    PluginError
+        When ``prepare`` raises or returns anything else; the sentence names law and distribution.
+    """
+    layout, wanted = par_layout(law), _record_type(law)
+    try:
+        made: Any = law.prepare(parameters, context) if law.prepare else parameters
+    except Exception as error:
+        raise PluginError(f"{law.label}: the parameters cannot be prepared: {describe(error)}") from error
+    if not isinstance(made, wanted):
+        raise PluginError(f"{law.label}: prepare returns a {type(made).__name__}, its annotation is {wanted.__name__}")
+    try:
+        return flatten(layout, made)
+    except RecordError as error:
+        source = "prepare returns" if law.prepare else "the parameters have"
+        raise PluginError(f"{law.label}: {source} {error}") from None
+
+
+def flat_kernel(law: Law, *, strict: bool = False) -> Callable[..., int]:
+    """Return a law's kernel as the solver calls it, in plain Python: with the flat array of :func:`make_par`.
+
+    Parameters
+    ----------
+    law : Law
+        The law.
+    strict : bool
+        Refuse to read parameters by position, for the checks of laws.
+    """
+    arguments = tuple(argument.name for argument in ROLES[law.role].arguments)
+    return bound(law.kernel, arguments, par_layout(law), strict=strict)
+
+
+def _record_type(law: Law) -> type:
+    """Return the type of the record: what `prepare` is annotated with, or the parameters themselves."""
+    if law.prepare is None:
+        return law.parameters
+    said = getattr(law.prepare, "__annotations__", {}).get("return", inspect.Parameter.empty)
+    if isinstance(said, str):
+        try:
+            said = eval(said, getattr(law.prepare, "__globals__", {}))
+        except Exception:
+            raise PluginError(
+                f'{law.label}: prepare is annotated with "{said}", which its module does not have at the top level'
+            ) from None
+    if not is_record(said):
+        what = "does not say what it returns" if said is inspect.Parameter.empty else "returns no record"
+        raise PluginError(f"{law.label}: prepare {what}: {_DECLARE}")
+    found: type = said
+    return found

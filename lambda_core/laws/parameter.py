@@ -1,0 +1,75 @@
+"""Declaring a law's parameters: default, unit, published range and source in one line each."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+Bound = float | str
+
+
+class Parameters(BaseModel):
+    """Base of a law's parameters: no unknown fields, frozen, defaults checked like input."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
+
+
+class NoParameters(Parameters):
+    """Parameters of a law that has none."""
+
+
+def parameter(
+    default: Any,
+    description: str,
+    *,
+    source: str = "",
+    status: Literal["published", "unconfirmed", "assumed", "numerical", "lubricant"] = "published",
+    published_range: tuple[Bound, Bound] | None = None,
+    **constraints: Any,
+) -> Any:
+    """Declare one parameter.
+
+    Parameters
+    ----------
+    default : Any
+        What would stand in a case file ("6 MPa", 0.12); ``...`` makes the parameter required.
+    description : str
+        What the number is, for files, help and forms.
+    source : str
+        Where default and range come from.
+    status : str
+        "published"; "unconfirmed" for a value in common use whose original was not seen; "assumed" for an
+        assumption to be printed with results; "numerical" for a regularisation without physical meaning;
+        "lubricant" for a property that the oil's catalogue row brings.
+    published_range : tuple of float or str, optional
+        Range found in the literature, written as in a case file; studies sample it.
+    **constraints
+        Bounds as pydantic knows them (``gt``, ``ge``, ``lt``, ``le``), in SI.
+
+    Returns
+    -------
+    Any
+        A field of a pydantic model, for the class body of `Parameters`.
+    """
+    extra: dict[str, Any] = {"status": status}
+    if source:
+        extra["source"] = source
+    if published_range is not None:
+        extra["published_range"] = list(published_range)
+    return Field(default, validate_default=True, description=description, json_schema_extra=extra, **constraints)
+
+
+def default_fault(parameters: type[BaseModel]) -> str:
+    """Say which default is not valid, or is a text that would reach the kernel unread; nothing when all are."""
+    try:
+        parameters.model_validate({})
+    except ValidationError as error:
+        for each in error.errors():
+            if each["type"] != "missing":
+                return f"the default of {'.'.join(map(str, each['loc']))} is not valid: {each['msg']}"
+    for name, info in parameters.model_fields.items():
+        checked = info.validate_default or parameters.model_config.get("validate_default")
+        if isinstance(info.default, str) and not checked and info.annotation is float:
+            return f'the default of {name} is a text: declare it with parameter("{info.default}", "what it is")'
+    return ""

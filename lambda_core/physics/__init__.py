@@ -1,1 +1,0 @@
-"""From a resolved case to forces: geometry, contact pipeline, equilibrium, compiled kernels."""

@@ -1,1 +1,0 @@
-"""Roles, models, plugins and the catalogue's contract."""

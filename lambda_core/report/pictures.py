@@ -1,0 +1,269 @@
+"""What people look at: views as data and as files, and the page about a run or a study."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.batch.study_runs import study_status
+from lambda_core.domain.errors import LambdaError, UsageError
+from lambda_core.run.answers import result
+from lambda_core.system.checking import resolve
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+
+    from lambda_core.report.gallery import ViewCard
+    from lambda_core.results.reader import Result
+    from lambda_core.views.chart import ViewData
+    from lambda_core.views.view import Subject
+
+
+def views(subject: Subject | None = None) -> list[ViewCard]:
+    """Return the installed views with their options.
+
+    Parameters
+    ----------
+    subject : str, optional
+        Only those of ``result``, ``results`` (two or more) or ``study``.
+
+    Returns
+    -------
+    list of ViewCard
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.report.gallery import cards
+
+    return cards(registry(), subject)
+
+
+def view(
+    source: str | Path | Result | Sequence[str | Path | Result], name: str, options: Mapping[str, Any] | None = None
+) -> ViewData:
+    """Return what one view shows, as data with units.
+
+    Parameters
+    ----------
+    source : path-like or sequence of them
+        A result or its file, the folder of a study, or several results.
+    name : str
+        View (:func:`views`).
+    options : mapping, optional
+        Options of the view by name.
+
+    Returns
+    -------
+    ViewData
+        Panels of series and fields; ``as_dict()`` is ready for JSON.
+
+    Raises
+    ------
+    UsageError
+        For a file, view or option that does not exist.
+    NotApplicable
+        When there is nothing to show; the sentence says why.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.report.gallery import data_of, view_of
+
+    subject, kind = subject_of(source)
+    return data_of(view_of(registry(), name, kind), subject, options or {})
+
+
+def view_all(
+    source: str | Path | Result | Sequence[str | Path | Result],
+) -> Iterator[tuple[str, ViewData | LambdaError]]:
+    """Show every view of a source, one after the other.
+
+    Parameters
+    ----------
+    source : path-like or sequence of them
+        As for :func:`view`.
+
+    Yields
+    ------
+    tuple of str and (ViewData or LambdaError)
+        Name of the view; its data, or the reason why it shows nothing.
+
+    Raises
+    ------
+    UsageError
+        For a file that does not exist or is no result.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.report.gallery import every
+
+    subject, kind = subject_of(source)
+    for found, data in every(registry(), subject, kind):
+        yield found.name, data
+
+
+def draw(data: ViewData, folder: str | Path, stem: str, formats: Sequence[str] = ("svg", "png")) -> list[Path]:
+    """Draw a view into files ``stem-view.format`` of a folder.
+
+    Parameters
+    ----------
+    data : ViewData
+        From :func:`view`.
+    folder : path-like
+        Where the files go; made if it does not exist.
+    stem : str
+        Beginning of their names (:func:`view_stem`).
+    formats : sequence of str
+        What matplotlib can write: ``svg``, ``png``, ``pdf``.
+
+    Returns
+    -------
+    list of pathlib.Path
+        One per format.
+
+    Raises
+    ------
+    UsageError
+        When a file cannot be written or the format is unknown.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.report.gallery import write
+
+    return write(registry(), data, Path(folder), stem, formats)
+
+
+def view_stem(source: Sequence[str | Path]) -> str:
+    """Return the beginning of file names for pictures of these results.
+
+    Parameters
+    ----------
+    source : sequence of path-like
+        Result files, or the folder of one study.
+
+    Returns
+    -------
+    str
+    """
+    from lambda_core.report.gallery import stem_of
+
+    return stem_of([Path(path) for path in source])
+
+
+def animate(
+    source: str | Path,
+    out: str | Path | None = None,
+    *,
+    turns: float = 1.0,
+    start: float | None = None,
+    frames: int = 120,
+    fps: float = 25.0,
+    overwrite: bool = False,
+    progress: Callable[[int, int], None] | None = None,
+) -> Path:
+    """Show a run in motion: balls, cage and load vectors as GIF, MP4 or binary glTF.
+
+    Parameters
+    ----------
+    source : path-like
+        A result file.
+    out : path-like, optional
+        File whose ending says the format: ``.gif``, ``.mp4`` (with the extra ``animation``) or ``.glb``; default: the
+        name of the source with ``.gif`` in the working directory.
+    turns : float
+        Revolutions of the cage to show.
+    start : float, optional
+        First moment [s]; default: the last `turns` of the run.
+    frames : int
+        Number of frames, evenly spaced in time.
+    fps : float
+        Frames per second when played.
+    overwrite : bool
+        Replace a file that stands there.
+    progress : callable, optional
+        Called with the number of frames drawn and of all.
+
+    Returns
+    -------
+    pathlib.Path
+        The file.
+
+    Raises
+    ------
+    UsageError
+        When the source is no result or has no such moment, the format is unknown or has no encoder, or the file exists
+        or cannot be written.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.report.animation import check_format, check_pace, write_animation
+    from lambda_core.report.run_scene import scene_of
+
+    path = Path(out) if out is not None else Path(f"{view_stem([source])}.gif")
+    check_format(path)
+    check_pace(turns, frames, fps)
+    _refuse_existing(path, overwrite)
+    scene = scene_of(result(source), start=start, turns=turns, frames=frames)
+    return write_animation(registry(), scene, path, fps, progress)
+
+
+def report(source: str | Path, out: str | Path | None = None, *, overwrite: bool = False) -> Path:
+    """Write one self-contained, printable HTML page about a run or a study.
+
+    Parameters
+    ----------
+    source : path-like
+        A result file or the folder of a study.
+    out : path-like, optional
+        Default: the name of the source with ``.html`` in the working directory.
+    overwrite : bool
+        Replace a page that stands there.
+
+    Returns
+    -------
+    pathlib.Path
+        The page.
+
+    Raises
+    ------
+    UsageError
+        When the source is neither, or the page exists or cannot be written.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.report.page import case_inputs, run_report, study_report, write_page
+
+    path = Path(out) if out is not None else Path(f"{view_stem([source])}.html")
+    _refuse_existing(path, overwrite)
+    subject, kind = subject_of(source)
+    if kind == "study":
+        from lambda_core.batch.studies import files
+        from lambda_core.case.case_io import parse_case
+
+        definition, case_toml = files(Path(source))
+        inputs = case_inputs(resolve(parse_case(case_toml, str(source))))
+        text = study_report(registry(), subject, study_status(source), inputs, definition)
+    else:
+        text = run_report(registry(), subject)
+    return write_page(text, path)
+
+
+def _refuse_existing(path: Path, overwrite: bool) -> None:
+    """Say before the work what would stop it at its end."""
+    if path.exists() and not overwrite:
+        raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
+    folder = path.absolute().parent
+    if not folder.is_dir():
+        raise UsageError(f"cannot write {path}: the folder {folder} does not exist")
+
+
+def subject_of(source: str | Path | Result | Sequence[str | Path | Result]) -> tuple[Any, Subject]:
+    """Return what a view looks at, and what kind of thing it is."""
+    from lambda_core.batch.studies import is_study, table
+    from lambda_core.results.reader import Result
+
+    if isinstance(source, Result):
+        return source, "result"
+    if not isinstance(source, str | Path):
+        if len(source) != 1:
+            return [one if isinstance(one, Result) else result(one) for one in source], "results"
+        source = source[0]
+        if isinstance(source, Result):
+            return source, "result"
+    path = Path(source)
+    if is_study(path):
+        return table(path), "study"
+    return result(path), "result"

@@ -1,0 +1,1 @@
+"""Result files, averages, convergence, summaries, citations."""

@@ -1,0 +1,98 @@
+"""When a run is converged: the one definition, with a sentence for each condition that fails."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.results.averages import Estimate, Interval, estimate, torque_by_revolution
+from lambda_core.system.bearing import Solver
+
+DISCARDED_AT_LEAST = 1
+AVERAGED_AT_LEAST = 4
+TORQUE_TOLERANCE = 0.01  # 95 % half-width over the mean
+ENERGY_TOLERANCE = 1e-3  # |energy residual|
+
+
+@dataclass(frozen=True)
+class Window:
+    """The revolutions that the averages are taken over.
+
+    Attributes
+    ----------
+    interval : Interval
+        Whole cage revolutions after the discarded ones; the whole run while there are none.
+    torque : Estimate
+        Over the revolutions of the window; NaN without any [N m].
+    revolutions : int
+        Whole cage revolutions in the window.
+    discarded : int
+        Whole cage revolutions before it.
+    """
+
+    interval: Interval
+    torque: Estimate
+    revolutions: int
+    discarded: int
+
+
+def window(solver: Solver, boundaries: FloatArray, last: FloatArray) -> Window:
+    """Choose the averaging window.
+
+    Parameters
+    ----------
+    solver : Solver
+        With the revolutions to discard; a part of a revolution counts as a whole one.
+    boundaries : ndarray, shape (n + 1, len(COLUMNS))
+        Running integrals at t = 0 and after each of n whole cage revolutions.
+    last : ndarray, shape (len(COLUMNS),)
+        Running integrals now.
+    """
+    discard = math.ceil(solver.discard_revolutions)
+    kept = boundaries[discard:]
+    if kept.shape[0] >= 2:
+        torque = estimate(torque_by_revolution(kept))
+        return Window(Interval(kept[0], kept[-1]), torque, kept.shape[0] - 1, discard)
+    return Window(Interval(boundaries[0], last), Estimate(math.nan, math.nan, 0), 0, 0)
+
+
+def shortfalls(solver: Solver, chosen: Window, residual: float) -> list[str]:
+    """Return a sentence for each condition of convergence, but the end, that is not met."""
+    found = []
+    if chosen.revolutions and chosen.discarded < DISCARDED_AT_LEAST:
+        found.append(f"{chosen.discarded} cage revolutions were discarded, at least {DISCARDED_AT_LEAST} is needed")
+    needed = max(AVERAGED_AT_LEAST, math.ceil(solver.average_revolutions))
+    if chosen.revolutions < needed:
+        found.append(f"{chosen.revolutions} whole cage revolutions were averaged, at least {needed} are needed")
+    else:
+        torque = chosen.torque
+        if not torque.half_width <= TORQUE_TOLERANCE * abs(chosen.interval.torque()):
+            share = torque.half_width / abs(chosen.interval.torque())
+            found.append(
+                f"the friction torque is known to {_beyond(100 * share, 100 * TORQUE_TOLERANCE)} % (95 % half-width "
+                f"over {torque.count} cage revolutions), at most {100 * TORQUE_TOLERANCE:g} % is allowed"
+            )
+    if not abs(residual) <= ENERGY_TOLERANCE:
+        what = _beyond(residual, ENERGY_TOLERANCE)
+        found.append(f"the energy residual is {what} of the input, at most {ENERGY_TOLERANCE:g} is allowed")
+    return found
+
+
+def _beyond(value: float, limit: float) -> str:
+    """Write a value in as many digits as show that it is beyond its limit, two at least."""
+    texts = (f"{value:.{digits}g}" for digits in range(2, 17))
+    return next((text for text in texts if abs(float(text)) > limit), f"{value:g}")
+
+
+def revolutions_wanted(solver: Solver, chosen: Window) -> int:
+    """Return how many whole cage revolutions the run will take in all, as far as one can tell now.
+
+    The half-width falls with the root of the number of revolutions.
+    """
+    average = max(AVERAGED_AT_LEAST, math.ceil(solver.average_revolutions))
+    mean = abs(chosen.interval.torque())
+    if chosen.revolutions >= average and mean > 0.0 and math.isfinite(chosen.torque.half_width):
+        share = chosen.torque.half_width / mean / TORQUE_TOLERANCE
+        average = max(average, math.ceil(chosen.revolutions * share * share))
+    return max(DISCARDED_AT_LEAST, math.ceil(solver.discard_revolutions)) + average

@@ -1,0 +1,220 @@
+"""The layout of a result file: what stands where (the table for people is docs/results.md).
+
+Everything is created before the first sample is written: HDF5 allows no new objects once
+a file is written in SWMR mode, the mode that keeps it readable at every moment. Every
+dimension is an HDF5 dimension scale, so netCDF readers (xarray with h5netcdf) find names
+and labels.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from lambda_core.domain.channels import DIMENSIONS, Channel
+from lambda_core.results.averages import INTEGRALS
+from lambda_core.results.provenance import Provenance
+from lambda_core.results.run_status import Rows
+from lambda_core.system.bearing import BearingModel
+from lambda_core.system.describe import headline
+from lambda_core.system.operating_limits import operating_warnings
+
+LAYOUT = 1
+LAYOUT_ATTRIBUTE = "lambda_bearing_layout"
+STATUS = "status"
+STATUS_BYTES = 8192
+SLOTS = "restart/slots"
+INTEGRALS_GROUP = "integrals"
+REVOLUTIONS_GROUP = "revolutions"
+INPUTS_GROUP = "inputs"
+
+ROWS = 1024  # of one chunk
+_SLOT_CHUNK = 65536
+_TEXT = h5py.string_dtype()
+_LAW_COLUMNS = (
+    "element",
+    "role",
+    "model",
+    "distribution",
+    "reference",
+    "bibtex",
+    "parameters",
+    "origins",
+    "kernel_key",
+)
+_VALUE_COLUMNS = ("path", "value", "type", "quantity", "source", "grade", "status")
+
+
+def create(file: h5py.File, provenance: Provenance, channels: Sequence[Channel]) -> None:
+    """Create every object and attribute of a result in an empty file."""
+    model = provenance.model
+    file.attrs[LAYOUT_ATTRIBUTE] = LAYOUT
+    file.attrs["title"] = model.title
+    file.attrs["case"] = model.name
+    file.attrs["headline"] = "\n".join(headline(model))
+    file.attrs["created"] = provenance.created()
+    file.attrs["frames"] = "x shaft axis, y horizontal, z up; azimuth from +y towards +z; SI units"
+    _dimensions(file, model, channels)
+    _series(file, channels, "time")
+    _series(file.create_group(INTEGRALS_GROUP), INTEGRALS, "time")
+    revolutions = file.create_group(REVOLUTIONS_GROUP)
+    number = Channel("revolution", (), "-", "whole cage revolutions completed")
+    _series(revolutions, (number, *INTEGRALS), "revolution")
+    _inputs(file.create_group(INPUTS_GROUP), provenance)
+    file.create_dataset(SLOTS, (2, 0), np.uint8, maxshape=(2, None), chunks=(1, _SLOT_CHUNK)).attrs["long_name"] = (
+        "checkpoints, written in turn; bytes with a checksum"
+    )
+    status = file.create_dataset(STATUS, (), f"S{STATUS_BYTES}")
+    status.attrs["long_name"] = "state of the run, rows that are complete, statistics, wall time; JSON"
+
+
+def _dimensions(file: h5py.File, model: BearingModel, channels: Sequence[Channel]) -> None:
+    """Create the labels of every dimension that a channel has."""
+    ball = file.create_dataset("ball", data=np.arange(1, model.geometry.ball_count + 1))
+    ball.attrs["long_name"] = "number of the ball"
+    ball.make_scale("ball")
+    known = {**DIMENSIONS, "marker": tuple(model.markers)}
+    for name in dict.fromkeys(dim for channel in (*channels, *INTEGRALS) for dim in channel.dims if dim != "ball"):
+        file.create_dataset(name, data=np.array(known[name], dtype=object), dtype=_TEXT).make_scale(name)
+
+
+def _series(group: h5py.Group, channels: Sequence[Channel], along: str) -> None:
+    """Create one growing dataset per channel; the one called `along` is the growing dimension."""
+    root = group.file
+    ordered = sorted(channels, key=lambda channel: channel.name != along)
+    for channel in ordered:
+        shape = tuple(root[dim].size for dim in channel.dims)
+        data = group.create_dataset(
+            channel.name, (0, *shape), np.float64, maxshape=(None, *shape), chunks=(ROWS, *shape)
+        )
+        data.attrs["units"] = channel.unit
+        data.attrs["long_name"] = channel.meaning
+        if channel.name == along:
+            data.make_scale(along)
+            continue
+        for axis, scale in enumerate((group[along], *(root[dim] for dim in channel.dims))):
+            data.dims[axis].attach_scale(scale)
+
+
+def _inputs(group: h5py.Group, provenance: Provenance) -> None:
+    model = provenance.model
+    group.attrs["case_toml"] = "the case, complete: it runs again as it stands"
+    for name, text in (("case_toml", model.case_toml), ("model_json", provenance.model_json())):
+        group.create_dataset(name, data=text, dtype=_TEXT)
+    if provenance.rating is not None:
+        group.create_dataset("rating_json", data=provenance.rating.model_dump_json(), dtype=_TEXT)
+    texts = (("assumptions", model.assumptions), ("plugins", model.plugins), ("warnings", operating_warnings(model)))
+    for name, lines in texts:
+        group.create_dataset(name, data=np.array(lines, dtype=object), dtype=_TEXT).make_scale(name)
+    _table(group, "values", _VALUE_COLUMNS, provenance.values())
+    _table(group, "laws", _LAW_COLUMNS, provenance.laws())
+    for name, pairs in (("versions", provenance.versions()), ("kernel_keys", dict(provenance.kernel_keys))):
+        rows = [{"name": key, "value": value} for key, value in pairs.items()]
+        _table(group, name, ("name", "value"), rows)
+
+
+def _table(group: h5py.Group, name: str, columns: Sequence[str], rows: Sequence[dict[str, str]]) -> None:
+    """Create a group with one text dataset per column, along the first column."""
+    table = group.create_group(name)
+    index = table.create_dataset("row", data=np.arange(len(rows)))
+    index.make_scale("row")
+    for column in columns:
+        data = table.create_dataset(column, data=np.array([row[column] for row in rows], dtype=object), dtype=_TEXT)
+        data.dims[0].attach_scale(index)
+
+
+def read_table(group: h5py.Group) -> list[dict[str, str]]:
+    """Return the rows of a table that `_table` wrote."""
+    columns = {name: data.asstr()[()] for name, data in group.items() if name != "row"}
+    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+
+
+def _rows_of(name: str, rows: Rows) -> int:
+    """Return how many rows of a growing dataset (path in the file) count."""
+    by_group = {INTEGRALS_GROUP: rows.records, REVOLUTIONS_GROUP: rows.revolutions}
+    return by_group.get(name.split("/")[0], rows.samples)
+
+
+def grows(item: object) -> bool:
+    """Tell whether an object of a file is a dataset that a run appends to."""
+    return isinstance(item, h5py.Dataset) and bool(item.maxshape) and item.maxshape[0] is None
+
+
+def chunk_bytes(item: h5py.Dataset) -> int:
+    """Return the bytes of ROWS rows of a dataset."""
+    return int(ROWS * math.prod(item.shape[1:]) * item.dtype.itemsize)
+
+
+def size(source: h5py.File, rows: Rows) -> int:
+    """Return an upper bound of the bytes that a copy with the first `rows` rows takes, metadata aside."""
+    total = 0
+
+    def visit(name: str, item: object) -> None:
+        nonlocal total
+        if grows(item):
+            assert isinstance(item, h5py.Dataset)
+            total += math.ceil(_rows_of(name, rows) / ROWS) * chunk_bytes(item)
+        elif isinstance(item, h5py.Dataset):
+            total += 2 * item.nbytes + 4096
+
+    source.visititems(visit)
+    return total + total // 100
+
+
+def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool) -> None:
+    """Copy a result with the first `rows` rows of its growing datasets.
+
+    Parameters
+    ----------
+    source, target : h5py.File
+        A result and an empty file.
+    rows : Rows
+        How many to copy.
+    compress : bool
+        Compress (gzip and shuffle, which every HDF5 reader knows) and trim chunks to the data.
+    """
+    target.attrs.update(source.attrs)
+    scales: list[str] = []
+    attached: list[tuple[str, list[str]]] = []
+
+    def visit(name: str, item: Any) -> None:
+        if isinstance(item, h5py.Group):
+            group = target.require_group(name)
+            group.attrs.update(item.attrs)
+            return
+        _copy_dataset(name, item, target, rows, compress)
+        if item.is_scale:
+            scales.append(name)
+        else:
+            attached.append((name, [dim[0].name if len(dim) else "" for dim in item.dims]))
+
+    source.visititems(visit)
+    for name in scales:
+        target[name].make_scale(Path(name).name)
+    for name, dims in attached:
+        for axis, scale in enumerate(dims):
+            if scale:
+                target[name].dims[axis].attach_scale(target[scale])
+
+
+def _copy_dataset(name: str, item: h5py.Dataset, target: h5py.File, rows: Rows, compress: bool) -> None:
+    if not grows(item):
+        options = {"maxshape": item.maxshape, "chunks": item.chunks} if item.chunks else {}
+        data = target.create_dataset(name, data=item[()], dtype=item.dtype, **options)
+    else:
+        count = _rows_of(name, rows)
+        shape = (count, *item.shape[1:])
+        chunk = (min(ROWS, max(count, 1)) if compress else ROWS, *item.chunks[1:])
+        packing = {"compression": "gzip", "compression_opts": 4, "shuffle": True} if compress else {}
+        data = target.create_dataset(name, shape, item.dtype, maxshape=item.maxshape, chunks=chunk, **packing)
+        for start in range(0, count, ROWS):
+            stop = min(start + ROWS, count)
+            data[start:stop] = item[start:stop]
+    for key in ("units", "long_name"):
+        if key in item.attrs:
+            data.attrs[key] = item.attrs[key]

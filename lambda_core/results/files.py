@@ -1,0 +1,93 @@
+"""HDF5 files on real disks: opened while they grow, copied whole, never surprised by a full disk."""
+
+from __future__ import annotations
+
+import glob
+import os
+import re
+import shutil
+from pathlib import Path
+
+import h5py
+
+from lambda_core.domain.errors import UsageError
+from lambda_core.results import file_format as layout
+from lambda_core.results.run_status import Rows, exists
+
+METADATA = 1 << 20  # more than HDF5 needs for indexes and headers at a time [byte]
+
+
+def open_for_reading(path: Path) -> h5py.File:
+    """Open a result that is finished, being written, or left behind by a killed process."""
+    try:
+        return h5py.File(path, "r")
+    except OSError:
+        return h5py.File(path, "r", swmr=True)
+
+
+def reserve(file: h5py.File, growth: int) -> None:
+    """Take `growth` bytes on disk for what will be written next.
+
+    HDF5 crashes the process when a write fails that it had put off. So the disk is asked
+    first, and a full one is found while everything in memory is still in order.
+
+    Raises
+    ------
+    OSError
+        When the disk, a quota or a limit of file size has no room.
+    """
+    end, needed = file.id.get_filesize(), growth + METADATA
+    if hasattr(os, "posix_fallocate"):
+        os.posix_fallocate(file.id.get_vfd_handle(), end, needed)
+    elif shutil.disk_usage(Path(file.filename).parent).free < needed:
+        raise OSError(28, os.strerror(28))
+
+
+def beside(path: Path) -> Path:
+    """Return a hidden name in the same folder, of this process; sweep away those of dead ones."""
+    for old in path.absolute().parent.glob(f".{glob.escape(path.name)}.*"):
+        number = old.name.rpartition(".")[2]
+        if number.isdecimal() and not exists(int(number)):
+            old.unlink(missing_ok=True)
+    return path.with_name(f".{path.name}.{os.getpid()}")
+
+
+def trim(path: Path, size: int) -> None:
+    """Give back what was reserved past the end of a closed file."""
+    if path.stat().st_size > size:
+        os.truncate(path, size)
+
+
+def copy(path: Path, rows: Rows, *, compress: bool) -> Path:
+    """Copy a result with the first `rows` rows beside itself; return where.
+
+    Raises
+    ------
+    UsageError
+        When the copy cannot be written.
+    """
+    made = beside(path)
+    try:
+        with open_for_reading(path) as source:
+            # SWMR needs the newest file format; for keeping, the oldest one is read by most programs.
+            with h5py.File(made, "w", libver="earliest" if compress else "latest") as target:
+                reserve(target, layout.size(source, rows))
+                layout.copy(source, target, rows, compress)
+                target.flush()
+                size = target.id.get_filesize()
+            trim(made, size)
+        return made
+    except Exception as error:  # a garbled file misleads h5py into errors of every kind
+        made.unlink(missing_ok=True)
+        raise UsageError(f"cannot write a copy of {path} beside it: {reason(error)}") from None
+
+
+def reason(error: Exception) -> str:
+    """Return the system's words for what went wrong ("No space left on device")."""
+    code = error.errno if isinstance(error, OSError) else None
+    found = re.search(r"errno = (\d+)", str(error))
+    if found:
+        code = int(found[1])
+    if code:
+        return os.strerror(code)
+    return str(error).splitlines()[0] if str(error) else type(error).__name__

@@ -1,0 +1,81 @@
+"""What must hold of a result file before it is worked with: its texts can be read, its model is complete.
+
+The heaps in which HDF5 keeps texts are looked at before HDF5 reads them: a damaged one would keep it busy for ever.
+
+HDF5 steps from object to object by the sizes that stand in the heap and does not ask whether a step is zero. The layout
+is that of the HDF5 File Format Specification, version 3.0, III.E "Disk Format: Level 1E - Global Heap".
+"""
+
+from __future__ import annotations
+
+import mmap
+import struct
+from collections.abc import Mapping
+from dataclasses import MISSING, fields
+from pathlib import Path
+from typing import Any
+
+from lambda_core.system.bearing import Geometry, Solver
+
+_SIGNATURE = b"GCOL\x01\x00\x00\x00"  # with version and reserved bytes
+_SIZE = struct.Struct("<Q")
+_OBJECT = struct.Struct("<HHIQ")  # index, references, reserved, size
+_LOOKED_AT = 64 << 20  # [byte] from the beginning: a run writes its texts before its samples
+
+
+def heaps_are_whole(path: Path) -> bool:
+    """Tell whether each heap of texts near the beginning of a file can be stepped through to its end."""
+    with path.open("rb") as stream:
+        if not stream.seek(0, 2):
+            return True
+        with mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as data:
+            end = min(len(data), _LOOKED_AT)
+            place = data.find(_SIGNATURE, 0, end)
+            while place >= 0:
+                if not _ends(data, place):
+                    return False
+                place = data.find(_SIGNATURE, place + 1, end)
+    return True
+
+
+def _ends(data: mmap.mmap, start: int) -> bool:
+    """Step through one heap: True when each step goes on and none leaves the heap."""
+    place = start + len(_SIGNATURE)
+    if place + _SIZE.size > len(data):
+        return False
+    end = start + _SIZE.unpack_from(data, place)[0]
+    place += _SIZE.size
+    if not place < end <= len(data):
+        return False
+    while place + _OBJECT.size <= end:
+        index, _, _, size = _OBJECT.unpack_from(data, place)
+        step = _OBJECT.size + (size + 7) // 8 * 8 if index else size  # object 0 is the room left, header included
+        if step < _OBJECT.size or place + step > end:
+            return False
+        place += step
+    return True
+
+
+def check_model(model: Any) -> None:
+    """Raise ValueError where a model, read back as plain data, lacks what every use of a result asks it for."""
+    if not isinstance(model, dict):
+        raise ValueError("its model is no table")
+    for part, kind in (("geometry", Geometry), ("solver", Solver)):
+        table = model.get(part)
+        needed = {field.name for field in fields(kind) if field.default is MISSING}
+        if not isinstance(table, Mapping) or not needed <= set(table) <= {field.name for field in fields(kind)}:
+            raise ValueError(f"the {part} of its model is not whole")
+        if wrong := [name for name, value in table.items() if name != "series" and not _is_number(value)]:
+            raise ValueError(f"{part}.{wrong[0]} of its model is no number")
+    depth = model.get("depth")
+    if not isinstance(depth, Mapping) or "cage" not in depth or not _is_number(model.get("roughness")):
+        raise ValueError("its model is not whole")
+
+
+def _is_number(value: object) -> bool:
+    """Tell whether `float` reads it: what is endless is written as a word."""
+    try:
+        float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        return False
+    return True

@@ -1,0 +1,125 @@
+"""Where a result leaves what its laws are made for: contacts beyond the shoulder, pressures, tilt."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, get_args
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.loading import Ring
+from lambda_core.results.record import Record
+from lambda_core.system.operating_limits import tilt_warning
+
+# Static contact pressure of ball bearings that leaves 1e-4 of the ball diameter behind (ISO 76).
+HIGHEST_PRESSURE = 4.2e9  # [Pa]
+# Errors of integration are vibrations: beyond this tolerance they set a cage whirling that finer runs leave quiet
+# (6208 under 700 N axial: at twice this after 2 s, at ten times within 0.1 s).
+COARSEST_TOLERANCE = 1e-3
+
+
+class Shoulder(Record):
+    """How near the contact ellipses on one ring come to the edge of its shoulder, at worst."""
+
+    ring: Ring
+    ball: int = Field(description="number of the ball, from 1")
+    contact_angle_deg: float
+    ellipse_end_deg: float = Field(description="contact angle at the end of the ellipse, towards the shoulder")
+    shoulder_deg: float = Field(description="contact angle of the shoulder's edge")
+    margin_um: float = Field(description="along the groove from the end of the ellipse to the edge; below 0: beyond it")
+
+    def warning(self) -> list[str]:
+        """Return a sentence where the ellipse runs over the edge, else nothing."""
+        if self.margin_um >= 0.0:
+            return []
+        return [
+            f"the contact of ball {self.ball} runs {-self.margin_um:.0f} um over the {self.ring} ring's shoulder "
+            f"(ellipse to {self.ellipse_end_deg:.1f} deg, edge at {self.shoulder_deg:.1f} deg): computed as if the "
+            "groove went on"
+        ]
+
+
+@dataclass(frozen=True)
+class Grooves:
+    """Groove radius and angle of the shoulder's edge, inner then outer."""
+
+    radius: FloatArray  # (2,) [m]
+    edge: FloatArray  # (2,) [rad]
+
+    @staticmethod
+    def of(geometry: Mapping[str, Any]) -> Grooves:
+        """Take them from the geometry: cos(theta) = 1 - |d_shoulder - d_race|/(2 r_groove)."""
+        radius = np.array([float(geometry[f"groove_radius_{ring}"]) for ring in get_args(Ring)])
+        height = np.array(
+            [
+                0.5 * abs(float(geometry[f"shoulder_diameter_{ring}"]) - float(geometry[f"race_diameter_{ring}"]))
+                for ring in get_args(Ring)
+            ]
+        )
+        return Grooves(radius, np.arccos(np.clip(1.0 - height / radius, -1.0, 1.0)))
+
+
+def shoulders(grooves: Grooves, load: FloatArray, angle: FloatArray, semi_axis: FloatArray) -> list[Shoulder]:
+    """Return the worst contact on each ring that carries any.
+
+    Parameters
+    ----------
+    load, angle, semi_axis : float64[..., :, :], shape (..., ball, ring)
+        Load [N], contact angle [rad] and semi-major axis [m] of every contact; the axes before are times.
+    """
+    end = np.abs(angle) + semi_axis / grooves.radius
+    margin = np.where(load > 0.0, (grooves.edge - end) * grooves.radius, np.inf)
+    found = []
+    for i, ring in enumerate(get_args(Ring)):
+        at = np.unravel_index(int(np.argmin(margin[..., i])), margin.shape[:-1])
+        if math.isfinite(margin[..., i][at]):
+            found.append(
+                Shoulder(
+                    ring=ring,
+                    ball=int(at[-1]) + 1,
+                    contact_angle_deg=math.degrees(abs(float(angle[..., i][at]))),
+                    ellipse_end_deg=math.degrees(float(end[..., i][at])),
+                    shoulder_deg=math.degrees(float(grooves.edge[i])),
+                    margin_um=1e6 * float(margin[..., i][at]),
+                )
+            )
+    return found
+
+
+def worst(found: list[Shoulder]) -> list[Shoulder]:
+    """Return the one with the smallest margin for each ring."""
+    rings = (min((e for e in found if e.ring == r), key=lambda e: e.margin_um, default=None) for r in get_args(Ring))
+    return [edge for edge in rings if edge is not None]
+
+
+def tolerance_warning(tolerance: float) -> list[str]:
+    """Return a sentence where `solver.tolerance` is coarser than what averages can be trusted with, else nothing."""
+    if tolerance <= COARSEST_TOLERANCE:
+        return []
+    return [
+        f"solver.tolerance {tolerance:g} is above {COARSEST_TOLERANCE:g}: errors of the integration may set the cage "
+        "whirling where a finer run leaves it quiet, and losses with it"
+    ]
+
+
+def warnings(pressure: float, edges: list[Shoulder], tilt: float) -> list[str]:
+    """Return a sentence for everything in a solution that lies beyond what the laws are made for.
+
+    Parameters
+    ----------
+    pressure : float
+        Largest Hertzian pressure [Pa]; NaN when nothing touches.
+    tilt : float
+        Largest angle between the axes of the rings [rad].
+    """
+    found = [sentence for edge in edges for sentence in edge.warning()]
+    if pressure > HIGHEST_PRESSURE:
+        found.append(
+            f"the contact pressure of {1e-9 * pressure:.3g} GPa is beyond {1e-9 * HIGHEST_PRESSURE:g} GPa, where steel "
+            "yields (ISO 76): the contact laws are elastic"
+        )
+    return found + tilt_warning(tilt)

@@ -1,0 +1,113 @@
+"""The quasi-static equilibrium in the words of the machine interface."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+from pydantic import Field
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import LOSSES, RINGS
+from lambda_core.domain.loading import CARRYING, Ring, largest_contact, loaded_balls
+from lambda_core.results.averages import finite
+from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
+from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.summary import LOADED_BALLS, MAX_LOAD, Contact, contact_list, merged_cage, span
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.system.operating_limits import operating_warnings
+from lambda_core.system.time_functions import initial
+
+
+class QuasiStatic(Record):
+    """Loads, displacement, kinematics and friction without time; the cage is left out.
+
+    Numbers that a ring at rest does not have (friction torque, film) are null.
+    """
+
+    interface: int = INTERFACE
+    case: str
+    title: str
+    headline: str
+    loaded_balls: int = Field(description=LOADED_BALLS)
+    max_load_N: float = Field(description=MAX_LOAD)
+    max_load_ring: Ring = Field(description="the ring that the largest contact load stands at")
+    max_pressure_GPa: float
+    friction_torque_Nmm: float | None = Field(description="dissipated power over |Omega_i - Omega_o|")
+    friction_breakdown_Nmm: dict[str, float | None]
+    orbit_speed_ratio: float | None = Field(description="mean orbital speed of the loaded balls over inner ring speed")
+    contacts: list[Contact]
+    inner_ring_displacement_um: list[float]
+    inner_ring_tilt_mrad: list[float]
+    film_um: list[float] = Field(description="smallest and largest central film under load")
+    film_parameter: list[float] = Field(description="smallest and largest Lambda under load")
+    shoulders: list[Shoulder] = Field(description="how near contacts come to the shoulders, the worst on each ring")
+    warnings: list[str] = Field(
+        description="where the case or the state leaves what bearing, oil and laws are made for"
+    )
+    iterations: int
+    assumptions: list[str]
+
+    def text(self, width: int | None = None) -> str:
+        """Return the lines for people, none longer than `width` where one is given."""
+        from lambda_core.results.text import quasistatic_text
+
+        return quasistatic_text(self, width)
+
+
+def quasistatic_of(found: Equilibrium) -> QuasiStatic:
+    """Put an equilibrium into the units of the interface."""
+    from lambda_core.system.describe import headline
+
+    model = found.assembly.model
+    channels = {name: found.contacts[:, :, i] for i, name in enumerate(CONTACT_CHANNELS)}
+    load = channels["load"]
+    carrying = load > CARRYING * load.max()
+    largest, ring = largest_contact(load)
+    losses = dict(zip(LOSSES, found.losses.tolist(), strict=True))
+    speed = found.relative_speed
+    x, y, z, tilt_y, tilt_z = found.displacement
+    edges = shoulders(
+        Grooves.of(dataclasses.asdict(model.geometry)), load, channels["contact_angle"], channels["semi_axis_a"]
+    )
+    per_speed = {name: power / speed if speed > 0.0 else math.nan for name, power in losses.items()}
+    return QuasiStatic(
+        case=model.name,
+        title=model.title,
+        headline="\n".join(headline(model)),
+        loaded_balls=loaded_balls(load[:, RINGS.index("inner")]),
+        max_load_N=largest,
+        max_load_ring=ring,
+        max_pressure_GPa=1e-9 * float(channels["max_pressure"].max()),
+        friction_torque_Nmm=finite(1e3 * sum(per_speed.values())),
+        friction_breakdown_Nmm=merged_cage(per_speed),
+        orbit_speed_ratio=finite(_ratio(found)),
+        contacts=contact_list({**channels, "ball_azimuth": _azimuths(found)}),
+        inner_ring_displacement_um=[1e6 * value for value in (x, y, z)],
+        inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
+        film_um=span(1e6 * channels["film_central"][carrying]),
+        film_parameter=span(channels["film_parameter"][carrying]),
+        shoulders=edges,
+        warnings=[
+            *operating_warnings(model),
+            *warnings(float(channels["max_pressure"].max()), edges, math.hypot(tilt_y, tilt_z)),
+        ],
+        iterations=found.iterations,
+        assumptions=list(model.assumptions),
+    )
+
+
+def _azimuths(found: Equilibrium) -> FloatArray:
+    """Return the azimuth of each ball, shape (Z,) [rad]."""
+    count = found.assembly.model.geometry.ball_count
+    azimuths: FloatArray = found.state[: L.NB * count].reshape(count, L.NB)[:, L.BPSI]
+    return azimuths
+
+
+def _ratio(found: Equilibrium) -> float:
+    """Return orbital over inner ring speed, both against the outer ring."""
+    model = found.assembly.model
+    inner, outer = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
+    return (found.orbit - outer) / (inner - outer) if inner != outer else math.nan

@@ -1,0 +1,356 @@
+"""Reading a result file: finished, still growing, or left behind by a killed process."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import Channel
+from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
+from lambda_core.domain.printable import printable
+from lambda_core.results import checkpoint
+from lambda_core.results import file_format as layout
+from lambda_core.results.averages import INTEGRALS
+from lambda_core.results.files import open_for_reading, reason
+from lambda_core.results.integrity import check_model, heaps_are_whole
+from lambda_core.results.run_status import Status
+from lambda_core.system.bearing import ResolvedValue
+
+if TYPE_CHECKING:
+    from lambda_core.results.rating import Rating
+    from lambda_core.results.summary import Summary
+
+_BLOCK = 4096  # rows read at a time where a whole channel need not be in memory
+
+
+class ResultError(UsageError):
+    """A file is not a result, or is damaged."""
+
+
+class Result:
+    """One run, read from its file.
+
+    The file is opened for each access and closed again, so a result that is still
+    growing shows what is there now. Fields of the summary are attributes:
+    ``result.friction_torque_Nmm``.
+
+    Parameters
+    ----------
+    path : path-like
+        A result file.
+
+    Raises
+    ------
+    ResultError
+        When the file does not exist, is not a result, or is damaged.
+
+    Examples
+    --------
+    >>> result = Result("6319-cp10-1500.h5")  # doctest: +SKIP
+    >>> result["load"].shape  # (time, ball, ring), N  # doctest: +SKIP
+    (1000, 9, 2)
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path)
+        with self._open() as file:
+            if not heaps_are_whole(self.path):
+                raise ResultError(f"{self.path} is damaged: its texts cannot be read")
+            _stands_alone(file)
+            self.title, self.headline, self.case, self.created = (
+                printable(str(file.attrs[name])) for name in ("title", "headline", "case", "created")
+            )
+            self._channels = {channel.name: channel for channel in _channels(file)}
+            dims = dict.fromkeys(dim for channel in self._channels.values() for dim in channel.dims)
+            self._labels = {dim: _labels(file[dim]) for dim in dims}
+        self.status()
+
+    # -- what the run wrote --
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """Channels over time: names, dimensions, units, meanings."""
+        return tuple(self._channels.values())
+
+    def __getitem__(self, name: str) -> NDArray[np.float64]:
+        """Return one channel, first axis time, SI."""
+        self._known(name)
+        with self._open() as file:
+            return np.asarray(file[name][: self._status(file).rows.samples])
+
+    def blocks(self, names: Sequence[str], start: float = 0.0) -> Iterator[dict[str, NDArray[np.float64]]]:
+        """Yield several channels in blocks of rows, from time `start` [s]: for results larger than memory."""
+        for name in names:
+            self._known(name)
+        with self._open() as file:
+            rows = self._status(file).rows.samples
+            first = int(np.searchsorted(file["time"][:rows], start))
+            for begin in range(first, rows, _BLOCK):
+                stop = min(begin + _BLOCK, rows)
+                yield {name: file[name][begin:stop] for name in names}
+
+    def sample(self, row: int, names: Sequence[str]) -> dict[str, NDArray[np.float64]]:
+        """Return several channels at one instant; negative rows count from the end."""
+        for name in names:
+            self._known(name)
+        with self._open() as file:
+            at = range(self._status(file).rows.samples)[row]
+            return {name: np.asarray(file[name][at]) for name in names}
+
+    def labels(self, dim: str) -> tuple[int, ...] | tuple[str, ...]:
+        """Return the labels along one dimension; balls count from 1."""
+        if dim not in self._labels:
+            raise UsageError(f"{self.path}: {unknown_name('dimension', dim, self._labels)}")
+        return self._labels[dim]
+
+    def status(self) -> Status:
+        """Return what the run has reached."""
+        with self._open() as file:
+            return self._status(file)
+
+    def integrals(self) -> FloatArray:
+        """Return the running integrals, shape (records, len(averages.COLUMNS)), SI."""
+        with self._open() as file:
+            return _table(file[layout.INTEGRALS_GROUP], self._status(file).rows.records)
+
+    def revolutions(self) -> FloatArray:
+        """Return the running integrals at whole cage revolutions, the first row is t = 0."""
+        with self._open() as file:
+            return _table(file[layout.REVOLUTIONS_GROUP], self._status(file).rows.revolutions)
+
+    def checkpoint(self) -> checkpoint.Checkpoint | None:
+        """Return the newest whole checkpoint, None when there is none."""
+        with self._open() as file:
+            return checkpoint.latest(slot.tobytes() for slot in file[layout.SLOTS][()])
+
+    # -- where it comes from --
+
+    @cached_property
+    def model(self) -> dict[str, Any]:
+        """The resolved model as plain data, SI (geometry, materials, oil, bodies, laws, solver)."""
+        with self._open() as file:
+            found: dict[str, Any] = json.loads(printable(str(file[layout.INPUTS_GROUP]["model_json"].asstr()[()])))
+            check_model(found)
+        return found
+
+    @cached_property
+    def case_toml(self) -> str:
+        """The case, complete: it runs again as it stands."""
+        return self._text("case_toml")
+
+    @cached_property
+    def values(self) -> tuple[ResolvedValue, ...]:
+        """Every resolved value with source and grade."""
+        return tuple(_resolved(row) for row in self._input_table("values"))
+
+    @cached_property
+    def laws(self) -> list[dict[str, str]]:
+        """Element, role, model, distribution, reference, parameters, origins, kernel key of every law."""
+        return self._input_table("laws")
+
+    @cached_property
+    def versions(self) -> dict[str, str]:
+        """Versions of the program, Python and the libraries that ran."""
+        return {row["name"]: row["value"] for row in self._input_table("versions")}
+
+    @cached_property
+    def kernel_keys(self) -> dict[str, str]:
+        """Hash of the code behind every law and of the core's own compiled code."""
+        return {row["name"]: row["value"] for row in self._input_table("kernel_keys")}
+
+    @cached_property
+    def assumptions(self) -> tuple[str, ...]:
+        """What was assumed, one sentence each."""
+        return self._lines("assumptions")
+
+    @cached_property
+    def rating(self) -> Rating | None:
+        """Life, safety and catalogue friction at the start; None in results of earlier versions."""
+        from lambda_core.results.rating import Rating
+
+        with self._open() as file:
+            text = file[layout.INPUTS_GROUP].get("rating_json")
+            return Rating.model_validate_json(text.asstr()[()]) if text is not None else None
+
+    @cached_property
+    def case_warnings(self) -> tuple[str, ...]:
+        """Where the case leaves what bearing, oil and laws are made for, one sentence each."""
+        with self._open() as file:
+            lines = file[layout.INPUTS_GROUP].get("warnings")  # results of earlier versions have none
+            return tuple(lines.asstr()[()]) if lines is not None else ()
+
+    @cached_property
+    def plugins(self) -> tuple[str, ...]:
+        """Distribution and version of each plugin that was loaded."""
+        return self._lines("plugins")
+
+    # -- for people and for other programs --
+
+    def summary(self) -> Summary:
+        """Return the averages and the end state (the machine interface)."""
+        from lambda_core.results.summary import summarise
+
+        return summarise(self)
+
+    def __getattr__(self, name: str) -> Any:
+        from lambda_core.results.summary import Summary
+
+        if name in Summary.model_fields:
+            return getattr(self.summary(), name)
+        raise AttributeError(f"a result has no {name}")
+
+    def __dir__(self) -> list[str]:
+        """Return the names that a notebook completes: methods, and the numbers of the summary."""
+        from lambda_core.results.summary import Summary
+
+        return sorted({*super().__dir__(), *Summary.model_fields})
+
+    def __repr__(self) -> str:
+        return f"<Result {self.path}: {self.title}, {self.status().state}>"
+
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows: the headline and the summary, as the command `show` prints them."""
+        from html import escape
+
+        try:
+            text = self.summary().text()
+        except UsageError as error:  # a run that has just begun holds no samples
+            text = str(error)
+        return f"<pre>{escape(self.headline)}\n{escape(text)}</pre>"
+
+    def to_xarray(self) -> Any:
+        """Return all channels as an xarray.Dataset with dimensions, labels, units and meanings.
+
+        Raises
+        ------
+        UsageError
+            When xarray is not installed; it comes with the extra "data".
+        """
+        try:
+            import xarray
+        except ImportError:
+            raise UsageError('xarray comes with the extra "data": pip install "lambda-bearing[data]"') from None
+
+        with self._open() as file:
+            rows = self._status(file).rows.samples
+            data = {
+                channel.name: (
+                    ("time", *channel.dims),
+                    file[channel.name][:rows],
+                    {"units": channel.unit, "long_name": channel.meaning},
+                )
+                for channel in self.channels
+            }
+        coords = {"time": data.pop("time"), **{dim: list(labels) for dim, labels in self._labels.items()}}
+        return xarray.Dataset(data, coords, {"title": self.title, "case": self.case, "created": self.created})
+
+    def to_pandas(self, *names: str) -> Any:
+        """Return channels (all without names) as a pandas.DataFrame over time.
+
+        A channel with dimensions becomes one column per entry: ``load/1/inner``.
+        """
+        import pandas
+
+        columns: dict[str, NDArray[np.float64]] = {}
+        for name in names or tuple(name for name in self._channels if name != "time"):
+            values = self[name]
+            dims = self._channels[name].dims
+            for index in np.ndindex(values.shape[1:]):
+                entry = [str(self.labels(dim)[i]) for dim, i in zip(dims, index, strict=True)]
+                columns["/".join([name, *entry])] = values[(slice(None), *index)]
+        return pandas.DataFrame(columns, index=pandas.Index(self["time"], name="time"))
+
+    # -- inside --
+
+    def _known(self, name: str) -> None:
+        if name not in self._channels:
+            raise UsageError(f"{self.path}: {unknown_name('channel', name, self._channels)}")
+
+    def _status(self, file: h5py.File) -> Status:
+        return Status.from_bytes(bytes(file[layout.STATUS][()]))
+
+    def _text(self, name: str) -> str:
+        with self._open() as file:
+            return printable(str(file[layout.INPUTS_GROUP][name].asstr()[()]))
+
+    def _lines(self, name: str) -> tuple[str, ...]:
+        with self._open() as file:
+            return tuple(printable(line) for line in file[layout.INPUTS_GROUP][name].asstr()[()])
+
+    def _input_table(self, name: str) -> list[dict[str, str]]:
+        with self._open() as file:
+            rows = layout.read_table(file[layout.INPUTS_GROUP][name])
+        return [{key: printable(text) for key, text in row.items()} for row in rows]
+
+    @contextmanager
+    def _open(self) -> Iterator[h5py.File]:
+        if not self.path.is_file():
+            what = "is a folder, not a result file" if self.path.is_dir() else "does not exist"
+            raise ResultError(f"{self.path} {what}")
+        try:
+            file = open_for_reading(self.path)
+        except OSError as error:
+            if not h5py.is_hdf5(self.path):
+                raise ResultError(f"{self.path} is not a result file (not HDF5)") from None
+            raise ResultError(f"{self.path} cannot be read: {reason(error)}") from None
+        with file:
+            version = file.attrs.get(layout.LAYOUT_ATTRIBUTE)
+            if version is None:
+                raise ResultError(f"{self.path} is an HDF5 file, but not a result of lambda-bearing")
+            if version != layout.LAYOUT:
+                raise ResultError(
+                    f"{self.path} has layout {version}; this program reads layout {layout.LAYOUT}: "
+                    "use the version that wrote it"
+                )
+            try:
+                yield file
+            except LambdaError:
+                raise
+            except Exception as error:  # a garbled file misleads h5py into errors of every kind
+                raise ResultError(f"{self.path} is damaged: {reason(error)}") from None
+
+
+def _stands_alone(file: h5py.File) -> None:
+    """Refuse a file that points at others: a stranger's would show what stands in mine; a run writes none."""
+
+    def elsewhere(name: str, link: Any) -> str | None:  # HDF5 passes on what is returned, not what is raised
+        item = file[name] if isinstance(link, h5py.HardLink) else None
+        away = item is None or (isinstance(item, h5py.Dataset) and (item.external or item.is_virtual))
+        return name if away else None
+
+    if name := file.visititems_links(elsewhere):
+        raise ResultError(f"{file.filename} is no result of a run: {printable(name)} stands somewhere else")
+
+
+def _channels(file: h5py.File) -> Iterator[Channel]:
+    """Yield the channels of a file: everything in its root that grows."""
+    for name, item in file.items():
+        if layout.grows(item):
+            dims = tuple(Path(dim[0].name).name for dim in item.dims if len(dim))
+            yield Channel(name, tuple(d for d in dims if d != "time"), item.attrs["units"], item.attrs["long_name"])
+
+
+def _labels(data: h5py.Dataset) -> tuple[int, ...] | tuple[str, ...]:
+    if h5py.check_string_dtype(data.dtype):
+        return tuple(data.asstr()[()])
+    return tuple(int(number) for number in data[()])
+
+
+def _table(group: h5py.Group, rows: int) -> FloatArray:
+    return np.concatenate([group[channel.name][:rows].reshape(rows, -1) for channel in INTEGRALS], axis=1)
+
+
+def _resolved(row: dict[str, str]) -> ResolvedValue:
+    fields: dict[str, Any] = dict(row)
+    if fields.pop("type") == "number":
+        fields["value"] = float(fields["value"])
+    return ResolvedValue(**fields)

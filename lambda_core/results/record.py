@@ -1,0 +1,13 @@
+"""What the machine interface is made of."""
+
+from __future__ import annotations
+
+from pydantic import BaseModel, ConfigDict
+
+INTERFACE = 1
+
+
+class Record(BaseModel):
+    """Base of what the machine interface is made of."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")

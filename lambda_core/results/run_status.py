@@ -1,0 +1,110 @@
+"""The state of a run, as it stands in its result file."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+from typing import Literal
+
+from lambda_core.domain.printable import printable
+
+
+@dataclass(frozen=True)
+class Rows:
+    """How many rows of the growing datasets count: samples, running integrals, boundaries of cage revolutions."""
+
+    samples: int = 0
+    records: int = 0
+    revolutions: int = 0
+
+
+State = Literal["running", "finished", "stopped", "interrupted", "failed"]
+
+
+@dataclass(frozen=True)
+class Status:
+    """What the run has reached.
+
+    Attributes
+    ----------
+    state : str
+        ``running``; ``finished``: the planned end was reached; ``stopped``: at the limit of
+        wall time; ``interrupted``: by a person or the system; ``failed``: the solver gave up.
+    message : str
+        A sentence, when there is something to say.
+    rows : Rows
+        What is completely on disk.
+    wall : float
+        Wall time of the integration, all sessions together, without set-up [s].
+    statistics : dict of str to float
+        Counters of the solver, all sessions together.
+    process : dict of str to str
+        Which process writes: host, pid, start.
+    """
+
+    state: State = "running"
+    message: str = ""
+    rows: Rows = Rows()
+    wall: float = 0.0
+    statistics: dict[str, float] = field(default_factory=dict)
+    process: dict[str, str] = field(default_factory=dict)
+
+    def to_bytes(self, size: int) -> bytes:
+        """Return JSON of at most `size` bytes; an overlong message is cut."""
+        data = json.dumps(asdict(self)).encode()
+        if len(data) > size:
+            kept = max(len(self.message) - (len(data) - size) - 3, 0)
+            data = json.dumps(asdict(replace(self, message=self.message[:kept] + "..."))).encode()
+        return data
+
+    @staticmethod
+    def from_bytes(data: bytes) -> Status:
+        """Read what `to_bytes` wrote; ValueError when it is not that."""
+        try:
+            fields = json.loads(data)
+            fields["message"] = printable(str(fields["message"]))
+            return Status(**{**fields, "rows": Rows(**fields["rows"])})
+        except (KeyError, TypeError) as error:
+            raise ValueError(str(error)) from None
+
+    def alive(self) -> bool:
+        """Tell whether the process that writes this result is still at work, as far as can be seen from here."""
+        if self.state != "running" or self.process.get("host") != socket.gethostname():
+            return False
+        pid = int(self.process["pid"])
+        return _started(pid) == self.process["start"] and exists(pid)
+
+
+def this_process() -> dict[str, str]:
+    """Return what identifies this process on this host."""
+    return process_identity(os.getpid())
+
+
+def process_identity(pid: int) -> dict[str, str]:
+    """Return what identifies a process on this host."""
+    return {"host": socket.gethostname(), "pid": str(pid), "start": _started(pid)}
+
+
+def _started(pid: int) -> str:
+    """Return when a process started, in the system's own count; "" where that is not known."""
+    try:
+        text = Path(f"/proc/{pid}/stat").read_text()
+    except OSError:
+        return ""
+    return text.rpartition(")")[2].split()[19]
+
+
+def exists(pid: int) -> bool:
+    """Tell whether a process runs on this host."""
+    if os.name == "nt":  # signal 0 means Ctrl+C there: do not ask
+        return False
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True

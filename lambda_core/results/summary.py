@@ -1,0 +1,278 @@
+"""The machine interface: what one run says about friction, kinematics, films and capacitances."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import Field
+
+from lambda_core.domain.channels import RINGS
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.kinematics import epicyclic_ratio
+from lambda_core.domain.loading import CARRYING, Ring, largest_contact, loaded_balls
+from lambda_core.results.averages import Interval, finite
+from lambda_core.results.convergence import shortfalls, window
+from lambda_core.results.limits import Grooves, Shoulder, shoulders, tolerance_warning, warnings, worst
+from lambda_core.results.rating import Rating
+from lambda_core.results.record import INTERFACE, Record
+from lambda_core.system.bearing import Solver
+
+if TYPE_CHECKING:
+    from lambda_core.results.reader import Result
+
+_MECHANISMS_OF_CAGE = ("pocket", "land")
+
+
+LOADED_BALLS = "balls that the inner ring loads with more than 1 % of its largest contact load"
+MAX_LOAD = "largest contact load, of both rings"
+
+
+class Contact(Record):
+    """One ball - raceway contact at the end of the run."""
+
+    ball: int = Field(description="number of the ball, from 1")
+    ring: Ring
+    azimuth_deg: float = Field(description="azimuth of the ball from +y towards +z, 0..360")
+    load_N: float
+    contact_angle_deg: float
+    film_um: float | None = Field(description="central film thickness; null without contact")
+    capacitance_pF: float | None = Field(description="null where asperities short the contact")
+
+
+class Equilibrium(Record):
+    """The quasi-static state that the run started from."""
+
+    loaded_balls: int = Field(description=LOADED_BALLS)
+    max_load_N: float = Field(description=MAX_LOAD)
+    max_load_ring: Ring = Field(description="the ring that the largest contact load stands at")
+    max_pressure_GPa: float
+
+
+class Summary(Record):
+    """Averages over whole cage revolutions, and the end state.
+
+    The names are stable under one number of `interface`. A number that does not exist
+    yet (an average before the first whole cage revolution) is null.
+    """
+
+    interface: int = INTERFACE
+    case: str
+    title: str
+    headline: str = Field(description="two lines: bearing and oil; loads, speed and depth")
+    file: str
+    state: Literal["running", "finished", "stopped", "interrupted", "failed"]
+    converged: bool
+    reasons: list[str] = Field(description="why the run is not converged; empty when it is")
+
+    friction_torque_Nmm: float | None = Field(description="dissipated power over |Omega_i - Omega_o|")
+    friction_torque_ci_Nmm: float | None = Field(description="95 % confidence half-width of friction_torque_Nmm")
+    power_loss_W: float | None = Field(description="mean dissipated power")
+    input_torque_Nmm: float | None = Field(description="work of the drives over the relative angle")
+    friction_breakdown_Nmm: dict[str, float | None] = Field(description="parts of friction_torque_Nmm; they add up")
+    cage_speed_ratio: float | None = Field(description="mean cage speed over inner ring speed")
+    cage_speed_over_epicyclic: float | None
+    epicyclic_ratio: float | None = Field(description="cage speed over inner ring speed without slip")
+    contacts: list[Contact] = Field(description="every ball - raceway contact at the end state")
+    inner_ring_displacement_um: list[float | None] = Field(description="mean position x, y, z")
+    inner_ring_tilt_mrad: list[float | None] = Field(description="mean tilt about y and z")
+    max_pressure_GPa: float | None = Field(description="largest Hertzian pressure of the averaging window")
+    min_film_um: float | None = Field(description="smallest minimum film under load in the averaging window")
+    film_um: list[float] = Field(description="smallest and largest central film under load at the end state")
+    film_parameter: list[float] = Field(description="smallest and largest Lambda under load at the end state")
+    contact_capacitance_pF: list[float] = Field(description="smallest and largest under load at the end state")
+    bearing_capacitance_nF: float | None = Field(description="at the end state")
+    rating: Rating | None = Field(description="life, safety and catalogue friction of the case at its start")
+    shoulders: list[Shoulder] = Field(description="how near contacts came to the shoulders, the worst on each ring")
+    warnings: list[str] = Field(description="where case or run left what bearing, oil and laws are made for")
+    energy_residual: float | None = Field(description="(input - dissipated - stored) over integral of |input power|")
+
+    revolutions_discarded: int = Field(description="whole cage revolutions before averaging")
+    revolutions_averaged: int = Field(description="whole cage revolutions averaged")
+    simulated_s: float
+    wall_s: float = Field(description="wall time of the integration")
+    wall_per_simulated_second: float | None
+    wall_per_revolution_s: float | None = Field(description="per revolution of the inner ring against the outer")
+    solver_statistics: dict[str, float]
+    equilibrium: Equilibrium
+    assumptions: list[str]
+
+    def text(self, width: int | None = None) -> str:
+        """Return the lines for people, none longer than `width` where one is given."""
+        from lambda_core.results.text import summary_text
+
+        return summary_text(self, width)
+
+
+def summarise(result: Result) -> Summary:
+    """Compute the summary of a result from its file."""
+    status = result.status()
+    if not status.rows.samples or not status.rows.records:
+        raise UsageError(f"{result.path} holds no samples yet")
+    integrals = result.integrals()
+    settings = Solver(**{name: float(value) for name, value in result.model["solver"].items()})
+    last = integrals[-1]
+    whole = Interval(integrals[0], last)
+    chosen = window(settings, result.revolutions(), last)
+    residual = whole.energy_residual()
+    reasons = _reasons(status.state, status.message, shortfalls(settings, chosen, residual))
+    extremes = _Span.of(result, float(chosen.interval.first[0]))
+    geometry = result.model["geometry"]
+    sizes = float(geometry["ball_diameter"]), float(geometry["pitch_diameter"])
+    epicyclic = epicyclic_ratio(*sizes, extremes.cos_angle)
+    ratio = chosen.interval.ratio("cage_angle", "inner_angle")
+    end = _sample(result, -1)
+    edges = _edges(result)
+    carrying = end["load"] > CARRYING * end["load"].max()
+    time = whole.change("time")
+    revolutions = whole.change("relative_angle") / (2.0 * math.pi)
+    return Summary(
+        case=result.case,
+        title=result.title,
+        headline=result.headline,
+        file=str(result.path),
+        state=status.state,
+        converged=not reasons,
+        reasons=reasons,
+        friction_torque_Nmm=finite(1e3 * chosen.interval.torque()),
+        friction_torque_ci_Nmm=finite(1e3 * chosen.torque.half_width),
+        power_loss_W=finite(chosen.interval.torque() * chosen.interval.ratio("relative_angle", "time")),
+        input_torque_Nmm=finite(1e3 * chosen.interval.ratio("drive", "relative_angle")),
+        friction_breakdown_Nmm=merged_cage(chosen.interval.breakdown()),
+        cage_speed_ratio=finite(ratio),
+        cage_speed_over_epicyclic=finite(ratio / epicyclic),
+        epicyclic_ratio=finite(epicyclic),
+        contacts=contact_list(end),
+        inner_ring_displacement_um=[finite(1e6 * value) for value in chosen.interval.position()],
+        inner_ring_tilt_mrad=[finite(1e3 * angle) for angle in extremes.tilt],
+        max_pressure_GPa=finite(1e-9 * extremes.pressure),
+        min_film_um=finite(1e6 * extremes.film),
+        film_um=span(1e6 * end["film_central"][carrying]),
+        film_parameter=span(end["film_parameter"][carrying]),
+        contact_capacitance_pF=span(1e12 * end["capacitance"][carrying]),
+        bearing_capacitance_nF=finite(1e9 * float(end["bearing_capacitance"])),
+        rating=result.rating,
+        shoulders=edges,
+        warnings=[
+            *result.case_warnings,
+            *tolerance_warning(settings.tolerance),
+            *warnings(_highest_pressure(result), edges, extremes.largest_tilt),
+        ],
+        energy_residual=finite(residual),
+        revolutions_discarded=chosen.discarded,
+        revolutions_averaged=chosen.revolutions,
+        simulated_s=time,
+        wall_s=status.wall,
+        wall_per_simulated_second=finite(_quotient(status.wall, time)),
+        wall_per_revolution_s=finite(_quotient(status.wall, revolutions)),
+        solver_statistics=status.statistics,
+        equilibrium=_equilibrium(result),
+        assumptions=list(result.assumptions),
+    )
+
+
+def _reasons(state: str, message: str, found: list[str]) -> list[str]:
+    """Put the end first: a run that did not reach it is not converged, whatever its averages say."""
+    ends = {"running": "the run has not reached its end", "failed": "the solver could not go on"}
+    if state == "finished":
+        return found
+    return [message or ends.get(state, "the run was stopped before its end"), *found]
+
+
+def merged_cage(parts: Mapping[str, float]) -> dict[str, float | None]:
+    """Return torques [N m] by mechanism in N mm, with the cage's contacts as one."""
+    merged = {name: value for name, value in parts.items() if name not in _MECHANISMS_OF_CAGE}
+    merged["cage"] = sum(parts[name] for name in _MECHANISMS_OF_CAGE)
+    return {name: finite(1e3 * value) for name, value in merged.items()}
+
+
+@dataclass(frozen=True)
+class _Span:
+    """What the samples of the averaging window say about contacts under load."""
+
+    pressure: float  # largest [Pa]
+    film: float  # smallest minimum film [m]
+    cos_angle: float  # mean cosine of the contact angle, weighted by load
+    tilt: tuple[float, float]  # mean tilt of the inner ring about y and z [rad]
+    largest_tilt: float  # between the axes of the rings [rad]
+
+    @staticmethod
+    def of(result: Result, start: float) -> _Span:
+        pressure, film, weighted, total = 0.0, math.inf, 0.0, 0.0
+        tilts, largest, count = np.zeros(2), 0.0, 0
+        names = ("load", "max_pressure", "film_minimum", "contact_angle", "body_tilt")
+        for block in result.blocks(names, start):
+            inner, outer = (block["body_tilt"][:, body] for body in (0, 1))
+            largest = max(largest, float(np.hypot(*(inner - outer).T).max()))
+            tilts, count = tilts + inner.sum(axis=0), count + len(inner)
+            load = block["load"]
+            loaded = load > 0.0
+            if not loaded.any():
+                continue
+            pressure = max(pressure, float(block["max_pressure"][loaded].max()))
+            film = min(film, float(block["film_minimum"][loaded].min()))
+            weighted += float((load[loaded] * np.cos(block["contact_angle"][loaded])).sum())
+            total += float(load[loaded].sum())
+        about_y, about_z = (float(angle) / count if count else math.nan for angle in tilts)
+        return _Span(pressure, film, weighted / total if total > 0.0 else math.nan, (about_y, about_z), largest)
+
+
+def _edges(result: Result) -> list[Shoulder]:
+    """Return the contacts nearest to the shoulders, over the whole run."""
+    grooves, found = Grooves.of(result.model["geometry"]), list[Shoulder]()
+    for block in result.blocks(("load", "contact_angle", "semi_axis_a")):
+        found += shoulders(grooves, block["load"], block["contact_angle"], block["semi_axis_a"])
+    return worst(found)
+
+
+def _highest_pressure(result: Result) -> float:
+    """Return the largest Hertzian pressure of the whole run [Pa]."""
+    return max(float(block["max_pressure"].max()) for block in result.blocks(("max_pressure",)))
+
+
+def contact_list(state: Mapping[str, NDArray[np.float64]]) -> list[Contact]:
+    """Return every contact at one instant; the channels have shapes (ball,) and (ball, ring), SI."""
+    load = state["load"]
+    return [
+        Contact(
+            ball=ball + 1,
+            ring=name,
+            azimuth_deg=math.degrees(float(state["ball_azimuth"][ball])) % 360.0,
+            load_N=float(load[ball, ring]),
+            contact_angle_deg=math.degrees(float(state["contact_angle"][ball, ring])),
+            film_um=finite(1e6 * float(state["film_central"][ball, ring])) if load[ball, ring] > 0.0 else None,
+            capacitance_pF=finite(1e12 * float(state["capacitance"][ball, ring])),
+        )
+        for ball in range(load.shape[0])
+        for ring, name in enumerate(get_args(Ring))
+    ]
+
+
+def _sample(result: Result, row: int) -> dict[str, NDArray[np.float64]]:
+    names = ("load", "ball_azimuth", "contact_angle", "film_central", "film_parameter", "max_pressure")
+    return result.sample(row, (*names, "capacitance", "bearing_capacitance"))
+
+
+def _equilibrium(result: Result) -> Equilibrium:
+    first = _sample(result, 0)
+    largest, ring = largest_contact(first["load"])
+    return Equilibrium(
+        loaded_balls=loaded_balls(first["load"][:, RINGS.index("inner")]),
+        max_load_N=largest,
+        max_load_ring=ring,
+        max_pressure_GPa=1e-9 * float(first["max_pressure"].max()),
+    )
+
+
+def span(values: NDArray[np.float64]) -> list[float]:
+    """Return the smallest and the largest finite number, nothing when there is none."""
+    finite = values[np.isfinite(values)]
+    return [float(finite.min()), float(finite.max())] if finite.size else []
+
+
+def _quotient(numerator: float, denominator: float) -> float:
+    return numerator / denominator if denominator > 0.0 else math.nan

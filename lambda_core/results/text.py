@@ -1,0 +1,194 @@
+"""The machine interface in lines for people."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from lambda_core.domain.number_text import NONE, interval, number, plus_minus
+from lambda_core.domain.wrapping import HEAD, wrapped
+
+if TYPE_CHECKING:
+    from lambda_core.results.limits import Shoulder
+    from lambda_core.results.quasistatic import QuasiStatic
+    from lambda_core.results.rating import Rating
+    from lambda_core.results.summary import Summary
+
+_PER_RING = ("sliding", "spin", "rolling", "hysteresis", "boundary", "damping")
+_REST = ("cage", "drag", "support")
+_WIDTH = 100  # of sentences where no width is given
+_LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
+
+
+def summary_text(summary: Summary, width: int | None = None) -> str:
+    """Return what one run says, a line per subject: the answer first, then where it may be wrong, then the rest.
+
+    Parameters
+    ----------
+    width : int, optional
+        Longer lines go on below; without it lines are as long as they are.
+    """
+    verdict = "converged" if summary.converged else "NOT CONVERGED"
+    window = (
+        f"(95 %, {summary.revolutions_averaged} cage revolutions)" if summary.revolutions_averaged else "(whole run)"
+    )
+    mean = plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm)
+    lines = [
+        line("friction torque", f"{mean} N mm", window, verdict),
+        *breakdown_lines(summary.friction_breakdown_Nmm),
+        line("power loss", f"{number(summary.power_loss_W, _digits(summary.power_loss_W))} W"),
+        *rating_lines(summary.rating),
+        line(
+            "film",
+            f"minimum {number(summary.min_film_um, 2)} um",
+            f"central {interval(summary.film_um, 2)} um",
+            f"Lambda {interval(summary.film_parameter, 1)} (central)",
+        ),
+        *warning_lines(summary.warnings, width),
+        line("input torque", f"{number(summary.input_torque_Nmm)} N mm"),
+        line("cage speed", f"{number(summary.cage_speed_ratio, 4)} of inner ring", _slip(summary)),
+        line("inner ring", f"x {_at(summary, 0)}  y {_at(summary, 1)}  z {_at(summary, 2)} um (mean)", _tilt(summary)),
+        line("pressure", f"p_max {number(summary.max_pressure_GPa, 2)} GPa"),
+        line(
+            "capacitance",
+            f"contacts {interval(summary.contact_capacitance_pF, 0)} pF",
+            f"bearing {number(summary.bearing_capacitance_nF, 3)} nF",
+        ),
+        line("shoulders", *map(_margin, summary.shoulders)),
+        line("energy residual", f"{_small(summary.energy_residual)} of input"),
+        line("wall time", *_wall(summary)),
+        *assumption_lines(summary.assumptions, summary.file),
+        line("result", summary.file),
+        *(line("not converged" if index == 0 else "", reason) for index, reason in enumerate(summary.reasons)),
+    ]
+    return "\n".join(wrapped(lines, width))
+
+
+def rating_lines(rating: Rating | None) -> list[str]:
+    """Return what standards and catalogues say beside the run; their numbers are those of the case at its start."""
+    if rating is None:
+        return []
+    makers = (("SKF", rating.skf_torque_Nmm), ("Schaeffler", rating.schaeffler_torque_Nmm))
+    lives = ((rating.reference_life_h, "ISO/TS 16281"), (rating.basic_life_h, "ISO 281"))
+    says = [f"{maker} {number(torque, 0)}" for maker, torque in makers if torque is not None]
+    rated = [f"{hours(life)} ({standard})" for life, standard in lives if life is not None]
+    return [
+        *([line("catalogues", f"{'   '.join(says)} N mm")] if says else []),
+        *([line("rating life", *rated)] if rated else []),
+        line(
+            "safety",
+            f"static C0/P0 {number(rating.static_safety)}" if rating.static_safety is not None else "",
+            f"viscosity ratio kappa {number(rating.viscosity_ratio, 1)}" if rating.viscosity_ratio is not None else "",
+        ),
+    ]
+
+
+def hours(life: float) -> str:
+    """Write a rating life to two digits: its scatter is a decade."""
+    return f"{number(float(f'{life:.2g}'), 0)} h" if life < _LONG_LIFE else f"above {number(_LONG_LIFE, 0)} h"
+
+
+def _digits(value: float | None) -> int:
+    """Return the decimals that leave a number three digits."""
+    return 1 if not value else min(3, max(0, 2 - math.floor(math.log10(abs(value)))))
+
+
+def quasistatic_text(found: QuasiStatic, width: int | None = None) -> str:
+    """Return what an equilibrium says, a line per subject and a table of contacts; `width` as above."""
+    x, y, z = found.inner_ring_displacement_um
+    tilt_y, tilt_z = found.inner_ring_tilt_mrad
+    table = [f"{'ball':>6}{'azimuth':>10}{'ring':>8}{'load N':>10}{'angle deg':>11}{'film um':>10}{'C pF':>9}"]
+    for contact in found.contacts:
+        table.append(
+            f"{contact.ball:>6}{contact.azimuth_deg:>10.1f}{contact.ring:>8}{contact.load_N:>10.1f}"
+            f"{contact.contact_angle_deg:>11.2f}{number(contact.film_um, 3):>10}{number(contact.capacitance_pF, 1):>9}"
+        )
+    lines = [
+        found.headline,
+        line(
+            "equilibrium",
+            f"{found.loaded_balls} balls loaded",
+            f"Q_max {number(found.max_load_N, 0)} N ({found.max_load_ring} ring)",
+            f"p_max {number(found.max_pressure_GPa, 3)} GPa",
+        ),
+        line("inner ring", f"x {x:.2f}  y {y:.2f}  z {z:.2f} um", f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad"),
+        line("friction torque", f"{number(found.friction_torque_Nmm)} N mm", "(without cage)"),
+        *breakdown_lines(found.friction_breakdown_Nmm),
+        line("ball orbit", f"{number(found.orbit_speed_ratio, 4)} of inner ring"),
+        line("film", f"{interval(found.film_um, 2)} um", f"Lambda {interval(found.film_parameter, 1)}"),
+        line("shoulders", *map(_margin, found.shoulders)),
+        *table,
+        *warning_lines(found.warnings, width),
+        *assumption_lines(found.assumptions),
+    ]
+    return "\n".join(wrapped(lines, width))
+
+
+def line(head: str, *parts: str) -> str:
+    """Return one line: what it is about, then its parts."""
+    return f"{head:<{HEAD}}{'   '.join(part for part in parts if part)}".rstrip()
+
+
+def breakdown_lines(parts: Mapping[str, float | None]) -> list[str]:
+    """Return the parts of the friction torque: one line per ring, one for the rest [N mm]."""
+    width = max((len(number(value)) for value in parts.values()), default=1)
+    rings = [
+        f"  {ring:<6}" + "".join(f"  {name} {number(parts[f'{name}_{ring}']):>{width}}" for name in _PER_RING)
+        for ring in ("inner", "outer")
+    ]
+    return [*rings, f"  {'':<6}" + "".join(f"  {name} {number(parts[name])}" for name in _REST)]
+
+
+def warning_lines(warnings: Sequence[str], width: int | None = None) -> list[str]:
+    """Return what is beyond a limit, a paragraph each."""
+    room = _WIDTH if width is None else max(20, width - HEAD)
+    return [
+        line("WARNING" if i == 0 else "", part)
+        for warning in warnings
+        for i, part in enumerate(textwrap.wrap(warning, room, break_on_hyphens=False))
+    ]
+
+
+def _margin(edge: Shoulder) -> str:
+    where = "clear of" if edge.margin_um >= 0.0 else "OVER"
+    return f"{edge.ring} {number(abs(edge.margin_um), 0)} um {where} the edge"
+
+
+def assumption_lines(assumptions: Sequence[str], file: str = "") -> list[str]:
+    """Return how much was assumed, in one line, and where it stands with its reasons."""
+    if not assumptions:
+        return []
+    where = f"lambda-bearing show {file} --assumptions" if file else "lambda-bearing check"
+    return [line("assumed", f"{len(assumptions)} thing{'s' * (len(assumptions) != 1)}: {where}")]
+
+
+def _small(value: float | None) -> str:
+    return NONE if value is None else f"{value:.1e}"
+
+
+def _at(summary: Summary, axis: int) -> str:
+    return number(summary.inner_ring_displacement_um[axis], 2)
+
+
+def _tilt(summary: Summary) -> str:
+    y, z = (number(angle, 2) for angle in summary.inner_ring_tilt_mrad)
+    return f"tilt y {y}  z {z} mrad"
+
+
+def _slip(summary: Summary) -> str:
+    ratio = summary.cage_speed_over_epicyclic
+    if ratio is None:
+        return ""
+    return f"(epicyclic {number(summary.epicyclic_ratio, 4)}, slip {100.0 * (1.0 - ratio):.2f} %)"
+
+
+def _wall(summary: Summary) -> list[str]:
+    per_second, per_turn = summary.wall_per_simulated_second, summary.wall_per_revolution_s
+    parts = [f"{summary.wall_s:.2f} s for {summary.simulated_s:.4g} s"]
+    if per_second is not None:
+        parts.append(f"{per_second:.2f} s per simulated second")
+    if per_turn is not None:
+        parts.append(f"{1e3 * per_turn:.3g} ms per revolution")
+    return parts

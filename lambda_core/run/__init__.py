@@ -1,0 +1,1 @@
+"""One run: the loop, stepping, resuming, cross-check, estimate, comparison with methods."""

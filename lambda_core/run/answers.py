@@ -1,0 +1,136 @@
+"""Results: opening, summarising and citing them, and comparing them with methods of the literature."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.thermal.answers import ready_model
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping, Sequence
+
+    from lambda_core.case.case import Case
+    from lambda_core.results.citation import Citation
+    from lambda_core.results.reader import Result
+    from lambda_core.results.summary import Summary
+    from lambda_core.run.comparison import Comparison
+    from lambda_core.system.bearing import BearingModel
+
+
+def result(path: str | Path) -> Result:
+    """Open a result file: finished, still growing, or left behind by a killed process.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+
+    Returns
+    -------
+    Result
+        Reads from the file what it is asked for.
+
+    Raises
+    ------
+    UsageError
+        When the file does not exist, is not a result, or is damaged.
+    """
+    from lambda_core.results.reader import Result
+
+    return Result(path)
+
+
+def summary(path: str | Path) -> Summary:
+    """Return the averages and the end state of a result (the machine interface).
+
+    Parameters
+    ----------
+    path : path-like
+        Result file.
+
+    Returns
+    -------
+    Summary
+        Numbers in the units of their names.
+
+    Raises
+    ------
+    UsageError
+        When the file is no result or holds no samples yet.
+    """
+    return result(path).summary()
+
+
+def cite(path: str | Path) -> Citation:
+    """Return the references of exactly the laws and data that a result used, and of the program.
+
+    Parameters
+    ----------
+    path : path-like
+        Result file.
+
+    Returns
+    -------
+    Citation
+        Read from the file: it does not need the plugins that were used.
+
+    Raises
+    ------
+    UsageError
+        When the file does not exist, is not a result, or is damaged.
+    """
+    from lambda_core.results.citation import citation
+
+    return citation(result(path))
+
+
+def compare(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    methods: Sequence[str] = (),
+    result: str | Path | None = None,
+    contamination: float | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Comparison:
+    """Put every comparison method beside the others on one case, at its start.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    methods : sequence of str
+        Names of methods; every installed one when empty.
+    result : path-like, optional
+        Result file of the same case: its simulation becomes the first column.
+    contamination : float, optional
+        e_C of ISO 281, for modified lives.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Comparison
+        One column per method, rows with units; methods that do not apply with the reason.
+
+    Raises
+    ------
+    UsageError
+        For an unknown method, or a result of another case.
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.results.reader import Result
+    from lambda_core.run.compare_methods import compare as ask
+    from lambda_core.run.comparison import comparison_of
+
+    model, known = ready_model(source, overrides, announce), registry().methods
+    unknown = next((name for name in methods if name not in known), None)
+    if unknown is not None:
+        raise UsageError(unknown_name("comparison method", unknown, known))
+    simulated = None if result is None else Result(result)
+    chosen = [known[name] for name in methods or known]
+    return comparison_of(model, ask(model, chosen, contamination=contamination, announce=announce), simulated)

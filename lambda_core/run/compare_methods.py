@@ -1,0 +1,106 @@
+"""Every comparison method on one case: the equilibrium first, then the methods side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING
+
+from lambda_core.domain.channels import LOSSES
+from lambda_core.domain.errors import SolverError
+from lambda_core.system.bearing import BearingModel
+from lambda_core.system.method_inputs import method_inputs, permittivity_over_pressure
+from lambda_core.views.method import (
+    ContactLoad,
+    EquilibriumState,
+    Method,
+    MethodAnswer,
+    MethodInputs,
+    evaluate_methods,
+)
+
+if TYPE_CHECKING:
+    from lambda_core.solver.drivers.equilibrium import Equilibrium
+
+Announce = Callable[[str], None] | None
+
+
+def equilibrium_state(
+    equilibrium: Equilibrium, stiffness: tuple[tuple[float, ...], ...] | None = None
+) -> EquilibriumState:
+    """Hand the quasi-static solution to methods as plain numbers.
+
+    Parameters
+    ----------
+    stiffness : 5 x 5 tuple of tuples, optional
+        d(load)/d(displacement) of the inner ring, order x, y, z, tilt_y, tilt_z [SI].
+    """
+    from lambda_core.solver.layout import BPSI, NB
+
+    channels = equilibrium.contacts
+    contacts = tuple(
+        ContactLoad(
+            azimuth=float(equilibrium.state[NB * ball + BPSI]),
+            load_inner=float(channels[ball, 0, 0]),
+            load_outer=float(channels[ball, 1, 0]),
+            angle_inner=float(channels[ball, 0, 1]),
+            angle_outer=float(channels[ball, 1, 1]),
+        )
+        for ball in range(channels.shape[0])
+    )
+    speed = equilibrium.relative_speed
+    parts = zip(LOSSES, equilibrium.losses, strict=True)
+    friction = tuple((name.replace("_", " "), float(power) / speed) for name, power in parts) if speed > 0.0 else ()
+    return EquilibriumState(contacts, equilibrium.displacement, stiffness, friction)
+
+
+def comparison_inputs(
+    equilibrium: Equilibrium, *, contamination: float | None = None, stiffness: bool = True
+) -> MethodInputs:
+    """Collect what methods may look at of an equilibrium: loads, stiffness, oil, permittivity of the inner contact.
+
+    The `stiffness` takes more equilibria, and can be left out.
+    """
+    from lambda_core.solver.drivers.stiffness import stiffness_matrix
+    from lambda_core.system.law_context import build_context, prepare
+
+    assembly = equilibrium.assembly
+    model, oil = assembly.model, assembly.oil
+    laws = model.laws["ball_inner"]
+    context = build_context(model, "ball_inner", assembly.frame, oil)
+    permittivity, rheology = laws["permittivity"], laws["rheology"]
+    return method_inputs(
+        model,
+        oil,
+        state=equilibrium_state(equilibrium, stiffness_matrix(equilibrium) if stiffness else None),
+        permittivity=permittivity_over_pressure(
+            permittivity.model,
+            prepare(permittivity, context),
+            rheology.model,
+            prepare(rheology, context),
+            oil.temperature,
+        ),
+        contamination=contamination,
+    )
+
+
+def compare(
+    model: BearingModel,
+    methods: Iterable[Method],
+    *,
+    contamination: float | None = None,
+    announce: Announce = None,
+) -> tuple[MethodAnswer, ...]:
+    """Ask every method about one case, at its start.
+
+    Raises
+    ------
+    SolverError
+        When there is no quasi-static equilibrium: without loads per ball the comparison would be of different cases.
+    """
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    try:
+        equilibrium = solve(model, announce=announce)
+    except SolverError as error:
+        raise SolverError(f"{model.name}: nothing to compare: {error}") from error
+    return evaluate_methods(methods, comparison_inputs(equilibrium, contamination=contamination))

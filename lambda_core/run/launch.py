@@ -1,0 +1,115 @@
+"""From a resolved model to a running simulation: where the result goes, and what must be the same to go on."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.files import check_target
+from lambda_core.laws.kernels import sources_key
+from lambda_core.results.provenance import Provenance, differences, model_data
+from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
+from lambda_core.results.reader import Result, ResultError
+from lambda_core.run.loop import resume, run
+from lambda_core.run.progress import Report
+from lambda_core.run.rating import rating_of
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.equilibrium import solve
+from lambda_core.solver.sources import physics_sources
+from lambda_core.system.bearing import BearingModel
+
+Announce = Callable[[str], None]
+
+
+def launch(
+    model: BearingModel,
+    out: Path | None = None,
+    *,
+    force: bool = False,
+    report: Report | None = None,
+    announce: Announce | None = None,
+) -> Result:
+    """Run a model from its quasi-static equilibrium into a result file.
+
+    Parameters
+    ----------
+    out : pathlib.Path, optional
+        The result file; by default the case's name in the working directory, with a number
+        where that is taken.
+    force : bool
+        Overwrite `out`.
+    report, announce : callable, optional
+        Called with the progress of the run; with a sentence before what takes a while.
+    """
+    path = destination(model, out, force)
+    engine, provenance = _engine(model, announce)
+    return run(engine, provenance, path, force=force, report=report)
+
+
+def relaunch(
+    path: Path, model: BearingModel, *, report: Report | None = None, announce: Announce | None = None
+) -> Result:
+    """Go on with the run in `path`, whose case resolves to `model` today.
+
+    Raises
+    ------
+    ResultError
+        When the catalogue, the models or the code have changed, so that it would not be the same run.
+    """
+    result = Result(path)
+    changed = differences(result.model, model_data(model))
+    if changed:
+        raise ResultError(f"{path} cannot go on: the case now resolves to other values: {_some(changed)}")
+    engine, provenance = _engine(model, announce)
+    keys = result.kernel_keys
+    other = sorted(name for name, key in provenance.kernel_keys.items() if keys.get(name) != key)
+    if other:
+        raise ResultError(f"{path} cannot go on: the code has changed since: {_some(other)}")
+    return resume(engine, provenance, path, report=report)
+
+
+def destination(model: BearingModel, out: Path | None, force: bool) -> Path:
+    """Return where the result goes; UsageError where that cannot be."""
+    if out is None:
+        path, number = Path(f"{model.name}.h5"), 1
+        while path.exists():
+            number += 1
+            path = Path(f"{model.name}-{number}.h5")
+    else:
+        path = out
+        if path.is_dir():
+            raise UsageError(f"{path} is a folder: name a file in it, for example {path / model.name}.h5")
+        check_target(path)
+        if path.exists() and not force:
+            raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
+    folder = path.absolute().parent
+    if not folder.is_dir():
+        raise UsageError(f"cannot write {path}: the folder {folder} does not exist")
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise UsageError(f"cannot write {path}: the folder {folder} is not writable")
+    return path
+
+
+def _engine(model: BearingModel, announce: Announce | None) -> tuple[BearingEngine, Provenance]:
+    start = solve(model, announce=announce)
+    if announce is not None:
+        announce(_start_line(quasistatic_of(start)))
+    engine = BearingEngine(model, announce, start)
+    core = sources_key(*physics_sources())
+    rating = rating_of(start, registry().methods)
+    return engine, Provenance(model, {**engine.kernel_keys, "core": core}, rating)
+
+
+def _start_line(start: QuasiStatic) -> str:
+    return (
+        f"equilibrium: {start.loaded_balls} balls loaded, "
+        f"Q_max {start.max_load_N / 1e3:.2f} kN ({start.max_load_ring} ring), p_max {start.max_pressure_GPa:.2f} GPa"
+    )
+
+
+def _some(names: list[str]) -> str:
+    shown = ", ".join(names[:5])
+    return shown if len(names) <= 5 else f"{shown} and {len(names) - 5} more"

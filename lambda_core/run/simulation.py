@@ -1,0 +1,254 @@
+"""One bearing: its equilibrium, its simulation into a result file, and what other methods say of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.run.answers import result
+from lambda_core.system.checking import resolve
+from lambda_core.thermal.answers import ready_model
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from lambda_core.case.case import Case
+    from lambda_core.results.quasistatic import QuasiStatic
+    from lambda_core.results.reader import Result
+    from lambda_core.run.crosscheck import CrossCheck
+    from lambda_core.run.estimate import Estimate
+    from lambda_core.run.progress import Progress
+    from lambda_core.run.stepping import Stepping
+    from lambda_core.run.warmup import Warmup
+    from lambda_core.system.bearing import BearingModel
+
+
+def quasistatic(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    announce: Callable[[str], None] | None = None,
+) -> QuasiStatic:
+    """Solve the quasi-static equilibrium of a case at t = 0: loads, angles, films, friction; no time, no cage.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    QuasiStatic
+        Numbers in the units of their names.
+
+    Raises
+    ------
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.results.quasistatic import quasistatic_of
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    return quasistatic_of(solve(ready_model(source, overrides, announce), announce=announce))
+
+
+def estimate(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel, *, announce: Callable[[str], None] | None = None
+) -> Estimate:
+    """Say what can be said of a case before it is run: equilibrium, rating life, wall time.
+
+    Parameters
+    ----------
+    source
+        As for :func:`check`, or a resolved model.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Estimate
+        Numbers that there are none of are None.
+
+    Raises
+    ------
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.run.estimate import estimate as ask
+
+    return ask(ready_model(source, announce=announce), registry().methods, announce)
+
+
+def run(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    out: str | Path | None = None,
+    force: bool = False,
+    progress: Callable[[Progress], None] | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Result:
+    """Simulate a case into a result file.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    out : path-like, optional
+        The result file; by default the case's name with ``.h5``, numbered where that is taken.
+    force : bool
+        Overwrite `out`.
+    progress : callable, optional
+        Called some ten times a second.
+    announce : callable, optional
+        Called with a sentence before something is compiled, and with the equilibrium found.
+
+    Returns
+    -------
+    Result
+        Also of a run that ended early or is not converged: its summary says so and why.
+
+    Raises
+    ------
+    CaseError, SolverError, PartialResultError
+        With a sentence about the case, the solver (the file keeps what there is) or the disk.
+    """
+    from lambda_core.run.launch import launch
+
+    path = None if out is None else Path(out)
+    return launch(ready_model(source, overrides, announce), path, force=force, report=progress, announce=announce)
+
+
+def iterate(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    interval: float | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Stepping:
+    """Simulate a case step by step, without a result file: ``for step in iterate(case)``.
+
+    For programs that look at every step, or that push the inner ring with what another program says: co-simulation.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    interval : float, optional
+        Time between steps [s]; default: that of the samples of a run. No step of the integrator is longer.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Stepping
+        An iterator of steps; ends at ``solver.duration``, or at ``solver.max_duration``.
+
+    Raises
+    ------
+    CaseError, SolverError, UsageError
+        With a sentence about the case, the solver or `interval`.
+    """
+    from lambda_core.run.stepping import Stepping
+
+    return Stepping(ready_model(source, overrides, announce), interval, announce)
+
+
+def resume(
+    path: str | Path,
+    overrides: Iterable[str] = (),
+    *,
+    progress: Callable[[Progress], None] | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Result:
+    """Go on with an interrupted run, bit for bit as if it had not been.
+
+    A limit of wall time holds for one start: the run goes on without the one that it began with.
+
+    Parameters
+    ----------
+    path : path-like
+        Result file of a run that was interrupted, killed, or is to be longer.
+    overrides : iterable of str
+        ``solver.duration=...``, ``solver.max_duration=...`` or ``solver.max_wall=...``; anything else
+        would be another run.
+    progress, announce
+        As for :func:`run`.
+
+    Returns
+    -------
+    Result
+        As from :func:`run`.
+
+    Raises
+    ------
+    UsageError
+        When the file is no result, nothing is left to do, or the case or the code has changed.
+    """
+    from lambda_core.case.case_io import apply_overrides, parse_case
+    from lambda_core.run.launch import relaunch
+
+    text = result(path).case_toml
+    case = parse_case(text, str(path)).with_(solver={"max_wall": None})
+    model = resolve(apply_overrides(case, overrides))
+    return relaunch(Path(path), model, report=progress, announce=announce)
+
+
+def cross_check(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    free_cage: bool = False,
+    announce: Callable[[str], None] | None = None,
+) -> CrossCheck:
+    """Integrate a case with the program's integrator and with SUNDIALS CVODE, and compare.
+
+    Needs the extra ``sundials``.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`, or a resolved model.
+    free_cage : bool
+        Leave the cage free and compare mean powers; otherwise it is led along its kinematic path, where single
+        trajectories can be compared.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    CrossCheck
+        Dissipated powers, how far the states are apart, and whether the two agree.
+
+    Raises
+    ------
+    UsageError
+        When scikit-sundae is not installed.
+    CaseError, SolverError
+        With a sentence about the case, or about which integrator could not go on.
+    """
+    from lambda_core.run.crosscheck import cross_check as ask
+
+    return ask(ready_model(source, overrides, announce), free_cage=free_cage, announce=announce)
+
+
+def warmup(*, announce: Callable[[str], None] | None = None) -> Warmup:
+    """Compile the solver and every installed law ahead of the first run.
+
+    Parameters
+    ----------
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Warmup
+        What was compiled now, what was there, and the laws that cannot be compiled.
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.run.warmup import warmup as compile_all
+
+    return compile_all(registry(), announce)

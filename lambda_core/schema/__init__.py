@@ -1,1 +1,0 @@
-"""The engineer's language: units, the case model and its files."""

@@ -1,0 +1,1 @@
+"""Contacts of the cage with balls and rings, ball with ball. Compiled."""

@@ -1,0 +1,43 @@
+"""One raceway contact on its own, cell by cell: what a view shows of it. Compiled when it is first asked for."""
+
+from __future__ import annotations
+
+from lambda_core.solver import records as R
+from lambda_core.solver.contact.contact_kinematics import contact_kinematics, surface_lift
+from lambda_core.solver.contact.losses import raceway_losses
+from lambda_core.solver.layout import array1, bundle_t, cells_of, grid_of, i8, losses_of, table_t
+
+probe_sig = i8(table_t(R.BALL), table_t(R.BODY_STATE), i8, bundle_t, array1)
+
+
+def probe(balls, rings, k, bundle, losses):
+    """Run the pipeline of one contact at given states; an entry point.
+
+    Parameters
+    ----------
+    balls, rings : records.BALL, records.BODY_STATE, each shape (1,)
+    k : int
+        Row of the table of raceways.
+    bundle : Bundle
+        Cells, kinematics and scalars are left in bundle.cells[0] and bundle.scratch.
+    losses : float64[:], shape (NL,)
+        Power dissipated by mechanism is added here [W].
+
+    Returns
+    -------
+    int
+        1 when every kernel was well; 0 when one refused (scratch.fault); -1 when the bodies do not touch.
+    """
+    scratch, system, raceway = bundle.scratch[0], bundle.system[0], bundle.raceways[k]
+    kin, contact, ball, ring = scratch.kinematics[0], scratch.contact[0], balls[0], rings[0]
+    surface_lift(ball, ring, raceway, bundle, kin)
+    if not contact_kinematics(ball, ring, raceway, kin) > 0.0:
+        return -1
+    laws = bundle.laws.raceways[raceway.laws]
+    ok = bundle.wrench(
+        raceway, kin, laws, bundle.par, system, bundle.grid, bundle.cells[0], scratch, contact, scratch.wrench[0]
+    )
+    if ok == 1:
+        cells, grid, named = cells_of(bundle.cells[0]), grid_of(bundle.grid), losses_of(losses, bundle.raceways.size)
+        raceway_losses(raceway, kin, system, grid, contact, cells, named)
+    return ok

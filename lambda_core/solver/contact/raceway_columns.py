@@ -1,0 +1,95 @@
+"""Slopes of the forces of the raceway contacts of a ball with its own and the rings' states."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, surface_lift
+from lambda_core.solver.contact.tangent import wrench_at
+from lambda_core.solver.layout import NB, NS, STHETA, helper
+from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
+from lambda_core.solver.records import BALL, BODY_STATE
+from lambda_core.solver.vec import clear
+
+
+@helper
+def _touches(ball, ring, raceway, bundle, kin):
+    """Write the kinematics of a contact; returns its penetration."""
+    if bundle.system[0].surfaces == 1:
+        surface_lift(ball, ring, raceway, bundle, kin)
+    return contact_kinematics(ball, ring, raceway, kin)
+
+
+@helper
+def _wrenches_near(scratch, bl):
+    """Write what the contact does to ball and ring at the neighbouring kinematics."""
+    kin, wrench = scratch.kinematics[1], scratch.wrench[1]
+    wrench_at(kin, scratch.kinematics[0], scratch.wrench[0], bl.slope[0], wrench)
+    clear(bl.wrenches[2])
+    apply_wrench(kin, wrench, bl.wrenches[2], bl.wrenches[3])
+
+
+@helper
+def _contact_columns(ball, ring, raceway, bundle, bl):
+    """Add one raceway contact to the force slopes; scratch holds its kinematics and wrench."""
+    scratch, b = bundle.scratch[0], raceway.body
+    kin, fm = scratch.kinematics[1], bl.wrenches
+    near_ball, near_ring = bl.ball.view(BALL), bl.body.view(BODY_STATE)
+    clear(fm[0])
+    clear(fm[1])
+    apply_wrench(scratch.kinematics[0], scratch.wrench[0], fm[0], fm[1])
+    for c in range(NB):
+        step = ball_step(c, False)
+        near_ball[0] = ball
+        bl.ball[c] += step
+        if _touches(near_ball[0], ring, raceway, bundle, kin) <= 0.0:
+            # The step leaves a lightly loaded contact, which deserves its stiffness all the same: step back instead.
+            near_ball[0] = ball
+            step = -step
+            bl.ball[c] += step
+            if _touches(near_ball[0], ring, raceway, bundle, kin) <= 0.0:
+                continue
+        _wrenches_near(scratch, bl)
+        add_slope(bl.own, c, fm[2], fm[0], step)
+        add_slope(bl.from_ball[b], c, fm[3], fm[1], step)
+    for c in range(NS):
+        column = NS * b + c
+        if bl.index[column] < 0 or (c == STHETA and raceway.surface_on == 0):
+            continue
+        step = body_step(c, False)
+        near_ring[0] = ring
+        bl.body[c] += step
+        if _touches(ball, near_ring[0], raceway, bundle, kin) <= 0.0:
+            near_ring[0] = ring
+            step = -step
+            bl.body[c] += step
+            if _touches(ball, near_ring[0], raceway, bundle, kin) <= 0.0:
+                continue
+        _wrenches_near(scratch, bl)
+        add_slope(bl.to_shared, column, fm[2], fm[0], step)
+        add_slope(bl.shared[b], column, fm[3], fm[1], step)
+
+
+@helper
+def raceway_columns(ball, j, row, bundle, bl):
+    """Add the raceway contacts of ball j to the force slopes."""
+    scratch = bundle.scratch[0]
+    kin = scratch.kinematics[0]
+    for k in range(row.first_raceway, row.first_raceway + row.raceways):
+        raceway = bundle.raceways[k]
+        ring = bundle.bodies_now[raceway.body]
+        delta = _touches(ball, ring, raceway, bundle, kin)
+        if delta <= 0.0:
+            continue
+        if not delta < np.inf:
+            scratch.fault.ball = j
+            return 0
+        laws = bundle.laws.raceways[raceway.laws]
+        ok = bundle.tangent(
+            raceway, kin, laws, bundle.par, bundle.system[0], bundle.grid, bundle.cells, scratch, bl.slope[0]
+        )
+        if ok != 1:
+            scratch.fault.ball = j
+            return 0
+        _contact_columns(ball, ring, raceway, bundle, bl)
+    return 1

@@ -1,0 +1,225 @@
+"""Derivative of one raceway contact's wrench with respect to its kinematics.
+
+Stage by stage: shear along the slip costs one extra evaluation of the cells for all five
+slip kinematics together, penetration and entrainment one each. Kernels are elementwise, so a
+plugin needs no derivative of its own.
+"""
+
+from __future__ import annotations
+
+from lambda_core.solver.contact.raceway import pipeline
+from lambda_core.solver.contact.resultant import rolling_speeds, sum_wrench
+from lambda_core.solver.contact.scalar_stages import film_stage
+from lambda_core.solver.contact.shear import CELL_VARIANCE, shear_stage
+from lambda_core.solver.layout import KINEMATIC_ROWS, cells_of, grid_of, helper, part, vector_helper
+from lambda_core.solver.vec import clear, store
+
+_RELATIVE = 1e-5  # relative step of the small differences; the laws are smooth at this scale
+
+
+@vector_helper
+def _slip_column(a, b, curvature, along, across, spread, grid, cells, tau2, step, column):
+    """Write d(wrench)/d(one slip kinematic) from the cells' tangent moduli.
+
+    The slip along rolling changes by along[0] + along[1] s + along[2] z, across by across[0] + across[1] t +
+    across[2] z, half its squared spread inside a cell as `spread` says: powers of s/R over the cell's width across,
+    then the share of its width along.
+    """
+    tau, inverse, vt, vs = cells.shear, cells.inverse_slip, cells.slip_t, cells.slip_s
+    grid_s, grid_t, grid_area = grid.across, grid.along, grid.area
+    grid_ds, grid_dt = grid.width_across, grid.width_along
+    t0, t1, t2 = along
+    s0, s1, s2 = across
+    p0, p1, p2, p3 = spread
+    width_s, width_t = CELL_VARIANCE * a * a, CELL_VARIANCE * b * b
+    sum_t, sum_s, sum_mt, sum_ms, sum_mn = 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(tau.size):
+        s, t = a * grid_s[i], b * grid_t[i]
+        kink = s * curvature
+        z = 0.5 * s * kink
+        dvt, dvs = t0 + t1 * s + t2 * z, s0 + s1 * t + s2 * z
+        rise = width_s * grid_ds[i] * grid_ds[i] * (p0 + kink * (p1 + kink * p2))
+        rise += width_t * grid_dt[i] * grid_dt[i] * p3
+        g = tau[i] * inverse[i]
+        dg = ((tau2[i] - tau[i]) / step - tau[i]) * inverse[i] * inverse[i] * inverse[i]
+        dg *= vt[i] * dvt + vs[i] * dvs + rise
+        ft = -grid_area[i] * (dg * vt[i] + g * dvt)
+        fs = -grid_area[i] * (dg * vs[i] + g * dvs)
+        sum_t += ft
+        sum_s += fs
+        sum_ms -= z * ft
+        sum_mt += z * fs
+        sum_mn += t * fs - s * ft
+    ab = a * b
+    column.force[0], column.force[1] = ab * sum_t, ab * sum_s
+    column.moment[0], column.moment[1], column.moment[2] = ab * sum_mt, ab * sum_ms, ab * sum_mn
+
+
+@helper
+def _slip_columns(raceway, kin, grid, contact, cells, tau2, step, slope):
+    """Write d(wrench)/d(slip, relative rotation) from the shear at slightly larger slip."""
+    a, b = contact.semi_axis_a, contact.semi_axis_b
+    c = 1.0 / raceway.radius_deformed
+    wt, ws, wn = kin.rotation_t, kin.rotation_s, kin.rotation_n
+    none, still = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
+    _slip_column(a, b, c, (1.0, 0.0, 0.0), none, still, grid, cells, tau2, step, slope.slip_t)
+    _slip_column(a, b, c, none, (1.0, 0.0, 0.0), still, grid, cells, tau2, step, slope.slip_s)
+    _slip_column(a, b, c, none, (0.0, 0.0, 1.0), (0.0, 0.0, wt, 0.0), grid, cells, tau2, step, slope.rotation_t)
+    _slip_column(a, b, c, (0.0, 0.0, -1.0), none, (0.0, wn, ws, 0.0), grid, cells, tau2, step, slope.rotation_s)
+    turn = (wn, ws, 0.0, wn)
+    _slip_column(a, b, c, (0.0, -1.0, 0.0), (0.0, 1.0, 0.0), turn, grid, cells, tau2, step, slope.rotation_n)
+
+
+@helper
+def _rolling_columns(raceway, kin, system, contact, slope):
+    """Add the derivative of the directions of rolling resistance and hysteresis."""
+    rx = raceway.radius_x
+    roll, bend = rolling_speeds(raceway, kin)
+    f2 = system.roll_floor * system.roll_floor
+    droll = contact.rolling_force * f2 / (roll * roll + f2) ** 1.5
+    dbend = contact.hysteresis_moment * f2 / (bend * bend + f2) ** 1.5
+    lever = 2.0 * rx / raceway.ball_radius - 1.0
+    by_slip = -(rx / raceway.ball_radius - 0.5)
+    slope.slip_t.force[0] += droll * by_slip * lever
+    slope.rotation_s.force[0] += droll * rx * lever
+    slope.slip_t.moment[1] -= 2.0 * rx * droll * by_slip
+    slope.rotation_s.moment[1] -= 2.0 * rx * droll * rx + dbend * rx
+
+
+@helper
+def _damping_column(raceway, kin, laws, par, contact, out, slope):
+    """Write d(wrench)/d(normal velocity), which the damping law alone depends on."""
+    step = 1e-4 * abs(kin.normal_velocity) + 1e-6
+    out[0] = 0.0
+    laws.damping(kin.penetration, kin.normal_velocity + step, contact.load, part(par, raceway.parameters.damping), out)
+    slope.normal_velocity.force[2] = -(max(out[0], -contact.load) - contact.damping_force) / step
+
+
+@helper
+def _quotient(changed, base, step, column):
+    """Write the difference of two wrenches over a step."""
+    for i in range(3):
+        column.force[i] = (changed.force[i] - base.force[i]) / step
+        column.moment[i] = (changed.moment[i] - base.moment[i]) / step
+
+
+@helper
+def _penetration_column(raceway, kin, laws, par, system, grid, cells2, scratch, slope):
+    """Write d(wrench)/d(penetration) from the whole pipeline at a slightly larger one."""
+    delta, changed = kin.penetration, scratch.wrench[1]
+    step = _RELATIVE * delta + 1e-13
+    kin.penetration = delta + step
+    ok = pipeline(raceway, kin, laws, par, system, grid, cells2, scratch, scratch.contact[1], changed)
+    kin.penetration = delta
+    if ok != 1:
+        return 0
+    _quotient(changed, scratch.wrench[0], step, slope.penetration)
+    return 1
+
+
+@helper
+def _film_wrench(raceway, kin, laws, par, system, grid, blocks, scratch):
+    """Run what depends on entrainment into the second contact, cells and wrench."""
+    contact2, cells2, fault = scratch.contact[1], cells_of(blocks[1]), scratch.fault
+    scratch.contact[1] = scratch.contact[0]
+    for row in range(KINEMATIC_ROWS, blocks.shape[1]):
+        for i in range(blocks.shape[2]):
+            blocks[1, row, i] = blocks[0, row, i]
+    if film_stage(raceway, kin, laws, par, contact2, scratch.out[:], fault) != 1:
+        return 0
+    if shear_stage(raceway, laws, par, grid, contact2, cells2, fault) != 1:
+        return 0
+    sum_wrench(raceway, kin, system, grid, contact2, cells2, scratch.wrench[1])
+    return 1
+
+
+@helper
+def _entrainment_column(raceway, kin, laws, par, system, grid, blocks, scratch, slope):
+    """Write d(wrench)/d(entrainment): along rolling, or across it where a ball at rest is pushed sideways."""
+    ut, us = kin.entrainment_t, kin.entrainment_s
+    along = abs(ut) >= abs(us)
+    entrainment = ut if along else us
+    step = (_RELATIVE * abs(entrainment) + 1e-8) * (1.0 if entrainment >= 0.0 else -1.0)
+    if along:
+        kin.entrainment_t = entrainment + step
+    else:
+        kin.entrainment_s = entrainment + step
+    ok = _film_wrench(raceway, kin, laws, par, system, grid, blocks, scratch)
+    kin.entrainment_t, kin.entrainment_s = ut, us
+    if ok != 1:
+        return 0
+    if along:
+        _quotient(scratch.wrench[1], scratch.wrench[0], step, slope.entrainment_t)
+    else:
+        _quotient(scratch.wrench[1], scratch.wrench[0], step, slope.entrainment_s)
+    return 1
+
+
+@helper
+def _clear_all(slope):
+    """Set every derivative to zero."""
+    clear(slope.penetration)
+    clear(slope.normal_velocity)
+    clear(slope.slip_t)
+    clear(slope.slip_s)
+    clear(slope.rotation_t)
+    clear(slope.rotation_s)
+    clear(slope.rotation_n)
+    clear(slope.entrainment_t)
+    clear(slope.entrainment_s)
+
+
+def contact_tangent(raceway, kin, laws, par, system, grid_table, blocks, scratch, slope):
+    """Write d(wrench)/d(kinematics), a TANGENT, and the wrench itself; an entry point of its own, called by pointer.
+
+    Runs the pipeline into the first contact, wrench and block of cells of scratch, then at neighbouring kinematics.
+
+    Left out: the effect of slip on the thermal film factor and of the smaller component of entrainment, both
+    small; the integrator's Newton iteration only needs the slope, not its last digit.
+    """
+    grid, cells, cells2 = grid_of(grid_table), cells_of(blocks[0]), cells_of(blocks[1])
+    contact = scratch.contact[0]
+    if pipeline(raceway, kin, laws, par, system, grid, cells, scratch, contact, scratch.wrench[0]) != 1:
+        return 0
+    _clear_all(slope)
+    if system.guides_on == 1:
+        _damping_column(raceway, kin, laws, par, contact, scratch.out[:], slope)
+    if _penetration_column(raceway, kin, laws, par, system, grid, cells2, scratch, slope) != 1:
+        return 0
+    if system.friction_on == 0:
+        return 1
+    if _entrainment_column(raceway, kin, laws, par, system, grid, blocks, scratch, slope) != 1:
+        return 0
+    # Slip: the same cells at slightly larger slip.
+    for i in range(cells.slip.size):
+        cells2.slip[i] = cells.slip[i] * (1.0 + _RELATIVE)
+    scratch.contact[1] = scratch.contact[0]
+    if shear_stage(raceway, laws, par, grid, scratch.contact[1], cells2, scratch.fault) != 1:
+        return 0
+    _slip_columns(raceway, kin, grid, contact, cells, cells2.shear, _RELATIVE, slope)
+    _rolling_columns(raceway, kin, system, contact, slope)
+    return 1
+
+
+@helper
+def _add_slope(wrench, column, amount):
+    """Add amount times one derivative."""
+    for i in range(3):
+        wrench.force[i] += column.force[i] * amount
+        wrench.moment[i] += column.moment[i] * amount
+
+
+@helper
+def wrench_at(kin, kin0, wrench0, slope, wrench):
+    """Write the wrench to first order at kinematics `kin` near `kin0`."""
+    store(wrench.force, wrench0.force)
+    store(wrench.moment, wrench0.moment)
+    _add_slope(wrench, slope.penetration, kin.penetration - kin0.penetration)
+    _add_slope(wrench, slope.normal_velocity, kin.normal_velocity - kin0.normal_velocity)
+    _add_slope(wrench, slope.slip_t, kin.slip_t - kin0.slip_t)
+    _add_slope(wrench, slope.slip_s, kin.slip_s - kin0.slip_s)
+    _add_slope(wrench, slope.rotation_t, kin.rotation_t - kin0.rotation_t)
+    _add_slope(wrench, slope.rotation_s, kin.rotation_s - kin0.rotation_s)
+    _add_slope(wrench, slope.rotation_n, kin.rotation_n - kin0.rotation_n)
+    _add_slope(wrench, slope.entrainment_t, kin.entrainment_t - kin0.entrainment_t)
+    _add_slope(wrench, slope.entrainment_s, kin.entrainment_s - kin0.entrainment_s)

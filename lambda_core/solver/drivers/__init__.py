@@ -1,0 +1,1 @@
+"""Python around the compiled code: its inputs and its calls. No compiled code imports it."""

@@ -1,0 +1,97 @@
+"""From a resolved model to the arrays and pointers that compiled code works on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.laws.context import Oil
+from lambda_core.solver import layout as L
+from lambda_core.solver import records as R
+from lambda_core.solver.drivers.compiled_laws import Kernels
+from lambda_core.solver.drivers.contact_grid import unit_grid
+from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils
+from lambda_core.solver.drivers.tables import build_tables
+from lambda_core.solver.drivers.time_tables import build_times
+from lambda_core.solver.entry import core
+from lambda_core.solver.integrator.blocks import make_blocks
+from lambda_core.system.bearing import BearingModel
+from lambda_core.system.law_context import ContactFrame
+
+
+def state_scales(model: BearingModel, active: NDArray[np.int64]) -> FloatArray:
+    """Return the absolute scales that the tolerance multiplies, shape (9 Z + n_active,).
+
+    Positions 50 um, velocities 0.1 m/s, ball spins 7 rad/s; angles and angular speeds of the big bodies and
+    azimuths are the same lengths and velocities at the pitch radius.
+    """
+    arm = 0.5 * model.geometry.pitch_diameter
+    length, speed, spin = 50e-6, 0.1, 7.0
+    ball = [length, length, length / arm, speed, speed, speed, spin, spin, spin]
+    body = [length] * 3 + [length / arm] * 3 + [speed] * 3 + [speed / arm] * 3
+    shared = np.array(body * 3)
+    return np.concatenate([np.tile(ball, model.geometry.ball_count), shared[active]])
+
+
+@dataclass
+class Assembly:
+    """Everything compiled code needs for one model at one contact frame."""
+
+    model: BearingModel
+    kernels: Kernels
+    oils: Oils
+    frame: ContactFrame
+    bundle: L.Bundle
+    blocks: Any
+    scale: FloatArray
+
+    def parameters(self, element: str, role: str) -> FloatArray:
+        """Return the parameters of a raceway's law, a view of what compiled code reads."""
+        begin, end = self.bundle.raceways[RACEWAYS.index(element)]["parameters"][role]
+        found: FloatArray = self.bundle.par[begin:end]
+        return found
+
+    @property
+    def oil(self) -> Oil:
+        """The oil by the inner contact's rheology, which cage, drag and methods take."""
+        return self.oils[0]
+
+    @property
+    def size(self) -> int:
+        """Number of states."""
+        return int(self.scale.size)
+
+
+def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> Assembly:
+    """Build the bundle for given frozen contact angles and mean loads."""
+    terms, table, active = build_times(model)
+    grid = unit_grid(model.depth.strips, model.depth.rows)
+    tables, compiled = build_tables(model, frame, oils), core()
+    bodies, balls = tables.bodies.size, int(tables.system[0]["balls"])
+    inputs, now, rates = np.zeros(bodies, R.INPUTS), np.zeros(bodies, R.BODY_STATE), np.zeros(bodies, R.BODY_STATE)
+    bundle = L.Bundle(
+        **tables._asdict(),
+        laws=kernels.pointers(),
+        wrench=compiled.wrench_pointer,
+        tangent=compiled.tangent_pointer,
+        grid=grid,
+        terms=terms,
+        table=table,
+        active=active,
+        inputs=inputs,
+        signals=inputs.view(R.SIGNAL),
+        cells=np.zeros((2, L.CELL_ROWS, grid.shape[1])),
+        scratch=np.zeros(1, R.SCRATCH),
+        shared=now.view(np.float64),
+        bodies_now=now,
+        shared_rates=rates.view(np.float64),
+        body_rates=rates,
+        body_wrenches=np.zeros(bodies, R.WRENCH),
+        ball_wrenches=np.zeros(balls, R.WRENCH),
+    )
+    blocks = make_blocks(balls, bodies, active)
+    return Assembly(model, kernels, oils, frame, bundle, blocks, state_scales(model, active))

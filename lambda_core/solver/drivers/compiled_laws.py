@@ -1,0 +1,105 @@
+"""The compiled kernels of a model's laws, tried out before any compiled code calls them."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from lambda_core.domain.errors import SolverError
+from lambda_core.laws.check import check_choice
+from lambda_core.laws.context import Oil
+from lambda_core.laws.kernels import compile_kernel
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, oil_of
+from lambda_core.solver.entry import begin
+from lambda_core.system.bearing import BearingModel
+from lambda_core.system.law_context import ContactFrame, build_context, prepare
+
+Announce = Callable[[str], None] | None
+
+
+class Kernels:
+    """Compiled kernels of a model's laws; pointers and code stay alive with this object."""
+
+    def __init__(self, model: BearingModel, announce: Announce = None) -> None:
+        self._laws = model.laws
+        self._guides = guides(model)
+        begin(announce)  # the solver is compiled beside the laws
+        # one model in several force elements is compiled once
+        known: dict[tuple[str, str], Any] = {}
+        self.compiled: dict[tuple[str, str], Any] = {}
+        self.tried: set[tuple[str, str, str, str]] = set()  # what check_laws has found in order
+        for element, roles in model.laws.items():
+            for role, law in roles.items():
+                name = (role, law.model.name)
+                if name not in known:
+                    known[name] = compile_kernel(law.model, announce)
+                self.compiled[element, role] = known[name]
+
+    def keys(self) -> dict[str, str]:
+        """Return "element/role/model" -> hash of everything the kernel reaches."""
+        return {f"{e}/{r}/{self._laws[e][r].model.name}": k.key for (e, r), k in sorted(self.compiled.items())}
+
+    def pointers(self) -> L.Laws:
+        """Return pointers to the laws in the solver's order."""
+
+        def law(element: str, role: str) -> Any:
+            return self.compiled[element, role].pointer
+
+        def raceway(element: str) -> L.RacewayLaws:
+            return L.RacewayLaws(*(law(element, role) for role in L.RacewayLaws._fields))
+
+        pocket, land_inner, land_outer = (law(element, "cage_contact") for element in self._guides)
+        drag = law("fluid_drag", "fluid_drag")
+        return L.Laws(tuple(raceway(element) for element in RACEWAYS), pocket, (land_inner, land_outer), drag)
+
+
+def check_laws(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> None:
+    """Try every law out with the parameters of this run before any compiled code calls it.
+
+    Kernels that serve many runs (a study) are tried once for each choice of parameters.
+
+    Raises
+    ------
+    PluginError
+        With the first law that does not keep the contract of its role.
+    """
+    for element, roles in model.laws.items():
+        context = build_context(model, element, frame, oil_of(oils, element))
+        for role, law in roles.items():
+            key = (element, role, law.model.name, law.parameters.model_dump_json())
+            if key not in kernels.tried:
+                check_choice(law.model, prepare(law, context), kernels.compiled[element, role])
+                kernels.tried.add(key)
+
+
+def derive_oils(model: BearingModel, kernels: Kernels, frame: ContactFrame) -> Oils:
+    """Return the oil of each raceway contact, with the constants that its rheology gives."""
+    inner, outer = (_derive_oil(model, kernels, frame, element) for element in RACEWAYS)
+    return inner, outer
+
+
+def _derive_oil(model: BearingModel, kernels: Kernels, frame: ContactFrame, element: str) -> Oil:
+    """Return the oil with viscosity, density, alpha_p and beta from the rheology kernel of one contact.
+
+    alpha_p is the tangent d ln(eta)/dp at p = 0, beta is -d ln(eta)/dT at the bulk temperature.
+    """
+    law = model.laws[element]["rheology"]
+    par = prepare(law, build_context(model, element, frame, model.oil))
+    check_choice(law.model, par, kernels.compiled[element, "rheology"])
+    t, dp, dt = model.oil.temperature, 1e6, 0.5
+    p = np.array([0.0, dp, 2.0 * dp, 0.0, 0.0])
+    temperatures = np.array([t, t, t, t - dt, t + dt])
+    ln_eta, rho = np.full(5, np.nan), np.full(5, np.nan)
+    status = kernels.compiled[element, "rheology"].dispatcher(p, temperatures, par, ln_eta, rho)
+    if status != 1 or not np.all(np.isfinite(ln_eta)) or not np.all(rho > 0.0):
+        raise SolverError(f"{law.model.label}: no finite viscosity and density at {t:.2f} K (status {status})")
+    alpha = (-3.0 * ln_eta[0] + 4.0 * ln_eta[1] - ln_eta[2]) / (2.0 * dp)
+    beta = (ln_eta[3] - ln_eta[4]) / (2.0 * dt)
+    return dataclasses.replace(
+        model.oil, viscosity=math.exp(ln_eta[0]), density=float(rho[0]), alpha_p=float(alpha), beta=float(beta)
+    )

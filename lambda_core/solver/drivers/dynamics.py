@@ -1,0 +1,299 @@
+"""The dynamics of one bearing: the compiled integrator behind the Engine protocol."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import CHANNELS, LOSSES
+from lambda_core.domain.errors import SolverError
+from lambda_core.solver import layout as L
+from lambda_core.solver import records as R
+from lambda_core.solver.drivers.assembly import Assembly
+from lambda_core.solver.drivers.compiled_laws import Announce
+from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION, Advance
+from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, solve
+from lambda_core.solver.drivers.observation import SHORTED, Scratch, channels_of
+from lambda_core.solver.drivers.surface_steps import longest_step
+from lambda_core.solver.drivers.tables import CAGE, running
+from lambda_core.solver.drivers.time_tables import FORCE, MOMENT
+from lambda_core.solver.entry import core
+from lambda_core.solver.integrator import memory
+from lambda_core.solver.integrator.arrow import make_factors
+from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.status import Status
+from lambda_core.system.bearing import BearingModel
+from lambda_core.system.law_context import max_speed
+
+_CAPACITY = 512
+_FIRST_STEP = 1e-7  # [s]
+_SMALLEST_STEP = 1e-14  # [s]
+_WORK_PER_CALL = 500  # Newton iterations: some hundredths of a second
+_COUNTERS = (
+    "steps",
+    "rejected",
+    "failed",
+    "newton_iterations",
+    "rhs_calls",
+    "jacobians",
+    "ball_jacobians",
+    "factorisations",
+)
+_MUCH_FASTER = 1.5  # a planned cage speed over that at the start, from which on it counts
+_SPIN_FOR_SAMPLES = 1.0  # [rad/s] slowest cage speed that the default sampling interval is made for
+
+
+class BearingEngine:
+    """Dynamics of one bearing, started from its quasi-static equilibrium.
+
+    Parameters
+    ----------
+    model : BearingModel
+        Resolved model.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+    equilibrium : Equilibrium, optional
+        Start from this instead of solving for it.
+
+    pushed : bool
+        Make room for a load from outside.
+
+    Attributes
+    ----------
+    external_load : float64[:]
+        With `pushed` a load on the inner ring beside those of the case, which may be written to between two calls of
+        :meth:`advance`: force x, y, z [N], moment about y, z [N m], shape (5,). Without it empty.
+
+    Raises
+    ------
+    SolverError
+        When there is no equilibrium to start from.
+    """
+
+    channels = CHANNELS
+
+    def __init__(
+        self,
+        model: BearingModel,
+        announce: Announce = None,
+        equilibrium: Equilibrium | None = None,
+        *,
+        pushed: bool = False,
+    ) -> None:
+        self.model = model
+        self._equilibrium = equilibrium or solve(model, announce=announce, strict=False)
+        self._core = core(announce)
+        self._assembly = self._equilibrium.assembly
+        self.external_load = _room_for_load(self._assembly) if pushed else np.zeros(0)
+        self._balls = model.geometry.ball_count
+        start = initial_state(self._equilibrium)
+        active = self._assembly.bundle.active
+        self._factors = make_factors(self._balls, active.size)
+        self._memory = memory.make_memory(
+            start, self._assembly.scale, model.solver.tolerance, self._assembly.bundle, _CAPACITY
+        )
+        self.sample_interval = model.output.interval or 2.0 * math.pi / self._cage_speed() / SAMPLES_PER_REVOLUTION
+        control, count = self._memory.control, self._memory.count
+        control["longest_step"] = min(model.solver.max_step, longest_step(self._assembly))
+        control["step"] = np.minimum(_FIRST_STEP, control["longest_step"])
+        control["shortest_step"] = _SMALLEST_STEP
+        control["sample_interval"] = self.sample_interval
+        count["stale"] = 1
+        self._handle = self._core.make_context(
+            self._core.evaluate_pointer,
+            self._core.jacobian_pointer,
+            self._core.advance_pointer,
+            self._core.observe_pointer,
+            self._assembly.bundle,
+            self._assembly.blocks,
+            self._factors,
+            self._memory,
+        )
+        self._scratch = Scratch.of(1, self._assembly)
+        self._start_angles = self._angles()
+        self._start_energy = self._stored(0.0, start)
+        self._drained: list[dict[str, FloatArray]] = []
+
+    def _cage_speed(self) -> float:
+        """Return the cage speed that samples are spaced for [rad/s]: the start's, or a much faster planned one."""
+        start, g = abs(self._equilibrium.orbit), self.model.geometry
+        planned = 0.5 * (1.0 - g.ball_diameter / g.pitch_diameter) * max_speed(self.model)
+        return max(start if planned < _MUCH_FASTER * start else planned, _SPIN_FOR_SAMPLES)
+
+    @property
+    def time(self) -> float:
+        """Start of the next step [s]."""
+        return float(self._memory.control["time"][0])
+
+    @property
+    def kernel_keys(self) -> dict[str, str]:
+        """Hash of everything each kernel reaches."""
+        return self._assembly.kernels.keys()
+
+    def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
+        """Integrate until `time` >= `until` [s] or `pause` says so; samples gather in the buffer meanwhile."""
+        status = Status.UNFINISHED
+        while self.time < until:
+            status = self._core.integrate(self._handle, until, _WORK_PER_CALL)
+            if status == Status.BUFFER_FULL:
+                self._drain()
+            elif status not in (Status.OK, Status.UNFINISHED):
+                break
+            if self.time < until and pause is not None and pause():
+                break
+        if status in (Status.OK, Status.UNFINISHED, Status.BUFFER_FULL):
+            return Advance(True, "")
+        if status == Status.REFUSED:
+            return Advance(False, fault_sentence(self._assembly, self.time))
+        return Advance(False, f"the time step fell below {_SMALLEST_STEP:g} s at t = {self.time:.6g} s")
+
+    def samples(self) -> dict[str, FloatArray]:
+        """Return and clear the buffered samples: channel -> array, first axis is time."""
+        self._drain()
+        blocks, self._drained = self._drained, []
+        if not blocks:
+            blocks = [self._observe(np.zeros(0), self._memory.sample_y)]
+        return {c.name: np.concatenate([block[c.name] for block in blocks]) for c in CHANNELS}
+
+    def now(self) -> dict[str, FloatArray]:
+        """Return every channel at `time`."""
+        found = self._observe(np.array([self.time]), self._memory.y.reshape(1, -1))
+        return {name: values[0] for name, values in found.items()}
+
+    def forget_samples(self) -> None:
+        """Empty the buffer of samples without looking at them."""
+        self._memory.count["samples_waiting"] = 0
+        self._drained.clear()
+
+    def buffered(self) -> tuple[FloatArray, FloatArray]:
+        """Return times and states of the samples that no one has taken yet, shapes (n,) [s] and (n, size)."""
+        n = int(self._memory.count["samples_waiting"][0])
+        return self._memory.sample_t[:n].copy(), self._memory.sample_y[:n].copy()
+
+    def _drain(self) -> None:
+        """Turn buffered states into channels."""
+        n = int(self._memory.count["samples_waiting"][0])
+        if n:
+            self._drained.append(self._observe(self._memory.sample_t[:n].copy(), self._memory.sample_y))
+            self._memory.count["samples_waiting"] = 0
+
+    def _stored(self, t: float, y: FloatArray) -> float:
+        scratch = self._scratch
+        self._core.sample(self._handle, np.array([t]), y.reshape(1, -1), -1.0, *scratch)
+        return float(scratch.extra[0, 0])  # a records.TOTALS
+
+    def integrals(self) -> dict[str, float]:
+        """Return running time integrals from t = 0 (see the Engine protocol)."""
+        values = self._memory.integrals
+        so_far, now = running(values), self._angles()
+        result = {f"loss.{name}": float(values[i]) for i, name in enumerate(LOSSES)}
+        stored = self._stored(self.time, self._memory.y) - self._start_energy
+        result.update(
+            input=float(so_far["input"]),
+            input_abs=float(so_far["input_abs"]),
+            drive=float(so_far["drive"]),
+            stored=float(stored),
+            relative_angle=float(so_far["relative_speed"]),
+            cage_angle=now[0] - self._start_angles[0],
+            inner_angle=now[1] - self._start_angles[1],
+            **dict(zip("xyz", so_far["position"].tolist(), strict=True)),
+        )
+        return result
+
+    def statistics(self) -> dict[str, float]:
+        """Return counters of the integrator."""
+        return {name: float(self._memory.count[name][0]) for name in _COUNTERS}
+
+    def state(self) -> dict[str, NDArray[np.float64]]:
+        """Return everything that a continuation needs: memory, Jacobian blocks, factors."""
+        parts: dict[str, NDArray[np.float64]] = {}
+        for prefix, group in (("memory", self._memory), ("factors", self._factors)):
+            for name, array in zip(group._fields, group, strict=True):
+                parts[f"{prefix}.{name}"] = np.array(array, copy=True)
+        for name in ("a", "b", "c", "d", "shared", "parts"):
+            parts[f"blocks.{name}"] = getattr(self._assembly.blocks, name).copy()
+        parts["start"] = np.array([*self._start_angles, self._start_energy])
+        return parts
+
+    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
+        """Continue from what `state` returned.
+
+        Raises
+        ------
+        SolverError
+            When the state is of another model.
+        """
+        groups = {"memory": self._memory, "factors": self._factors, "blocks": self._assembly.blocks}
+        for key, saved in state.items():
+            if key == "start":
+                self._start_angles, self._start_energy = (float(saved[0]), float(saved[1])), float(saved[2])
+                continue
+            group, name = key.split(".")
+            array = getattr(groups[group], name)
+            if array.shape != saved.shape or array.dtype != saved.dtype:
+                raise SolverError(f"the checkpoint does not fit this model: {key} has shape {saved.shape}")
+            array[...] = saved
+
+    def equilibrium(self) -> Mapping[str, object]:
+        """Return the quasi-static solution the run started from."""
+        e = self._equilibrium
+        return {
+            "contacts": e.contacts,
+            "contact_channels": CONTACT_CHANNELS,
+            "losses": e.losses,
+            "displacement": e.displacement,
+            "orbit": e.orbit,
+            "converged": e.converged,
+            "relative_speed": e.relative_speed,
+        }
+
+    def _angles(self) -> tuple[float, float]:
+        """Return cage angle (mean of the balls when there is no cage) and inner spin angle, to the outer ring [rad]."""
+        bundle = self._assembly.bundle
+        bodies, tail = np.zeros(bundle.bodies.size, R.BODY_STATE), L.NB * self._balls
+        bodies.view(np.float64)[bundle.active] = self._memory.y[tail:]
+        inner, outer, cage = (float(angle) for angle in bodies["angle"])
+        if not self.model.depth.cage:
+            cage = float(np.mean(self._memory.y[:tail].view(R.BALL)["azimuth"]))
+        return cage - outer, inner - outer
+
+    def _observe(self, times: FloatArray, states: FloatArray) -> dict[str, FloatArray]:
+        """Return every channel at n points: channel -> array, first axis is time."""
+        scratch = Scratch.of(times.size, self._assembly)
+        ok = self._core.sample(self._handle, times, states, SHORTED, *scratch)
+        return channels_of(ok, self._assembly, times, states, scratch)
+
+
+def _room_for_load(assembly: Assembly) -> FloatArray:
+    """Add constant loads on the inner ring to the time functions of an assembly; returns a view of their values."""
+    rows = np.zeros(5, R.TERM)
+    rows["signal"], rows["kind"] = [FORCE, FORCE + 1, FORCE + 2, MOMENT + 1, MOMENT + 2], R.CONSTANT
+    assembly.bundle = assembly.bundle._replace(terms=np.concatenate([assembly.bundle.terms, rows]))
+    load: FloatArray = assembly.bundle.terms["value"][-rows.size :]
+    return load
+
+
+def initial_state(equilibrium: Equilibrium) -> FloatArray:
+    """Return the state that the dynamics start from: equilibrium with every ball at the cage's speed.
+
+    The cage stands centred on the balls and turns with them; its pockets are where the balls are.
+    """
+    assembly = equilibrium.assembly
+    model = assembly.model
+    z = model.geometry.ball_count
+    y = equilibrium.state.copy()
+    balls = y[: L.NB * z].view(R.BALL)
+    balls["velocity"][:, 2] = equilibrium.orbit * balls["radius"]
+    if model.depth.cage:
+        bodies = np.zeros(assembly.bundle.bodies.size, R.BODY_STATE)
+        shared, cage = bodies.view(np.float64), bodies[CAGE : CAGE + 1]
+        shared[assembly.bundle.active] = y[L.NB * z :]
+        cage.view(np.float64)[:] = 0.0
+        cage["position"][0, 0] = float(np.mean(balls["x"]))
+        cage["angle"], cage["spin"] = balls["azimuth"][0], equilibrium.orbit
+        y[L.NB * z :] = shared[assembly.bundle.active]
+    return y

@@ -1,0 +1,76 @@
+"""What the run loop needs from the dynamics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.channels import Channel
+
+# Enough for ball passes and pocket impacts; each sample costs about three right-hand sides.
+SAMPLES_PER_REVOLUTION = 100.0
+
+
+@dataclass(frozen=True)
+class Advance:
+    """How one call of :meth:`Engine.advance` ended."""
+
+    ok: bool
+    message: str  # a sentence with model, distribution, ball, ring, time and inputs when not ok
+
+
+class Engine(Protocol):
+    """The dynamics of one bearing, started from its quasi-static equilibrium.
+
+    The step sequence does not depend on when `advance` is called or what is sampled, so a
+    run continued from `state` is the run that was never interrupted, bit for bit.
+    """
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """Return what every sample carries."""
+
+    @property
+    def time(self) -> float:
+        """Return the start of the next step [s]."""
+
+    @property
+    def sample_interval(self) -> float:
+        """Return the time between samples [s]; by default 1/SAMPLES_PER_REVOLUTION of a nominal cage revolution."""
+
+    def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
+        """Integrate until `time` >= `until` [s]; samples gather in the buffer meanwhile.
+
+        `pause` is called some ten times a second, between two steps on the way there; when it returns True, `advance`
+        returns early.
+        """
+
+    def samples(self) -> dict[str, NDArray[np.float64]]:
+        """Return and clear the buffered samples: channel -> array, first axis is time."""
+
+    def integrals(self) -> dict[str, float]:
+        """Return running time integrals from t = 0.
+
+        ``loss.<name>`` for each of LOSSES [J], ``input`` (all external work) [J], ``input_abs``
+        (its absolute value) [J], ``drive`` (work of the spin drives) [J], ``stored`` (kinetic and
+        elastic energy now minus at the start) [J], ``relative_angle`` (integral of |Omega_i - Omega_o|) [rad],
+        ``cage_angle`` (mean cage angle relative to the outer ring; mean of the balls when the cage is off) [rad],
+        ``inner_angle`` (inner ring spin angle relative to the outer) [rad],
+        ``x``, ``y``, ``z`` (integral of the inner ring's position) [m s].
+        """
+
+    def statistics(self) -> dict[str, float]:
+        """Return counters: steps, rejected, newton_iterations, rhs_calls, jacobians, factorisations."""
+
+    def state(self) -> dict[str, NDArray[np.float64]]:
+        """Return everything that a continuation needs."""
+
+    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
+        """Continue from what `state` returned."""
+
+    def equilibrium(self) -> Mapping[str, object]:
+        """Return the quasi-static solution the run started from (see physics.equilibrium)."""

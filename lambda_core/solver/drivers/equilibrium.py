@@ -1,0 +1,317 @@
+"""Quasi-static equilibrium: loads, contact angles, ball kinematics and friction without time.
+
+A five-degree-of-freedom inner ring, every ball at its azimuth with centrifugal force, gyroscopic
+moment and the ball's motion from the equilibrium of its own friction, on the same kernels as
+the dynamics, which it starts. The cage is left out: a ball that the inner ring does not touch takes
+the mean orbital speed of the others.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import DOFS
+from lambda_core.domain.errors import SolverError
+from lambda_core.solver import layout as L
+from lambda_core.solver import records as R
+from lambda_core.solver.drivers.assembly import Assembly, assemble
+from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
+from lambda_core.solver.drivers.law_inputs import RACEWAYS, guides
+from lambda_core.solver.drivers.tables import INNER, OUTER
+from lambda_core.solver.entry import Core, core
+from lambda_core.solver.faults import ROLES
+from lambda_core.solver.integrator.arrow import make_factors
+from lambda_core.solver.statics.continuation import STATIC_REPORT
+from lambda_core.solver.status import Status
+from lambda_core.system.bearing import BearingModel
+from lambda_core.system.law_context import ContactFrame
+from lambda_core.system.time_functions import initial
+
+_FRAME_ITERATIONS = 4
+_FRAME_TOLERANCE = 1e-4  # [rad] change of the frozen contact angle that ends the iteration
+# Without friction an iteration is cheap, and at low speed unloaded balls slide far along the groove.
+StaticReport = NDArray[np.void]  # a STATIC_REPORT record
+_MAX_ITERATIONS = {False: 5000, True: 1000}
+_ITERATIONS_PER_CALL = 50  # some hundredths of a second
+
+
+@dataclass
+class Equilibrium:
+    """The quasi-static solution.
+
+    Attributes
+    ----------
+    state : float64[:], shape (9 Z + n_active,)
+        State vector (layout in lambda_core.solver.layout), balls at their own orbital speeds.
+    contacts : float64[:, :, :], shape (Z, 2, 16)
+        Contact channels (compiled.observe.CONTACT_CHANNELS), inner then outer.
+    losses : float64[:], shape (16,)
+        Dissipated power by mechanism [W].
+    displacement : tuple of 5 floats
+        Inner ring x, y, z [m], tilt about y and z [rad].
+    orbit : float
+        Mean orbital speed of the loaded balls [rad/s].
+    relative_speed : float
+        |Omega_i - Omega_o| [rad/s].
+    iterations : int
+        Of the pseudo-transient continuation with friction.
+    converged : bool
+        False where only the normal forces are in equilibrium and the balls roll kinematically.
+    """
+
+    assembly: Assembly
+    state: FloatArray
+    contacts: FloatArray
+    losses: FloatArray
+    displacement: tuple[float, float, float, float, float]
+    orbit: float
+    relative_speed: float
+    iterations: int
+    converged: bool = True
+
+
+def solve(
+    model: BearingModel,
+    kernels: Kernels | None = None,
+    announce: Announce = None,
+    *,
+    strict: bool = True,
+    phase: float = 0.0,
+) -> Equilibrium:
+    """Find the quasi-static equilibrium at t = 0.
+
+    Parameters
+    ----------
+    strict : bool
+        Whether the balls' friction must be in equilibrium too. The dynamics can start without it, from rolling balls.
+    phase : float
+        Where the balls stand, in ball pitches: at 0 one of them is lowest, at 0.5 two are equally low.
+
+    Raises
+    ------
+    SolverError
+        When there is none, with what was tried.
+    """
+    if model.thermal is not None:
+        raise SolverError(f"{model.name}: its temperatures are still to be found: nothing can be solved before")
+    kernels = kernels or Kernels(model, announce)
+    frame = _first_frame(model)
+    oils = derive_oils(model, kernels, frame)
+    # A law that breaks the rules is refused at once, not after the solver was compiled.
+    check_laws(model, kernels, frame, oils)
+    compiled = core(announce)
+    state: FloatArray | None = None
+    for _ in range(_FRAME_ITERATIONS):
+        assembly = assemble(model, kernels, frame, oils)
+        if state is None:
+            state = first_state(assembly, phase)
+        _continue(compiled, assembly, state, friction=False)
+        contacts, _ = _contacts(compiled, assembly, state)
+        new = _frame_of(contacts, frame)
+        change = max(abs(a - b) for a, b in zip(new.angles, frame.angles, strict=True))
+        frame = new
+        if change < _FRAME_TOLERANCE:
+            break
+    assembly = assemble(model, kernels, frame, oils)
+    assert state is not None
+    _continue(compiled, assembly, state, friction=False)
+    _roll(assembly, state)
+    smooth, converged = state.copy(), True
+    try:
+        report = _continue(compiled, assembly, state, friction=True)
+    except SolverError:
+        if strict:
+            raise
+        state, converged, report = smooth, False, np.zeros(1, dtype=STATIC_REPORT)
+        report["orbit"] = smooth[L.BVT] / smooth[L.BR]
+    contacts, losses = _contacts(compiled, assembly, state)
+    inner, outer = assembly.bundle.bodies_now[INNER], assembly.bundle.bodies_now[OUTER]
+    x, y, z, tilt_y, tilt_z = (float(v) for v in (*inner.position, -inner.tilt[1], inner.tilt[0]))
+    return Equilibrium(
+        assembly,
+        state,
+        contacts,
+        losses,
+        displacement=(x, y, z, tilt_y, tilt_z),
+        orbit=float(report["orbit"][0]),
+        relative_speed=abs(float(inner.spin - outer.spin)),
+        iterations=int(report["iterations"][0]),
+        converged=converged,
+    )
+
+
+def _first_frame(model: BearingModel) -> ContactFrame:
+    """Guess contact angle and load from the external loads at t = 0."""
+    force = [initial(f) for f in model.inner_ring.force]
+    force = [f + model.inner_ring.mass * a for f, a in zip(force, model.gravity, strict=True)]
+    total = math.sqrt(sum(f * f for f in force))
+    load = max(total * 3.0 / model.geometry.ball_count, 1.0)
+    free = free_contact_angle(model) if abs(force[0]) > 0.1 * total else 0.0
+    return ContactFrame((free, free), (load, load))
+
+
+def free_contact_angle(model: BearingModel) -> float:
+    """Return the contact angle when the axial play is just taken up, without load [rad].
+
+    cos(alpha_0) = 1 - G_r/(2 A), A = r_i + r_o - D_w (Harris and Kotzalas 2006, eq. 2.9).
+    """
+    g = model.geometry
+    distance = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
+    return math.acos(max(-1.0, min(1.0, 1.0 - 0.5 * max(g.clearance, 0.0) / distance)))
+
+
+def first_state(assembly: Assembly, phase: float = 0.0) -> FloatArray:
+    """Return balls evenly spaced, one of them lowest (moved on by `phase` pitches), the inner ring in contact."""
+    model = assembly.model
+    g = model.geometry
+    z = g.ball_count
+    force = [initial(f) for f in model.inner_ring.force]
+    force = [f + model.inner_ring.mass * a for f, a in zip(force, model.gravity, strict=True)]
+    total = math.sqrt(sum(f * f for f in force))
+    move = [0.0, 0.0, 0.0]
+    if total > 0.0:
+        distance = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
+        axial_play = distance * math.sin(free_contact_angle(model))
+        move[0] = (axial_play + 2e-6) * force[0] / total if abs(force[0]) > 0.1 * total else 0.0
+        radial = math.hypot(force[1], force[2])
+        if radial > 0.1 * total:
+            for i in (1, 2):
+                move[i] = (0.5 * g.clearance + 2e-6) * force[i] / total
+    bodies = np.zeros(3, R.BODY_STATE)
+    for b, body in enumerate((model.inner_ring, model.outer_ring, model.cage_body)):
+        for d, name in enumerate(DOFS[:3]):
+            dof = body.dofs[name]
+            if dof.mode == "prescribed":
+                bodies["position"][b, d] = initial(dof.motion)
+            elif b == INNER and dof.mode == "free":
+                bodies["position"][b, d] = move[d]
+        if body.dofs["spin"].mode == "free":
+            bodies["spin"][b] = initial(body.dofs["spin"].motion)
+    y = np.zeros(assembly.size)
+    balls = y[: L.NB * z].view(R.BALL)
+    balls["x"] = 0.5 * (bodies["position"][INNER, 0] + bodies["position"][OUTER, 0])
+    balls["radius"] = 0.5 * g.pitch_diameter
+    balls["azimuth"] = [-0.5 * math.pi + 2.0 * math.pi * (j + phase) / z for j in range(z)]
+    y[L.NB * z :] = bodies.view(np.float64)[assembly.bundle.active]
+    _roll(assembly, y)
+    return y
+
+
+def _roll(assembly: Assembly, y: FloatArray) -> None:
+    """Set orbital speeds and spins to pure rolling at the frozen contact angle, in place."""
+    model = assembly.model
+    g = model.geometry
+    inner, outer = (initial(b.dofs["spin"].motion) for b in (model.inner_ring, model.outer_ring))
+    angle = float(np.mean(assembly.frame.angles))
+    lever = 0.5 * g.ball_diameter * math.cos(angle)
+    v_inner, v_outer = inner * (0.5 * g.pitch_diameter - lever), outer * (0.5 * g.pitch_diameter + lever)
+    spin = (v_outer - v_inner) / g.ball_diameter
+    balls = y[: L.NB * g.ball_count].view(R.BALL)
+    balls["velocity"][:, 2] = 0.5 * (v_inner + v_outer)
+    balls["spin"] = spin * math.cos(angle), -spin * math.sin(angle), 0.0
+
+
+def _continue(compiled: Core, assembly: Assembly, state: FloatArray, *, friction: bool) -> StaticReport:
+    """Run the continuation from `state`, in place; returns its report."""
+    system = assembly.bundle.system[0]
+    system["friction_on"], system["guides_on"] = int(friction), 0
+    report, last = np.zeros(1, dtype=STATIC_REPORT), np.zeros(state.size)
+    balls = assembly.model.geometry.ball_count
+    trust, held = np.ones(balls), np.zeros(balls, dtype=np.int64)
+    factors = make_factors(balls, assembly.bundle.active.size)
+    status = Status.UNFINISHED
+    while (
+        status == Status.UNFINISHED and report["iterations"][0] < _MAX_ITERATIONS[friction]
+    ):  # a signal is heard between two calls
+        status = compiled.solve_static(
+            compiled.evaluate_pointer,
+            compiled.jacobian_pointer,
+            assembly.bundle,
+            assembly.blocks,
+            factors,
+            state,
+            1.0 / assembly.scale,
+            last,
+            trust,
+            held,
+            report,
+            _ITERATIONS_PER_CALL,
+        )
+    system["friction_on"], system["guides_on"] = 1, 1
+    if status == Status.REFUSED:
+        raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(assembly)}")
+    if status != Status.OK:
+        raise SolverError(_no_equilibrium(report, friction=friction))
+    return report
+
+
+def _no_equilibrium(report: StaticReport, *, friction: bool) -> str:
+    if friction:
+        why = "loads and contact angles were found, a steady motion of the balls was not"
+    else:
+        why = "is every free degree of freedom of the ring held by a load or a support?"
+    kind = "with" if friction else "without"
+    iterations, change = report["iterations"][0], report["last_change"][0]
+    return (
+        f"no quasi-static equilibrium {kind} friction after {iterations:.0f} iterations (last step {change:.2e} "
+        f"of the states' scales): {why}"
+    )
+
+
+def _contacts(compiled: Core, assembly: Assembly, state: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return contact channels (Z, 2, 16) and losses (16,) [W] at a state."""
+    z, bundle = assembly.model.geometry.ball_count, assembly.bundle
+    contacts, rates = np.zeros((1, z, 2, 16)), np.zeros((1, L.NI))
+    system = bundle.system[0]
+    system["guides_on"] = 0
+    ok = compiled.observe(
+        np.zeros(1), state.reshape(1, -1), bundle, compiled.evaluate_pointer, 1.0, contacts, np.zeros((1, z, 3)),
+        np.zeros((1, 2, 3)), np.zeros((1, L.NI + 2)), np.zeros((1, bundle.shared.size)), rates, np.zeros(assembly.size),
+    )  # fmt: skip
+    system["guides_on"] = 1
+    if ok != 1:
+        raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(assembly)}")
+    return contacts[0], rates[0, : L.NL].copy()
+
+
+def _frame_of(contacts: FloatArray, before: ContactFrame) -> ContactFrame:
+    """Return load-weighted contact angles (absolute) and mean loads of the loaded contacts."""
+    angles, loads = [], []
+    for i in range(2):
+        load, angle = contacts[:, i, 0], np.abs(contacts[:, i, 1])
+        angles.append(float(np.sum(load * angle) / np.sum(load)) if np.sum(load) > 0.0 else before.angles[i])
+        loads.append(float(np.mean(load[load > 0.0])) if np.any(load > 0.0) else before.mean_loads[i])
+    return ContactFrame((angles[0], angles[1]), (loads[0], loads[1]))
+
+
+def fault_sentence(assembly: Assembly, time: float | None = None) -> str:
+    """Say which kernel refused, where, and with what inputs."""
+    fault = assembly.bundle.scratch[0].fault
+    if fault.role < 0:
+        return "the time step became too small"
+    role = ROLES[fault.role]
+    ball, which = int(fault.ball), int(fault.place)
+    if role == "fluid_drag":
+        element = "fluid_drag"
+    elif role == "cage_contact":
+        element = {0: "cage_inner", 1: "cage_outer"}.get(which, guides(assembly.model)[0])
+    else:
+        element = RACEWAYS[max(which, 0)]
+    model = assembly.model.laws[element][role].model
+    status = int(fault.status)
+    if status == 1:
+        what = "returned a number that is not finite"
+    elif status == 0:
+        what = "raised an exception"
+    else:
+        what = f"returned status {status}: {model.errors.get(status, 'not declared')}"
+    place = element.replace("_", " - ") + (f", t = {time:.6g} s" if time is not None else "")
+    if element not in ("cage_inner", "cage_outer"):
+        place = f"ball {ball + 1}, {place}"
+    inputs = ", ".join(f"{v:.6g}" for v in fault.inputs)
+    return f"{model.label} {what} ({place}; inputs {inputs})"

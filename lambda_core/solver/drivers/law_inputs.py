@@ -1,0 +1,19 @@
+"""Which force elements stand in the solver's places, and with which oil."""
+
+from __future__ import annotations
+
+from lambda_core.laws.context import Oil
+from lambda_core.system.bearing import BearingModel
+
+RACEWAYS = ("ball_inner", "ball_outer")  # in the order of the table of raceways
+Oils = tuple[Oil, Oil]  # the oil as the rheology of each of these contacts has it
+
+
+def oil_of(oils: Oils, element: str) -> Oil:
+    """Return the oil that a force element takes: the inner contact's where there is no raceway."""
+    return oils[RACEWAYS.index(element)] if element in RACEWAYS else oils[0]
+
+
+def guides(model: BearingModel) -> tuple[str, str, str]:
+    """Return the force elements that take the solver's places of pocket, inner and outer land."""
+    return ("ball_cage" if model.depth.cage else "ball_ball", "cage_inner", "cage_outer")

@@ -1,0 +1,102 @@
+"""States as channels of a result: what compiled code writes about samples, by name."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import SolverError
+from lambda_core.solver import layout as L
+from lambda_core.solver import records as R
+from lambda_core.solver.drivers.assembly import Assembly
+from lambda_core.solver.drivers.equilibrium import fault_sentence
+from lambda_core.solver.drivers.tables import running
+from lambda_core.solver.entry import Core
+from lambda_core.solver.sampling import CONTACT_CHANNELS
+
+# Asperities that carry more than this share of the load short the contact electrically.
+SHORTED = 0.01
+
+
+class Scratch(NamedTuple):
+    """What compiled code writes about n samples; see compiled.observe.observe."""
+
+    contacts: FloatArray
+    pockets: FloatArray
+    lands: FloatArray
+    extra: FloatArray
+    shared: FloatArray
+    rates: FloatArray
+    dydt: FloatArray
+
+    @classmethod
+    def of(cls, n: int, assembly: Assembly) -> Scratch:
+        """Allocate for `n` samples."""
+        z = assembly.model.geometry.ball_count
+        shapes = (
+            (n, z, 2, 16),
+            (n, z, 3),
+            (n, 2, 3),
+            (n, L.NI + 2),
+            (n, assembly.bundle.shared.size),
+            (n, L.NI),
+            (assembly.size,),
+        )
+        return cls(*(np.zeros(shape) for shape in shapes))
+
+
+def observe(core_: Core, assembly: Assembly, times: FloatArray, states: FloatArray) -> dict[str, FloatArray]:
+    """Return every channel at given states.
+
+    Parameters
+    ----------
+    times : float64[:], shape (n,)
+    states : float64[:, :], shape (at least n, 9 Z + n_active)
+
+    Raises
+    ------
+    SolverError
+        When a kernel refuses, with its name.
+    """
+    scratch = Scratch.of(times.size, assembly)
+    ok = core_.observe(times, states, assembly.bundle, core_.evaluate_pointer, SHORTED, *scratch)
+    return channels_of(ok, assembly, times, states, scratch)
+
+
+def channels_of(
+    ok: int, assembly: Assembly, times: FloatArray, states: FloatArray, scratch: Scratch
+) -> dict[str, FloatArray]:
+    """Return what was written about samples by the names of the channels."""
+    if ok != 1:
+        raise SolverError(fault_sentence(assembly))
+    n, z = times.size, assembly.model.geometry.ball_count
+    contacts, pockets, lands, extra, flat, rates, _ = scratch
+    bodies = flat.view(R.BODY_STATE)
+    balls = np.ascontiguousarray(states[:n, : L.NB * z]).view(R.BALL)
+    totals = extra[:, : R.floats_of(R.TOTALS)].view(R.TOTALS)[:, 0]
+    channels: dict[str, FloatArray] = {
+        "time": times.copy(),
+        "body_position": bodies["position"],
+        "body_velocity": bodies["velocity"],
+        "body_tilt": np.stack([-bodies["tilt"][:, :, 1], bodies["tilt"][:, :, 0]], axis=2),
+        "body_tilt_velocity": bodies["tilt_velocity"],
+        "body_spin_angle": bodies["angle"],
+        "body_spin": bodies["spin"],
+        "ball_axial": balls["x"].copy(),
+        "ball_radius": balls["radius"].copy(),
+        "ball_azimuth": balls["azimuth"].copy(),
+        "ball_velocity": balls["velocity"].copy(),
+        "ball_spin": balls["spin"].copy(),
+        "pocket_force": pockets,
+        "land_force": lands,
+        "bearing_capacitance": totals["capacitance"].copy(),
+        "input_torque": totals["torque"].copy(),
+        "loss": rates[:, : L.NL].copy(),
+        "input_power": running(rates)["input"].copy(),
+        "stored_energy": totals["stored_energy"].copy(),
+    }
+    for i, name in enumerate(CONTACT_CHANNELS):
+        channels[name] = contacts[:, :, :, i].copy()
+    return channels

@@ -1,0 +1,187 @@
+"""One model's compiled right-hand side and Jacobian for callers in Python, kept where compiled code reaches them.
+
+Handing the record of constants, pointers and workspaces over from Python takes a millisecond, far longer than an
+evaluation. Here it is handed over once; a call through the handle costs a microsecond.
+"""
+
+# Numba infers the types of compiled functions.
+# mypy: disable-error-code="no-untyped-def, no-untyped-call, misc, untyped-decorator, call-arg, var-annotated"
+from __future__ import annotations
+
+import warnings
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numba import njit, types
+from numba.core.errors import NumbaExperimentalFeatureWarning
+from numba.experimental import structref
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.assembly import Assembly
+from lambda_core.solver.entry import core
+from lambda_core.solver.integrator import memory
+from lambda_core.solver.integrator.arrow import factors_t, make_factors
+from lambda_core.solver.integrator.blocks import blocks_t
+
+_FIELDS = (
+    ("evaluate", memory.evaluate_t),
+    ("jacobian", memory.jacobian_t),
+    ("bundle", L.bundle_t),
+    ("blocks", blocks_t),
+    ("factors", factors_t),
+    ("y", L.array1),
+    ("slope", L.array1),
+    ("rates", L.array1),
+)
+
+
+@structref.register
+class _HandleType(types.StructRef):
+    def preprocess_fields(self, fields):
+        return tuple((name, types.unliteral(kind)) for name, kind in fields)
+
+
+class _Handle(structref.StructRefProxy):
+    """The handle as Python sees it."""
+
+
+structref.define_proxy(_Handle, _HandleType, [name for name, _ in _FIELDS])
+handle_t = _HandleType(_FIELDS)
+_frozen1 = types.Array(types.float64, 1, "C", readonly=True)
+
+
+def _new(evaluate, jacobian, bundle, blocks, factors, y, slope, rates):
+    handle = structref.new(handle_t)
+    handle.evaluate, handle.jacobian, handle.bundle, handle.blocks = evaluate, jacobian, bundle, blocks
+    handle.factors, handle.y, handle.slope, handle.rates = factors, y, slope, rates
+    return handle
+
+
+def _slope(t, y, out, handle):
+    for i in range(handle.y.size):
+        handle.y[i] = y[i]
+    return handle.evaluate(t, handle.y, handle.bundle, out, handle.rates, 0)
+
+
+def _slope_and_rates(t, y, out, handle):
+    n = handle.y.size
+    for i in range(n):
+        handle.y[i] = y[i]
+    ok = handle.evaluate(t, handle.y, handle.bundle, handle.slope, handle.rates, 1)
+    out[:n] = handle.slope
+    out[n:] = handle.rates
+    return ok
+
+
+def _dense(t, y, out, handle):
+    """Write the Jacobian as a dense matrix; returns 1, or what the kernels said."""
+    for i in range(handle.y.size):
+        handle.y[i] = y[i]
+    if handle.evaluate(t, handle.y, handle.bundle, handle.slope, handle.rates, 0) != 1:
+        return 0  # the compiled Jacobian builds on the evaluation at its point
+    ok = handle.jacobian(t, handle.y, handle.bundle, handle.blocks)
+    bl = handle.blocks
+    balls, n = bl.b.shape[0], bl.b.shape[2]
+    tail = L.NB * balls
+    out[:, :] = 0.0
+    for j in range(balls):
+        row = L.NB * j
+        for i in range(L.NB):
+            for k in range(L.NB):
+                out[row + i, row + k] = bl.a[j, i, k]
+            for k in range(n):
+                out[row + i, tail + k] = bl.b[j, i, k]
+                out[tail + k, row + i] = bl.c[j, k, i]
+    for i in range(n):
+        for k in range(n):
+            out[tail + i, tail + k] = bl.d[i, k]
+    return ok
+
+
+def _rates(times, states, out, handle):
+    for i in range(times.size):
+        handle.y[:] = states[i]
+        if handle.evaluate(times[i], handle.y, handle.bundle, handle.slope, handle.rates, 1) != 1:
+            return 0
+        out[i] = handle.rates
+    return 1
+
+
+_f8, _i8, _a1 = types.float64, types.int64, L.array1
+_SIGNATURES: dict[Any, Any] = {
+    _new: handle_t(*(kind for _, kind in _FIELDS)),
+    _slope: _i8(_f8, _frozen1, _a1, handle_t),
+    _slope_and_rates: _i8(_f8, _frozen1, _a1, handle_t),
+    _dense: _i8(_f8, _frozen1, L.array2, handle_t),
+    _rates: _i8(_a1, L.array2, L.array2, handle_t),
+}
+
+
+def compiled(function: Any, signature: Any) -> Any:
+    """Compile a function of a handle; what it is called with is written down in `signature`."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", NumbaExperimentalFeatureWarning)
+        return njit(signature, error_model="numpy")(function)
+
+
+@cache
+def _compiled(function: Any) -> Any:
+    return compiled(function, _SIGNATURES[function])
+
+
+class Handle:
+    """A model's compiled functions at the cost of a microsecond per call.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        Of the model; its workspaces are used.
+    """
+
+    def __init__(self, assembly: Assembly) -> None:
+        self.assembly = assembly
+        self.size = n = assembly.size
+        self._state, self._slope = np.zeros(n), np.zeros(n)
+        solver = core()
+        factors = make_factors(assembly.model.geometry.ball_count, assembly.bundle.active.size)
+        self._handle = _compiled(_new)(
+            solver.evaluate_pointer,
+            solver.jacobian_pointer,
+            assembly.bundle,
+            assembly.blocks,
+            factors,
+            self._state,
+            self._slope,
+            np.zeros(L.NI),
+        )
+
+    def slope(self, t: float, y: FloatArray, out: FloatArray) -> int:
+        """Write dy/dt, shapes (n,); returns 1, or 0 where a kernel refused. `y` may be anything that can be read."""
+        return int(_compiled(_slope)(t, _frozen(y), out, self._handle))
+
+    def slope_and_rates(self, t: float, y: FloatArray, out: FloatArray) -> int:
+        """Write dy/dt and the rates of the running integrals (layout.NI), shape (n + NI,), as `slope` does.
+
+        `y` may have the running integrals behind the states; nothing depends on them.
+        """
+        return int(_compiled(_slope_and_rates)(t, _frozen(y), out, self._handle))
+
+    def jacobian(self, t: float, y: FloatArray, out: FloatArray) -> int:
+        """Write d(dy/dt)/dy into the first n rows and columns of a matrix, 0 elsewhere."""
+        return int(_compiled(_dense)(t, _frozen(y), out, self._handle))
+
+    def rates(self, times: FloatArray, states: FloatArray) -> FloatArray:
+        """Return the rates of the running integrals, shape (times, layout.NI) [W, rad/s, m]."""
+        out = np.zeros((times.size, L.NI))
+        if _compiled(_rates)(times, np.ascontiguousarray(states), out, self._handle) != 1:
+            raise RuntimeError("a kernel refused a state that an integrator had accepted")
+        return out
+
+
+def _frozen(y: FloatArray) -> FloatArray:
+    """Return a view that only reads: CVODE's own arrays are such, and one kind of argument is compiled once."""
+    y = y.view()
+    y.flags.writeable = False
+    return y

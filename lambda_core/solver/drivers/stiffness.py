@@ -1,0 +1,96 @@
+"""Stiffness of the bearing about its quasi-static equilibrium: five by five, balls in equilibrium throughout."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import SolverError
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.assembly import Assembly, assemble
+from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
+from lambda_core.solver.entry import core
+from lambda_core.system.bearing import DofState
+
+_FREED = ("x", "y", "z", "tilt_y", "tilt_z")
+# State that each displacement moves, and the sign: turning about +y moves a_z towards -, about +z moves a_y towards +.
+_STATES = (L.SX, L.SY, L.SZ, L.SAZ, L.SAY)
+_SIGNS = np.array([1.0, 1.0, 1.0, -1.0, 1.0])
+_RATES = (L.SVX, L.SVY, L.SVZ, L.SWY, L.SWZ)
+
+
+def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
+    """Return d(load)/d(displacement) of the inner ring against the outer at the equilibrium.
+
+    The balls follow: K = -(F_qq - F_qb F_bb^-1 F_bq), the Schur complement of the Jacobian of the contact forces
+    F over the axial and radial positions b of the balls, q the ring's displacement and tilt. Centrifugal force and
+    the azimuths of the balls stand still, friction is left out, as are elastic supports of the ring.
+
+    Parameters
+    ----------
+    equilibrium : Equilibrium
+        Any solution of :func:`lambda_core.solver.drivers.equilibrium.solve`; also with locked degrees of freedom.
+
+    Returns
+    -------
+    tuple of 5 tuples of 5 floats
+        Order x, y, z, tilt_y, tilt_z [N/m, N/rad, N m/m, N m/rad], symmetric.
+
+    References
+    ----------
+    Jones 1960, J. Basic Eng. 82, 309; de Mul, Vree and Maas 1989, J. Tribol. 111, 142 (the same elimination).
+    """
+    found = equilibrium.assembly
+    model = found.model
+    dofs = {**model.inner_ring.dofs, **dict.fromkeys(_FREED, DofState("free"))}
+    freed = dataclasses.replace(model, inner_ring=dataclasses.replace(model.inner_ring, dofs=dofs))
+    assembly = assemble(freed, found.kernels, found.frame, found.oils)
+    _forces_slope(assembly, _moved(equilibrium, assembly))
+    try:
+        matrix = _eliminated(assembly)
+    except np.linalg.LinAlgError:
+        raise SolverError(f"{model.name}: no stiffness matrix: a ball is held by nothing but its own inertia") from None
+    # Contact forces are conservative at frozen radii: what is not symmetric is noise of the Jacobian's differences.
+    matrix = 0.5 * (matrix + matrix.T)
+    return tuple(tuple(float(value) for value in row) for row in matrix)
+
+
+def _moved(equilibrium: Equilibrium, assembly: Assembly) -> FloatArray:
+    """Return the equilibrium's state in the layout of the freed ring."""
+    count = assembly.model.geometry.ball_count
+    shared = np.zeros(assembly.bundle.shared.size)
+    shared[equilibrium.assembly.bundle.active] = equilibrium.state[L.NB * count :]
+    shared[list(_STATES)] = _SIGNS * np.array(equilibrium.displacement)
+    return np.concatenate([equilibrium.state[: L.NB * count], shared[assembly.bundle.active]])
+
+
+def _forces_slope(assembly: Assembly, state: FloatArray) -> None:
+    """Fill the assembly's blocks with the Jacobian of the normal forces alone."""
+    compiled, bundle = core(), assembly.bundle
+    system = bundle.system[0]
+    system["friction_on"], system["guides_on"] = 0, 0
+    rates = np.zeros(L.NI)
+    ok = compiled.evaluate(0.0, state, bundle, np.zeros(state.size), rates, 0)
+    if ok != 1 or compiled.jacobian(0.0, state, bundle, assembly.blocks) != 1:
+        raise SolverError(f"the stiffness matrix failed: {fault_sentence(assembly)}")
+    system["friction_on"], system["guides_on"] = 1, 1
+
+
+def _eliminated(assembly: Assembly) -> FloatArray:
+    """Return the stiffness left when the balls' positions are eliminated, shape (5, 5)."""
+    blocks, body = assembly.blocks, assembly.model.inner_ring
+    index = blocks.index
+    columns, rows = index[list(_STATES)], index[list(_RATES)]
+    inertia = np.array([body.mass] * 3 + [body.transverse_inertia] * 2)
+    positions, accelerations = [L.BX, L.BR], [L.BVX, L.BVR]
+    slope = blocks.d[np.ix_(rows, columns)].copy()
+    for own, on_ball, on_ring in zip(blocks.a, blocks.b, blocks.c, strict=True):
+        feel = on_ball[np.ix_(accelerations, columns)]
+        if not np.any(feel):
+            continue  # the inner ring does not touch this ball
+        hold = own[np.ix_(accelerations, positions)]
+        slope -= on_ring[np.ix_(rows, positions)] @ np.linalg.solve(hold, feel)
+    matrix: FloatArray = -inertia[:, None] * slope * _SIGNS[None, :]
+    return matrix

@@ -1,0 +1,151 @@
+"""The tables of bodies, rows of balls, raceways and lands that compiled code works on."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import DOFS
+from lambda_core.domain.hertz import ball_raceway_radii
+from lambda_core.laws.context import Oil
+from lambda_core.solver import layout as L
+from lambda_core.solver import records as R
+from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, oil_of
+from lambda_core.system.bearing import BearingModel
+from lambda_core.system.law_context import ContactFrame, build_context, effective_modulus, prepare
+
+# Below this mean surface velocity the rolling losses change sign smoothly: far below any running speed, wide
+# enough for the integrator to cross when a bearing starts, stops or reverses.
+ROLL_FLOOR = 1e-3  # [m/s]
+# Slip below which the direction of shear fades out; small against creep at any running speed.
+SLIP_FLOOR = 1e-6  # [m/s]
+_MODES = {"free": R.FREE, "locked": R.LOCKED, "prescribed": R.PRESCRIBED}
+INNER, OUTER, CAGE = range(3)  # bodies of a bearing
+
+
+class Tables(NamedTuple):
+    """What a model and its laws are made of; see layout.Bundle."""
+
+    system: Any
+    bodies: Any
+    rows: Any
+    raceways: Any
+    lands: Any
+    par: FloatArray
+
+
+class _Parameters:
+    """Parameters of laws one after another."""
+
+    def __init__(self, model: BearingModel, frame: ContactFrame, oils: Oils) -> None:
+        self._model, self._frame, self._oils = model, frame, oils
+        self._parts: list[FloatArray] = []
+
+    def add(self, element: str, role: str) -> tuple[int, int]:
+        """Append the parameters of a law; returns where they begin and end."""
+        context = build_context(self._model, element, self._frame, oil_of(self._oils, element))
+        begin = sum(part.size for part in self._parts)
+        self._parts.append(prepare(self._model.laws[element][role], context))
+        return begin, begin + self._parts[-1].size
+
+    def all(self) -> FloatArray:
+        """Return the parameters of all laws."""
+        return np.concatenate(self._parts)
+
+
+def running(powers: FloatArray) -> Any:
+    """Return what stands behind the raceways' losses by name: powers or integrals (..., NI) -> records.RUNNING."""
+    return powers[..., -L.RUNNING_SIZE :].view(R.RUNNING)[..., 0]
+
+
+def ball_mass(model: BearingModel) -> float:
+    """Return the mass of one ball [kg]."""
+    return model.ball_material.density * math.pi * model.geometry.ball_diameter**3 / 6.0
+
+
+def build_tables(model: BearingModel, frame: ContactFrame, oils: Oils) -> Tables:
+    """Return the tables of one bearing: three bodies, one row of balls, two raceways."""
+    parameters = _Parameters(model, frame, oils)
+    raceways = _raceways(model, frame, oils, parameters)
+    rows, lands = _rows(model, oils[0], parameters), _lands(model, oils[0], parameters)
+    rows[0]["drag"] = parameters.add("fluid_drag", "fluid_drag")
+    system = np.zeros(1, R.SYSTEM)
+    s = system[0]
+    s["balls"], s["gravity"] = model.geometry.ball_count, model.gravity
+    s["roll_floor"], s["slip_floor"] = ROLL_FLOOR, SLIP_FLOOR
+    s["surfaces"] = int(raceways["surface_on"].any())
+    s["friction_on"], s["guides_on"] = 1, 1
+    return Tables(system, _bodies(model), rows, raceways, lands, parameters.all())
+
+
+def _bodies(model: BearingModel) -> Any:
+    bodies = np.zeros(3, R.BODY)
+    for record, body in zip(bodies, (model.inner_ring, model.outer_ring, model.cage_body), strict=True):
+        for name in ("mass", "transverse_inertia", "polar_inertia", "unbalance"):
+            record[name] = getattr(body, name)
+        dofs = [body.dofs[name] for name in DOFS]
+        record["mode"] = [_MODES[dof.mode] for dof in dofs]
+        record["stiffness"], record["damping"] = [dof.stiffness for dof in dofs], [dof.damping for dof in dofs]
+        record["moves"] = 1
+    bodies[CAGE]["moves"], bodies[CAGE]["is_cage"] = int(model.depth.cage), 1
+    return bodies
+
+
+def _oil(record: Any, oil: Oil) -> None:
+    """Write the constants of an oil."""
+    record["temperature"], record["conductivity"] = oil.temperature, oil.thermal_conductivity
+    record["viscosity"], record["density"] = oil.viscosity, oil.density
+    record["alpha_p"], record["beta"] = oil.alpha_p, oil.beta
+
+
+def _raceways(model: BearingModel, frame: ContactFrame, oils: Oils, parameters: _Parameters) -> Any:
+    g, radius = model.geometry, 0.5 * model.geometry.ball_diameter
+    grooves = (g.groove_radius_inner, g.groove_radius_outer)
+    circles = (0.5 * g.race_diameter_inner + grooves[0], 0.5 * g.race_diameter_outer - grooves[1])
+    raceways = np.zeros(2, R.RACEWAY)
+    for i, (record, element, ring) in enumerate(
+        zip(raceways, RACEWAYS, (model.inner_material, model.outer_material), strict=True)
+    ):
+        rx, ry = ball_raceway_radii(g.ball_diameter, g.pitch_diameter, grooves[i], frame.angles[i], inner=i == INNER)
+        record["number"], record["body"], record["laws"] = i, (INNER, OUTER)[i], i
+        record["side"] = (-1.0, 1.0)[i]
+        record["groove_circle"], record["groove_radius"], record["ball_radius"] = circles[i], grooves[i], radius
+        record["radius_x"], record["radius_y"] = rx, ry
+        record["modulus"] = effective_modulus(model.ball_material, ring)
+        record["radius_deformed"] = 2.0 * grooves[i] * radius / (grooves[i] + radius)
+        record["roughness"] = model.roughness
+        record["surface_on"] = int(model.laws[element]["surface"].model.name != "none")
+        _oil(record["oil"], oils[i])
+        for role in R.RACEWAY_ROLES:
+            record["parameters"][role] = parameters.add(element, role)
+    return raceways
+
+
+def _rows(model: BearingModel, oil: Oil, parameters: _Parameters) -> Any:
+    g, radius, mass = model.geometry, 0.5 * model.geometry.ball_diameter, ball_mass(model)
+    rows = np.zeros(1, R.ROW)
+    record = rows[0]
+    record["balls"], record["raceways"] = g.ball_count, 2
+    record["cage"], record["caged"] = CAGE, int(model.depth.cage)
+    record["ball_radius"], record["ball_mass"], record["ball_inertia"] = radius, mass, 0.4 * mass * radius**2
+    record["pocket_circle"] = 0.5 * g.pitch_diameter
+    record["drag_on"] = int(model.laws["fluid_drag"]["fluid_drag"].model.name != "none")
+    _oil(record["oil"], oil)
+    record["pocket"] = parameters.add(guides(model)[0], "cage_contact")
+    return rows
+
+
+def _lands(model: BearingModel, oil: Oil, parameters: _Parameters) -> Any:
+    """Return two stations per ring that guides the cage."""
+    stations = []
+    for number, element in enumerate(guides(model)[1:]):
+        span = parameters.add(element, "cage_contact")
+        if not model.depth.cage or model.laws[element]["cage_contact"].model.name == "none":
+            continue
+        for side in (-1, 1):
+            offset = side * (0.5 * model.cage.width)
+            stations.append((CAGE, (INNER, OUTER)[number], number, offset, oil.viscosity, span))
+    return np.array(stations, R.LAND)

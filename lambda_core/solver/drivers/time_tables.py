@@ -1,0 +1,67 @@
+"""Loads and motions over time as the flat tables that compiled code reads."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import DOFS
+from lambda_core.solver import layout as L
+from lambda_core.solver import records as R
+from lambda_core.system.bearing import BearingModel, TimeFunction
+
+_KINDS = {"constant": R.CONSTANT, "ramp": R.RAMP, "harmonic": R.HARMONIC, "table": R.TABLE}
+# Fields of a term that take the values of each kind.
+_VALUES = {
+    "constant": ("value",),
+    "ramp": ("before", "after", "begin", "end"),
+    "harmonic": ("amplitude", "frequency", "phase"),
+}
+MOTION, FORCE, MOMENT, _PER_BODY = 0, 6, 9, 12  # places of the signals of a body, in the order of records.INPUTS
+_CAGE = 2
+
+
+def _terms(signal: int, function: TimeFunction, rows: list[NDArray[np.void]], table: list[float]) -> None:
+    """Append a time function's terms to the flat tables that compiled code reads."""
+    for term in function.terms:
+        row = np.zeros(1, R.TERM)
+        row["signal"], row["kind"] = signal, _KINDS[term.kind]
+        if term.kind == "table":
+            from scipy.interpolate import CubicSpline  # a third of a second to import, and most runs have no table
+
+            times, values = np.array(term.values[0::2]), np.array(term.values[1::2])
+            row["start"], row["knots"] = len(table), times.size
+            spline = CubicSpline(times, values, bc_type="clamped" if times.size > 2 else "natural")
+            for i in range(times.size - 1):
+                table += [times[i], *(float(spline.c[3 - k, i]) for k in range(4))]
+            table += [times[-1], values[-1], 0.0, 0.0, 0.0]
+        else:
+            for name, value in zip(_VALUES[term.kind], term.values, strict=False):
+                row[name] = value
+        rows.append(row)
+
+
+def build_times(model: BearingModel) -> tuple[NDArray[np.void], FloatArray, NDArray[np.int64]]:
+    """Return flattened loads and motions (terms, table) and the indices of the free shared states."""
+    rows: list[NDArray[np.void]] = []
+    table: list[float] = []
+    active: list[int] = []
+    for b, body in enumerate((model.inner_ring, model.outer_ring, model.cage_body)):
+        if b == _CAGE and not model.depth.cage:
+            continue
+        for d, name in enumerate(DOFS):
+            dof = body.dofs[name]
+            if dof.mode == "prescribed":
+                _terms(_PER_BODY * b + MOTION + d, dof.motion, rows, table)
+            if dof.mode == "free":
+                # Turning about y moves a_z, turning about z moves a_y.
+                position = {3: L.SAZ, 4: L.SAY}.get(d, d)
+                active += [L.NS * b + position, L.NS * b + 6 + d]
+            elif d == 5 and dof.mode == "prescribed":
+                active.append(L.NS * b + L.STHETA)
+        for axis in range(3):
+            _terms(_PER_BODY * b + FORCE + axis, body.force[axis], rows, table)
+            _terms(_PER_BODY * b + MOMENT + axis, body.moment[axis], rows, table)
+    terms = np.concatenate([np.zeros(0, R.TERM), *rows])
+    return terms, np.array(table or [0.0]), np.array(sorted(active), dtype=np.int64)

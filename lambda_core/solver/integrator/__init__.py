@@ -1,0 +1,1 @@
+"""Time integration: variable-step BDF, Newton iteration, block-arrow algebra. Compiled."""

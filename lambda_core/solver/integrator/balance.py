@@ -1,0 +1,256 @@
+"""Energy over one step: what loads and drives give, what the scheme itself takes.
+
+The step solves D(y) = f(y), where D(u) = (u_n - base)/gamma is the difference quotient of the BDF. Energies are of
+second order in the states, D(E) = grad E . D(y) but for squares of differences (_dissipated). So the running integrals
+W are advanced by D(W) = P, with the powers P that the step's own equations of motion transfer: then work, losses and
+the energy of the states part by small squares alone. By the trapezium rule they part by a speed times its local error.
+"""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.solver.layout import (
+    BPSI,
+    BVR,
+    BVT,
+    BVX,
+    BWX,
+    NB,
+    NL,
+    NS,
+    SAY,
+    SSIGMA,
+    SVX,
+    SWY,
+    helper,
+    running_of,
+)
+from lambda_core.solver.records import PRESCRIBED
+
+# Shares of the energy that flows, over the tolerance, which a step may lose.
+_LEAK = 0.4  # for good, twice (scheme and iteration): together a fifth below what a balance may miss
+_SCATTER = 5.0  # with either sign: cancels from step to step but for single events, which this bounds
+_OF_BDF = 0.7  # share of the BDF's error in its distance from the trapezium rule, 2/9 of 2/9 + 1/12
+
+
+@helper
+def _quotient(mem, shared, k):
+    """Return D(shared[k])."""
+    back = mem.control[0].back
+    base = mem.shared[k] + back * (mem.shared[k] - mem.shared1[k])
+    return (shared[k] - base) / mem.control[0].gamma
+
+
+@helper
+def _work_of_motion(body, now, wrench, inputs, first, shared, mem, running):
+    """Add one body's share; see _work_of_motions. Its state begins at `first`."""
+    for i in range(3):
+        if body.mode[i] == PRESCRIBED:
+            v = now.velocity[i]
+            force = wrench.force[i] - body.stiffness[i] * now.position[i]
+            off = _quotient(mem, shared, first + SVX + i) - inputs.motion[i].acceleration
+            running.input += body.mass * v * off - force * (_quotient(mem, shared, first + i) - v)
+    # A tilt (phi_y, phi_z) turns the axis to (1, phi_z, -phi_y).
+    for i in range(2):
+        if body.mode[3 + i] == PRESCRIBED:
+            axis, sign = (1, -1.0) if i == 0 else (0, 1.0)
+            w = now.tilt_velocity[i]
+            moment = wrench.moment[1 + i] - body.stiffness[3 + i] * sign * now.tilt[axis]
+            off = _quotient(mem, shared, first + SWY + i) - inputs.motion[3 + i].acceleration
+            along = moment * (sign * _quotient(mem, shared, first + SAY + axis) - w)
+            running.input += body.transverse_inertia * w * off - along
+    if body.mode[5] == PRESCRIBED:
+        off = _quotient(mem, shared, first + SSIGMA) - inputs.motion[5].rate
+        drive = body.polar_inertia * now.spin * off
+        running.input += drive
+        running.drive += drive
+
+
+@helper
+def _work_of_motions(bundle, mem):
+    """Add to the input what differences of prescribed motions differ by from their derivatives.
+
+    A ring that is led has the kinetic power m v D(v), and a force F on it does the work F D(x): not m v dv/dt and F v,
+    where a motion has a corner or changes fast. Translation, tilt, spin.
+    """
+    running = running_of(mem.rates)[0]
+    for b in range(bundle.bodies.size):
+        _work_of_motion(
+            bundle.bodies[b], bundle.bodies_now[b], bundle.body_wrenches[b], bundle.inputs[b], NS * b, bundle.shared,
+            mem, running,
+        )  # fmt: skip
+
+
+@helper
+def _work_of_loads(bundle, mem):
+    """Return what the last Newton correction changes of the power of loads and weights on what is free [W]."""
+    system, move = bundle.system[0], mem.last_move
+    tail, power = NB * system.balls, 0.0
+    gx, gy, gz = system.gravity[0], system.gravity[1], system.gravity[2]
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            i = NB * j
+            c, s = math.cos(mem.new[i + BPSI]), math.sin(mem.new[i + BPSI])
+            along = gx * move[i + BVX] + (gy * c + gz * s) * move[i + BVR] + (gz * c - gy * s) * move[i + BVT]
+            power += row.ball_mass * along
+    for i in range(tail, mem.new.size):
+        b, c = bundle.active[i - tail] // NS, bundle.active[i - tail] % NS
+        if c >= SVX and c < SWY:
+            axis = c - SVX
+            load = bundle.inputs[b].force[axis].value + bundle.bodies[b].mass * system.gravity[axis]
+            power += load * move[i]
+        elif c >= SWY:
+            axis = 0 if c == SSIGMA else c - SWY + 1
+            power += bundle.inputs[b].moment[axis].value * move[i]
+    return power
+
+
+@helper
+def _led_speeds(bundle):
+    """Return the speed and the circumferential speed of the raceways of rings that are led [m/s]."""
+    speed, spin = 0.0, 0.0
+    for k in range(bundle.raceways.size):
+        raceway = bundle.raceways[k]
+        body, now = bundle.bodies[raceway.body], bundle.bodies_now[raceway.body]
+        for i in range(3):
+            if body.mode[i] == PRESCRIBED:
+                speed += abs(now.velocity[i])
+        if body.mode[5] == PRESCRIBED:
+            spin += abs(now.spin) * raceway.groove_circle
+    return speed, spin
+
+
+@helper
+def _residual(mem, i):
+    """Return the force or moment of the residual D(y) - f in state i at the last iterate [N, N m]."""
+    return mem.inertia[i] * ((mem.new[i] - mem.base[i]) / mem.control[0].gamma - mem.slope[i])
+
+
+@helper
+def _residual_work(bundle, mem):
+    """Return power of the residual D(y) - f at the last iterate [W], how much of it leads rings, and the spins' share.
+
+    Creep is stiff: within the error allowed per step the tractions of an iterate may be off by more than themselves,
+    and what the step accelerates the balls by, D(v), is not f. The difference is a force R on each ball (moment M)
+    that came from the rings. A ring that is led and whose surface moves at u gave at most (|R| + |M|/r) |u|; the
+    rest is an unattributed energy error.
+    """
+    power, force = 0.0, 0.0
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for i in range(NB * row.first_ball, NB * (row.first_ball + row.balls)):
+            if mem.inertia[i] > 0.0:
+                off = _residual(mem, i)
+                power += mem.new[i] * off
+                force += abs(off) if i % NB < BWX else abs(off) / row.ball_radius
+    for i in range(NB * bundle.system[0].balls, mem.new.size):
+        if mem.inertia[i] > 0.0:
+            power += mem.new[i] * _residual(mem, i)
+    speed, spin = _led_speeds(bundle)
+    most = force * (speed + spin)
+    return power, min(max(power, -most), most), spin / (speed + spin + 1e-300)
+
+
+@helper
+def _excess(mem, h, energy, share):
+    """Return an energy over what a step may lose: `share` tolerances of what flows, or the floor.
+
+    What flows is put in or dissipated, whichever is more, now or on the average so far.
+    """
+    control, rates, integrals = mem.control[0], mem.rates, mem.integrals
+    now, so_far = running_of(rates)[0], running_of(integrals)[0]
+    lost, all_lost = 0.0, 0.0
+    for i in range(NL):
+        lost += rates[i]
+        all_lost += integrals[i]
+    flow = max(lost, now.input_abs)
+    if control.time > 0.0:
+        flow = max(flow, max(all_lost, so_far.input_abs) / control.time)
+    return abs(energy) / (share * control.tolerance * h * flow + control.leak_floor)
+
+
+@helper
+def leak_of_iterate(bundle, mem, h):
+    """Return the energy that the Newton iteration leaves unaccounted for, over what a step may lose.
+
+    The powers are those of the last iterate: off by the work of its forces on the last correction at most, and by
+    what of the residual's work is unattributed.
+    """
+    power, led, _ = _residual_work(bundle, mem)
+    off = abs(power - led)
+    for i in range(mem.new.size):
+        off += abs(mem.inertia[i] * mem.slope[i] * mem.last_move[i])
+    return _excess(mem, h, h * off, _LEAK)
+
+
+@helper
+def finalise_step(bundle, mem):
+    """Bring positions and powers from the last iterate to the step's result.
+
+    A matrix factored for another gamma leaves D(x) - v, next to nothing; times the forces in the contacts it is energy.
+    Loads, and what leads or drives rings: see _work_of_loads, _work_of_motions, _residual_work.
+    """
+    gamma, running = mem.control[0].gamma, running_of(mem.rates)[0]
+    for i in range(mem.new.size):
+        p = mem.place[i]
+        if p >= 0:
+            mem.new[p] = mem.base[p] + gamma * mem.new[i]
+    _work_of_motions(bundle, mem)
+    _, led, share = _residual_work(bundle, mem)
+    running.input += led + _work_of_loads(bundle, mem)
+    running.drive += led * share
+    running.input_abs = abs(running.input)
+
+
+@helper
+def _dissipated(mem, h):
+    """Return the kinetic energy that the scheme itself dissipates in this step [J].
+
+    With base = u_1 + a (u_1 - u_2) and d_k = u - u_k, gamma [D(u^2) - 2 u D(u)] = a d_2^2 - (1 + a) d_1^2: a difference
+    of two norms, which the next steps give back, and a w e^2, e = d_1/w - (u_1 - u_2), w the ratio of the steps; all
+    steps together lose that over 1 - a (equal steps: Hairer and Wanner 1996, Solving ODEs II, V.6).
+    """
+    w, back = h / mem.control[0].last_step, mem.control[0].back
+    total = 0.0
+    for i in range(mem.new.size):
+        e = (mem.new[i] - mem.y[i]) / w - (mem.y[i] - mem.y1[i])
+        total += mem.inertia[i] * e * e
+    return 0.5 * w * back / (1.0 - back) * total
+
+
+@helper
+def _quadrature(mem, h):
+    """Return the error of the dissipated energy in this step [J]: the BDF's increment against the trapezium's.
+
+    Of the third derivative times h^3 the one misses (1 + w)^2/(6 w (1 + 2 w)), 2/9 in equal steps, the other -1/12.
+    """
+    lost, grown = 0.0, 0.0
+    for i in range(NL):
+        lost += mem.rates[i]
+        grown += mem.integrals[i] - mem.integrals1[i]
+    grown = mem.control[0].back * grown + mem.control[0].gamma * lost
+    return _OF_BDF * (grown - 0.5 * h * (lost + mem.control[0].dissipated_power))
+
+
+@helper
+def leak_of_step(mem, h):
+    """Return the energy that the scheme loses in this step, over what a step may lose.
+
+    What is dissipated adds up; errors of quadrature have either sign.
+    """
+    return max(_excess(mem, h, _dissipated(mem, h), _LEAK), _excess(mem, h, _quadrature(mem, h), _SCATTER))
+
+
+@helper
+def add_to_integrals(mem):
+    """Advance the running integrals by D(W) = P."""
+    back, gamma = mem.control[0].back, mem.control[0].gamma
+    for i in range(mem.rates.size):
+        grown = back * (mem.integrals[i] - mem.integrals1[i]) + gamma * mem.rates[i]
+        mem.integrals1[i] = mem.integrals[i]
+        mem.integrals[i] += grown
+    mem.control[0].dissipated_power = 0.0
+    for i in range(NL):
+        mem.control[0].dissipated_power += mem.rates[i]

@@ -1,0 +1,169 @@
+"""What the integrator remembers, and the types of what it calls."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+from numba import types
+
+from lambda_core.solver.integrator.blocks import blocks_t
+from lambda_core.solver.layout import (
+    BR,
+    BVR,
+    BVX,
+    BX,
+    NB,
+    NI,
+    NS,
+    SVX,
+    SWY,
+    SX,
+    array1,
+    array2,
+    bundle_t,
+    f8,
+    i8,
+    iarray1,
+)
+from lambda_core.solver.records import BALL, BODY_STATE
+
+evaluate_sig = i8(f8, array1, bundle_t, array1, array1, i8)
+jacobian_sig = i8(f8, array1, bundle_t, blocks_t)
+evaluate_t = types.FunctionType(evaluate_sig)
+jacobian_t = types.FunctionType(jacobian_sig)
+
+# How far the integrator has come, and with which steps.
+CONTROL = np.dtype(
+    [
+        ("time", np.float64),  # end of the last step [s]
+        ("step", np.float64),  # length of the next one [s]
+        ("last_step", np.float64),  # [s]
+        ("step_before", np.float64),  # the one before the last [s]
+        ("longest_step", np.float64),  # [s]
+        ("shortest_step", np.float64),  # below which the integrator gives up [s]
+        ("gamma", np.float64),  # of the step in hand: new = base + gamma f(new) [s]
+        ("back", np.float64),  # base = y + back (y - y1) [-]
+        ("factored_gamma", np.float64),  # gamma that the arrow matrix was factored for, 0 when it is out of date [s]
+        ("convergence_rate", np.float64),  # of Newton's iteration: change over the change before [-]
+        ("tolerance", np.float64),  # of errors, in scales of the states [-]
+        ("leak_floor", np.float64),  # energy that any step may lose [J]
+        ("dissipated_power", np.float64),  # at `time` [W]
+        ("sample_interval", np.float64),  # [s]
+        ("next_sample", np.float64),  # time of it [s]
+        ("samples_taken", np.float64),  # since the start
+    ],
+    align=True,
+)
+# What the integrator counts; flags are 0 or 1.
+COUNT = np.dtype(
+    [
+        ("history", np.int64),  # steps behind the present one that the formula may use: 0, 1, 2
+        ("stale", np.int64),  # flag: the Jacobian is to be renewed before it is used
+        ("careful", np.int64),  # steps for which the iteration still begins at the last speeds
+        ("jacobian_age", np.int64),  # steps since it was renewed for all balls
+        ("samples_waiting", np.int64),  # in the buffer
+        ("steps", np.int64),  # accepted
+        ("rejected", np.int64),  # steps whose error was too large
+        ("failed", np.int64),  # steps whose iteration did not converge
+        ("newton_iterations", np.int64),
+        ("rhs_calls", np.int64),
+        ("jacobians", np.int64),  # of all balls
+        ("ball_jacobians", np.int64),  # of single balls, during an iteration
+        ("factorisations", np.int64),
+    ],
+    align=True,
+)
+
+
+class Memory(NamedTuple):
+    """Everything the integrator remembers; saved as it is for a continuation."""
+
+    y: Any  # (n,) at `control.time`
+    y1: Any  # (n,) one step before
+    y2: Any  # (n,) two steps before
+    shared: Any  # (3 NS,) the whole shared state at `control.time`
+    shared1: Any  # (3 NS,) and one step before
+    integrals: Any  # (NI,)
+    integrals1: Any  # (NI,) one step before
+    rates: Any  # (NI,) rates of the integrals at the step in hand
+    weight: Any  # (n,) 1 / (tolerance * scale)
+    inertia: Any  # (n,) mass or moment of inertia of a speed, 0 for a position [kg, kg m2]
+    place: Any  # int64 (n,): state that is the position of a speed along which contacts press, or -1
+    control: Any  # CONTROL record, shape (1,)
+    count: Any  # COUNT record, shape (1,)
+    predicted: Any  # (n,)
+    base: Any  # (n,)
+    new: Any  # (n,)
+    slope: Any  # (n,)
+    change: Any  # (n,)
+    last_change: Any  # (n,) Newton correction of the iteration before
+    last_move: Any  # (n,) and the move that was made of it
+    sample_y: Any  # (capacity, n)
+    sample_t: Any  # (capacity,)
+
+
+_TYPES = {
+    "control": types.Array(numba.from_dtype(CONTROL), 1, "C"),
+    "count": types.Array(numba.from_dtype(COUNT), 1, "C"),
+    "place": iarray1,
+    "sample_y": array2,
+}
+memory_t = types.NamedTuple([_TYPES.get(name, array1) for name in Memory._fields], Memory)
+
+
+def make_memory(y0: np.ndarray, scale: np.ndarray, tolerance: float, bundle: Any, capacity: int = 256) -> Memory:
+    """Allocate for the initial state y0 and absolute scales, both (n,), of the bearing in `bundle`."""
+    n = y0.size
+    arrays: dict[str, np.ndarray] = {name: np.zeros(n) for name in Memory._fields}
+    inertia = inertias(bundle)
+    control = np.zeros(1, dtype=CONTROL)
+    control["tolerance"] = tolerance
+    # Differences of one tolerance in every speed are never too much.
+    control["leak_floor"] = 0.25 * np.sum(inertia * (tolerance * scale) ** 2)
+    arrays.update(
+        y=y0.copy(),
+        shared=np.zeros(bundle.shared.size),
+        shared1=np.zeros(bundle.shared.size),
+        integrals=np.zeros(NI),
+        integrals1=np.zeros(NI),
+        rates=np.zeros(NI),
+        weight=1.0 / (tolerance * scale),
+        inertia=inertia,
+        place=places(bundle),
+        control=control,
+        count=np.zeros(1, dtype=COUNT),
+        sample_y=np.zeros((capacity, n)),
+        sample_t=np.zeros(capacity),
+    )
+    return Memory(**arrays)
+
+
+def inertias(bundle: Any) -> np.ndarray:
+    """Return what each state carries kinetic energy with, shape (n,): mass, moment of inertia, 0 for positions."""
+    balls = np.zeros(int(bundle.system["balls"][0]), BALL)
+    for row in bundle.rows:
+        its = balls[row["first_ball"] : row["first_ball"] + row["balls"]]
+        its["velocity"], its["spin"] = row["ball_mass"], row["ball_inertia"]
+    bodies = np.zeros(bundle.bodies.size, BODY_STATE)
+    bodies["velocity"] = bundle.bodies["mass"][:, None]
+    bodies["tilt_velocity"] = bundle.bodies["transverse_inertia"][:, None]
+    bodies["spin"] = bundle.bodies["polar_inertia"]
+    return np.concatenate([balls.view(np.float64), bodies.view(np.float64)[bundle.active]])
+
+
+def places(bundle: Any) -> np.ndarray:
+    """Return the index of the position that belongs to a speed, shape (n,), or -1.
+
+    Only where normal forces act: a ball's x and r, a body's x, y, z.
+    """
+    balls, active = int(bundle.system["balls"][0]), bundle.active
+    found = np.full(NB * balls + active.size, -1, dtype=np.int64)
+    for speed, position in ((BVX, BX), (BVR, BR)):
+        found[speed : NB * balls : NB] = np.arange(position, NB * balls, NB)
+    where = {int(entry): NB * balls + i for i, entry in enumerate(active)}
+    for entry, i in where.items():
+        if SVX <= entry % NS < SWY:
+            found[i] = where.get(entry - SVX + SX, -1)
+    return found

@@ -1,0 +1,163 @@
+"""The Newton iteration of one step, with a block-arrow matrix that is renewed in parts."""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve
+from lambda_core.solver.integrator.balance import finalise_step, leak_of_iterate
+from lambda_core.solver.layout import BVX, NB, NS, SVX, helper
+from lambda_core.solver.status import Status
+
+_NEWTON_TOLERANCE = 0.3  # of the error allowed per step
+# The same while there is no history. Friction in a contact at rest changes sign within far less than the error allowed:
+# what the first steps leave of it turns it over at every later step, and those stay at nanoseconds.
+_FIRST_STEPS = 0.03
+_MAX_NEWTON = 4
+_MAX_LOCAL = 4  # more iterations where Jacobians of single balls are renewed on the way
+_REFACTOR = 0.41  # relative change of gamma beyond which M is factored anew; not a tie with one growth of the step
+_SLOW = 0.3  # convergence rate beyond which the Jacobian is renewed for the balls that are to blame
+_SHARE = 0.05  # of the squared last change, from which a ball's part of the Jacobian is renewed
+_SWING = 0.04  # share of its square by which a correction turns round before the secant is taken
+
+
+@helper
+def norm(v, weight):
+    """Return the root mean square of v times weight."""
+    total = 0.0
+    for i in range(v.size):
+        x = v[i] * weight[i]
+        total += x * x
+    return math.sqrt(total / v.size)
+
+
+@helper
+def _start(bundle, mem):
+    """Write where the Newton iteration begins: the extrapolation, or where care is needed the last step's speeds.
+
+    Friction in a contact at rest is almost a sign function: from a speed on the wrong side of it the iteration
+    does not come back, from the last speeds it does.
+    """
+    new, base, careful = mem.new, NB * bundle.system[0].balls, mem.count[0].careful > 0
+    for i in range(new.size):
+        new[i] = mem.predicted[i]
+        if careful and ((i < base and i % NB >= BVX) or (i >= base and bundle.active[i - base] % NS >= SVX)):
+            new[i] = mem.y[i]
+
+
+@helper
+def _move(mem, first, last, relax, again):
+    """Move the states first..last by their correction; where corrections swing to and fro, by the secant.
+
+    The correction c(x) is to vanish. Where it turned round, the root along the last move m is at
+    c - theta (m + c - c_0), theta = c.(c - c_0)/|c - c_0|^2: Anderson 1965, J. ACM 12, 547, with one difference.
+    """
+    change, before, moved = mem.change, mem.last_change, mem.last_move
+    swing, size, difference, along = 0.0, 0.0, 0.0, 0.0
+    for i in range(first, last):
+        change[i] *= relax
+        w2 = mem.weight[i] * mem.weight[i]
+        d = change[i] - before[i]
+        swing += w2 * change[i] * before[i]
+        size += w2 * before[i] * before[i]
+        difference += w2 * d * d
+        along += w2 * change[i] * d
+    theta = along / difference if again and swing < -_SWING * size else 0.0
+    for i in range(first, last):
+        move = change[i] - theta * (moved[i] + change[i] - before[i])
+        before[i], moved[i] = change[i], move
+        mem.new[i] += move
+
+
+@helper
+def _renew(jacobian, t, gamma, bundle, bl, fa, mem):
+    """Bring the Jacobian, if it is due, and the factors to the point evaluated last; returns a Status."""
+    control, count = mem.control[0], mem.count[0]
+    if count.stale == 1:
+        if jacobian(t, mem.new, bundle, bl) != Status.OK:
+            return Status.REFUSED
+        control.factored_gamma = 0.0
+        count.stale = 0
+    if abs(gamma / (control.factored_gamma + 1e-300) - 1.0) > _REFACTOR:
+        count.factorisations += 1
+        if arrow_factor(bl, 1.0, gamma, fa) != 1:
+            return Status.REFUSED
+        control.factored_gamma = gamma
+        control.convergence_rate = 1.0
+    return Status.OK
+
+
+@helper
+def _mark_slow(bl, mem, size):
+    """Mark the balls that make most of the last change, of the given norm; returns how many."""
+    change, weight = mem.change, mem.weight
+    bar = _SHARE * size * size * change.size
+    marked = 0
+    for j in range(bl.due.size):
+        total = 0.0
+        for i in range(NB * j, NB * j + NB):
+            x = change[i] * weight[i]
+            total += x * x
+        bl.due[j] = 1 if total > bar else 0
+        marked += bl.due[j]
+    return marked
+
+
+@helper
+def solve_step(evaluate, jacobian, t, h, bundle, bl, fa, mem):
+    """Solve new = base + gamma f(new); returns a Status: OK, NOT_CONVERGED, REFUSED.
+
+    A ball that bounces on a raceway or in its pocket spoils the convergence of all: where it is slow, the Jacobian is
+    renewed at the iterate for the balls that change most. The rates of the running integrals are those of the last
+    iterate, brought to the result by what its residual says; the iteration goes on while they do not account for the
+    energy.
+    """
+    new, change, weight, count, control = mem.new, mem.change, mem.weight, mem.count[0], mem.control[0]
+    n, gamma = new.size, control.gamma
+    _start(bundle, mem)
+    careful = count.careful > 0
+    tolerance = _FIRST_STEPS if count.history < 2 else _NEWTON_TOLERANCE
+    before, limit = 0.0, _MAX_NEWTON
+    for iteration in range(_MAX_NEWTON + _MAX_LOCAL):
+        if iteration >= limit:
+            return Status.NOT_CONVERGED
+        count.rhs_calls += 1
+        if evaluate(t, new, bundle, mem.slope, mem.rates, 1) != Status.OK:
+            return Status.REFUSED
+        if iteration == 0 and count.stale == 1:
+            count.jacobians += 1
+            count.jacobian_age = 0
+        if _renew(jacobian, t, gamma, bundle, bl, fa, mem) != Status.OK:
+            return Status.REFUSED
+        count.newton_iterations += 1
+        for i in range(n):
+            change[i] = mem.base[i] + gamma * mem.slope[i] - new[i]
+        arrow_solve(fa, change)
+        # A matrix factored for another gamma over- or undershoots by a known amount.
+        relax = 2.0 / (1.0 + gamma / control.factored_gamma)
+        again = iteration > 0 and careful
+        for j in range(bundle.system[0].balls):
+            _move(mem, NB * j, NB * j + NB, relax, again)
+        _move(mem, NB * bundle.system[0].balls, n, relax, again)
+        size = norm(change, weight)
+        if not size < 1e12:
+            return Status.NOT_CONVERGED
+        if iteration > 0:
+            control.convergence_rate = max(0.2 * control.convergence_rate, size / (before + 1e-300))
+            if careful and size > 2.0 * before and size > tolerance:
+                return Status.NOT_CONVERGED
+        # Secants hide the rate of convergence.
+        rate = 1.0 if careful else control.convergence_rate
+        good = size * min(1.0, rate) <= tolerance
+        # Corrections that swing within the tolerance want care; where care does not help, they are let pass.
+        if good and (leak_of_iterate(bundle, mem, h) <= 1.0 or (careful and iteration + 1 >= limit)):
+            finalise_step(bundle, mem)
+            return Status.OK
+        if iteration > 0 and not careful and size > _SLOW * before:
+            if _mark_slow(bl, mem, size) == 0:
+                return Status.NOT_CONVERGED
+            count.ball_jacobians += 1
+            count.stale = 1
+            limit = min(limit + 1, _MAX_NEWTON + _MAX_LOCAL)
+        before = size
+    return Status.NOT_CONVERGED

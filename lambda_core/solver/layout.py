@@ -1,0 +1,276 @@
+"""State vector, tables and workspaces of the compiled code, in one bundle, and the types of its contact functions.
+
+State vector y, float64, shape (9 Z + n_active,):
+
+* ball j, ``y[9 j : 9 j + 9]``: a records.BALL (x, radius, azimuth, velocity, spin).
+* the rest: the free entries of the *shared* state, shape (12 bodies,), one records.BODY_STATE per body: inner ring,
+  outer ring, cage.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+from numba import types
+
+from lambda_core.domain.roles import ROLES
+from lambda_core.laws.jit import inlined
+from lambda_core.laws.jit.machine_code import OPTIONS, role_signature
+from lambda_core.solver import records as R
+
+# Places in the state vector, for what goes through states one by one: integrator, Jacobian, tolerances.
+NB = R.floats_of(R.BALL)
+NS = R.floats_of(R.BODY_STATE)
+BX, BR, BPSI, BVX, BVR, BVT, BWX, BWR, BWT = range(NB)
+SX, SY, SZ, SAY, SAZ, STHETA, SVX, SVY, SVZ, SWY, SWZ, SSIGMA = range(NS)
+NQ = len(R.DRIVERS)
+
+f8 = types.float64
+i8 = types.int64
+array1 = types.float64[::1]
+array2 = types.float64[:, ::1]
+array3 = types.float64[:, :, ::1]
+array4 = types.float64[:, :, :, ::1]
+iarray1 = types.int64[::1]
+
+
+def record_t(kind: np.dtype[Any]) -> Any:
+    """Return the type of one record in compiled code."""
+    return numba.from_dtype(kind)
+
+
+def table_t(kind: np.dtype[Any]) -> Any:
+    """Return the type of an array of records in compiled code."""
+    return types.Array(record_t(kind), 1, "C")
+
+
+class RacewayLaws(NamedTuple):
+    """Pointers to the kernels of one ball-raceway force element."""
+
+    normal_contact: Any
+    damping: Any
+    rheology: Any
+    film_thickness: Any
+    thermal_correction: Any
+    contact_temperature: Any
+    traction: Any
+    rolling_resistance: Any
+    elastic_hysteresis: Any
+    asperity_load: Any
+    boundary_friction: Any
+    permittivity: Any
+    capacitance: Any
+    surface: Any
+    supply: Any
+
+
+class Laws(NamedTuple):
+    """All kernels of the model."""
+
+    raceways: Any  # tuple of RacewayLaws
+    pocket: Any  # ball in pocket, or ball with ball
+    lands: Any  # tuple
+    drag: Any
+
+
+class Losses(NamedTuple):
+    """Power that raceway contacts dissipate, by mechanism: each an array with one entry per raceway [W]."""
+
+    sliding: Any
+    spin: Any
+    boundary: Any
+    rolling: Any
+    hysteresis: Any
+    damping: Any
+
+
+# Shape of the powers and of their running integrals: Losses of two raceways, then records.RUNNING.
+MECHANISMS = len(Losses._fields)
+NI = MECHANISMS * 2 + R.floats_of(R.RUNNING)
+NL = MECHANISMS * 2 + 4
+RUNNING_SIZE = R.floats_of(R.RUNNING)
+
+
+class Grid(NamedTuple):
+    """Cells on the unit ellipse, each an array with one entry per cell."""
+
+    across: Any  # place across rolling over a
+    along: Any  # place along rolling over b
+    pressure: Any  # mean over p_max
+    area: Any  # over a b
+    width_across: Any  # over a
+    width_along: Any  # over b
+
+
+class Cells(NamedTuple):
+    """What the cells of one contact hold, each an array with one entry per cell.
+
+    Pressure and what follows depends on the kinematics alone.
+    """
+
+    results: Any  # the rows that laws write, together
+    ln_eta_inlet: Any  # logarithm of the viscosity at the inlet's temperature [ln(Pa s)]
+    shear_inlet: Any  # shear stress there; in the end the film's share of it [Pa]
+    temperature: Any  # of the film [K]
+    ln_eta: Any  # at the film's temperature
+    shear: Any  # stress of film and asperities [Pa]
+    friction: Any  # coefficient of the asperities; in the end their share of the shear stress [Pa]
+    density: Any  # [kg/m3]
+    inlet: Any  # inlet's temperature [K]
+    pressure: Any  # [Pa]
+    slip: Any  # speed, with its spread inside the cell [m/s]
+    inverse_slip: Any  # [s/m]
+    slip_t: Any  # velocity of the ball over the ring along rolling [m/s]
+    slip_s: Any  # and across
+
+
+CELL_ROWS = len(Cells._fields) - 1
+_RESULTS = 6  # rows that laws write
+KINEMATIC_ROWS = Cells._fields.index("pressure") - 1  # the first row that depends on the kinematics alone
+
+
+def _law_t(role: str) -> Any:
+    return types.FunctionType(role_signature(ROLES[role]))
+
+
+raceway_laws_t = types.NamedTuple([_law_t(role) for role in RacewayLaws._fields], RacewayLaws)
+laws_t = types.NamedTuple(
+    [
+        types.UniTuple(raceway_laws_t, 2),
+        _law_t("cage_contact"),
+        types.UniTuple(_law_t("cage_contact"), 2),
+        _law_t("fluid_drag"),
+    ],
+    Laws,
+)
+# One contact: (raceway, kinematics, laws, par, system, grid, cells, scratch, contact, wrench) -> status
+wrench_sig = i8(
+    record_t(R.RACEWAY), record_t(R.KINEMATICS), raceway_laws_t, array1, record_t(R.SYSTEM), array2, array2,
+    record_t(R.SCRATCH), record_t(R.CONTACT), record_t(R.WRENCH),
+)  # fmt: skip
+# Its tangent: (raceway, kinematics, laws, par, system, grid, cells, scratch, tangent) -> status
+tangent_sig = i8(
+    record_t(R.RACEWAY), record_t(R.KINEMATICS), raceway_laws_t, array1, record_t(R.SYSTEM), array2, array3,
+    record_t(R.SCRATCH), record_t(R.TANGENT),
+)  # fmt: skip
+
+
+class Bundle(NamedTuple):
+    """Everything that the compiled code works on, in one argument."""
+
+    system: Any  # SYSTEM, shape (1,)
+    bodies: Any  # BODY (bodies,)
+    rows: Any  # ROW (rows,)
+    raceways: Any  # RACEWAY (raceways,)
+    lands: Any  # LAND (stations,)
+    laws: Any  # Laws
+    wrench: Any  # pointer: wrench of one raceway contact
+    tangent: Any  # pointer: its derivative
+    par: Any  # float64: parameters of all kernels, one after another
+    grid: Any  # (6, cells): rows of Grid
+    terms: Any  # TERM (n,)
+    table: Any  # knots and spline coefficients
+    active: Any  # int64 (n_active,): free entries of the shared state
+    inputs: Any  # INPUTS (bodies,)
+    signals: Any  # SIGNAL (12 bodies,): the same memory
+    cells: Any  # (2, CELL_ROWS, cells): rows of Cells
+    scratch: Any  # SCRATCH (1,)
+    shared: Any  # (12 bodies,) the whole shared state
+    bodies_now: Any  # BODY_STATE (bodies,): the same memory
+    shared_rates: Any  # (12 bodies,) its time derivative
+    body_rates: Any  # BODY_STATE (bodies,): the same memory
+    body_wrenches: Any  # WRENCH (bodies,) of all contacts
+    ball_wrenches: Any  # WRENCH (Z,)
+
+
+_TYPES = {
+    "system": table_t(R.SYSTEM),
+    "bodies": table_t(R.BODY),
+    "rows": table_t(R.ROW),
+    "raceways": table_t(R.RACEWAY),
+    "lands": table_t(R.LAND),
+    "laws": laws_t,
+    "wrench": types.FunctionType(wrench_sig),
+    "tangent": types.FunctionType(tangent_sig),
+    "par": array1,
+    "grid": array2,
+    "terms": table_t(R.TERM),
+    "table": array1,
+    "active": iarray1,
+    "inputs": table_t(R.INPUTS),
+    "signals": table_t(R.SIGNAL),
+    "cells": array3,
+    "scratch": table_t(R.SCRATCH),
+    "shared": array1,
+    "bodies_now": table_t(R.BODY_STATE),
+    "shared_rates": array1,
+    "body_rates": table_t(R.BODY_STATE),
+    "body_wrenches": table_t(R.WRENCH),
+    "ball_wrenches": table_t(R.WRENCH),
+}
+bundle_t = types.NamedTuple([_TYPES[name] for name in Bundle._fields], Bundle)
+
+
+_ANY_ORDER = {"reassoc", "contract", "nsz"}
+
+
+def vector_helper(function):
+    """Compile a helper whose loops over cells may be summed in any order, so that they vectorise.
+
+    Only the order of sums, fused multiply-adds and the sign of zero are set free: NaN and infinity keep their meaning.
+    """
+    return numba.njit(**{**OPTIONS, **inlined.OPTIONS, "fastmath": _ANY_ORDER})(function)
+
+
+def rows_helper(function):
+    """Compile a vector helper whose arrays are all apart: rows of a block, of which none is given twice."""
+    return numba.njit(**{**OPTIONS, **inlined.APART, "fastmath": _ANY_ORDER})(function)
+
+
+def helper(function):
+    """Compile a helper of the core into its callers; never cached by itself, they are."""
+    return numba.njit(**OPTIONS, **inlined.OPTIONS)(function)
+
+
+def allocating_helper(function):
+    """Compile a helper that makes arrays of its own, off the hot path."""
+    return numba.njit(**{**OPTIONS, **inlined.OPTIONS, "forceinline": False, "_nrt": True})(function)
+
+
+# Functions of their own could not return a view without counting references.
+@numba.njit(inline="always")
+def part(par, span):
+    """Return the parameters of one law, a view."""
+    return par[span[0] : span[1]]
+
+
+@numba.njit(inline="always")
+def grid_of(table):
+    """Return the rows of Bundle.grid by name."""
+    return Grid(table[0], table[1], table[2], table[3], table[4], table[5])
+
+
+@numba.njit(inline="always")
+def cells_of(block):
+    """Return the rows of one block of Bundle.cells by name."""
+    return Cells(
+        block[:_RESULTS], block[0], block[1], block[2], block[3], block[4], block[5], block[6], block[7], block[8],
+        block[9], block[10], block[11], block[12],
+    )  # fmt: skip
+
+
+@numba.njit(inline="always")
+def losses_of(rates, n):
+    """Return the losses of n raceways in an array of powers, by name."""
+    return Losses(
+        rates[:n], rates[n : 2 * n], rates[2 * n : 3 * n], rates[3 * n : 4 * n], rates[4 * n : 5 * n],
+        rates[5 * n : 6 * n],
+    )  # fmt: skip
+
+
+@numba.njit(inline="always")
+def running_of(rates):
+    """Return what stands behind the raceways' losses in an array of powers: a table of one record."""
+    return rates[rates.size - RUNNING_SIZE :].view(R.RUNNING)

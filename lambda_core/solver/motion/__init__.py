@@ -1,0 +1,1 @@
+"""Right-hand side, equations of motion, energy, and the Jacobian. Compiled."""

@@ -1,0 +1,112 @@
+"""From slopes of forces to rows of the Jacobian: equations of motion of balls and bodies."""
+
+from __future__ import annotations
+
+from lambda_core.solver.contact.contact_kinematics import axis_x
+from lambda_core.solver.layout import BR, BVR, BVT, BVX, BWR, BWT, NB, NS, SSIGMA, SVX, SWY, SWZ, helper
+from lambda_core.solver.motion.equations import body_rates
+from lambda_core.solver.motion.steps import body_step
+from lambda_core.solver.records import BODY_STATE
+
+
+@helper
+def ball_block(ball, row, bl, a, b):
+    """Turn force slopes into the rows of one ball."""
+    r, vt, vr = ball.radius, ball.velocity[2], ball.velocity[1]
+    orbit = vt / r
+    for i in range(6):
+        inverse = 1.0 / row.ball_mass if i < 3 else 1.0 / row.ball_inertia
+        for c in range(NB):
+            a[3 + i, c] = bl.own[i, c] * inverse
+        for column in range(bl.index.size):
+            k = bl.index[column]
+            if k >= 0:
+                b[3 + i, k] = bl.to_shared[i, column] * inverse
+    for i in range(3):
+        for c in range(NB):
+            a[i, c] = 0.0
+        for k in range(b.shape[1]):
+            b[i, k] = 0.0
+    a[0, BVX] = 1.0
+    a[1, BVR] = 1.0
+    a[2, BVT] = 1.0 / r
+    a[2, BR] = -orbit / r
+    a[4, BVT] += 2.0 * orbit
+    a[4, BR] -= orbit * orbit
+    a[5, BVR] -= orbit
+    a[5, BVT] -= vr / r
+    a[5, BR] += vr * orbit / r
+    wr, wt = ball.spin[1], ball.spin[2]
+    a[7, BWT] += orbit
+    a[7, BVT] += wt / r
+    a[7, BR] -= wt * orbit / r
+    a[8, BWR] -= orbit
+    a[8, BVT] -= wr / r
+    a[8, BR] += wr * orbit / r
+
+
+@helper
+def force_map(body, now, m):
+    """Write d(rate)/d(force, moment) of a body, (12, 6)."""
+    m[:, :] = 0.0
+    ay, az = now.tilt[0], now.tilt[1]
+    ax = axis_x(ay, az)
+    for i in range(3):
+        m[SVX + i, i] = 1.0 / body.mass
+    it, ip = 1.0 / body.transverse_inertia, 1.0 / body.polar_inertia
+    m[SWY, 3], m[SWY, 4], m[SWY, 5] = -ax * ay * it, (1.0 - ay * ay) * it, -az * ay * it
+    m[SWZ, 3], m[SWZ, 4], m[SWZ, 5] = -ax * az * it, -ay * az * it, (1.0 - az * az) * it
+    m[SSIGMA, 3], m[SSIGMA, 4], m[SSIGMA, 5] = ax * ip, ay * ip, az * ip
+
+
+@helper
+def body_rows(b, bl, c_block):
+    """Write d(body b)/d(ball) into a block C."""
+    for row in range(NS):
+        k = bl.index[NS * b + row]
+        if k < 0:
+            continue
+        for col in range(NB):
+            total = 0.0
+            for i in range(6):
+                total += bl.map[row, i] * bl.from_ball[b, i, col]
+            c_block[k, col] = total
+
+
+@helper
+def _own_slopes(b, bundle, bl):
+    """Add the slopes of body b's own equations of motion to D."""
+    body, now, inputs, fm = bundle.bodies[b], bundle.bodies_now[b], bundle.inputs[b], bundle.body_wrenches[b]
+    gravity, near, d = bundle.system[0].gravity, bl.body.view(BODY_STATE), bl.d
+    rate, near_rate = bl.rate.view(BODY_STATE), bl.near_rate.view(BODY_STATE)
+    body_rates(body, now, fm, inputs, gravity, rate[0])
+    for c in range(NS):
+        kc = bl.index[NS * b + c]
+        if kc < 0:
+            continue
+        step = body_step(c, False)
+        near[0] = now
+        bl.body[c] += step
+        body_rates(body, near[0], fm, inputs, gravity, near_rate[0])
+        for row in range(NS):
+            k = bl.index[NS * b + row]
+            if k >= 0:
+                d[k, kc] += (bl.near_rate[row] - bl.rate[row]) / step
+
+
+@helper
+def shared_rows(b, bundle, bl):
+    """Write the rows of body b in D: its own equations of motion and all forces on it."""
+    d = bl.d
+    for row in range(NS):
+        k = bl.index[NS * b + row]
+        if k < 0:
+            continue
+        for column in range(bl.index.size):
+            kc = bl.index[column]
+            if kc >= 0:
+                total = 0.0
+                for i in range(6):
+                    total += bl.map[row, i] * bl.shared[b, i, column]
+                d[k, kc] = total
+    _own_slopes(b, bundle, bl)

@@ -1,0 +1,140 @@
+"""Force elements of the right-hand side: raceways, cage, drag."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from lambda_core.solver.cage.guides import (
+    first_arm,
+    guide_force,
+    guide_loss,
+    land_apply,
+    land_state,
+    neighbour_apply,
+    neighbour_state,
+    pocket_apply,
+    pocket_state,
+)
+from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, surface_lift
+from lambda_core.solver.contact.losses import raceway_losses
+from lambda_core.solver.faults import FLUID_DRAG, report
+from lambda_core.solver.layout import cells_of, grid_of, helper, part
+from lambda_core.solver.vec import clear, increase
+
+_SPIN_FLOOR = 1e-3  # [rad/s] below which a ball's churning moment fades out
+
+
+@helper
+def clear_forces(bundle):
+    """Begin the sums of forces on balls and bodies."""
+    for j in range(bundle.ball_wrenches.size):
+        clear(bundle.ball_wrenches[j])
+    for b in range(bundle.body_wrenches.size):
+        clear(bundle.body_wrenches[b])
+
+
+@helper
+def add_contact(raceway, j, bundle):
+    """Add the wrench of a raceway contact in scratch to the forces on ball j and on the raceway's body."""
+    scratch, on_body = bundle.scratch[0], bundle.body_wrenches[raceway.body]
+    apply_wrench(scratch.kinematics[0], scratch.wrench[0], bundle.ball_wrenches[j], scratch.on_ring)
+    increase(on_body.force, scratch.on_ring.force)
+    increase(on_body.moment, scratch.on_ring.moment)
+
+
+@helper
+def raceway_forces(ball, j, row, bundle, losses, want):
+    """Add the raceway contacts of ball j; with `want`, add what they dissipate to losses (layout.Losses)."""
+    scratch, system = bundle.scratch[0], bundle.system[0]
+    kin, contact = scratch.kinematics[0], scratch.contact[0]
+    for k in range(row.first_raceway, row.first_raceway + row.raceways):
+        raceway = bundle.raceways[k]
+        ring = bundle.bodies_now[raceway.body]
+        if system.surfaces == 1:
+            surface_lift(ball, ring, raceway, bundle, kin)
+        delta = contact_kinematics(ball, ring, raceway, kin)
+        if delta <= 0.0:
+            continue
+        if not delta < np.inf:
+            scratch.fault.ball = j
+            return 0
+        laws = bundle.laws.raceways[raceway.laws]
+        ok = bundle.wrench(
+            raceway, kin, laws, bundle.par, system, bundle.grid, bundle.cells[0], scratch, contact, scratch.wrench[0]
+        )
+        if ok != 1:
+            scratch.fault.ball = j
+            return 0
+        add_contact(raceway, j, bundle)
+        if want == 1 and system.friction_on == 1:
+            raceway_losses(raceway, kin, system, grid_of(bundle.grid), contact, cells_of(bundle.cells[0]), losses)
+    return 1
+
+
+@helper
+def drag_force(ball, row, bundle, on_ball):
+    """Add fluid drag and churning of one ball; returns the power lost [W], or -1 on a fault."""
+    scratch, oil = bundle.scratch[0], row.oil
+    out = scratch.out[:]
+    w = math.sqrt(ball.spin[0] ** 2 + ball.spin[1] ** 2 + ball.spin[2] ** 2)
+    nu = oil.viscosity / oil.density
+    out[:2] = np.nan
+    status = bundle.laws.drag(ball.velocity[2], w, ball.azimuth, nu, oil.density, part(bundle.par, row.drag), out)
+    force, moment = out[0], out[1]
+    if status != 1 or not abs(force) + abs(moment) < np.inf:
+        report(scratch.fault, FLUID_DRAG, status, -1, ball.velocity[2], w, ball.azimuth, nu)
+        return -1.0
+    moment /= math.sqrt(w * w + _SPIN_FLOOR * _SPIN_FLOOR)
+    on_ball.force[2] -= force
+    on_ball.moment[0] -= moment * ball.spin[0]
+    on_ball.moment[1] -= moment * ball.spin[1]
+    on_ball.moment[2] -= moment * ball.spin[2]
+    return force * ball.velocity[2] + moment * w * w
+
+
+@helper
+def cage_forces(balls, row, bundle, running, want):
+    """Add the pockets of a row, or ball-ball contacts when it has no cage; with `want` their losses."""
+    scratch, viscosity = bundle.scratch[0], row.oil.viscosity
+    g, out, fault, at_rest = scratch.guide, scratch.out[:], scratch.fault, scratch.at_rest
+    cage, on_cage = bundle.bodies_now[row.cage], bundle.body_wrenches[row.cage]
+    law, par = bundle.laws.pocket, part(bundle.par, row.pocket)
+    for i in range(row.balls):
+        j, k = row.first_ball + i, row.first_ball + (i + 1) % row.balls
+        ball, other = balls[j], balls[k]
+        if row.caged == 1:
+            pocket_state(ball, cage, j, row, g)
+        else:
+            neighbour_state(ball, other, g)
+        if guide_force(law, par, g, viscosity, out, fault, -1) != 1:
+            fault.ball = j
+            return 0
+        lost = guide_loss(law, par, g, viscosity, out, at_rest) if want == 1 else 0.0
+        if row.caged == 1:
+            running.pocket += lost
+            pocket_apply(ball, cage, g, out, bundle.ball_wrenches[j], on_cage)
+        else:
+            running.land += lost
+            neighbour_apply(ball.azimuth, first_arm(g, out), out, 1.0, bundle.ball_wrenches[j])
+            neighbour_apply(other.azimuth, (out[3], out[4], out[5]), out, -1.0, bundle.ball_wrenches[k])
+    return 1
+
+
+@helper
+def land_forces(bundle, running, want):
+    """Add the lands that guide cages; with `want` their losses."""
+    scratch = bundle.scratch[0]
+    g, out, fault = scratch.guide, scratch.out[:], scratch.fault
+    for i in range(bundle.lands.size):
+        land = bundle.lands[i]
+        cage, ring = bundle.bodies_now[land.cage], bundle.bodies_now[land.ring]
+        law, par = bundle.laws.lands[land.number], part(bundle.par, land.parameters)
+        land_state(cage, ring, land.offset, g)
+        if guide_force(law, par, g, land.viscosity, out, fault, land.number) != 1:
+            return 0
+        if want == 1:
+            running.land += guide_loss(law, par, g, land.viscosity, out, scratch.at_rest)
+        land_apply(cage, ring, g, out, bundle.body_wrenches[land.cage], bundle.body_wrenches[land.ring])
+    return 1

@@ -1,0 +1,114 @@
+"""Energy that is stored in motion, contacts and supports."""
+
+from __future__ import annotations
+
+from lambda_core.solver.cage.guides import (
+    GAUSS_NODES,
+    GAUSS_WEIGHTS,
+    guide_energy,
+    land_state,
+    neighbour_state,
+    pocket_state,
+)
+from lambda_core.solver.contact.contact_kinematics import axis_x, contact_kinematics, surface_lift
+from lambda_core.solver.layout import NB, helper, part
+from lambda_core.solver.motion.prescribed import fill_shared
+from lambda_core.solver.records import BALL
+from lambda_core.solver.vec import length
+
+
+@helper
+def _contact_energy(raceway, delta, bundle):
+    """Return the elastic energy of a raceway contact at penetration delta [J].
+
+    With delta u^2 for the penetration, eight points are exact for a power law of exponent 3/2.
+    """
+    out = bundle.scratch[0].out[:]
+    law, par = bundle.laws.raceways[raceway.laws].normal_contact, part(bundle.par, raceway.parameters.normal_contact)
+    total = 0.0
+    for i in range(GAUSS_NODES.size):
+        u = GAUSS_NODES[i]
+        law(delta * u * u, raceway.radius_x, raceway.radius_y, raceway.modulus, par, out)
+        total += GAUSS_WEIGHTS[i] * out[0] * 2.0 * delta * u
+    return total
+
+
+@helper
+def _ball_energy(ball, row):
+    """Return the kinetic energy of a ball [J]."""
+    v2 = ball.velocity[0] ** 2 + ball.velocity[1] ** 2 + ball.velocity[2] ** 2
+    w2 = ball.spin[0] ** 2 + ball.spin[1] ** 2 + ball.spin[2] ** 2
+    return 0.5 * row.ball_mass * v2 + 0.5 * row.ball_inertia * w2
+
+
+@helper
+def _raceway_energy(ball, raceway, bundle):
+    """Return the elastic energy of a ball's contact with a raceway [J]."""
+    ring, kin = bundle.bodies_now[raceway.body], bundle.scratch[0].kinematics[0]
+    if bundle.system[0].surfaces == 1:
+        surface_lift(ball, ring, raceway, bundle, kin)
+    if contact_kinematics(ball, ring, raceway, kin) > 0.0:
+        return _contact_energy(raceway, kin.penetration, bundle)
+    return 0.0
+
+
+@helper
+def _guide_energy(balls, j, row, bundle):
+    """Return the elastic energy of a ball in its pocket, or with the next ball where there is no cage [J]."""
+    scratch, ball, start = bundle.scratch[0], balls[j], 0.0
+    g = scratch.guide
+    if row.caged == 1:
+        pocket_state(ball, bundle.bodies_now[row.cage], j, row, g)
+    else:
+        neighbour_state(ball, balls[row.first_ball + (j - row.first_ball + 1) % row.balls], g)
+        start = max(1.0, 2.0 * row.ball_radius / length(g.place))
+    par = part(bundle.par, row.pocket)
+    return guide_energy(bundle.laws.pocket, par, g, row.oil.viscosity, scratch.out[:], scratch.at_rest, start)
+
+
+@helper
+def _body_energy(body, now):
+    """Return the kinetic energy of a body and the elastic energy of its supports [J]."""
+    ay, az = now.tilt[0], now.tilt[1]
+    wy, wz, sigma = now.tilt_velocity[0], now.tilt_velocity[1], now.spin
+    wx = -(wy * ay + wz * az) / axis_x(ay, az)
+    v2 = now.velocity[0] ** 2 + now.velocity[1] ** 2 + now.velocity[2] ** 2
+    energy = 0.5 * body.mass * v2 + 0.5 * body.polar_inertia * sigma * sigma
+    energy += 0.5 * body.transverse_inertia * (wx * wx + wy * wy + wz * wz)
+    for i in range(3):
+        energy += 0.5 * body.stiffness[i] * now.position[i] * now.position[i]
+    energy += 0.5 * body.stiffness[3] * az * az + 0.5 * body.stiffness[4] * ay * ay
+    return energy
+
+
+@helper
+def _land_energy(land, bundle):
+    """Return the elastic energy of one station of a land [J]."""
+    scratch = bundle.scratch[0]
+    law, par = bundle.laws.lands[land.number], part(bundle.par, land.parameters)
+    land_state(bundle.bodies_now[land.cage], bundle.bodies_now[land.ring], land.offset, scratch.guide)
+    return guide_energy(law, par, scratch.guide, land.viscosity, scratch.out[:], scratch.at_rest, 0.0)
+
+
+@helper
+def stored_energy(t, y, bundle):
+    """Return kinetic plus elastic energy of all bodies, contacts and supports [J]."""
+    system = bundle.system[0]
+    balls = y[: NB * system.balls].view(BALL)
+    fill_shared(t, y, bundle)
+    total = 0.0
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            total += _ball_energy(balls[j], row)
+            for k in range(row.first_raceway, row.first_raceway + row.raceways):
+                total += _raceway_energy(balls[j], bundle.raceways[k], bundle)
+            if system.guides_on == 1:
+                total += _guide_energy(balls, j, row, bundle)
+    for b in range(bundle.bodies.size):
+        if bundle.bodies[b].moves == 1:
+            total += _body_energy(bundle.bodies[b], bundle.bodies_now[b])
+    if system.guides_on == 1:
+        for i in range(bundle.lands.size):
+            total += _land_energy(bundle.lands[i], bundle)
+    return total

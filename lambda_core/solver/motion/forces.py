@@ -1,0 +1,117 @@
+"""The right-hand side: all force elements, then the equations of motion, and the powers on demand."""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.solver.layout import NB, helper, losses_of, running_of
+from lambda_core.solver.motion.elements import cage_forces, clear_forces, drag_force, land_forces, raceway_forces
+from lambda_core.solver.motion.equations import ball_rates, body_rates
+from lambda_core.solver.motion.prescribed import fill_shared
+from lambda_core.solver.records import BALL
+from lambda_core.solver.vec import dot, increase, turning
+
+
+@helper
+def _move_ball(ball, j, row, bundle, running, want, rate):
+    """Add drag and weight to the forces on ball j and write its accelerations."""
+    system, wrench = bundle.system[0], bundle.ball_wrenches[j]
+    if row.drag_on == 1 and system.friction_on == 1:
+        lost = drag_force(ball, row, bundle, wrench)
+        if lost < -0.5:
+            bundle.scratch[0].fault.ball = j
+            return 0
+        running.drag += lost
+    c, s = math.cos(ball.azimuth), math.sin(ball.azimuth)
+    m, g = row.ball_mass, turning(system.gravity, c, s)
+    weight = m * g[0], m * g[1], m * g[2]
+    increase(wrench.force, weight)
+    if want == 1:
+        running.input += dot(weight, ball.velocity)
+    ball_rates(ball, wrench, row, rate)
+    return 1
+
+
+@helper
+def _move_bodies(bundle, running, want, dydt):
+    """Write the rates of the free states of the bodies."""
+    active, base = bundle.active, NB * bundle.system[0].balls
+    for b in range(bundle.bodies.size):
+        if bundle.bodies[b].moves == 0:
+            continue
+        external, drive, support = body_rates(
+            bundle.bodies[b], bundle.bodies_now[b], bundle.body_wrenches[b], bundle.inputs[b],
+            bundle.system[0].gravity, bundle.body_rates[b],
+        )  # fmt: skip
+        if want == 1:
+            running.input += external
+            running.drive += drive
+            running.support += support
+    for k in range(active.size):
+        dydt[base + k] = bundle.shared_rates[active[k]]
+
+
+@helper
+def _raceways(balls, bundle, rates, want):
+    """Begin the sums of forces and powers with the raceways' share."""
+    losses = losses_of(rates, bundle.raceways.size)
+    clear_forces(bundle)
+    rates[:] = 0.0
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            if raceway_forces(balls[j], j, row, bundle, losses, want) != 1:
+                return 0
+    return 1
+
+
+@helper
+def _guides(balls, bundle, running, want):
+    """Add the forces of pockets and lands."""
+    for r in range(bundle.rows.size):
+        if cage_forces(balls, bundle.rows[r], bundle, running, want) != 1:
+            return 0
+    return land_forces(bundle, running, want)
+
+
+def evaluate(t, y, bundle, dydt, rates, want):
+    """Write dy/dt; with `want` = 1 also the powers and rates of the running integrals; an entry point.
+
+    Parameters
+    ----------
+    t : float
+        Time [s].
+    y, dydt : float64[:], shape (9 Z + n_active,)
+    rates : float64[:], shape (NI,)
+        Losses of the raceways by mechanism (layout.Losses) [W], then records.RUNNING.
+    want : int
+        0, 1; or 2: as 1, and the raceways' share of the forces (bundle.ball_wrenches, bundle.body_wrenches) and of
+        `rates` is there already, left by a caller that has gone through them itself.
+
+    Returns
+    -------
+    int
+        1 when every kernel was well; otherwise 0 and scratch.fault says which was not.
+    """
+    system = bundle.system[0]
+    bundle.scratch[0].fault.role = -1
+    balls, moved = y[: NB * system.balls].view(BALL), dydt[: NB * system.balls].view(BALL)
+    running = running_of(rates)[0]
+    fill_shared(t, y, bundle)
+    if want < 2 and _raceways(balls, bundle, rates, want) != 1:
+        return 0
+    want = min(want, 1)
+    if system.guides_on == 1 and _guides(balls, bundle, running, want) != 1:
+        return 0
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            if _move_ball(balls[j], j, row, bundle, running, want, moved[j]) != 1:
+                return 0
+    _move_bodies(bundle, running, want, dydt)
+    if want == 1:
+        running.input_abs = abs(running.input)
+        running.relative_speed = abs(bundle.bodies_now[0].spin - bundle.bodies_now[1].spin)
+        for i in range(3):
+            running.position[i] = bundle.bodies_now[0].position[i]
+    return 1

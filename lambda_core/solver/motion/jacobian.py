@@ -1,0 +1,138 @@
+"""Jacobian of the right-hand side in block-arrow form, by the chain rule through the stages.
+
+Each ball couples only to itself and to the bodies:
+
+    J = [[A_1,           B_1],
+         [     ...       ...],
+         [C_1, ..., C_Z,  D ]]
+
+A contact's wrench depends on the states through nine kinematic numbers; its slope with them is
+costly and taken once (:mod:`.tangent`), their slopes with the states and the change of the frame are cheap.
+"""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.solver.cage.guide_columns import land_columns, neighbour_columns, pocket_columns
+from lambda_core.solver.contact.raceway_columns import raceway_columns
+from lambda_core.solver.layout import BPSI, NB, helper
+from lambda_core.solver.motion.block_rows import ball_block, body_rows, force_map, shared_rows
+from lambda_core.solver.motion.elements import drag_force
+from lambda_core.solver.motion.prescribed import fill_shared
+from lambda_core.solver.motion.steps import add_slope, ball_step
+from lambda_core.solver.records import BALL
+from lambda_core.solver.vec import clear
+
+
+@helper
+def _drag_columns(ball, row, bundle, bl):
+    """Add the drag of a ball to its own block."""
+    fm, near = bl.wrenches, bl.ball.view(BALL)
+    clear(fm[0])
+    if drag_force(ball, row, bundle, fm[0]) < -0.5:
+        return 0
+    for c in range(2, NB):
+        if c in (3, 4):
+            continue
+        step = ball_step(c, True)
+        near[0] = ball
+        bl.ball[c] += step
+        clear(fm[2])
+        if drag_force(near[0], row, bundle, fm[2]) < -0.5:
+            return 0
+        add_slope(bl.own, c, fm[2], fm[0], step)
+    return 1
+
+
+@helper
+def _keep_part(bl, j):
+    """Keep what ball j adds to the slopes of the forces on the bodies."""
+    for b in range(bl.shared.shape[0]):
+        for i in range(6):
+            for c in range(bl.shared.shape[2]):
+                bl.parts[j, b, i, c] = bl.shared[b, i, c]
+
+
+@helper
+def _add_part(bl, j):
+    """Add what ball j adds to the slopes of the forces on the bodies."""
+    for b in range(bl.shared.shape[0]):
+        for i in range(6):
+            for c in range(bl.shared.shape[2]):
+                bl.shared[b, i, c] += bl.parts[j, b, i, c]
+
+
+@helper
+def _guide_columns(balls, j, row, bundle, bl):
+    """Add the pocket of ball j, or its contacts with the balls beside it."""
+    if row.caged == 1:
+        return pocket_columns(balls[j], j, row, bundle, bl)
+    first, z, i = row.first_ball, row.balls, j - row.first_ball
+    if neighbour_columns(balls[j], balls[first + (i + 1) % z], row, bundle, bl) != 1:
+        return 0
+    return neighbour_columns(balls[j], balls[first + (i + z - 1) % z], row, bundle, bl)
+
+
+@helper
+def _force_columns(balls, j, row, bundle, bl):
+    """Add the slopes of every force on ball j, and of what it does to the bodies; returns 1 when well."""
+    system, ball = bundle.system[0], balls[j]
+    if raceway_columns(ball, j, row, bundle, bl) != 1:
+        return 0
+    if system.friction_on == 1:
+        if system.guides_on == 1 and _guide_columns(balls, j, row, bundle, bl) != 1:
+            return 0
+        if row.drag_on == 1 and _drag_columns(ball, row, bundle, bl) != 1:
+            return 0
+    c, s = math.cos(ball.azimuth), math.sin(ball.azimuth)
+    gy, gz = row.ball_mass * system.gravity[1], row.ball_mass * system.gravity[2]
+    bl.own[1, BPSI] += -gy * s + gz * c
+    bl.own[2, BPSI] += -gy * c - gz * s
+    return 1
+
+
+@helper
+def _ball_blocks(balls, j, row, bundle, bl):
+    """Write the blocks A, B, C of ball j and its part of D; returns 1 when well."""
+    bl.shared[:, :, :] = 0.0
+    bl.own[:, :] = 0.0
+    bl.to_shared[:, :] = 0.0
+    bl.from_ball[:, :, :] = 0.0
+    if _force_columns(balls, j, row, bundle, bl) != 1:
+        return 0
+    ball_block(balls[j], row, bl, bl.a[j], bl.b[j])
+    for b in range(bundle.bodies.size):
+        force_map(bundle.bodies[b], bundle.bodies_now[b], bl.map)
+        body_rows(b, bl, bl.c[j])
+    _keep_part(bl, j)
+    return 1
+
+
+def jacobian(t, y, bundle, bl):
+    """Write the blocks of the balls marked in bl.due at (t, y); call right after `evaluate` at the same point.
+
+    All are marked unless the caller has taken marks away; afterwards all are again. Uses bundle.body_wrenches of that
+    evaluation for the bodies' own equations. Returns 1 when well.
+    """
+    system = bundle.system[0]
+    balls = y[: NB * system.balls].view(BALL)
+    fill_shared(t, y, bundle)
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            if bl.due[j] == 1 and _ball_blocks(balls, j, row, bundle, bl) != 1:
+                return 0
+    bl.shared[:, :, :] = 0.0
+    if system.guides_on == 1 and land_columns(bundle, bl) != 1:
+        return 0
+    for j in range(system.balls):
+        bl.due[j] = 1
+        _add_part(bl, j)
+    bl.d[:, :] = 0.0
+    for b in range(bundle.bodies.size):
+        if bundle.bodies[b].moves == 0:
+            continue
+        force_map(bundle.bodies[b], bundle.bodies_now[b], bl.map)
+        shared_rows(b, bundle, bl)
+    return 1

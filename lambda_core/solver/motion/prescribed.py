@@ -1,0 +1,100 @@
+"""Loads and motions over time: values with two derivatives, and the shared state they prescribe."""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.solver.layout import NB, helper
+from lambda_core.solver.records import CONSTANT, HARMONIC, PRESCRIBED, RAMP
+
+
+@helper
+def evaluate_signals(t, terms, table, signals):
+    """Write value, first and second derivative of every signal at time t [s]."""
+    for i in range(signals.size):
+        signal = signals[i]
+        signal.value, signal.rate, signal.acceleration = 0.0, 0.0, 0.0
+    for i in range(terms.size):
+        term = terms[i]
+        signal = signals[term.signal]
+        if term.kind == CONSTANT:
+            signal.value += term.value
+        elif term.kind == RAMP:
+            if t <= term.begin:
+                signal.value += term.before
+            elif t >= term.end:
+                signal.value += term.after
+            else:
+                slope = (term.after - term.before) / (term.end - term.begin)
+                signal.value += term.before + slope * (t - term.begin)
+                signal.rate += slope
+        elif term.kind == HARMONIC:
+            w = 2.0 * math.pi * term.frequency
+            s = term.amplitude * math.sin(w * t + term.phase)
+            c = term.amplitude * math.cos(w * t + term.phase)
+            signal.value += s
+            signal.rate += w * c
+            signal.acceleration -= w * w * s
+        else:
+            _spline(t, table, term.start, term.knots, signal)
+
+
+@helper
+def _spline(t, table, start, count, signal):
+    """Add a cubic spline: per interval t_0, then coefficients of 1, u, u^2, u^3, u = t - t_0.
+
+    The last row holds the end time and value; outside, the end values are held.
+    """
+    last = start + 5 * (count - 1)
+    if t <= table[start]:
+        signal.value += table[start + 1]
+        return
+    if t >= table[last]:
+        signal.value += table[last + 1]
+        return
+    low, high = 0, count - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if table[start + 5 * middle] <= t:
+            low = middle
+        else:
+            high = middle
+    i = start + 5 * low
+    u = t - table[i]
+    c0, c1, c2, c3 = table[i + 1], table[i + 2], table[i + 3], table[i + 4]
+    signal.value += c0 + u * (c1 + u * (c2 + u * c3))
+    signal.rate += c1 + u * (2.0 * c2 + 3.0 * u * c3)
+    signal.acceleration += 2.0 * c2 + 6.0 * u * c3
+
+
+@helper
+def _prescribe(body, inputs, now):
+    """Write what is prescribed of a body's state."""
+    for axis in range(3):
+        if body.mode[axis] == PRESCRIBED:
+            now.position[axis] = inputs.motion[axis].value
+            now.velocity[axis] = inputs.motion[axis].rate
+    # A small tilt (phi_y, phi_z) turns the axis to (1, phi_z, -phi_y).
+    if body.mode[3] == PRESCRIBED:
+        now.tilt[1] = -inputs.motion[3].value
+        now.tilt_velocity[0] = inputs.motion[3].rate
+    if body.mode[4] == PRESCRIBED:
+        now.tilt[0] = inputs.motion[4].value
+        now.tilt_velocity[1] = inputs.motion[4].rate
+    if body.mode[5] == PRESCRIBED:
+        now.spin = inputs.motion[5].value
+
+
+@helper
+def fill_shared(t, y, bundle):
+    """Write the whole shared state at time t: free entries from y, the others prescribed."""
+    shared = bundle.shared
+    evaluate_signals(t, bundle.terms, bundle.table, bundle.signals)
+    for i in range(shared.size):
+        shared[i] = 0.0
+    for b in range(bundle.bodies.size):
+        _prescribe(bundle.bodies[b], bundle.inputs[b], bundle.bodies_now[b])
+    active = bundle.active
+    base = NB * bundle.system[0].balls
+    for i in range(active.size):
+        shared[active[i]] = y[base + i]

@@ -1,0 +1,43 @@
+"""Differences that the Jacobian takes of cheap functions: their steps, and what they add to slopes of forces."""
+
+from __future__ import annotations
+
+from lambda_core.solver.layout import helper
+
+_POSITION = 1e-8  # [m]
+_ANGLE = 1e-7  # [rad]
+_LINEAR = 1e-2  # velocities enter the kinematics linearly
+_SLOW = 1e-5  # [m/s] step for laws that are called with the velocity itself
+_TURN = 1e-3  # [rad/s] likewise
+
+
+@helper
+def ball_step(c, direct):
+    """Return the difference step of ball state c; `direct` for laws called with velocities."""
+    if c < 2:
+        return _POSITION
+    if c == 2:
+        return _ANGLE
+    if not direct:
+        return _LINEAR
+    return _SLOW if c < 6 else _TURN
+
+
+@helper
+def body_step(c, direct):
+    """Return the difference step of shared state c."""
+    if c < 3:
+        return _POSITION
+    if c < 6:
+        return _ANGLE
+    if not direct:
+        return _LINEAR
+    return _SLOW if c < 9 else _TURN
+
+
+@helper
+def add_slope(slopes, column, changed, base, step):
+    """Add the difference of two wrenches over a step to one column of the slopes of a force and moment, (6, n)."""
+    for i in range(3):
+        slopes[i, column] += (changed.force[i] - base.force[i]) / step
+        slopes[3 + i, column] += (changed.moment[i] - base.moment[i]) / step

@@ -1,0 +1,278 @@
+"""Records that compiled code works on: the name, unit and frame of every number that is not a state in a vector.
+
+Frames: *inertial* x (shaft), y, z; *turning* x, r, t, which goes round with one ball's azimuth; *contact* t along
+rolling, s across, n from ball to raceway. All fields take eight bytes, so that a record of floats is also a vector.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+f8, i8 = np.float64, np.int64
+
+
+def record(*fields: tuple[Any, ...]) -> np.dtype[Any]:
+    """Return the type of a record whose fields are attributes, in compiled code and in Python."""
+    return np.dtype((np.record, np.dtype(list(fields), align=True)))
+
+
+def floats_of(kind: np.dtype[Any]) -> int:
+    """Return how many numbers of eight bytes a record has."""
+    return kind.itemsize // 8
+
+
+# ---- States. They lie in the state vector one after another; see layout.
+BALL = record(
+    ("x", f8),  # axial position of the centre [m]
+    ("radius", f8),  # distance of the centre from the x axis [m]
+    ("azimuth", f8),  # from +y towards +z [rad]
+    ("velocity", f8, (3,)),  # turning frame [m/s]
+    ("spin", f8, (3,)),  # angular velocity, turning frame [rad/s]
+)
+BODY_STATE = record(
+    ("position", f8, (3,)),  # of the centre, inertial [m]
+    ("tilt", f8, (2,)),  # y and z component of the unit vector of the body's axis [-]
+    ("angle", f8),  # about the axis, from the frame of least rotation [rad]
+    ("velocity", f8, (3,)),  # inertial [m/s]
+    ("tilt_velocity", f8, (2,)),  # y and z component of the angular velocity across the axis [rad/s]
+    ("spin", f8),  # angular speed about the axis [rad/s]
+)
+# Force and couple. On a ball: turning frame, about its centre. On a body: inertial, about its centre. Of a raceway
+# contact: contact frame, on the ball, about the contact's centre.
+WRENCH = record(("force", f8, (3,)), ("moment", f8, (3,)))  # [N, N m]
+
+# ---- Raceway contacts.
+# What the laws depend on, in the order of the columns of the tangent.
+DRIVERS = (
+    "penetration",  # [m]
+    "normal_velocity",  # of the ball into the raceway [m/s]
+    "slip_t",  # velocity of the ball's surface over the raceway's at the contact's centre [m/s]
+    "slip_s",
+    "rotation_t",  # angular velocity of the ball relative to the ring [rad/s]
+    "rotation_s",
+    "rotation_n",
+    "entrainment_t",  # mean velocity of both surfaces relative to the contact's centre [m/s]
+    "entrainment_s",
+)
+KINEMATICS = record(
+    *((name, f8) for name in DRIVERS),
+    ("t", f8, (3,)),  # axes of the contact frame in the turning frame [-]
+    ("s", f8, (3,)),
+    ("n", f8, (3,)),
+    ("reach", f8),  # from the ball's centre to the contact's [m]
+    ("arm", f8, (3,)),  # from the ring's centre to the contact's, turning frame [m]
+    ("axial", f8),  # ball's centre from the groove's, along the ring's axis [m]
+    ("radial", f8),  # and away from it [m]
+    ("cosine", f8),  # of the ball's azimuth
+    ("sine", f8),
+    ("lift", f8),  # height of the raceway's surface above the nominal groove [m]
+    ("rise_t", f8),  # its slopes with the place of the ball's centre along t and s [-]
+    ("rise_s", f8),
+)
+TANGENT = record(*((name, WRENCH) for name in DRIVERS))  # derivative of the wrench with each driver
+CONTACT = record(
+    ("load", f8),  # elastic [N]
+    ("semi_axis_a", f8),  # across rolling [m]
+    ("semi_axis_b", f8),  # along rolling [m]
+    ("max_pressure", f8),  # [Pa]
+    ("damping_force", f8),  # against approach [N]
+    ("film_central", f8),  # with heating and starvation [m]
+    ("film_minimum", f8),  # [m]
+    ("film_parameter", f8),  # Lambda [-]
+    ("asperity_share", f8),  # psi, of the load [-]
+    ("rolling_force", f8),  # hydrodynamic rolling resistance on each surface [N]
+    ("hysteresis_moment", f8),  # [N m]
+    ("entrainment", f8),  # speed [m/s]
+    ("film_temperature", f8),  # mean over the contact [K]
+    ("shear_change", f8),  # relative change of the mean shear stress in the last sweep [-]
+    ("film_isothermal", f8),  # central film without heating and starvation [m]
+    ("wet", i8),  # 1 once film and shear have been computed
+)
+CONTACT_SAMPLE = record(
+    *(
+        (name, f8)
+        for name in (
+            "load",
+            "contact_angle",
+            "max_pressure",
+            "semi_axis_a",
+            "semi_axis_b",
+            "film_central",
+            "film_minimum",
+            "film_parameter",
+            "asperity_share",
+            "film_temperature",
+            "slip",
+            "entrainment",
+            "spin_velocity",
+            "capacitance_hertz",
+            "capacitance",
+            "contact_loss",
+        )
+    )
+)  # the channels of that name of lambda_core.domain.channels
+
+# ---- Contacts of the cage, and of ball with ball: what a law sees of one, in the frame of pocket or land.
+GUIDE = record(
+    ("place", f8, (3,)),  # of what is guided, from the frame's origin [m]
+    ("velocity", f8, (3,)),  # [m/s]
+    ("rotation", f8, (3,)),  # relative angular velocity [rad/s]
+    ("axial", f8, (3,)),  # axes of the frame, inertial [-]
+    ("radial", f8, (3,)),
+    ("tangential", f8, (3,)),
+    ("origin", f8, (3,)),  # from the centre of the guiding body, inertial [m]
+)
+
+# ---- Constants.
+OIL = record(
+    ("temperature", f8),  # bulk [K]
+    ("viscosity", f8),  # [Pa s]
+    ("alpha_p", f8),  # pressure-viscosity coefficient [1/Pa]
+    ("beta", f8),  # temperature-viscosity coefficient [1/K]
+    ("conductivity", f8),  # [W/(m K)]
+    ("density", f8),  # [kg/m3]
+)
+SYSTEM = record(
+    ("balls", i8),  # of all rows
+    ("gravity", f8, (3,)),  # inertial [m/s2]
+    ("roll_floor", f8),  # width of the change of sign of rolling losses [m/s]
+    ("slip_floor", f8),  # smallest slip that directions are computed with [m/s]
+    ("surfaces", i8),  # 0: every raceway is nominal
+    ("friction_on", i8),  # 0: normal forces only (static equilibrium)
+    ("guides_on", i8),  # 0: no cage forces, nominal raceways (quasi-static equilibrium)
+)
+FREE, LOCKED, PRESCRIBED = range(3)
+BODY = record(
+    ("mass", f8),  # [kg]
+    ("transverse_inertia", f8),  # [kg m2]
+    ("polar_inertia", f8),  # [kg m2]
+    ("unbalance", f8),  # [kg m]
+    ("moves", i8),  # 0: the body is left out
+    ("is_cage", i8),  # 1: it stands still in the quasi-static equilibrium
+    ("mode", i8, (6,)),  # FREE, LOCKED, PRESCRIBED of x, y, z, tilt_y, tilt_z, spin
+    ("stiffness", f8, (6,)),  # of the support to ground [N/m, N m/rad]
+    ("damping", f8, (6,)),  # [N s/m, N m s/rad]
+)
+ROW = record(
+    ("first_ball", i8),
+    ("balls", i8),
+    ("first_raceway", i8),  # the raceways that every ball of the row touches
+    ("raceways", i8),
+    ("cage", i8),  # body
+    ("caged", i8),  # 0: the row has no cage, its balls touch each other
+    ("ball_radius", f8),  # [m]
+    ("ball_mass", f8),  # [kg]
+    ("ball_inertia", f8),  # [kg m2]
+    ("pocket_circle", f8),  # radius of the pockets' circle [m]
+    ("drag_on", i8),
+    ("oil", OIL),
+    ("pocket", i8, (2,)),  # where the parameters of its laws begin and end
+    ("drag", i8, (2,)),
+)
+# Laws of a raceway contact, in the order of the fields of layout.RacewayLaws.
+RACEWAY_ROLES = (
+    "normal_contact",
+    "damping",
+    "rheology",
+    "film_thickness",
+    "thermal_correction",
+    "contact_temperature",
+    "traction",
+    "rolling_resistance",
+    "elastic_hysteresis",
+    "asperity_load",
+    "boundary_friction",
+    "permittivity",
+    "capacitance",
+    "surface",
+    "supply",
+)
+RACEWAY = record(
+    ("number", i8),  # its row in the table of raceways
+    ("body", i8),  # that carries it
+    ("laws", i8),  # its place in Laws.raceways
+    ("side", f8),  # +1 where balls lie inside the raceway (outer ring), -1 where outside [-]
+    ("groove_circle", f8),  # radius of the circle of groove centres [m]
+    ("groove_radius", f8),  # [m]
+    ("ball_radius", f8),  # [m]
+    ("radius_x", f8),  # reduced, along rolling [m]
+    ("radius_y", f8),  # reduced, across rolling [m]
+    ("modulus", f8),  # E' of ball and ring [Pa]
+    ("radius_deformed", f8),  # of the common surface, across rolling [m]
+    ("roughness", f8),  # of both surfaces together [m]
+    ("axial_offset", f8),  # of the plane of the groove's circle from the body's centre [m]
+    ("surface_on", i8),  # 0: nominal
+    ("oil", OIL),
+    ("parameters", record(*((role, i8, (2,)) for role in RACEWAY_ROLES))),  # of each law: begin, end
+)
+LAND = record(
+    ("cage", i8),  # body
+    ("ring", i8),  # body that guides it
+    ("number", i8),  # of the pair of stations: its law in Laws.lands, its row in results
+    ("offset", f8),  # of the station from both bodies' centres, along the axis [m]
+    ("viscosity", f8),  # of the oil [Pa s]
+    ("parameters", i8, (2,)),
+)
+
+# ---- Loads and motions over time.
+SIGNAL = record(("value", f8), ("rate", f8), ("acceleration", f8))
+INPUTS = record(  # of one body
+    ("motion", SIGNAL, (6,)),  # prescribed: x, y, z, tilt_y, tilt_z [m, rad], spin [rad/s]
+    ("force", SIGNAL, (3,)),  # inertial [N]
+    ("moment", SIGNAL, (3,)),  # about the centre, inertial [N m]
+)
+CONSTANT, RAMP, HARMONIC, TABLE = range(4)
+TERM = record(  # what a signal is the sum of
+    ("signal", i8),  # 12 per body, in the order of INPUTS
+    ("kind", i8),
+    ("value", f8),  # CONSTANT
+    ("before", f8),  # RAMP: values and times
+    ("after", f8),
+    ("begin", f8),
+    ("end", f8),
+    ("amplitude", f8),  # HARMONIC
+    ("frequency", f8),  # [Hz]
+    ("phase", f8),  # [rad]
+    ("start", i8),  # TABLE: place of its first row in the table of knots
+    ("knots", i8),
+)
+
+# ---- Powers, and the running integrals of them: losses of the raceways by mechanism (layout.Losses), then these.
+RUNNING = record(
+    ("pocket", f8),  # losses [W]
+    ("land", f8),
+    ("drag", f8),
+    ("support", f8),
+    ("input", f8),  # power of everything external [W]
+    ("input_abs", f8),
+    ("drive", f8),  # power of what prescribes spins [W]
+    ("relative_speed", f8),  # of the first two bodies [rad/s]
+    ("position", f8, (3,)),  # of the first body [m]
+)
+TOTALS = record(
+    ("stored_energy", f8),  # [J]
+    ("capacitance", f8),  # of all balls [F]
+    ("torque", f8),  # that balances the contacts of the first body about its axis [N m]
+)
+
+# ---- What one evaluation leaves behind and the next one writes over.
+FAULT = record(
+    ("role", i8),  # of the law that refused, as in faults.ROLES; -1: none did
+    ("status", i8),  # that it returned
+    ("ball", i8),
+    ("place", i8),  # raceway, or land; -1: neither
+    ("inputs", f8, (4,)),
+)
+SCRATCH = record(
+    ("kinematics", KINEMATICS, (2,)),  # of the contact in hand, and of a neighbouring state
+    ("contact", CONTACT, (2,)),
+    ("wrench", WRENCH, (2,)),
+    ("on_ring", WRENCH),
+    ("guide", GUIDE),
+    ("at_rest", GUIDE),
+    ("out", f8, (64,)),  # results of scalar laws
+    ("surface", f8, (3,)),  # height of a raceway and its slopes
+    ("fault", FAULT),  # survives the call
+)

@@ -1,0 +1,204 @@
+"""What a sample shows beyond the state: contact channels, energies. Off the hot path."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lambda_core.solver.cage.guides import guide_force, land_state, pocket_apply, pocket_state
+from lambda_core.solver.contact.contact_kinematics import axis_x, contact_angle, contact_kinematics, surface_lift
+from lambda_core.solver.contact.electric import bulk_permittivity, contact_capacitance, gap_capacitance
+from lambda_core.solver.contact.losses import raceway_losses
+from lambda_core.solver.integrator.memory import evaluate_t
+from lambda_core.solver.layout import (
+    MECHANISMS,
+    NB,
+    array1,
+    array2,
+    array3,
+    array4,
+    bundle_t,
+    cells_of,
+    f8,
+    grid_of,
+    helper,
+    i8,
+    losses_of,
+    part,
+)
+from lambda_core.solver.motion.elements import add_contact, clear_forces
+from lambda_core.solver.motion.energy import stored_energy
+from lambda_core.solver.motion.prescribed import fill_shared
+from lambda_core.solver.records import BALL, CONTACT_SAMPLE, TOTALS
+from lambda_core.solver.vec import clear, combine_onto, dot, store
+
+# Contact channels, in this order along the last axis of `contacts`.
+CONTACT_CHANNELS: tuple[str, ...] = CONTACT_SAMPLE.names or ()
+_TOTALS = len(TOTALS.names or ())
+observe_sig = i8(array1, array2, bundle_t, evaluate_t, f8, array4, array3, array3, array2, array2, array2, array1)
+
+
+@helper
+def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
+    """Write the channels of one contact; zeros and the gap's capacitance when it is open.
+
+    Adds its forces to those of ball and ring and its losses to `rates`, as the right-hand side does.
+    """
+    scratch, system = bundle.scratch[0], bundle.system[0]
+    laws = bundle.laws.raceways[raceway.laws]
+    ring, kin, contact = bundle.bodies_now[raceway.body], scratch.kinematics[0], scratch.contact[0]
+    values[:] = 0.0
+    sample = values.view(CONTACT_SAMPLE)[0]
+    if system.surfaces == 1:
+        surface_lift(ball, ring, raceway, bundle, kin)
+    delta = contact_kinematics(ball, ring, raceway, kin)
+    if not delta < np.inf:
+        return 0
+    sample.contact_angle = contact_angle(kin, raceway)
+    sample.film_temperature = raceway.oil.temperature
+    if delta <= 0.0:
+        sample.capacitance = bulk_permittivity(raceway, laws, bundle) * gap_capacitance(raceway, -delta)
+        return 1
+    ok = bundle.wrench(
+        raceway, kin, laws, bundle.par, system, bundle.grid, bundle.cells[0], scratch, contact, scratch.wrench[0]
+    )
+    if ok != 1:
+        return 0
+    sample.load = contact.load + contact.damping_force
+    sample.max_pressure = contact.max_pressure
+    sample.semi_axis_a, sample.semi_axis_b = contact.semi_axis_a, contact.semi_axis_b
+    sample.film_central, sample.film_minimum = contact.film_central, contact.film_minimum
+    sample.film_parameter, sample.asperity_share = contact.film_parameter, contact.asperity_share
+    sample.film_temperature = contact.film_temperature
+    sample.slip, sample.entrainment, sample.spin_velocity = kin.slip_t, kin.entrainment_t, kin.rotation_n
+    add_contact(raceway, j, bundle)
+    losses[:] = 0.0
+    named, cells = losses_of(losses, bundle.raceways.size), cells_of(bundle.cells[0])
+    raceway_losses(raceway, kin, system, grid_of(bundle.grid), contact, cells, named)
+    for i in range(MECHANISMS * bundle.raceways.size):
+        sample.contact_loss += losses[i]
+        rates[i] += losses[i]
+    return contact_capacitance(raceway, kin, laws, bundle, shorted, sample)
+
+
+@helper
+def _pocket_forces(balls, row, bundle, pockets):
+    """Write the forces of the pockets of a row on its balls."""
+    scratch, cage, on_cage = bundle.scratch[0], bundle.bodies_now[row.cage], bundle.body_wrenches[row.cage]
+    g, out, law, par = scratch.guide, scratch.out[:], bundle.laws.pocket, part(bundle.par, row.pocket)
+    for j in range(row.first_ball, row.first_ball + row.balls):
+        pocket_state(balls[j], cage, j, row, g)
+        if guide_force(law, par, g, row.oil.viscosity, out, scratch.fault, -1) != 1:
+            return 0
+        on_ball = bundle.ball_wrenches[j]
+        clear(on_ball)
+        pocket_apply(balls[j], cage, g, out, on_ball, on_cage)
+        store(pockets[j], on_ball.force)
+    return 1
+
+
+@helper
+def _land_forces(bundle, forces):
+    """Add the forces of the lands on their cages."""
+    scratch = bundle.scratch[0]
+    g, out = scratch.guide, scratch.out[:]
+    for i in range(bundle.lands.size):
+        land = bundle.lands[i]
+        law, par = bundle.laws.lands[land.number], part(bundle.par, land.parameters)
+        land_state(bundle.bodies_now[land.cage], bundle.bodies_now[land.ring], land.offset, g)
+        if guide_force(law, par, g, land.viscosity, out, scratch.fault, land.number) != 1:
+            return 0
+        force = forces[land.number]
+        store(force, combine_onto(force, (out[0], out[1], out[2]), g.axial, g.radial, g.tangential))
+    return 1
+
+
+@helper
+def _contact_channels(balls, row, bundle, shorted, contacts, losses, rates):
+    """Write the channels of the raceway contacts of a row; returns the capacitance of its balls, or -1."""
+    total = 0.0
+    for j in range(row.first_ball, row.first_ball + row.balls):
+        series = 0.0
+        for k in range(row.raceways):
+            raceway, values = bundle.raceways[row.first_raceway + k], contacts[j, k]
+            if _raceway_channels(balls[j], j, raceway, bundle, shorted, values, losses, rates) != 1:
+                bundle.scratch[0].fault.ball = j
+                return -1.0
+            found = values.view(CONTACT_SAMPLE)[0].capacitance
+            series += 1.0 / found if found > 0.0 else np.inf
+        total += 1.0 / series
+    return total
+
+
+@helper
+def _observe_one(t, y, bundle, shorted, contacts, pockets, lands, extra, rates):
+    """Write what one sample shows; see observe."""
+    system, totals = bundle.system[0], extra[:_TOTALS].view(TOTALS)[0]
+    balls, losses = y[: NB * system.balls].view(BALL), extra[_TOTALS : _TOTALS + MECHANISMS * bundle.raceways.size]
+    bundle.scratch[0].fault.role = -1
+    totals.stored_energy = stored_energy(t, y, bundle)
+    fill_shared(t, y, bundle)
+    pockets[:, :] = 0.0
+    lands[:, :] = 0.0
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        if row.caged == 1 and _pocket_forces(balls, row, bundle, pockets) != 1:
+            return 0
+    if _land_forces(bundle, lands) != 1:
+        return 0
+    clear_forces(bundle)
+    rates[:] = 0.0
+    totals.capacitance = 0.0
+    for r in range(bundle.rows.size):
+        found = _contact_channels(balls, bundle.rows[r], bundle, shorted, contacts, losses, rates)
+        if found < 0.0:
+            return 0
+        totals.capacitance += found
+    return 1
+
+
+def observe(times, states, bundle, evaluate, shorted, contacts, pockets, lands, extra, shared, rates, dydt):
+    """Write what samples show; an entry point.
+
+    Parameters
+    ----------
+    times : float64[:], shape (n,)
+    states : float64[:, :], shape (at least n, 9 Z + n_active)
+    evaluate : pointer
+        The right-hand side.
+    shorted : float
+        Asperity share above which a contact counts as touching metal; below zero the stored energy alone is written.
+    contacts : float64[:, :, :, :], shape (n, Z, 2, 16)
+        CONTACT_CHANNELS, records.CONTACT_SAMPLE.
+    pockets : float64[:, :, :], shape (n, Z, 3)
+        Force of the cage on each ball, axes x, r, t [N].
+    lands : float64[:, :, :], shape (n, 2, 3)
+        Force of each ring's land on the cage, inertial [N].
+    extra : float64[:, :], shape (n, NI + 2)
+        A records.TOTALS; the rest is a workspace.
+    shared : float64[:, :], shape (n, 12 bodies)
+        The whole shared state.
+    rates : float64[:, :], shape (n, NI)
+        Losses [W] and the rates of the other running integrals.
+    dydt : float64[:], shape (9 Z + n_active,)
+        Workspace.
+
+    Returns
+    -------
+    int
+        1 when every kernel was well; otherwise 0 and scratch.fault says which was not.
+    """
+    for i in range(times.size):
+        y = states[i]
+        totals = extra[i, :_TOTALS].view(TOTALS)[0]
+        if shorted < 0.0:
+            totals.stored_energy = stored_energy(times[i], y, bundle)
+            continue
+        if _observe_one(times[i], y, bundle, shorted, contacts[i], pockets[i], lands[i], extra[i], rates[i]) != 1:
+            return 0
+        if evaluate(times[i], y, bundle, dydt, rates[i], 2) != 1:
+            return 0
+        for k in range(bundle.shared.size):
+            shared[i, k] = bundle.shared[k]
+        ay, az = bundle.bodies_now[0].tilt[0], bundle.bodies_now[0].tilt[1]
+        totals.torque = -dot(bundle.body_wrenches[0].moment, (axis_x(ay, az), ay, az))
+    return 1

@@ -1,0 +1,20 @@
+"""Which source files make results: they name compiled code on disk, and tell whether other code continues a run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_SOLVER = Path(__file__).parent
+_DRIVERS = "drivers"  # Python around the compiled code: what it does is in no machine code
+
+
+def compiled_sources() -> tuple[Path, ...]:
+    """Return the files and folders whose Python is compiled."""
+    return tuple(
+        path for path in sorted(_SOLVER.iterdir()) if path.name != _DRIVERS and (path.suffix == ".py" or path.is_dir())
+    )
+
+
+def physics_sources() -> tuple[Path, ...]:
+    """Return the folders that lead from a case to forces and motion."""
+    return tuple(_SOLVER.parent / room for room in ("domain", "system", "solver"))

@@ -1,0 +1,1 @@
+"""Quasi-static equilibrium by pseudo-transient continuation. Compiled."""

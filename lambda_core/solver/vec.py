@@ -1,0 +1,140 @@
+"""Vectors of three components, as tuples: they live in registers and cost what their components cost."""
+
+# Numba infers the types of compiled functions.
+from __future__ import annotations
+
+import math
+
+from lambda_core.solver.layout import helper
+
+
+@helper
+def add(a, b):
+    """Return a + b."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+@helper
+def subtract(a, b):
+    """Return a - b."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@helper
+def negative(a):
+    """Return -a."""
+    return -a[0], -a[1], -a[2]
+
+
+@helper
+def scale(k, a):
+    """Return k a."""
+    return k * a[0], k * a[1], k * a[2]
+
+
+@helper
+def dot(a, b):
+    """Return a . b."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@helper
+def dot_onto(start, a, b):
+    """Return start + a . b, summed from the left."""
+    return start + a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@helper
+def cross(a, b):
+    """Return a x b."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+@helper
+def point_velocity(v, w, arm):
+    """Return v + w x arm, the velocity of a point of a body."""
+    return (
+        v[0] + w[1] * arm[2] - w[2] * arm[1],
+        v[1] + w[2] * arm[0] - w[0] * arm[2],
+        v[2] + w[0] * arm[1] - w[1] * arm[0],
+    )
+
+
+@helper
+def combine(k, a, b, c):
+    """Return the vector with components k along the axes a, b, c."""
+    return (
+        k[0] * a[0] + k[1] * b[0] + k[2] * c[0],
+        k[0] * a[1] + k[1] * b[1] + k[2] * c[1],
+        k[0] * a[2] + k[1] * b[2] + k[2] * c[2],
+    )
+
+
+@helper
+def combine_onto(start, k, a, b, c):
+    """Return start plus the vector with components k along the axes a, b, c, summed from the left."""
+    return (
+        start[0] + k[0] * a[0] + k[1] * b[0] + k[2] * c[0],
+        start[1] + k[0] * a[1] + k[1] * b[1] + k[2] * c[1],
+        start[2] + k[0] * a[2] + k[1] * b[2] + k[2] * c[2],
+    )
+
+
+@helper
+def components(v, a, b, c):
+    """Return the components of v along the axes a, b, c."""
+    return dot(v, a), dot(v, b), dot(v, c)
+
+
+@helper
+def turning(v, c, s):
+    """Return the components x, r, t at the azimuth of cosine c and sine s of an inertial vector."""
+    return v[0], v[1] * c + v[2] * s, -v[1] * s + v[2] * c
+
+
+@helper
+def inertial(v, c, s):
+    """Return the components x, y, z of a vector given in the turning frame."""
+    return v[0], v[1] * c - v[2] * s, v[1] * s + v[2] * c
+
+
+@helper
+def store(target, v):
+    """Write a vector into an array."""
+    target[0], target[1], target[2] = v[0], v[1], v[2]
+
+
+@helper
+def increase(target, v):
+    """Add a vector to an array."""
+    target[0] += v[0]
+    target[1] += v[1]
+    target[2] += v[2]
+
+
+@helper
+def decrease(target, v):
+    """Subtract a vector from an array."""
+    target[0] -= v[0]
+    target[1] -= v[1]
+    target[2] -= v[2]
+
+
+@helper
+def clear(wrench):
+    """Set a wrench to zero."""
+    store(wrench.force, (0.0, 0.0, 0.0))
+    store(wrench.moment, (0.0, 0.0, 0.0))
+
+
+@helper
+def clear_each(wrenches):
+    """Set every wrench of a table to zero."""
+    for i in range(wrenches.size):
+        clear(wrenches[i])
+
+
+@helper
+def length(a):
+    """Return |a|."""
+    return math.sqrt(dot(a, a))

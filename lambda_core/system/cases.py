@@ -1,0 +1,187 @@
+"""Cases: reading, editing, checking and writing what an engineer says about a bearing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.errors import UsageError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from lambda_core.case.case import Case
+    from lambda_core.case.draft import Draft
+    from lambda_core.catalogue.protocol import Catalogue
+
+
+def case(source: str | Path, overrides: Iterable[str] = ()) -> Case:
+    """Read a case from a TOML file or by the name of a built-in one.
+
+    Parameters
+    ----------
+    source : str or Path
+        File, or built-in name such as "6319-cp10-1500".
+    overrides : iterable of str
+        Changes ``path=value``, as ``--set`` takes them.
+
+    Returns
+    -------
+    Case
+        Values in SI; what the file leaves open has its default.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file or name, or an override has no ``=``.
+    CaseError
+        With every problem of the case.
+    """
+    from lambda_core.case.case_io import apply_overrides, load_case
+
+    loaded, changes = load_case(source), list(overrides)
+    return apply_overrides(loaded, changes) if changes else loaded
+
+
+def builtin_cases() -> dict[str, str]:
+    """Return the names of the built-in cases and what each is.
+
+    Returns
+    -------
+    dict of str to str
+    """
+    from lambda_core.case.builtin import builtin_cases
+
+    return builtin_cases()
+
+
+def save(case: Case, path: str | Path) -> None:
+    """Write a case as TOML; comments of the file that stands there are kept.
+
+    Parameters
+    ----------
+    case : Case
+        What to write: options at their default are left out.
+    path : path-like
+        The file.
+
+    Raises
+    ------
+    UsageError
+        When the file cannot be written; what stood there is untouched.
+    """
+    from lambda_core.case.case_writer import save_case
+
+    save_case(case, path)
+
+
+def init_case(
+    name: str,
+    start: str | None = None,
+    path: str | Path | None = None,
+    overwrite: bool = False,
+    *,
+    bearing: str | None = None,
+) -> Path:
+    """Write a commented case called `name` that starts from another, or from a bearing of the catalogue.
+
+    Parameters
+    ----------
+    name : str
+        Letters, digits, dot, dash and underscore.
+    start : str, optional
+        Built-in case or case file to start from; default: 6319-cp10-1500.
+    path : path-like, optional
+        Default: NAME.toml in the working directory.
+    overwrite : bool
+        Replace a file that stands there.
+    bearing : str, optional
+        Instead of `start`: a bearing of the catalogue, "6319", "SKF 6208" or "SKF 6208-2RS1/C3".
+
+    Returns
+    -------
+    pathlib.Path
+        The file.
+
+    Raises
+    ------
+    UsageError
+        When the file exists, cannot be written, there is no such case to start from, or both a case and a
+        bearing are given.
+    CatalogueError
+        When the bearing is unknown, or several makers have one of that name.
+    CaseError
+        When `name` cannot be a case's name.
+    """
+    from contextlib import closing
+
+    from lambda_core.case.case_writer import new_case, write_new
+
+    target = Path(path) if path is not None else Path(f"{name}.toml")
+    if bearing is None:
+        return new_case(name, start or "6319-cp10-1500", target, overwrite)
+    if start is not None:
+        raise UsageError("a new case starts from a case or from a bearing, not from both")
+    from lambda_core.case.case_io import parse_case
+    from lambda_core.catalogue.designation import designated
+    from lambda_core.system.fresh_case import fresh_case
+
+    with closing(catalogue()) as opened:
+        text = fresh_case(name, *designated(opened, bearing))
+    return write_new(parse_case(text, f"case {name}"), text, target, overwrite)
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON schema of a case file.
+
+    Returns
+    -------
+    dict
+        JSON Schema, draft 2020-12.
+    """
+    from lambda_core.case.case_io import case_json_schema
+
+    return case_json_schema()
+
+
+def draft(source: str | Path | None = None) -> Draft:
+    """Open a case for editing: a file, a copy of a built-in case, or one that says nothing yet.
+
+    Parameters
+    ----------
+    source : str or Path, optional
+        File or built-in name; None for an empty draft.
+
+    Returns
+    -------
+    Draft
+        Plain tables that may be wrong, with undo.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file or built-in case.
+    CaseError
+        When the file is not TOML; any other mistake may stand in a draft.
+    """
+    from lambda_core.case.draft import new_draft, open_draft
+
+    return new_draft() if source is None else open_draft(source)
+
+
+def catalogue() -> Catalogue:
+    """Open the catalogue of bearings, lubricants, materials and cages.
+
+    Returns
+    -------
+    Catalogue
+        The caller closes it.
+
+    Raises
+    ------
+    PluginError
+        When no installed plugin provides one.
+    """
+    from lambda_core.discovery.manager import registry
+
+    return registry().catalogue()

@@ -1,0 +1,154 @@
+"""From a case to the model of a run: checking, resolving and describing it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.errors import CaseError, Problem, UsageError
+from lambda_core.system.cases import case
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from lambda_core.case.case import Case
+    from lambda_core.catalogue.protocol import Catalogue
+    from lambda_core.system.bearing import BearingModel
+    from lambda_core.system.describe import CaseReport
+
+
+def check(
+    source: str | Path | Mapping[str, Any] | Case,
+    overrides: Iterable[str] = (),
+    *,
+    folder: Path | None = None,
+    catalogue: Catalogue | None = None,
+) -> BearingModel:
+    """Read and resolve a case without running it.
+
+    Parameters
+    ----------
+    source : str, Path, mapping or Case
+        File, built-in name, plain tables as they stand in a file, or a case.
+    overrides : iterable of str
+        Changes ``path=value``.
+    folder : pathlib.Path, optional
+        Where file names in plain tables are looked up; default: the working directory.
+    catalogue : Catalogue, optional
+        An open catalogue to look things up in; default: one is opened for this call.
+
+    Returns
+    -------
+    BearingModel
+        With its assumptions and the origin of every value.
+
+    Raises
+    ------
+    CaseError
+        With every mistake at once: those of the file itself and those that only the catalogue, the
+        registry and the geometry can show.
+    """
+    from collections.abc import Mapping
+
+    from lambda_core.case.case import Case
+    from lambda_core.case.case_io import apply_overrides, validate_case
+    from lambda_core.case.salvage import InvalidCase
+
+    changes = list(overrides)
+    try:
+        if isinstance(source, Mapping):
+            loaded = validate_case(source, str(source.get("name", "case")), folder)
+        else:
+            loaded = source if isinstance(source, Case) else case(source)
+        return resolve(apply_overrides(loaded, changes) if changes else loaded, catalogue)
+    except InvalidCase as error:
+        if error.remainder is None:
+            raise
+        try:
+            resolve(error.remainder, catalogue)
+        except CaseError as more:
+            raise error.joined(more.problems) from None
+        raise
+
+
+def resolve(case: Case, catalogue: Catalogue | None = None) -> BearingModel:
+    """Freeze a case into the model of a run: every value in SI with its origin.
+
+    Parameters
+    ----------
+    case : Case
+        What the engineer wrote.
+    catalogue : Catalogue, optional
+        An open catalogue to look things up in; default: one is opened for this call.
+
+    Returns
+    -------
+    BearingModel
+        Immutable: values, laws, assumptions.
+
+    Raises
+    ------
+    CaseError
+        With everything that is unknown, missing, contradictory or impossible.
+    """
+    from contextlib import closing
+
+    from lambda_core.discovery.manager import registry
+    from lambda_core.system.resolve import resolve as freeze
+
+    models = registry()
+    if catalogue is not None:
+        return freeze(case, models, catalogue)
+    with closing(models.catalogue()) as opened:
+        return freeze(case, models, opened)
+
+
+def problems(source: Mapping[str, Any] | Case) -> tuple[Problem, ...]:
+    """Return every mistake of a case or of plain tables; for forms that check while one types.
+
+    Parameters
+    ----------
+    source : mapping or Case
+        Plain tables as they stand in a file, or a case.
+
+    Returns
+    -------
+    tuple of Problem
+        Place and sentence of each; empty when the case is fine.
+    """
+    try:
+        check(source)
+    except CaseError as error:
+        return error.problems
+    return ()
+
+
+def describe(model: BearingModel) -> CaseReport:
+    """Say what a resolved model is: headline, bodies, models, assumptions, every value with its origin.
+
+    Parameters
+    ----------
+    model : BearingModel
+        From :func:`check` or :func:`resolve`.
+
+    Returns
+    -------
+    CaseReport
+        ``text()`` are the lines for people.
+    """
+    from lambda_core.system.describe import describe as report
+
+    return report(model)
+
+
+def model_of(
+    source: str | Path | Mapping[str, Any] | Case | BearingModel, overrides: Iterable[str] = ()
+) -> BearingModel:
+    """Return the resolved model of whatever a function of this package takes as a case."""
+    from lambda_core.system.bearing import BearingModel
+
+    if not isinstance(source, BearingModel):
+        return check(source, overrides)
+    if list(overrides):
+        raise UsageError("a resolved model takes no overrides: change the case and resolve it")
+    return source

@@ -1,0 +1,194 @@
+"""Where a case leaves what the bearing, its oil or the laws are made for, told before anything is solved.
+
+Every sentence here follows from the resolved case alone; what needs a solution (pressures, shoulders, tilt) is told by
+:mod:`lambda_core.results.limits`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from lambda_core.domain.life import dynamic_equivalent_load, static_equivalent_load
+from lambda_core.domain.ratings import dynamic_rating, static_factor, static_rating
+from lambda_core.domain.units import show
+from lambda_core.laws.par import flat_kernel
+from lambda_core.system.bearing import BearingModel, Body
+from lambda_core.system.time_functions import peak
+
+# What laws of viscosity were fitted to, at the most: oils are measured from 0 to 120 degC, charts go a little further.
+OIL_TEMPERATURES = (-40.0, 200.0)  # [degC]
+_ZERO_CELSIUS = 273.15
+# "2 to 10 minutes of arc" for single deep-groove ball bearings: SKF, Rolling bearings, PUB BU/P1 17000 EN (2018).
+PERMISSIBLE_TILT = math.radians(10.0 / 60.0)  # [rad]
+# "minimum loads corresponding to 0,01 C should be imposed on ball bearings": SKF, the same, requisite minimum load.
+MINIMUM_LOAD = 0.01  # over the dynamic rating
+# ISO 281:2007, 5.1: the life equations hold up to P = 0.5 C.
+LARGEST_LIFE_LOAD = 0.5  # over the dynamic rating
+# Raceways and balls are ground and honed to 0.01 to 0.1 um, worn ones reach a few tenths (Harris and Kotzalas, Advanced
+# Concepts of Bearing Technology, 5th ed., table 5.1); ten times that is no rolling surface.
+ROUGHEST = 1e-6  # composite rms roughness [m]
+# Factors of inlet heating are corrections to an isothermal film: below one half they are the larger part of the answer.
+SMALLEST_HEATING_FACTOR = 0.5
+
+
+def operating_warnings(model: BearingModel) -> list[str]:
+    """Return a sentence for everything in a case that lies beyond what bearing, oil and laws are made for.
+
+    Parameters
+    ----------
+    model : BearingModel
+        Any resolved case; nothing is solved.
+
+    Returns
+    -------
+    list of str
+        Empty where nothing is beyond a limit; the limits and their sources stand at the head of this module.
+    """
+    return [*_speed(model), *_load(model), *_tilt(model), *_oil(model), *_heating(model), *_surface(model)]
+
+
+def tilt_warning(tilt: float, what: str = "the inner ring tilts by") -> list[str]:
+    """Return a sentence where the angle between the rings [rad] is above what deep-groove ball bearings take."""
+    if tilt <= PERMISSIBLE_TILT:
+        return []
+    limit = f"{1e3 * PERMISSIBLE_TILT:.2g} mrad (10 minutes of arc)"
+    return [
+        f"{what} {1e3 * tilt:.2g} mrad: deep-groove ball bearings take up to {limit}; a shaft on two bearings hardly "
+        "tilts like this (bodies.inner_ring.tilt_y and tilt_z: free, locked, or with a stiffness)"
+    ]
+
+
+def _known(model: BearingModel, path: str) -> float | None:
+    return next((v.value for v in model.values if v.path == path and isinstance(v.value, float)), None)
+
+
+def _relative_speed(model: BearingModel) -> float:
+    """Return an upper bound of the rings' relative speed [rad/s]; where both turn, they may turn against each other."""
+    return peak(model.inner_ring.dofs["spin"].motion) + peak(model.outer_ring.dofs["spin"].motion)
+
+
+def _speed(model: BearingModel) -> Iterator[str]:
+    limit, speed = _known(model, "bearing.limiting_speed"), _relative_speed(model)
+    if limit is not None and speed > limit:
+        rpm, most = (f"{value * 30.0 / math.pi:.0f} rpm" for value in (speed, limit))
+        yield f"{rpm} is above the limiting speed of the bearing in the catalogue, {most}"
+
+
+def applied_load(model: BearingModel) -> tuple[float, float] | None:
+    """Return the largest radial and axial load on the inner ring [N]; None where motion decides them.
+
+    The weight of inner ring and shaft counts, as far as gravity is across or along the axis.
+    """
+    inner, outer = model.inner_ring, model.outer_ring
+    held = any(_mode(outer, dof) != "locked" for dof in "xyz")
+    if held or any(_mode(inner, dof) == "prescribed" for dof in "xyz"):
+        return None
+    x, y, z = (peak(force) + inner.mass * abs(g) for force, g in zip(inner.force, model.gravity, strict=True))
+    return math.hypot(y, z), x
+
+
+def _mode(body: Body, dof: str) -> str:
+    return body.dofs[dof].mode
+
+
+def _ratings(model: BearingModel) -> tuple[float, float]:
+    """Return C and C_0 [N]: the catalogue's, or from the geometry (ISO 281, ISO 76)."""
+    g = model.geometry
+    size = (g.ball_count, g.ball_diameter, g.pitch_diameter)
+    dynamic, static = _known(model, "bearing.dynamic_rating"), _known(model, "bearing.static_rating")
+    return dynamic or dynamic_rating(*size), static or static_rating(*size)
+
+
+def _load(model: BearingModel) -> Iterator[str]:
+    loads = applied_load(model)
+    if loads is None:
+        return
+    radial, axial = loads
+    dynamic, static = _ratings(model)
+    factor = static_factor(model.geometry.ball_diameter / model.geometry.pitch_diameter)
+    equivalent = dynamic_equivalent_load(radial, axial, static, factor).load
+    resting = static_equivalent_load(radial, axial)
+    turns = _relative_speed(model) > 0.0
+    if turns and equivalent < MINIMUM_LOAD * dynamic:
+        yield (
+            f"the load P = {_force(equivalent)} is below the minimum load of ball bearings, {MINIMUM_LOAD:g} C = "
+            f"{_force(MINIMUM_LOAD * dynamic)}: balls may skid"
+        )
+    if resting > static:
+        yield (
+            f"the static load P0 = {_force(resting)} is above the static load rating C0 = {_force(static)}: the balls "
+            "leave dents (ISO 76)"
+        )
+    if turns and equivalent > LARGEST_LIFE_LOAD * dynamic:
+        yield f"the load P = {_force(equivalent)} is above C/2 = {_force(0.5 * dynamic)}: ISO 281 gives no life there"
+
+
+def _force(newton: float) -> str:
+    return show(newton, "force", 3)
+
+
+def _tilt(model: BearingModel) -> list[str]:
+    """Judge tilts that the case prescribes; those that follow from the loads are known after solving."""
+    states = [body.dofs[dof] for body in (model.inner_ring, model.outer_ring) for dof in ("tilt_y", "tilt_z")]
+    prescribed = [peak(state.motion) if state.mode == "prescribed" else 0.0 for state in states]
+    about_y, about_z = prescribed[0] + prescribed[2], prescribed[1] + prescribed[3]
+    return tilt_warning(math.hypot(about_y, about_z), "the case tilts the rings against each other by")
+
+
+def _oil(model: BearingModel) -> Iterator[str]:
+    celsius = model.oil.temperature - _ZERO_CELSIUS
+    low, high = OIL_TEMPERATURES
+    if not low <= celsius <= high:
+        yield f"the oil at {celsius:.6g} degC is outside {low:g} to {high:g} degC, where laws of viscosity hold at best"
+
+
+def _surface(model: BearingModel) -> Iterator[str]:
+    if model.roughness > ROUGHEST:
+        sigma, most = show(model.roughness, "small_length", 3), show(ROUGHEST, "small_length", 3)
+        yield f"the roughness sigma = {sigma} is above {most}: no ground raceway is that rough"
+
+
+def _heating(model: BearingModel) -> Iterator[str]:
+    found = heating_factor(model)
+    if found is not None and found < SMALLEST_HEATING_FACTOR:
+        law = model.laws["ball_inner"]["thermal_correction"].model.name
+        yield (
+            f"the oil is so thick at this speed that heating in the inlet leaves {found:.2g} of the film (law {law}), "
+            f"below {SMALLEST_HEATING_FACTOR:g}: the law is extrapolated there, friction may fall where colder oil "
+            "should raise it"
+        )
+
+
+def heating_factor(model: BearingModel) -> float | None:
+    """Return the factor of inlet heating on the film at the inner ring, None where the laws give none.
+
+    The chosen law is asked at epicyclic rolling, u = D_w/4 (d_m/D_w) (1 - gamma^2) |Omega_i - Omega_o| with
+    gamma = D_w/d_m (the mean of both surfaces where they roll without slip; Harris and Kotzalas, Rolling Bearing
+    Analysis, 5th ed., ch. 10), without slip, and at the pressure of Stribeck's largest ball load 5 P_0/Z.
+    """
+    from lambda_core.domain.hertz import hertz_contact
+    from lambda_core.system.law_context import ContactFrame, build_context, prepare
+
+    law, rheology = (model.laws["ball_inner"][role] for role in ("thermal_correction", "rheology"))
+    speed = _relative_speed(model)
+    if speed == 0.0 or law.model.name == "none":
+        return None
+    context = build_context(model, "ball_inner", ContactFrame((0.0, 0.0), (0.0, 0.0)), model.oil)
+    temperatures = model.oil.temperature + np.array([0.0, -0.5, 0.5])
+    ln_eta, rho = np.full(3, np.nan), np.full(3, np.nan)
+    out = np.full(1, np.nan)
+    g = model.geometry
+    rolling = 0.25 * g.pitch_diameter * (1.0 - (g.ball_diameter / g.pitch_diameter) ** 2) * speed
+    load = 5.0 * static_equivalent_load(*(applied_load(model) or (0.0, 0.0))) / g.ball_count
+    pressure = hertz_contact(load, context.radius_x, context.radius_y, context.e_eff).p_max
+    try:
+        flat_kernel(rheology.model)(np.zeros(3), temperatures, prepare(rheology, context), ln_eta, rho)
+        beta, viscosity = float(ln_eta[1] - ln_eta[2]), math.exp(float(ln_eta[0]))
+        conductivity, par = model.oil.thermal_conductivity, prepare(law, context)
+        flat_kernel(law.model)(rolling, 0.0, pressure, context.e_eff, viscosity, beta, conductivity, par, out)
+    except (ArithmeticError, ValueError):
+        return None  # a law that does not reach this far says so where it is solved
+    return float(out[0]) if math.isfinite(out[0]) else None

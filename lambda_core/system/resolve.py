@@ -1,0 +1,289 @@
+"""From a case to a bearing model: every value looked up, frozen in SI, with its origin.
+
+What the case leaves open is filled from the catalogue or by a stated assumption; what is
+missing, unknown, contradictory or impossible is collected and raised at once.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import BaseModel
+
+from lambda_core.case.case import Case
+from lambda_core.case.case_writer import standalone_toml
+from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue
+from lambda_core.domain.elements import DOFS
+from lambda_core.domain.units import show
+from lambda_core.laws.context import Material
+from lambda_core.laws.jit.reach import reach
+from lambda_core.laws.law import Law
+from lambda_core.system.bearing import BearingModel, ChosenLaw, Depth, Geometry, Marker, Output, Solver
+from lambda_core.system.ledger import Ledger
+from lambda_core.system.resolve_bodies import (
+    Inertia,
+    check_bodies,
+    resolve_body,
+    resolve_cage,
+    resolve_inertia,
+    ring_inertia,
+    shaft_inertia,
+)
+from lambda_core.system.resolve_clearance import clearance_in_operation, resolve_mounting
+from lambda_core.system.resolve_designation import resolve_designation
+from lambda_core.system.resolve_geometry import check_clearance, resolve_geometry, with_clearance
+from lambda_core.system.resolve_laws import LawResolver, ModelSource
+from lambda_core.system.resolve_materials import resolve_lubricant, resolve_material
+from lambda_core.system.resolve_thermal import check_thermal
+from lambda_core.system.time_functions import highest_frequency, peak, time_function
+
+# A run that has not converged after this many turns of the cage has something to say.
+LONGEST_RUN = 30.0  # [cage turns]
+MOST_TIME = 1e6  # [s] simulated; at a tenth of a millisecond per step that is a month of computing
+MOST_STEPS, MOST_SAMPLES = 1e9, 1e7  # of one run: half a day of computing, some ten gigabytes
+# Largest step: the cage must not skip over pocket contacts, nor any step over an excitation. With 200 steps per turn
+# a 6319 at 3000 rpm without a cage leaves 1.3e-3 of the energy unexplained, with 400 1.3e-4 for the same wall time.
+STEPS_PER_CAGE_TURN = 400.0
+STEPS_PER_PERIOD = 20.0
+
+
+def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingModel:
+    """Freeze a case into the model that a run needs.
+
+    Parameters
+    ----------
+    case : Case
+        What the engineer wrote.
+    registry : ModelSource
+        Models by role and name.
+    catalogue : Catalogue
+        Bearings, lubricants, materials, cages, clearance classes.
+
+    Raises
+    ------
+    CaseError
+        With everything that is unknown, missing, contradictory or impossible.
+    """
+    ledger, written = Ledger(assumptions=list(case.assumptions)), case
+    row, designation, case = resolve_designation(written, catalogue, ledger)
+    known = row is not None or (case.bearing.designation is None and case.bearing.geometry is not None)
+    bare = resolve_geometry(case.bearing, row, catalogue, ledger) if known else None
+    parts = {part: resolve_material(part, case, catalogue, ledger) for part in ("inner", "outer", "balls")}
+    cage_row = ledger.ask("bodies.cage.type", lambda: catalogue.cage(case.bodies.cage.type))
+    parts["cage"] = resolve_material("cage", case, catalogue, ledger, cage_row.material if cage_row else None)
+    materials = {part: known.material for part, known in parts.items()}
+    lubricant, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
+    check_bodies(case, ledger)
+    check_thermal(case, ledger)
+    _settings(case, ledger)
+    guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")
+    laws = LawResolver(case, registry, lubricant, guidance, ledger).resolve() if lubricant else {}
+    if bare is None or cage_row is None or oil is None:
+        ledger.check(case.name)
+        raise AssertionError("a part is missing and no problem says why")
+    _check_temperature(case, cage_row, ledger)
+    geometry, bought = bare
+    _possible(case, ledger)
+    mounting = resolve_mounting(case, geometry, bought, parts["inner"].solid, parts["balls"].solid, ledger)
+    if mounting is not None:
+        geometry = with_clearance(geometry, clearance_in_operation(case, geometry, mounting, ledger))
+    check_clearance(geometry, ledger)
+    _possible(case, ledger)
+    cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, materials["cage"], ledger)
+    inertias = _inertias(case, geometry, materials, cage_estimate, ledger)
+    solver = _solver(case, geometry, ledger)
+    ledger.check(case.name)
+    return BearingModel(
+        name=case.name,
+        title=_title(case, row, designation),
+        geometry=geometry,
+        ball_material=materials["balls"],
+        inner_material=materials["inner"],
+        outer_material=materials["outer"],
+        cage_material=materials["cage"],
+        oil=oil,
+        oil_level=case.lubricant.oil_level,
+        roughness=case.surface.roughness,
+        starvation=case.lubricant.starvation,
+        gravity=(case.gravity.x, case.gravity.y, case.gravity.z),
+        inner_ring=resolve_body("inner_ring", case, inertias["inner_ring"]),
+        outer_ring=resolve_body("outer_ring", case, inertias["outer_ring"]),
+        cage=cage,
+        cage_body=resolve_body("cage", case, inertias["cage"]),
+        laws=laws,
+        depth=Depth(case.depth.cage, case.depth.strips, case.depth.rows),
+        solver=solver,
+        output=Output(case.output.interval or 0.0, case.output.checkpoint_interval),
+        values=tuple(ledger.values),
+        assumptions=tuple(ledger.assumptions),
+        case_toml=standalone_toml(written),
+        plugins=_distributions(laws),
+        markers={name: Marker(m.body, (m.x, m.y, m.z)) for name, m in case.markers.items()},
+        thermal=case.thermal if case.operation.temperatures == "computed" else None,
+        mounting=mounting,
+    )
+
+
+def _distributions(laws: Mapping[str, Mapping[str, ChosenLaw]]) -> tuple[str, ...]:
+    """Return "distribution version" of every plugin that a chosen law comes from."""
+    found = {law.model.distribution for roles in laws.values() for law in roles.values()}
+    return tuple(sorted(found - {""}))
+
+
+def _title(case: Case, row: BearingRow | None, designation: str) -> str:
+    if row is None:
+        return f"{designation or case.name} (geometry of the case)"
+    edited = ", geometry edited" if case.bearing.geometry else ""
+    return f"{designation} ({row.maker}{edited})"
+
+
+def _possible(case: Case, ledger: Ledger) -> None:
+    """Raise what is wrong so far when the bearing is impossible: what follows computes with its dimensions."""
+    if any(problem.where.startswith("bearing.") for problem in ledger.problems):
+        ledger.check(case.name)
+
+
+def _check_temperature(case: Case, cage: CageRow, ledger: Ledger) -> None:
+    """Say when the oil is hotter than the cage is made for."""
+    limit, oil = cage.maximum_temperature, case.lubricant.temperature
+    if case.depth.cage and limit is not None and oil > limit.value:
+        hot, rated = show(oil, "temperature", 4), show(limit.value, "temperature", 4)
+        ledger.assume(f"the oil at {hot} is hotter than the cage type {cage.name} is made for ({rated})")
+
+
+def _inertias(
+    case: Case, geometry: Geometry, materials: Mapping[str, Material], cage: Inertia, ledger: Ledger
+) -> dict[str, Inertia]:
+    """Return mass and inertia of rings and cage, the shaft counted to the inner ring."""
+    bodies = case.bodies
+    rings = {ring: ring_inertia(geometry, ring, materials[ring].density) for ring in ("inner", "outer")}
+    inner = resolve_inertia("inner_ring", bodies.inner_ring, rings["inner"], ledger)
+    shaft = shaft_inertia(bodies.inner_ring, geometry, materials["inner"].density, ledger)
+    ledger.assume("mass and inertia of the rings estimated from the geometry: hollow cylinders less their grooves")
+    return {
+        "inner_ring": inner + shaft,
+        "outer_ring": resolve_inertia("outer_ring", bodies.outer_ring, rings["outer"], ledger),
+        "cage": resolve_inertia("cage", bodies.cage, cage, ledger),
+    }
+
+
+def _settings(case: Case, ledger: Ledger) -> None:
+    """Record the remaining settings; those left open become assumptions."""
+    lubricant, surface = case.lubricant, case.surface
+    ledger.given("lubricant.temperature", lubricant.temperature, "temperature")
+    for section, name, quantity, sentence in (
+        (lubricant, "oil_level", "length", "oil level at the centre of the lowest ball"),
+        (lubricant, "starvation", "", "contacts fully flooded"),
+        (surface, "roughness", "small_length", "composite roughness sigma {}"),
+    ):
+        value, prefix = getattr(section, name), "surface" if section is surface else "lubricant"
+        if name in section.model_fields_set:
+            ledger.given(f"{prefix}.{name}", value, quantity)
+        else:
+            ledger.record(f"{prefix}.{name}", value, quantity, "default", "assumed")
+            ledger.assume(sentence.format(show(value, quantity)) if "{}" in sentence else sentence)
+
+
+def cage_period(case: Case, geometry: Geometry) -> float:
+    """Return the duration of one epicyclic turn of the cage at the highest planned speed [s]; inf at rest.
+
+    omega_c = (Omega_i (1 - D_w/d_m) + Omega_o (1 + D_w/d_m))/2, contact angle 0.
+    """
+    ratio = geometry.ball_diameter / geometry.pitch_diameter
+    inner = peak(time_function(case.operation.speed))
+    outer = peak(time_function(case.bodies.outer_ring.spin.motion))
+    speed = 0.5 * (inner * (1.0 - ratio) + outer * (1.0 + ratio))
+    return 2.0 * math.pi / speed if speed > 0.0 else math.inf
+
+
+def _solver(case: Case, geometry: Geometry, ledger: Ledger) -> Solver:
+    given, turn = case.solver, cage_period(case, geometry)
+    if math.isinf(turn) and given.duration is None:
+        ledger.problem("solver.duration", "is required where nothing turns at first: averages need turns of the cage")
+    longest = given.max_duration or (LONGEST_RUN * turn if math.isfinite(turn) else given.duration or 0.0)
+    if given.duration is not None and given.max_duration is not None and given.duration > given.max_duration:
+        ledger.problem("solver.duration", f"is longer than solver.max_duration, {show(given.max_duration, 'time')}")
+    frequency = highest_frequency(*_all_signals(case))
+    steps = [turn / STEPS_PER_CAGE_TURN, *([1.0 / (STEPS_PER_PERIOD * frequency)] if frequency else [])]
+    largest = min(steps)
+    if math.isinf(largest):
+        largest = (given.duration or 1.0) / STEPS_PER_CAGE_TURN
+    _end_in_sight(case, given.duration or longest, turn, ledger)
+    return Solver(
+        tolerance=given.tolerance,
+        duration=given.duration or 0.0,
+        max_duration=max(longest, given.duration or 0.0),
+        discard_revolutions=given.discard_revolutions,
+        average_revolutions=given.average_revolutions,
+        max_step=given.max_step or largest,
+        max_wall=given.max_wall or math.inf,
+    )
+
+
+def _end_in_sight(case: Case, end: float, turn: float, ledger: Ledger) -> None:
+    """Refuse what no machine finishes: too long a time, too many steps or samples in it."""
+    if end > MOST_TIME:
+        key = "duration" if case.solver.duration is not None else "max_duration"
+        slow = f": one turn of the cage takes {show(turn, 'time')}" if math.isfinite(turn) else ""
+        ledger.problem(
+            f"solver.{key}", f"is {show(end, 'time')}, at most {show(MOST_TIME, 'time')} are simulated{slow}"
+        )
+        return
+    counted = (
+        ("solver.max_step", case.solver.max_step, MOST_STEPS, "steps"),
+        ("output.interval", case.output.interval, MOST_SAMPLES, "samples"),
+    )
+    for place, interval, most, what in counted:
+        if interval is not None and end > most * interval:
+            ledger.problem(
+                place, f"makes {end / interval:.2g} {what} of {show(end, 'time')}; at most {most:.0e}: "
+                f"{show(end / most, 'time')} or longer, or a shorter solver.duration",
+            )  # fmt: skip
+
+
+def _all_signals(case: Case) -> list[Any]:
+    """Return every time function of the case."""
+    found = [case.operation.speed, case.operation.torque]
+    loads = case.loads
+    found += [loads.radial, loads.axial, loads.moment_y, loads.moment_z]
+    for own in (loads.inner_ring, loads.outer_ring, loads.cage):
+        if own is not None:
+            found += [getattr(own, name) for name in type(own).model_fields]
+    for body in (case.bodies.inner_ring, case.bodies.outer_ring, case.bodies.cage):
+        found += [getattr(getattr(body, dof), "motion", None) for dof in DOFS]
+    return [time_function(signal) for signal in found]
+
+
+def case_hash(model: BearingModel) -> str:
+    """Return a hash of all that decides the numbers of a run, equal in every process.
+
+    The laws count with everything their kernels reach: an edited law has another hash. Name,
+    title, sources and assumptions are left out: two cases that mean the same run share one.
+    """
+    silent = {"name", "title", "values", "assumptions", "case_toml", "plugins"}
+    if model.thermal is None:
+        silent |= {"thermal", "mounting"}
+    data = {f.name: _plain(getattr(model, f.name)) for f in dataclasses.fields(model) if f.name not in silent}
+    text = json.dumps(data, sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _plain(value: Any) -> Any:
+    """Return `value` as JSON data; floats keep 13 digits, so that 0.1 um and 100 nm are one."""
+    if isinstance(value, Law):
+        laws = [function for function in (value.kernel, value.prepare) if function is not None]
+        return [value.role, value.name, value.role_api, *(reach(law, lenient=True).key for law in laws)]
+    if isinstance(value, BaseModel):
+        return {name: _plain(getattr(value, name)) for name in type(value).model_fields}
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value) if f.name != "origins"}
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, tuple | list):
+        return [_plain(item) for item in value]
+    return f"{value:.12e}" if isinstance(value, float) else value

@@ -1,0 +1,309 @@
+"""From a designation or inline numbers to the inner geometry at operating clearance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from lambda_core.case.parts import Bearing, InlineGeometry
+from lambda_core.catalogue.protocol import BearingRow, Catalogue
+from lambda_core.domain.tolerances import Limits
+from lambda_core.domain.units import show
+from lambda_core.system.bearing import Geometry
+from lambda_core.system.ledger import Ledger
+from lambda_core.system.resolve_clearance import clearance_as_bought, picked
+
+# Contacts of a deep-groove bearing stay on the groove up to about this free contact angle.
+LARGEST_FREE_ANGLE = math.radians(45.0)
+# An interference of this share of the ball diameter alone presses every ball with about 4 GPa, the static
+# limit of ISO 76 (Palmgren's 0.436e-6 Q^(2/3)/D_w^(1/3) scaled from a 6319: 2.05 GPa at 0.0019 D_w).
+LARGEST_INTERFERENCE = 0.007
+# Shoulder diameters differ by 1.21 ball diameters: mean of catalogue shoulders, the same figure from
+# which missing inner geometry is derived.
+SHOULDER_SPREAD = 1.21
+CONFORMITY_INNER, CONFORMITY_OUTER = 0.52, 0.53
+# From a thousandth of the smallest bearing made to ten times the largest: beyond, a unit is wrong.
+LEAST_LENGTH, MOST_LENGTH = 1e-6, 100.0  # [m]
+SIZES = ("bore_diameter", "outside_diameter", "width")
+INNER = ("ball_count", "ball_diameter")
+
+
+@dataclass
+class Picker:
+    """Takes each dimension from the case, else from the catalogue row, and notes the origin."""
+
+    inline: InlineGeometry
+    row: BearingRow | None
+    ledger: Ledger
+
+    def take(self, name: str) -> float | None:
+        """Return one dimension in SI, None when neither the case nor the catalogue has it."""
+        path, quantity = f"bearing.{name}", "" if name == "ball_count" else "length"
+        written = getattr(self.inline, name)
+        if written is not None:
+            if quantity and not LEAST_LENGTH <= written <= MOST_LENGTH:
+                span = f"{mm(LEAST_LENGTH)} to {mm(MOST_LENGTH)}"
+                self.ledger.problem(f"bearing.geometry.{name}", f"{mm(written)} is none of a bearing: {span}")
+            self.ledger.given(path, float(written), quantity)
+            return float(written)
+        found = getattr(self.row, name) if self.row else None
+        if found is None:
+            return None
+        if found.status == "derived" and name in INNER and self.row:
+            text = f"{found.value:g}" if name == "ball_count" else show(found.value, "length", 6)
+            self.ledger.assume(f"{path} {text}: {found.source} (grade {found.grade})")
+        return self.ledger.row(path, found, quantity)
+
+    def _designs(self) -> str:
+        """Name the likeliest designs of a row without inner geometry."""
+        designs = self.row.candidates[:3] if self.row else ()
+        shown = ", ".join(f"{d.ball_count} x {d.ball_diameter * 1e3:.6g} mm" for d in designs)
+        return f" (designs that fit its ratings: {shown})" if shown else ""
+
+    def need(self, name: str) -> float:
+        """Return one dimension, noting a problem (and NaN) when it is missing."""
+        value = self.take(name)
+        if value is None:
+            where = f"bearing.geometry.{name}"
+            if self.row:
+                label = f"{self.row.designation} of {self.row.maker}"
+                self.ledger.problem(where, f"is required: the catalogue does not know it for {label}{self._designs()}")
+            else:
+                self.ledger.problem(where, "is required without a designation")
+            return math.nan
+        return value
+
+
+def resolve_geometry(
+    bearing: Bearing, row: BearingRow | None, catalogue: Catalogue, ledger: Ledger
+) -> tuple[Geometry, Limits] | None:
+    """Return the geometry with the clearance as bought, and that clearance's limits.
+
+    None when it cannot be built; the ledger says why.
+    """
+    inline = bearing.geometry or InlineGeometry()
+    picker = Picker(inline, row, ledger)
+    bore, outside, width = (picker.need(name) for name in SIZES)
+    count, ball = picker.need("ball_count"), picker.need("ball_diameter")
+    races = _races(picker)
+    pitch = _pitch(picker, races, bore, outside)
+    grooves = (_groove(picker, "inner", ball), _groove(picker, "outer", ball))
+    bought = clearance_as_bought(bearing, races, ball, bore, catalogue, ledger)
+    _ratings(picker)
+    if bought is None or any(math.isnan(x) for x in (bore, outside, width, count, ball, pitch, *grooves)):
+        return None
+    clearance = picked(bought, bearing.clearance_pick)
+    shoulders = (_shoulder(picker, "inner", ball, pitch), _shoulder(picker, "outer", ball, pitch))
+    series = inline.series or (row.series if row else "")
+    as_bought = Geometry(
+        ball_count=round(count),
+        ball_diameter=ball,
+        pitch_diameter=pitch,
+        race_diameter_inner=math.nan,
+        race_diameter_outer=math.nan,
+        groove_radius_inner=grooves[0],
+        groove_radius_outer=grooves[1],
+        shoulder_diameter_inner=shoulders[0],
+        shoulder_diameter_outer=shoulders[1],
+        clearance=clearance,
+        bore_diameter=bore,
+        outside_diameter=outside,
+        width=width,
+        series=series,
+    )
+    geometry = with_clearance(as_bought, clearance)
+    check_geometry(geometry, races, ledger)
+    return geometry, bought
+
+
+def _races(picker: Picker) -> tuple[float | None, float | None]:
+    """Return both raceway diameters; those of a catalogue row count only with the row's own balls and pitch."""
+    inline = picker.inline
+    edited = inline.ball_diameter is not None or inline.pitch_diameter is not None
+    own = inline.race_diameter_inner is not None and inline.race_diameter_outer is not None
+    if edited and picker.row and not own:
+        return None, None
+    return picker.take("race_diameter_inner"), picker.take("race_diameter_outer")
+
+
+def _ratings(picker: Picker) -> None:
+    """Record limiting speed and load ratings for limits, life and catalogue methods.
+
+    A geometry of one's own has none of the row's ratings.
+    """
+    own_balls = picker.inline.ball_diameter is not None or picker.inline.ball_count is not None
+    if picker.row and picker.row.limiting_speed is not None:
+        picker.ledger.row("bearing.limiting_speed", picker.row.limiting_speed, "rotational_speed")
+    for name in ("dynamic_rating", "static_rating", "fatigue_limit"):
+        written = getattr(picker.inline, name, None)
+        found = getattr(picker.row, name) if picker.row and not own_balls else None
+        if written is not None:
+            picker.ledger.given(f"bearing.{name}", written, "force")
+        elif found is not None:
+            picker.ledger.row(f"bearing.{name}", found, "force")
+
+
+def with_clearance(geometry: Geometry, clearance: float) -> Geometry:
+    """Return the geometry with both raceways set so that the clearance is `clearance` [m].
+
+    Pitch and ball diameters stay; each raceway takes half: d_i = d_m - D_w - G/2,
+    d_o = d_m + D_w + G/2, so that d_o - d_i - 2 D_w = G.
+    """
+    half = geometry.ball_diameter + clearance / 2.0
+    return replace(
+        geometry,
+        clearance=clearance,
+        race_diameter_inner=geometry.pitch_diameter - half,
+        race_diameter_outer=geometry.pitch_diameter + half,
+    )
+
+
+def _pitch(picker: Picker, races: tuple[float | None, float | None], bore: float, outside: float) -> float:
+    pitch, ledger = picker.take("pitch_diameter"), picker.ledger
+    if pitch is not None:
+        return pitch
+    inner, outer = races
+    if inner is not None and outer is not None:
+        pitch = (inner + outer) / 2.0
+        ledger.record("bearing.pitch_diameter", pitch, "length", "mean of the raceway diameters", "derived")
+    else:
+        pitch = (bore + outside) / 2.0
+        if not math.isnan(pitch):
+            ledger.record("bearing.pitch_diameter", pitch, "length", "mean of bore and outside diameter", "assumed")
+            ledger.assume(f"pitch diameter {show(pitch, 'length', 6)}: mean of bore and outside diameter")
+    return pitch
+
+
+def _groove(picker: Picker, ring: str, ball: float) -> float:
+    conformity = getattr(picker.inline, f"conformity_{ring}")
+    written = getattr(picker.inline, f"groove_radius_{ring}")
+    path = f"bearing.groove_radius_{ring}"
+    if conformity is not None:
+        if written is not None:
+            picker.ledger.problem(
+                f"bearing.geometry.conformity_{ring}", f"groove_radius_{ring} is given too: write one of them"
+            )
+        picker.ledger.record(path, conformity * ball, "length", "case (conformity)", "given")
+        return float(conformity * ball)
+    known = getattr(picker.row, f"groove_radius_{ring}") if picker.row else None
+    own_ball = picker.row.ball_diameter if picker.row else None
+    if written is None and known and own_ball and picker.inline.ball_diameter is not None:
+        same_conformity = float(known.value / own_ball.value * ball)
+        picker.ledger.record(path, same_conformity, "length", "conformity of the catalogue row, other balls", "derived")
+        return same_conformity
+    radius = picker.take(f"groove_radius_{ring}")
+    if radius is None:
+        usual = CONFORMITY_INNER if ring == "inner" else CONFORMITY_OUTER
+        radius = usual * ball
+        picker.ledger.record(path, radius, "length", f"usual conformity {usual:g} D_w", "assumed")
+        picker.ledger.assume(f"{ring} groove radius {usual:g} D_w: usual conformity")
+    return radius
+
+
+def _shoulder(picker: Picker, ring: str, ball: float, pitch: float) -> float:
+    name = f"shoulder_diameter_{ring}"
+    diameter = picker.take(name)
+    if diameter is None:
+        sign = -1.0 if ring == "inner" else 1.0
+        diameter = pitch + sign * 0.5 * SHOULDER_SPREAD * ball
+        picker.ledger.record(f"bearing.{name}", diameter, "length", "pitch -+ 0.605 D_w", "assumed")
+        picker.ledger.assume("shoulder diameters: pitch diameter -+ 0.605 D_w, the mean of catalogue shoulders")
+    return diameter
+
+
+def mm(length: float) -> str:
+    """Write a length for people."""
+    return f"{length * 1e3:.6g} mm"
+
+
+def check_geometry(geometry: Geometry, races: tuple[float | None, float | None], ledger: Ledger) -> None:
+    """Note everything that makes a geometry impossible."""
+    g = geometry
+    ball, pitch = g.ball_diameter, g.pitch_diameter
+    say = ledger.problem
+
+    if not abs(g.clearance) < ball:
+        say("bearing.clearance", f"{mm(g.clearance)} is no clearance of balls of {mm(ball)}")
+        return
+    if not g.bore_diameter < pitch < g.outside_diameter:
+        say(
+            "bearing.geometry.pitch_diameter",
+            f"{mm(pitch)} does not lie between the bore of {mm(g.bore_diameter)} and {mm(g.outside_diameter)} outside",
+        )
+        return
+    if ball > pitch * math.sin(math.pi / g.ball_count):
+        fits = math.floor(math.pi / math.asin(min(ball / pitch, 1.0)))
+        say(
+            "bearing.geometry.ball_count",
+            f"{g.ball_count} balls of {mm(ball)} do not fit on a pitch diameter of {mm(pitch)}: at most {fits}",
+        )
+    for ring, radius in (("inner", g.groove_radius_inner), ("outer", g.groove_radius_outer)):
+        if radius <= 0.5 * ball:
+            say(
+                f"bearing.geometry.groove_radius_{ring}",
+                f"{mm(radius)} is a conformity of {radius / ball:.4g}: it must be larger than half the ball diameter",
+            )
+    if not g.bore_diameter < g.race_diameter_inner or not g.race_diameter_outer < g.outside_diameter:
+        say(
+            "bearing.geometry.ball_diameter",
+            f"{mm(ball)} leaves no ring between raceway and bore or outside diameter",
+        )
+    if races[0] is not None and races[1] is not None:
+        _check_races(g, races[0], races[1], say)
+    inner_ok = g.race_diameter_inner < g.shoulder_diameter_inner < pitch
+    outer_ok = pitch < g.shoulder_diameter_outer < g.race_diameter_outer
+    for ring, fine, shoulder, race in (
+        ("inner", inner_ok, g.shoulder_diameter_inner, g.race_diameter_inner),
+        ("outer", outer_ok, g.shoulder_diameter_outer, g.race_diameter_outer),
+    ):
+        if not fine:
+            say(
+                f"bearing.geometry.shoulder_diameter_{ring}",
+                f"{mm(shoulder)} must lie between raceway and pitch: "
+                + " to ".join(mm(end) for end in sorted((race, pitch))),
+            )
+    cut = 2.0 * max(_half_width(g, "inner"), _half_width(g, "outer"))
+    if inner_ok and outer_ok and g.width <= cut:
+        say("bearing.geometry.width", f"{mm(g.width)} is narrower than the grooves, which are {mm(cut)} wide")
+
+
+def _half_width(g: Geometry, ring: str) -> float:
+    """Return half the chord of a groove at its shoulders [m]; h (2 r - h) is its square."""
+    radius = getattr(g, f"groove_radius_{ring}")
+    height = 0.5 * abs(getattr(g, f"shoulder_diameter_{ring}") - getattr(g, f"race_diameter_{ring}"))
+    return math.sqrt(max(height * (2.0 * radius - height), 0.0))
+
+
+def _check_races(g: Geometry, inner: float, outer: float, say: Callable[[str, str], None]) -> None:
+    if not inner < g.pitch_diameter < outer:
+        say(
+            "bearing.geometry.race_diameter_inner",
+            f"raceways of {mm(inner)} and {mm(outer)} do not enclose the pitch",
+        )
+    elif abs(0.5 * (inner + outer) - g.pitch_diameter) > 0.02 * g.ball_diameter:
+        say(
+            "bearing.geometry.pitch_diameter",
+            f"{mm(g.pitch_diameter)} contradicts the raceway diameters, whose mean is {mm(0.5 * (inner + outer))}",
+        )
+    elif abs(outer - inner - 2.0 * g.ball_diameter) > 0.05 * g.ball_diameter:
+        say(
+            "bearing.geometry.ball_diameter",
+            f"{mm(g.ball_diameter)} contradicts the raceway diameters, which leave {mm(0.5 * (outer - inner))}",
+        )
+
+
+def check_clearance(g: Geometry, ledger: Ledger) -> None:
+    """Refuse a clearance with which the free contact angle, or the preload, is that of no real bearing."""
+    if not math.isfinite(g.clearance):
+        ledger.problem("bearing.clearance", "is not finite with these dimensions and temperatures")
+        return
+    curvature = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
+    shown = f"{g.clearance * 1e6:.4g} um"
+    if curvature > 0.0 and g.clearance > 2.0 * curvature * (1.0 - math.cos(LARGEST_FREE_ANGLE)):
+        ledger.problem(
+            "bearing.clearance", f"{shown} lets the contacts leave the grooves (free contact angle over 45 deg)"
+        )
+    if g.clearance < -LARGEST_INTERFERENCE * g.ball_diameter:
+        limit = f"{-LARGEST_INTERFERENCE * g.ball_diameter * 1e6:.3g} um"
+        ledger.problem("bearing.clearance", f"{shown} is more interference than a bearing survives (limit {limit})")

@@ -1,0 +1,268 @@
+"""Which model fills each role of each force element, and where each of its parameters comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from pydantic import ValidationError
+
+from lambda_core.case.case import Case
+from lambda_core.case.problems import problems
+from lambda_core.catalogue.protocol import LubricantRow
+from lambda_core.domain.elements import ELEMENTS
+from lambda_core.domain.errors import LambdaError, unknown_name
+from lambda_core.domain.roles import CAGE, DEFAULT_MODELS, ROLES
+from lambda_core.laws.law import Law
+from lambda_core.system.bearing import ChosenLaw
+from lambda_core.system.ledger import Ledger, Status
+
+NONE = "none"
+_WEAK = ("grade C)", "grade D)")  # how the origin of an estimate ends
+BALL_BALL = "ball-ball"  # takes the place of the pockets when there is no cage
+PRESCRIBED = "constant"  # supply law that takes lubricant.starvation
+# Element -> default model where the role's own default does not fit it.
+LANDS = {"cage_inner": "inner ring", "cage_outer": "outer ring"}
+
+
+class ModelSource(Protocol):
+    """What the resolution needs of the registry."""
+
+    def names(self, role: str) -> tuple[str, ...]:
+        """Return the names of the models for `role`."""
+
+    def model(self, role: str, name: str) -> Law:
+        """Return one model; LambdaError when there is none."""
+
+
+@dataclass
+class LawResolver:
+    """Fills every role of every force element; problems go to the ledger."""
+
+    case: Case
+    registry: ModelSource
+    lubricant: LubricantRow | None
+    guidance: str
+    ledger: Ledger
+    _used: dict[str, set[str]] = field(default_factory=dict)  # role -> parameters some model took
+
+    def resolve(self) -> dict[str, dict[str, ChosenLaw]]:
+        """Return element -> role -> law, complete unless the ledger holds problems."""
+        self._check_names()
+        laws: dict[str, dict[str, ChosenLaw]] = {}
+        for element in self._elements():
+            laws[element] = {}
+            for role in (role for role in ROLES.values() if element in role.elements):
+                law = self._law(element, role.name)
+                if law is not None:
+                    laws[element][role.name] = law
+        self._check_unused()
+        self._explain(laws)
+        return laws
+
+    def _elements(self) -> tuple[str, ...]:
+        """Return the force elements that there are: balls have pockets or, without a cage, each other."""
+        absent = "ball_ball" if self.case.depth.cage else "ball_cage"
+        return tuple(element for element in ELEMENTS if element != absent)
+
+    def _check_names(self) -> None:
+        """Note roles that an element does not have, in [forces.ELEMENT] and [parameters]."""
+        for role in self.case.parameters:
+            if role not in ROLES:
+                self.ledger.problem(f"parameters.{role}", unknown_name("role", role, ROLES))
+        for element in ELEMENTS:
+            own = getattr(self.case.forces, element)
+            roles = [role.name for role in ROLES.values() if element in role.elements]
+            for role in (name for name in type(own.models).model_fields if getattr(own.models, name) is not None):
+                if role not in roles:
+                    self.ledger.problem(
+                        f"forces.{element}.models.{role}", f"{element} has no such role; its roles: {', '.join(roles)}"
+                    )
+            for role in own.parameters:
+                if role not in roles:
+                    where = f"forces.{element}.parameters.{role}"
+                    self.ledger.problem(where, f"{element} has no such role; its roles: {', '.join(roles)}")
+
+    def _law(self, element: str, role: str) -> ChosenLaw | None:
+        name, where = self._choice(element, role)
+        if name == BALL_BALL and self.case.depth.cage:
+            self.ledger.problem(where, f'"{name}" is the contact without a cage: it needs depth.cage = false')
+            return None
+        if role == "supply" and name != PRESCRIBED and self.case.lubricant.starvation < 1.0:
+            self.ledger.problem("lubricant.starvation", f'belongs to the supply law {PRESCRIBED}, not to "{name}"')
+            return None
+        try:
+            chosen = self.registry.model(role, name)
+        except LambdaError as error:
+            self.ledger.problem(where, str(error))
+            return None
+        rows = self._lubricant_rows(role, name)
+        case_texts = self._case_texts(element, role, chosen)
+        texts: dict[str, Any] = {key: row.text() for key, row in rows.items()}
+        texts.update({key: text for key, (text, _) in case_texts.items()})
+        foreign = [key for key in texts if key not in chosen.parameters.model_fields]
+        for key in foreign:
+            # A plugin's parameters may be declared to ignore what they do not know; a typing slip is no less one.
+            self._foreign_parameter(key, role, chosen, case_texts)
+        if foreign:
+            return None
+        try:
+            parameters = chosen.parameters.model_validate(texts)
+        except ValidationError as error:
+            self._parameter_problems(error, element, role, chosen, texts, case_texts)
+            return None
+        origins = {}
+        for key in type(parameters).model_fields:
+            if key in case_texts:
+                origins[key] = "case"
+            elif key in rows and self.lubricant:
+                origins[key] = f"lubricant {self.lubricant.name} ({rows[key].source}, grade {rows[key].grade})"
+            else:
+                origins[key] = "default"
+        return ChosenLaw(chosen, parameters, origins)
+
+    def _choice(self, element: str, role: str) -> tuple[str, str]:
+        """Return the model's name and the path where it was, or would be, chosen."""
+        own = getattr(getattr(self.case.forces, element).models, role)
+        general = getattr(self.case.models, role)
+        where = f"forces.{element}.models.{role}" if own else f"models.{role}"
+        if not self.case.depth.cage and element in CAGE:
+            return NONE, where
+        if element == "ball_ball":
+            return own or BALL_BALL, f"forces.{element}.models.{role}"
+        if own is None and element in LANDS:
+            # A general choice of the pocket's model says nothing about the lands.
+            guided = self.guidance == LANDS[element]
+            return ("land-guidance" if guided else NONE), f"forces.{element}.models.{role}"
+        name = own or general
+        if name is None:
+            return self._default(role), where
+        return (self._automatic(role) if name == "auto" and role == "rheology" else name), where
+
+    def _chosen_by(self, element: str, role: str) -> Status:
+        """Say whether the case names this model, or names none and gets the one that fits."""
+        own = getattr(getattr(self.case.forces, element).models, role)
+        general = None if element in LANDS or element == "ball_ball" else getattr(self.case.models, role)
+        return "default" if (own or general) in (None, "auto") else "given"
+
+    def _default(self, role: str) -> str:
+        """Return the built-in default; for a law of the oil, the one that the oil has data for."""
+        if role == "supply" and self.case.lubricant.starvation < 1.0:
+            return PRESCRIBED
+        name = DEFAULT_MODELS[role]
+        if name == "auto":
+            return self._automatic(role)
+        known = self.lubricant.parameters.get(role, {}) if self.lubricant and role == "permittivity" else {}
+        if known and name not in known:
+            other = next(iter(known))
+            assert self.lubricant is not None
+            self.ledger.assume(f"{role} model {other}: {self.lubricant.name} has no data for {name}")
+            return other
+        return name
+
+    def _automatic(self, role: str) -> str:
+        return self.lubricant.rheology if self.lubricant else NONE
+
+    def _lubricant_rows(self, role: str, name: str) -> Mapping[str, Any]:
+        return self.lubricant.parameters.get(role, {}).get(name, {}) if self.lubricant else {}
+
+    def _case_texts(self, element: str, role: str, chosen: Law) -> dict[str, tuple[Any, str]]:
+        """Return parameter -> (text, path) of the case: the element's own before the general ones."""
+        texts: dict[str, tuple[Any, str]] = {}
+        known = chosen.parameters.model_fields
+        for key, text in self.case.parameters.get(role, {}).items():
+            if key in known:
+                texts[key] = (text, f"parameters.{role}.{key}")
+                self._used.setdefault(role, set()).add(key)
+        own = getattr(self.case.forces, element).parameters.get(role, {})
+        for key, text in own.items():
+            texts[key] = (text, f"forces.{element}.parameters.{role}.{key}")
+        return texts
+
+    def _parameter_problems(
+        self,
+        error: ValidationError,
+        element: str,
+        role: str,
+        chosen: Law,
+        texts: Mapping[str, Any],
+        case_texts: Mapping[str, tuple[Any, str]],
+    ) -> None:
+        for problem in problems(error, chosen.parameters, dict(texts)):
+            key, _, inside = problem.where.partition(".")
+            where = (
+                ".".join(filter(None, (case_texts[key][1], inside)))
+                if key in case_texts
+                else f"parameters.{role}.{problem.where}".rstrip(".")
+            )
+            message = f"{role} {chosen.name}: {problem.message}"
+            if key not in texts and self.lubricant is not None:
+                message = f"{role} {chosen.name} needs it, and the lubricant {self.lubricant.name} has no data for it"
+            self.ledger.problem(where, message)
+
+    def _foreign_parameter(self, key: str, role: str, chosen: Law, case_texts: Mapping[str, tuple[Any, str]]) -> None:
+        known = ", ".join(chosen.parameters.model_fields) or "none"
+        if key in case_texts:
+            where, whose = case_texts[key][1], ""
+        else:
+            where, whose = "lubricant.name", f'data of {self.lubricant.name if self.lubricant else ""}: "{key}" '
+        self.ledger.problem(where, f"{whose}is not a parameter of {role} {chosen.name}; it has: {known}")
+
+    def _check_unused(self) -> None:
+        """Note general parameters that no chosen model of the role knows."""
+        for role, texts in self.case.parameters.items():
+            for key in texts:
+                if role in ROLES and key not in self._used.get(role, set()):
+                    chosen = self._chosen(role)
+                    fields = sorted({f for model in chosen for f in model.parameters.model_fields})
+                    names = ", ".join(dict.fromkeys(model.name for model in chosen))
+                    self.ledger.problem(
+                        f"parameters.{role}.{key}",
+                        unknown_name(f"parameter of {role} {names}", key, fields),
+                    )
+
+    def _chosen(self, role: str) -> list[Law]:
+        found = []
+        for element in (each for each in self._elements() if each in ROLES[role].elements):
+            name, _ = self._choice(element, role)
+            if name in self.registry.names(role):
+                found.append(self.registry.model(role, name))
+        return found
+
+    def _explain(self, laws: Mapping[str, Mapping[str, ChosenLaw]]) -> None:
+        """Turn defaults and weak lubricant data into sentences, one per model."""
+        for element, roles in laws.items():
+            for role, law in roles.items():
+                self._record(element, role, law)
+                written = law.parameters.model_dump(mode="json")
+                defaults = [k for k in law.origins if law.origins[k] == "default" and _is_assumed(law, k)]
+                if defaults:
+                    listed = ", ".join(f"{key} {_short(written[key])}" for key in defaults)
+                    self.ledger.assume(f"{role} {law.model.name}: {listed} (defaults of the model)")
+                for key, origin in law.origins.items():
+                    if origin.endswith(_WEAK):
+                        self.ledger.assume(f"{role} {law.model.name}: {key} {_short(written[key])}, {origin}")
+
+    def _record(self, element: str, role: str, law: ChosenLaw) -> None:
+        source = law.model.distribution or "built-in"
+        self.ledger.record(
+            f"forces.{element}.models.{role}", law.model.name, "", source, self._chosen_by(element, role)
+        )
+        for key, value in law.parameters.model_dump(mode="json").items():
+            origin = law.origins[key]
+            weak: Status = "assumed" if origin.endswith(_WEAK) else "published"
+            status: Status = "given" if origin == "case" else "default" if origin == "default" else weak
+            plain: float | str = value if isinstance(value, int | float | str) else str(value)
+            self.ledger.record(f"forces.{element}.parameters.{role}.{key}", plain, "", origin, status)
+
+
+def _is_assumed(law: ChosenLaw, name: str) -> bool:
+    """Say whether a default is an assumption: neither published nor a numerical regularisation, and not absent."""
+    extra = type(law.parameters).model_fields[name].json_schema_extra
+    status = extra.get("status") if isinstance(extra, dict) else None
+    return status not in ("published", "numerical") and getattr(law.parameters, name) is not None
+
+
+def _short(value: object) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,111 @@
+"""Materials of the parts and the oil, from the catalogue or written in the case."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from lambda_core.case.case import Case
+from lambda_core.case.parts import InlineMaterial, Lubricant
+from lambda_core.catalogue.protocol import Catalogue, LubricantRow, Value
+from lambda_core.domain.fits import Solid
+from lambda_core.domain.units import show
+from lambda_core.laws.context import Material, Oil
+from lambda_core.system.ledger import Ledger
+
+# No lubricating oil is liquid below, and none is left above: hydrocarbons crack from about 350 degC on, the most
+# stable fluids (polyphenyl ethers) from about 450 degC.
+COLDEST, HOTTEST = 173.15, 773.15  # [K]
+_QUANTITIES = {
+    "youngs_modulus": "modulus",
+    "poisson_ratio": "",
+    "density": "density",
+    "thermal_conductivity": "thermal_conductivity",
+    "specific_heat": "specific_heat",
+}
+# Class values of mineral oils, +-15 % (after Larsson and Andersson 2000, J. Eng. Tribology 214).
+_CLASS_OIL = {"thermal_conductivity": 0.137, "specific_heat": 1930.0}
+
+
+@dataclass(frozen=True)
+class PartMaterial:
+    """A material as the contact laws see it, and what its thermal growth needs."""
+
+    material: Material
+    thermal_expansion: float  # [1/K]
+
+    @property
+    def solid(self) -> Solid:
+        """Elastic and thermal properties for fits."""
+        return Solid(self.material.youngs_modulus, self.material.poisson_ratio, self.thermal_expansion)
+
+
+UNKNOWN = PartMaterial(Material("unknown", *[math.nan] * 5), math.nan)
+
+
+def resolve_material(
+    part: str, case: Case, catalogue: Catalogue, ledger: Ledger, usual: str | None = None
+) -> PartMaterial:
+    """Return the material of a part (UNKNOWN after a problem); `usual` is the name where the case has none."""
+    where = f"materials.{part}"
+    choice = getattr(case.materials, part) or usual
+    if choice is None:
+        return UNKNOWN
+    if isinstance(choice, InlineMaterial):
+        for name, quantity in _QUANTITIES.items():
+            ledger.given(f"{where}.{name}", getattr(choice, name), quantity)
+        own = Material(f"{part} of the case", *(getattr(choice, name) for name in _QUANTITIES))
+        return PartMaterial(own, choice.thermal_expansion)
+    row = ledger.ask(where, lambda: catalogue.material(choice))
+    if row is None:
+        return UNKNOWN
+    if part in case.materials.model_fields_set:
+        ledger.given(where, row.name)
+    else:
+        ledger.record(where, row.name, "", "cage type" if part == "cage" else "default", "assumed")
+        if part != "cage":
+            ledger.assume(f"rings and balls of {row.name} where the case names no other material")
+    numbers = [ledger.row(f"{where}.{name}", getattr(row, name), quantity) for name, quantity in _QUANTITIES.items()]
+    return PartMaterial(Material(row.name, *numbers), row.thermal_expansion.value)
+
+
+def resolve_lubricant(
+    lubricant: Lubricant, catalogue: Catalogue, ledger: Ledger
+) -> tuple[LubricantRow | None, Oil | None]:
+    """Return the lubricant's row and its oil at the case's temperature."""
+    row = _inline_row(lubricant)
+    if row is None:
+        row = ledger.ask("lubricant.name", lambda: catalogue.lubricant(lubricant.name))
+    if row is None:
+        return None, None
+    ledger.given("lubricant.name", row.name)
+    if not COLDEST <= lubricant.temperature <= HOTTEST:
+        shown = [show(value, "temperature", 4) for value in (lubricant.temperature, COLDEST, HOTTEST)]
+        ledger.problem("lubricant.temperature", f"{shown[0]}: no oil is liquid there ({shown[1]} to {shown[2]})")
+    numbers = {}
+    for name, usual in _CLASS_OIL.items():
+        path = f"lubricant.{name}"
+        value = row.properties.get(name)
+        if value is None:
+            ledger.record(path, usual, name, "class value of mineral oils", "assumed", "C")
+            ledger.assume(f"{path} {usual:g} (SI): class value of mineral oils, not known for {row.name}")
+            numbers[name] = usual
+        else:
+            numbers[name] = ledger.row(path, value, name)
+    return row, Oil(row.name, row.base_type, lubricant.temperature, **numbers)
+
+
+def _inline_row(lubricant: Lubricant) -> LubricantRow | None:
+    """Return the row that the case itself writes; its law's parameters stand in [parameters]."""
+    own = lubricant.properties
+    if own is None:
+        return None
+    names = ("thermal_conductivity", "specific_heat", "kinematic_viscosity_40", "kinematic_viscosity_100", "density_15")
+    properties = {
+        name: Value(value=number, source="case", grade="")
+        for name in names
+        if (number := getattr(own, name)) is not None
+    }
+    return LubricantRow(
+        name=lubricant.name, base_type=own.base_type, rheology=own.rheology, properties=properties, parameters={}
+    )

@@ -1,0 +1,118 @@
+"""The section thermal checked against what a network can be: names, links, ways for the heat to leave."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from lambda_core.case.case import Case
+from lambda_core.case.thermal import Thermal
+from lambda_core.domain.errors import unknown_name
+from lambda_core.system.ledger import Ledger
+
+# The bearing's own nodes, in the order in which every network has them.
+OWN_NODES = ("inner_ring", "outer_ring", "balls", "oil", "cage", "shaft", "housing", "ambient")
+SUPPLY = "oil_supply"  # where oil that flows through the bearing comes from
+Pair = tuple[str, str]
+
+INSIDE: tuple[Pair, ...] = (
+    ("inner_ring", "balls"),
+    ("outer_ring", "balls"),
+    ("inner_ring", "oil"),
+    ("outer_ring", "oil"),
+    ("balls", "oil"),
+    ("cage", "oil"),
+)
+_SEATS: tuple[Pair, ...] = (("inner_ring", "shaft"), ("outer_ring", "housing"))
+# What each ready set joins beyond the bearing.
+OUTSIDE: dict[str, tuple[Pair, ...]] = {
+    "harris": (*_SEATS, ("oil", "housing"), ("housing", "ambient"), ("shaft", "ambient")),
+    "palmgren": (*_SEATS, ("oil", "housing"), ("housing", "ambient")),
+    "iso-15312": (("inner_ring", "ambient"), ("outer_ring", "ambient")),
+    "none": (),
+}
+_PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
+
+
+def node_names(thermal: Thermal) -> tuple[str, ...]:
+    """Return the names of all nodes: the bearing's own, the oil supply where oil flows, the case's further ones."""
+    own = (*OWN_NODES, *([SUPPLY] if thermal.oil_flow > 0.0 else []))
+    return (*own, *(name for name in thermal.nodes if name not in own))
+
+
+def joined(thermal: Thermal) -> tuple[Pair, ...]:
+    """Return every pair of nodes that a conductance joins."""
+    flow = (("oil", SUPPLY),) if thermal.oil_flow > 0.0 else ()
+    own = [(link.between[0], link.between[1]) for link in thermal.links.values() if link.conductance > 0.0]
+    return (*INSIDE, *OUTSIDE[thermal.conductances], *flow, *own)
+
+
+def held_temperatures(thermal: Thermal) -> dict[str, float]:
+    """Return the temperatures of the nodes that are held [K]."""
+    held = {name: node.temperature for name, node in thermal.nodes.items() if node.temperature is not None}
+    supply = {SUPPLY: thermal.oil_supply or thermal.ambient} if thermal.oil_flow > 0.0 else {}
+    return {**held, **supply, "ambient": thermal.ambient}
+
+
+def isolated(names: Iterable[str], pairs: Iterable[Pair], held: Iterable[str]) -> list[str]:
+    """Return the nodes from which no way leads to a held temperature, in order."""
+    reached, links = set(held), list(pairs)
+    while True:
+        more = {b for a, b in links if a in reached} | {a for a, b in links if b in reached}
+        if more <= reached:
+            return [name for name in names if name not in reached]
+        reached |= more
+
+
+def check_thermal(case: Case, ledger: Ledger) -> None:
+    """Note everything that makes the thermal network of a case impossible."""
+    thermal = case.thermal
+    names = node_names(thermal)
+    _check_nodes(thermal, ledger)
+    fine = _check_links(thermal, names, ledger)
+    if thermal.oil_supply is not None and thermal.oil_flow == 0.0:
+        ledger.problem("thermal.oil_supply", "has no effect without thermal.oil_flow")
+    if fine:
+        lost = isolated(names, joined(thermal), held_temperatures(thermal))
+        if "inner_ring" in lost:
+            ledger.problem("thermal.links", "no way leads from the bearing to a held temperature")
+        for name in [name for name in lost if name in thermal.nodes and "inner_ring" not in lost]:
+            ledger.problem(f"thermal.nodes.{name}", "no way leads from it to a held temperature: thermal.links")
+    if case.operation.temperatures == "computed":
+        _check_computed(case, ledger)
+
+
+def _check_nodes(thermal: Thermal, ledger: Ledger) -> None:
+    ambient = thermal.nodes.get("ambient")
+    if ambient is not None:
+        ledger.problem("thermal.nodes.ambient", "is held at thermal.ambient: change that")
+    if SUPPLY in thermal.nodes:
+        ledger.problem(f"thermal.nodes.{SUPPLY}", "is held at thermal.oil_supply: change that")
+    for name, node in thermal.nodes.items():
+        if node.temperature is not None and node.start is not None:
+            ledger.problem(f"thermal.nodes.{name}.start", "has no effect on a node that is held at a temperature")
+
+
+def _check_links(thermal: Thermal, names: tuple[str, ...], ledger: Ledger) -> bool:
+    fine, seen = True, dict[frozenset[str], str]()
+    for key, link in thermal.links.items():
+        path = f"thermal.links.{key}.between"
+        for name in link.between:
+            if name not in names:
+                ledger.problem(path, unknown_name("node", name, names))
+                fine = False
+        pair = frozenset(link.between)
+        if pair in seen:
+            ledger.problem(path, f"joins the same nodes as thermal.links.{seen[pair]}")
+        seen[pair] = key
+    return fine
+
+
+def _check_computed(case: Case, ledger: Ledger) -> None:
+    """Refuse temperatures that are given and to be found at once."""
+    given = case.bearing.temperatures
+    for part in _PARTS:
+        if given is not None and getattr(given, part) is not None:
+            ledger.problem(
+                f"bearing.temperatures.{part}",
+                f'is found where operation.temperatures = "computed"; to hold it: thermal.nodes.{part}.temperature',
+            )

@@ -1,0 +1,87 @@
+"""Time functions of a case as sums of SI terms, and what can be said of them beforehand."""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.case.signals import Constant, Harmonic, Ramp, Sum, Table, TimeTable
+from lambda_core.system.bearing import Term, TimeFunction
+
+
+def time_function(signal: float | TimeTable | None) -> TimeFunction:
+    """Convert a value or table of a case; None and zero give the function without terms."""
+    if signal is None:
+        return TimeFunction()
+    if isinstance(signal, Sum):
+        return added(*(time_function(term) for term in signal.terms))
+    if isinstance(signal, Constant):
+        signal = signal.value
+    if isinstance(signal, Ramp):
+        return TimeFunction((Term("ramp", (signal.start, signal.end, signal.start_time, signal.end_time)),))
+    if isinstance(signal, Harmonic):
+        return TimeFunction((Term("harmonic", (signal.amplitude, signal.frequency, signal.phase)),))
+    if isinstance(signal, Table):
+        return TimeFunction((Term("table", tuple(number for row in signal.rows for number in row)),))
+    if isinstance(signal, TimeTable):
+        raise TypeError(f"{type(signal).__name__} is not a kind of time function")
+    return TimeFunction.constant(float(signal)) if signal else TimeFunction()
+
+
+def added(*functions: TimeFunction) -> TimeFunction:
+    """Return the sum of time functions, constants merged."""
+    terms = [term for function in functions for term in function.terms]
+    level = math.fsum(term.values[0] for term in terms if term.kind == "constant")
+    varying = tuple(term for term in terms if term.kind != "constant")
+    return TimeFunction(((Term("constant", (level,)),) if level else ()) + varying)
+
+
+def scaled(function: TimeFunction, factor: float) -> TimeFunction:
+    """Return the function times `factor`; a zero factor gives the function without terms."""
+    if factor == 0.0:
+        return TimeFunction()
+    return TimeFunction(tuple(Term(term.kind, _scaled_values(term, factor)) for term in function.terms))
+
+
+def _scaled_values(term: Term, factor: float) -> tuple[float, ...]:
+    if term.kind == "ramp":
+        start, end, *times = term.values
+        return (factor * start, factor * end, *times)
+    if term.kind == "table":
+        return tuple(factor * number if index % 2 else number for index, number in enumerate(term.values))
+    return (factor * term.values[0], *term.values[1:])
+
+
+def peak(function: TimeFunction) -> float:
+    """Return an upper bound of the magnitude at all times (spline overshoot of tables aside)."""
+    return math.fsum(_term_peak(term) for term in function.terms)
+
+
+def _term_peak(term: Term) -> float:
+    if term.kind == "ramp":
+        return max(abs(term.values[0]), abs(term.values[1]))
+    if term.kind == "table":
+        return max(abs(number) for number in term.values[1::2])
+    return abs(term.values[0])
+
+
+def initial(function: TimeFunction) -> float:
+    """Return the value at t = 0."""
+    return math.fsum(_term_initial(term) for term in function.terms)
+
+
+def _term_initial(term: Term) -> float:
+    if term.kind == "harmonic":
+        return term.values[0] * math.sin(term.values[2])
+    if term.kind == "table":
+        times, numbers = term.values[0::2], term.values[1::2]
+        if times[0] >= 0.0 or times[-1] <= 0.0:
+            return numbers[0] if times[0] >= 0.0 else numbers[-1]
+        from scipy.interpolate import CubicSpline
+
+        return float(CubicSpline(times, numbers)(0.0))
+    return term.values[0]
+
+
+def highest_frequency(*functions: TimeFunction) -> float:
+    """Return the highest frequency of all harmonic terms [Hz], 0 if there are none."""
+    return max((t.values[1] for f in functions for t in f.terms if t.kind == "harmonic" and t.values[0]), default=0.0)

@@ -1,0 +1,1 @@
+"""Temperatures from losses: a thermal network around the bearing, steady and over time."""

@@ -1,0 +1,117 @@
+"""Conductances inside a bearing: rolling contacts, oil on surfaces, solid parts, seats. SI throughout."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.special import erfcx
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.laws.context import Material
+
+_STRIPS = 24  # Gauss-Legendre points across the ellipse: the integrand falls off as a fourth root at its ends
+
+
+def effusivity(material: Material) -> float:
+    """Return e = sqrt(k rho c) of a solid [W s^0.5/(m2 K)]."""
+    return math.sqrt(material.thermal_conductivity * material.density * material.specific_heat)
+
+
+def exchanged(time: FloatArray, film: float, one: float, other: float) -> FloatArray:
+    """Return the heat per area and per difference of temperature that two half-spaces exchange in a time [J/(m2 K)].
+
+    Two half-spaces with effusivities e_1, e_2 meet at t = 0 through a film of conductance h per area. The flux is
+    h dT exp(b^2 t) erfc(b sqrt t), b = h (1/e_1 + 1/e_2) (Carslaw and Jaeger 1959, Conduction of Heat in Solids,
+    sections 2.7 and 12.8); integrated over the time of contact
+
+    Q/dT = (h/b^2) [exp(b^2 t) erfc(b sqrt t) - 1 + 2 b sqrt(t/pi)].
+
+    Without a film (h -> inf) it is 2 e_1 e_2/(e_1 + e_2) sqrt(t/pi), for short times h t.
+
+    Parameters
+    ----------
+    time : float64[:]
+        Of contact [s].
+    film : float
+        h [W/(m2 K)].
+    one, other : float
+        Effusivities [W s^0.5/(m2 K)].
+    """
+    rate = film * (1.0 / one + 1.0 / other)
+    x = rate * np.sqrt(time)
+    # erfcx - 1 + 2 x/sqrt(pi) loses its digits below x = 0.01; its series starts x^2 - 4 x^3/(3 sqrt(pi)) + x^4/2
+    series = x * x * (1.0 - 4.0 * x / (3.0 * math.sqrt(math.pi)) + 0.5 * x * x)
+    full = erfcx(x) - 1.0 + 2.0 * x / math.sqrt(math.pi)
+    found: FloatArray = film / rate**2 * np.where(x < 1e-2, series, full)
+    return found
+
+
+def rolling_contact(a: float, b: float, speed: float, film: float, one: float, other: float) -> float:
+    """Return the conductance between two bodies that roll over each other in an elliptic contact [W/K].
+
+    Every strip of the surfaces passes the ellipse in 2 b sqrt(1 - (s/a)^2)/u and exchanges heat meanwhile
+    (:func:`exchanged`); the strips together carry u int ds Q/dT. Valid where surfaces pass faster than heat spreads
+    (Peclet number u b/kappa above about 5, always so in a running bearing) and each body is at one temperature
+    outside a thin skin.
+
+    Parameters
+    ----------
+    a, b : float
+        Semi-axes across and along rolling [m].
+    speed : float
+        Mean speed of the surfaces through the contact [m/s].
+    film : float
+        Conductance of the oil film per area, k_oil/h [W/(m2 K)].
+    one, other : float
+        Effusivities of the two bodies.
+    """
+    if speed <= 0.0 or a <= 0.0:
+        return 0.0
+    x, weight = np.polynomial.legendre.leggauss(_STRIPS)
+    time = 2.0 * b / speed * np.sqrt(1.0 - x * x)
+    return float(speed * a * (weight * exchanged(time, film, one, other)).sum())
+
+
+def resting_contact(a: float, b: float, conductivity: float) -> float:
+    """Return the conductance of an elliptic contact at rest, 2 k sqrt(a b) [W/K].
+
+    Constriction into two half-spaces of conductivity k, exact for a circle (Carslaw and Jaeger 1959, section 8.2:
+    4 k a each, two in series).
+    """
+    return 2.0 * conductivity * math.sqrt(a * b)
+
+
+def oil_film_coefficient(speed: float, length: float, viscosity: float, conductivity: float, prandtl: float) -> float:
+    """Return the coefficient of heat transfer between oil and a surface that it flows along [W/(m2 K)].
+
+    Laminar flow along a plate, Nu = 0.332 Pr^(1/3) Re^(1/2) (Pohlhausen 1921), with the surface speed of the cage and
+    the pitch diameter as speed and length: the reading of Harris (Rolling Bearing Analysis, chapter "Rolling Bearing
+    Temperatures", after Eckert) for oil in a bearing, a third of that speed for the oil on the housing. Pr >= 0.6,
+    Re < 5e5. Oil that does not move still conducts: never below k/length.
+
+    Parameters
+    ----------
+    speed, length : float
+        [m/s], [m].
+    viscosity : float
+        Kinematic [m2/s].
+    conductivity : float
+        Of the oil [W/(m K)].
+    prandtl : float
+        rho nu c/k.
+    """
+    reynolds = abs(speed) * length / viscosity
+    return max(0.332 * math.pow(prandtl, 1.0 / 3.0) * math.sqrt(reynolds), 1.0) * conductivity / length
+
+
+def wall(inner_diameter: float, outer_diameter: float, width: float, conductivity: float) -> float:
+    """Return the conductance through a hollow cylinder, 2 pi k B/ln(D/d) [W/K]."""
+    return 2.0 * math.pi * conductivity * width / math.log(outer_diameter / inner_diameter)
+
+
+def in_series(*conductances: float) -> float:
+    """Return the conductance of several in a row [W/K]; 0 when one of them is."""
+    if min(conductances) <= 0.0:
+        return 0.0
+    return 1.0 / sum(1.0 / one for one in conductances)

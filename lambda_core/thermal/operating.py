@@ -1,0 +1,97 @@
+"""A bearing at the temperatures that its own losses give it: what operation.temperatures = "computed" means."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from lambda_core.case.case import Case
+from lambda_core.case.case_io import parse_case
+from lambda_core.results.convergence import window
+from lambda_core.results.reader import Result
+from lambda_core.system.bearing import BearingModel
+from lambda_core.thermal.loop import Loop, Steady
+from lambda_core.thermal.losses import Announce
+
+_ZERO_CELSIUS = 273.15
+_PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
+
+
+def at_own_temperatures(
+    model: BearingModel, resolve: Callable[[Case], BearingModel], announce: Announce = None
+) -> BearingModel:
+    """Return the model at steady temperatures found by its thermal network; one whose temperatures are given as it is.
+
+    The case that the returned model carries has these temperatures written in, so that a result needs no search when
+    it goes on or is looked at.
+
+    Parameters
+    ----------
+    model : BearingModel
+        Resolved.
+    resolve : callable
+        Freezes a case into a model.
+    announce : callable, optional
+        Called with a sentence before something is compiled, and with the temperatures found.
+
+    Raises
+    ------
+    SolverError
+        When there are no steady temperatures; a runaway is named with the gain that caused it.
+    """
+    if model.thermal is None:
+        return model
+    loop = Loop(model, model.thermal, announce)
+    found = loop.steady()
+    sentence = _sentence(loop, found)
+    if announce is not None:
+        announce(sentence)
+    return resolve(_with_temperatures(parse_case(model.case_toml, model.name), loop, found, sentence))
+
+
+def _with_temperatures(case: Case, loop: Loop, found: Steady, sentence: str) -> Case:
+    at = dict(zip(loop.bearing.names, found.temperatures.tolist(), strict=True))
+    parts = {part: _degrees(at[part]) for part in _PARTS if part in at}
+    return case.with_(
+        assumptions=[*case.assumptions, sentence],
+        lubricant={"temperature": _degrees(found.point.inlet)},
+        bearing={"temperatures": parts},
+        operation={"temperatures": None},
+    )
+
+
+def _degrees(temperature: float) -> str:
+    return f"{temperature - _ZERO_CELSIUS:.4f} degC"
+
+
+def _sentence(loop: Loop, found: Steady) -> str:
+    at = dict(zip(loop.bearing.names, found.temperatures.tolist(), strict=True))
+    shown = ", ".join(
+        f"{name.replace('_', ' ')} {at[name] - _ZERO_CELSIUS:.1f}" for name in (*_PARTS, "oil") if name in at
+    )
+    return f"temperatures found by the thermal network ({loop.thermal.conductances}): {shown} degC"
+
+
+def of_run(result: Result, model: BearingModel, announce: Announce = None) -> tuple[Loop, Steady]:
+    """Return the steady temperatures that the averaged losses of a run would give, cage and all.
+
+    Conductances are those of the quasi-static point at the temperatures that the run was made with; the gain of the
+    loop is that of the quasi-static point too.
+
+    Parameters
+    ----------
+    result : Result
+        A run.
+    model : BearingModel
+        Its case, resolved.
+    """
+    loop = Loop(model, parse_case(result.case_toml, str(result.path)).thermal, announce)
+    chosen = window(model.solver, result.revolutions(), result.integrals()[-1]).interval
+    time = chosen.change("time")
+    point = loop.losses.at(model.oil.temperature, model.geometry.clearance)
+    losses = {name: chosen.change(f"loss.{name}") / time for name in point.losses}
+    measured = point.with_losses(losses)
+    temperatures, network = loop.answer(measured, loop.first_guess())
+    gain = loop.gain(*loop.slopes(point, np.asarray(temperatures)))
+    return loop, Steady(temperatures, measured, network, gain, 1)

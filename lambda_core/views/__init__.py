@@ -1,0 +1,1 @@
+"""What views and comparison methods give: charts, scenes, tables, rows of numbers."""

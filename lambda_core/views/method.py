@@ -1,0 +1,193 @@
+"""Comparison methods: what a plugin registers through the hook ``lambda_methods``.
+
+A method answers the same question as the simulation by other means (a catalogue formula, a standard, an analytical
+model) and is shown beside it. It gets plain numbers (:class:`MethodInputs`) and returns a table of named values with
+units (:class:`MethodTable`), so that a new method is one small function.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+from lambda_core.domain.errors import LambdaError, unknown_name
+from lambda_core.laws.context import Material, Oil
+
+METHOD_API = 1
+
+Group = Literal["friction", "capacitance", "life", "rating", "kinematics", "stiffness", "load"]
+Lubrication = Literal["oil bath", "oil jet", "oil-air", "grease"]
+
+# The unit in which every method states a quantity of a group, so that rows can stand side by side.
+GROUP_UNITS: dict[str, tuple[str, ...]] = {
+    "friction": ("N mm", "-"),
+    "capacitance": ("pF", "um", "mm2", "GPa", "-"),
+    "life": ("h", "1e6 rev", "N", "-"),
+    "rating": ("N", "-"),
+    "kinematics": ("Hz", "1/rev", "rpm", "-"),
+    "stiffness": ("N/um", "N m/mrad", "N/mrad"),
+    "load": ("N", "deg", "um", "-"),
+}
+
+
+class NotApplicable(LambdaError):
+    """A method cannot answer for this case; the sentence says why, the other methods go on."""
+
+    exit_code = 3
+
+
+@dataclass(frozen=True)
+class ContactLoad:
+    """Loads of one ball in the quasi-static equilibrium, SI."""
+
+    azimuth: float  # from +y towards +z [rad]
+    load_inner: float  # normal load of the ball-inner contact [N]
+    load_outer: float  # normal load of the ball-outer contact [N]
+    angle_inner: float  # contact angle [rad]
+    angle_outer: float  # [rad]
+
+
+@dataclass(frozen=True)
+class EquilibriumState:
+    """The quasi-static solution as methods see it, SI."""
+
+    contacts: tuple[ContactLoad, ...]
+    displacement: tuple[float, float, float, float, float]  # inner ring x, y, z [m], tilt_y, tilt_z [rad]
+    # 5 x 5, rows of d(load)/d(displacement) in the same order [N/m, N/rad, N m/rad]; None when not computed
+    stiffness: tuple[tuple[float, ...], ...] | None = None
+    friction: tuple[tuple[str, float], ...] = ()  # (part, friction torque [N m]) of the quasi-static solver
+
+
+@dataclass(frozen=True)
+class MethodInputs:
+    """Everything a method may look at: plain SI numbers, frozen. None means that the case does not say."""
+
+    title: str  # the bearing for people: "6319 (Syla2026)"
+    series: str  # "60", "62", "63", "64", "618", "619" or "" when unknown
+    bore_diameter: float  # [m]
+    outside_diameter: float  # [m]
+    width: float  # [m]
+    ball_count: int  # Z
+    ball_diameter: float  # [m]
+    pitch_diameter: float  # [m]
+    groove_radius_inner: float  # [m]
+    groove_radius_outer: float  # [m]
+    ball: Material  # of the balls
+    inner_ring: Material  # of the inner ring
+    outer_ring: Material  # of the outer ring
+    oil: Oil  # viscosity, density, alpha_p and beta filled in at the bulk temperature
+    radial_load: float  # magnitude [N]
+    axial_load: float  # magnitude [N]
+    inner_speed: float  # signed [rad/s]
+    outer_speed: float  # signed [rad/s]
+    dynamic_rating: float | None = None  # C [N]
+    static_rating: float | None = None  # C_0 [N]
+    fatigue_limit: float | None = None  # C_u [N]
+    contamination: float | None = None  # e_C of ISO 281, 0..1
+    lubrication: Lubrication = "oil bath"  # "oil bath", "oil jet", "oil-air", "grease"
+    oil_level: float | None = None  # above the lowest point of the pitch circle [m]
+    drag_volume_factor: float | None = None  # V_M of SKF, read from its chart at H/d_m
+    drag_edition: Literal["2008", "2018"] = "2018"  # edition of SKF's drag formula, to which V_M belongs
+    permittivity: Callable[[float], float] | None = None  # pressure [Pa] -> eps_r at the bulk temperature
+    state: EquilibriumState | None = None  # quasi-static loads, displacement, stiffness and friction
+
+    @property
+    def mean_diameter(self) -> float:
+        """Mean diameter d_m = (d + D)/2 of the catalogues [m], not the pitch diameter."""
+        return 0.5 * (self.bore_diameter + self.outside_diameter)
+
+    @property
+    def relative_speed(self) -> float:
+        """|Omega_i - Omega_o| [rad/s]."""
+        return abs(self.inner_speed - self.outer_speed)
+
+    @property
+    def kinematic_viscosity(self) -> float:
+        """Kinematic viscosity at the bulk temperature [m2/s]."""
+        return self.oil.viscosity / self.oil.density
+
+
+@dataclass(frozen=True)
+class MethodRow:
+    """One number of a method, in a unit of its group (:data:`GROUP_UNITS`)."""
+
+    group: Group  # "friction", "capacitance", "life", "rating", "kinematics", "stiffness", "load"
+    name: str  # "total", "rolling", "sliding", ...; equal names of two methods stand side by side
+    value: float  # in `unit`
+    unit: str  # one of the group's
+    meaning: str = ""  # one line for people
+
+    def __post_init__(self) -> None:
+        if self.unit not in GROUP_UNITS[self.group]:
+            raise ValueError(f'"{self.unit}" is no unit of {self.group}; allowed: {", ".join(GROUP_UNITS[self.group])}')
+
+
+@dataclass(frozen=True)
+class MethodTable:
+    """What a method returns: rows, and what it had to assume."""
+
+    rows: tuple[MethodRow, ...]  # in the order in which they are shown
+    assumptions: tuple[str, ...] = ()
+
+    def value(self, group: str, name: str) -> float:
+        """Return one number.
+
+        Raises
+        ------
+        LookupError
+            If the table has no such row; the message lists the nearest names.
+        """
+        for row in self.rows:
+            if row.group == group and row.name == name:
+                return row.value
+        known = [f"{row.group} {row.name}" for row in self.rows]
+        raise LookupError(unknown_name("row of this method", f"{group} {name}", known))
+
+
+@dataclass(frozen=True)
+class Method:
+    """A comparison method.
+
+    Attributes
+    ----------
+    name : str
+        Short and unique: "skf".
+    title : str
+        One line for people.
+    reference : str
+        Publication and equation numbers.
+    evaluate : callable
+        ``evaluate(inputs: MethodInputs) -> MethodTable``; raises :class:`NotApplicable` with a sentence when the
+        method does not cover the case.
+    validity : str
+        Cases that it is made for.
+    """
+
+    name: str
+    title: str
+    reference: str
+    evaluate: Callable[[MethodInputs], MethodTable]
+    validity: str = ""
+    method_api: int = METHOD_API
+    distribution: str = ""  # filled by the registry
+
+
+@dataclass(frozen=True)
+class MethodAnswer:
+    """One method's answer to one case: a table, or the sentence why there is none."""
+
+    method: Method
+    table: MethodTable | None
+    reason: str = ""
+
+
+def evaluate_methods(methods: Iterable[Method], inputs: MethodInputs) -> tuple[MethodAnswer, ...]:
+    """Ask every method; one that does not apply answers with its reason and does not stop the others."""
+    answers = []
+    for method in methods:
+        try:
+            answers.append(MethodAnswer(method, method.evaluate(inputs)))
+        except NotApplicable as error:
+            answers.append(MethodAnswer(method, None, str(error)))
+    return tuple(answers)

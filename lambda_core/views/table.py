@@ -1,0 +1,148 @@
+"""The table of a study: one row per point, parameters and responses with units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import UsageError, unknown_name
+
+Cell = float | str | None
+PointState = Literal["pending", "done", "partial", "failed"]
+
+
+@dataclass(frozen=True)
+class Column:
+    """One parameter or response.
+
+    Attributes
+    ----------
+    name : str
+        Path of the parameter in the case, or name of the response.
+    unit : str
+        "" for plain numbers and names.
+    meaning : str
+        One line for people.
+    values : tuple
+        One per row: a number, a name (of a law, say), or None where there is none.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    values: tuple[Cell, ...]
+
+    @property
+    def numeric(self) -> bool:
+        """Whether every value that exists is a number."""
+        return not any(isinstance(value, str) for value in self.values)
+
+    @property
+    def label(self) -> str:
+        """What people read: the meaning, or the last words of the path."""
+        return self.meaning or self.name.rpartition(".")[2].replace("_", " ")
+
+    def numbers(self) -> FloatArray:
+        """Return the values, shape (rows,); NaN where there is none."""
+        return np.array([np.nan if v is None or isinstance(v, str) else float(v) for v in self.values])
+
+
+@dataclass(frozen=True)
+class StudyTable:
+    """What a study has found so far.
+
+    Attributes
+    ----------
+    name, title : str
+    mode : str
+        ``quasi-static`` or ``dynamic``.
+    design : str
+        How the points were chosen: ``crossed``, ``zipped``, ``latin-hypercube``, ``sobol``, ``saltelli``,
+        ``optimise``.
+    parameters, responses : tuple of Column
+    states, reasons : tuple of str
+        Of each row; the reason says why a point failed or is partial.
+    files : tuple of str
+        Result file of each row, relative to the study's folder; "" where there is none.
+    """
+
+    name: str
+    title: str
+    mode: Literal["quasi-static", "dynamic"]
+    design: str
+    parameters: tuple[Column, ...]
+    responses: tuple[Column, ...]
+    states: tuple[PointState, ...]
+    reasons: tuple[str, ...]
+    files: tuple[str, ...]
+
+    def __len__(self) -> int:
+        return len(self.states)
+
+    def response(self, name: str) -> Column:
+        """Return one response; UsageError with the nearest names when the study has no such."""
+        return _find("response of this study", name, self.responses)
+
+    def parameter(self, name: str) -> Column:
+        """Return one parameter; UsageError with the nearest names when the study has no such."""
+        return _find("parameter of this study", name, self.parameters)
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return one plain dict per point, for tables of any kind."""
+        return [
+            {
+                "point": index + 1,
+                **{column.name: column.values[index] for column in (*self.parameters, *self.responses)},
+                "state": self.states[index],
+                "reason": self.reasons[index],
+                "file": self.files[index],
+            }
+            for index in range(len(self))
+        ]
+
+    def units(self) -> dict[str, str]:
+        """Return the unit of every column."""
+        return {column.name: column.unit for column in (*self.parameters, *self.responses)}
+
+    def to_pandas(self) -> Any:
+        """Return the table as a pandas.DataFrame; units stand in ``frame.attrs["units"]``."""
+        import pandas
+
+        frame = pandas.DataFrame(self.rows()).set_index("point")
+        frame.attrs["units"] = self.units()
+        return frame
+
+    def to_xarray(self) -> Any:
+        """Return the table as an xarray.Dataset with units and meanings.
+
+        A crossed study has a dimension for each parameter, any other one the dimension ``point``, counted from 1.
+        """
+        import xarray
+
+        if self.design == "crossed":
+            dims = {c.name: list(dict.fromkeys(c.values)) for c in self.parameters}
+            shape = tuple(len(values) for values in dims.values())
+            coords = {c.name: (c.name, dims[c.name], _attributes(c)) for c in self.parameters}
+        else:
+            shape = (len(self),)
+            coords = {c.name: ("point", list(c.values), _attributes(c)) for c in self.parameters}
+            dims = {"point": list(range(1, len(self) + 1))}
+            coords["point"] = ("point", dims["point"], {})
+        found = {c.name: (tuple(dims), c.numbers().reshape(shape), _attributes(c)) for c in self.responses}
+        states = (tuple(dims), np.array(self.states).reshape(shape), {"long_name": "state of the point"})
+        return xarray.Dataset({**found, "state": states}, coords, {"title": self.title, "mode": self.mode})
+
+
+def _attributes(column: Column) -> dict[str, str]:
+    return {"units": column.unit or "1", "long_name": column.label}
+
+
+def _find(kind: str, name: str, columns: Sequence[Column]) -> Column:
+    for column in columns:
+        if column.name == name:
+            return column
+    raise UsageError(unknown_name(kind, name, [column.name for column in columns]))

@@ -1,0 +1,20 @@
+"""Where the heat of one run goes: its averaged losses in the thermal network of its case."""
+
+from __future__ import annotations
+
+from lambda_core.domain.errors import LambdaError
+from lambda_core.plugins import NotApplicable, Options, RunData, View, ViewData
+
+
+def heat(run: RunData, options: Options) -> ViewData:
+    """Losses by mechanism, the nodes that get them, the flows to the surroundings, and the temperatures that follow."""
+    from lambda_core import api
+
+    try:
+        (found,) = api.thermal_pictures(api.thermal(run.path))
+    except LambdaError as error:
+        raise NotApplicable(f"the temperatures cannot be computed: {error}") from None
+    return found
+
+
+VIEWS = (View("heat", "where the heat of a run goes, and the temperatures that follow", "result", heat),)

@@ -1,0 +1,81 @@
+"""Studies: responses over one parameter; methods that answer the same question share their axes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lambda_core.plugins import Axis, Column, NotApplicable, Panel, Series, StudyTable, ViewData
+from lambda_plugins.views.study_table import (
+    Curves,
+    axis_of,
+    numeric_parameters,
+    responses,
+    rows_by_label,
+    source_line,
+    varied,
+)
+
+_CURVES = 9  # curves in a panel
+# What a row of a comparison method answers beside the solver's own response.
+_SAME: dict[str, str] = {"friction/total": "friction_torque_Nmm"}
+
+
+def study_curves(table: StudyTable, options: Curves) -> ViewData:
+    """Every response over one parameter, a curve for each combination of the others."""
+    numeric = numeric_parameters(table)
+    if not numeric:
+        raise NotApplicable("no numeric parameter varies in this study")
+    x = table.parameter(options.x) if options.x else numeric[0]
+    groups = rows_by_label(table, x)
+    sampled = len(groups) > 0.5 * len(table)
+    if not sampled and len(groups) > _CURVES:
+        step = (len(groups) - 1) / (_CURVES - 1)
+        kept = {round(index * step) for index in range(_CURVES)}
+        groups = {label: rows for index, (label, rows) in enumerate(groups.items()) if index in kept}
+    panels, compared = [], False
+    for alike in _by_question(responses(table, options.response)):
+        several = len(alike) > 1
+        compared = compared or several
+        series: list[Series] = []
+        for column in alike:
+            who = _who(column, table) if several else ""
+            if sampled:
+                series.append(Series(who or "points", x.numbers(), column.numbers(), "points", unlisted=not who))
+            else:
+                series += (
+                    _curve(x, column, rows, ", ".join(filter(None, (who, label)))) for label, rows in groups.items()
+                )
+        panels.append(Panel("", axis_of(x), Axis(_label(alike[0]), alike[0].unit), tuple(series)))
+    notes = [f"all other parameters vary too: {', '.join(_others(table, x))}"] if sampled and _others(table, x) else []
+    if compared and table.mode == "quasi-static":
+        notes.append("the quasi-static solution has no cage")
+    return ViewData("study-curves", "Responses over a parameter", source_line(table), tuple(panels), 2, tuple(notes))
+
+
+def _by_question(columns: list[Column]) -> list[list[Column]]:
+    """Return the responses, those together that answer one question in one unit."""
+    found: dict[tuple[str, str], list[Column]] = {}
+    for column in columns:
+        row = column.name.partition("/")[2]
+        found.setdefault((_SAME.get(row, row or column.name), column.unit), []).append(column)
+    return list(found.values())
+
+
+def _who(column: Column, table: StudyTable) -> str:
+    method = column.name.partition("/")[0]
+    own = "simulation" if table.mode == "dynamic" else "quasi-static"
+    return own if method == column.name else {"skf": "SKF", "schaeffler": "Schaeffler"}.get(method, method)
+
+
+def _label(column: Column) -> str:
+    return column.label.rpartition("/")[2] if column.label == column.name else column.label
+
+
+def _others(table: StudyTable, x: Column) -> list[str]:
+    return [column.label for column in varied(table) if column.name != x.name]
+
+
+def _curve(x: Column, response: Column, rows: list[int], label: str) -> Series:
+    places, values = x.numbers()[rows], response.numbers()[rows]
+    order = np.argsort(places)
+    return Series(label or response.label, places[order], values[order], "line", unlisted=not label)

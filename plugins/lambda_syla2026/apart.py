@@ -1,0 +1,38 @@
+"""Where dynamics and the quasi-static solution part: the same bearing with and without excitation."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from lambda_core.results.record import Record
+from lambda_syla2026.boundary import CASE, Setting
+from lambda_syla2026.workshop import Job, Workshop
+
+SETTING = Setting("A", 5.0)
+FREQUENCY = 8.9  # [Hz]
+ACCELERATIONS = (0.0, 20.0, 40.0, 80.0, 160.0)  # amplitudes [m/s2]
+
+
+class Apart(Record):
+    """A run over the quasi-static solution of the same case, which knows nothing of the shaking."""
+
+    acceleration_m_per_s2: float
+    friction_difference_pct: float = Field(description="of the torque without the cage's part")
+    load_difference_pct: float = Field(description="of the mean load of the most loaded ball")
+    cage_Nmm: float = Field(description="what the cage adds, in the run only")
+
+
+def apart(workshop: Workshop) -> list[Apart]:
+    """Run the 6220 of variant A under growing axial excitation and compare."""
+    jobs = [Job(CASE, SETTING.changes(), "friction")]
+    jobs += [Job(CASE, SETTING.changes(FREQUENCY, a), "torque") for a in ACCELERATIONS]
+    still, *runs = workshop.all(jobs)
+    return [
+        Apart(
+            acceleration_m_per_s2=a,
+            friction_difference_pct=100.0 * ((run["torque"] - run["cage"]) / still["torque"] - 1.0),
+            load_difference_pct=100.0 * (run["max_load_N"] / still["max_load_N"] - 1.0),
+            cage_Nmm=run["cage"],
+        )
+        for a, run in zip(ACCELERATIONS, runs, strict=True)
+    ]

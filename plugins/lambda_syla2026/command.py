@@ -1,0 +1,42 @@
+"""Repeat the published experiments."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from lambda_cli.options import JsonOption
+from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+
+
+def reproduce(
+    what: Annotated[str, typer.Argument(metavar="table4|fig5|fig7|all", help="Which experiment of the paper.")],
+    out: Annotated[
+        Path, typer.Option("--out", metavar="DIR", help="Folder of figures, page, and all that was computed.")
+    ] = Path("reproduction"),
+    quick: Annotated[bool, typer.Option("--quick", help="Fewer runs: what is left out is said.")] = False,
+    workers: Annotated[
+        int | None, typer.Option("--workers", min=1, metavar="N", help="Processes; default: up to 4.")
+    ] = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Repeat experiments of Syla et al. 2026, Lubricants 14, 154, beside what they printed.
+
+    table4: friction torque of the 6319, blind and calibrated; fig5: limits of axial excitation of the 6220; fig7:
+    capacitance of the 6208. Writes figures (SVG, PNG) and one HTML page. Called again it goes on where it ended.
+    """
+    from lambda_syla2026 import reproduce as repeat
+
+    with talk(progress, quiet) as speaker:
+        found = repeat(what, out, workers=workers, quick=quick, progress=speaker.update, announce=speaker.say)
+    if not as_json:
+        typer.echo(found.text())
+        return
+    data = found.model_dump(mode="json")
+    if what != "all":
+        data = data[what] | {name: data[name] for name in ("files", "effort")}
+    typer.echo(json.dumps(data, indent=2))

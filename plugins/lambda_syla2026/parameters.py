@@ -1,0 +1,116 @@
+"""The blind parameter set: one value and one published range for everything that the experiment does not say."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.batch.values import scale_of
+
+if TYPE_CHECKING:
+    from lambda_core.batch.design import Plan
+
+FILE = "blind.toml"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One value of the set.
+
+    Attributes
+    ----------
+    path, value : str
+        Option of the case, and its value as written in a case file.
+    source : str
+        Where value and range come from.
+    range : tuple of str
+        Lowest and highest published value; empty where nothing is varied.
+    spacing : str
+        "linear", or "log" where the range spans nearly a decade.
+    alternatives : tuple of str
+        Published laws that are sampled equally often.
+    sampled : bool
+        Whether the range is published and the band samples it.
+    cage : bool
+        Felt by the cage only, so by no quasi-static solution.
+    """
+
+    path: str
+    value: str
+    source: str
+    range: tuple[str, ...] = ()
+    spacing: str = "linear"
+    alternatives: tuple[str, ...] = ()
+    sampled: bool = True
+    cage: bool = False
+
+    @property
+    def label(self) -> str:
+        """Words for people."""
+        return self.path.removeprefix("parameters.").removeprefix("models.").replace("_", " ").replace(".", ": ", 1)
+
+    @property
+    def ends(self) -> tuple[str, ...]:
+        """Values at which the sensitivity is taken: the ends of the range, or the other laws."""
+        return self.range or tuple(name for name in self.alternatives if name != self.value)
+
+
+@cache
+def blind_set() -> tuple[Entry, ...]:
+    """Return the entries of the parameter file."""
+    data = tomllib.loads(files(__package__).joinpath(FILE).read_text(encoding="utf-8"))
+    return tuple(_entry(**table) for table in data["entry"])
+
+
+def _entry(
+    *, range: Sequence[str] = (), alternatives: Sequence[str] = (), path: str, value: str, source: str, **rest: Any
+) -> Entry:
+    return Entry(path, value, source, tuple(range), alternatives=tuple(alternatives), **rest)
+
+
+def entry(path: str) -> Entry:
+    """Return one entry by its path."""
+    return next(entry for entry in blind_set() if entry.path == path)
+
+
+def changes(replaced: Mapping[str, str | None] | None = None) -> tuple[str, ...]:
+    """Return the set as ``path=value`` texts, some values replaced; None leaves an entry out."""
+    values: dict[str, str | None] = {entry.path: entry.value for entry in blind_set()}
+    values.update(replaced or {})
+    return tuple(f"{path}={value}" for path, value in values.items() if value is not None)
+
+
+def with_law(role: str, name: str) -> dict[str, str | None]:
+    """Return the replacements that choose another law: parameters of the blind one do not belong to it."""
+    own = (entry.path for entry in blind_set() if entry.path.startswith(f"parameters.{role}."))
+    return {**dict.fromkeys(own), f"models.{role}": name}
+
+
+def samples(count: int, seed: int = 1) -> list[dict[str, str | None]]:
+    """Return replacements of a Latin hypercube over every published range (McKay, Beckman and Conover 1979)."""
+    points = _plan(count, seed).points()
+    return [{path: value for path, _, value in (c.partition("=") for c in point.changes)} for point in points]
+
+
+def _plan(count: int, seed: int) -> Plan:
+    from lambda_core.batch.definition import validate_study
+    from lambda_core.batch.design import Plan
+
+    parameters = [
+        {"path": e.path, "values": list(e.alternatives)}
+        if e.alternatives
+        else {"path": e.path, "range": _numbers(e.range), "spacing": e.spacing}
+        for e in blind_set()
+        if e.sampled and e.ends
+    ]
+    design = {"kind": "latin-hypercube", "samples": count, "seed": seed}
+    return Plan(validate_study({"name": "band", "case": "6319", "parameters": parameters, "design": design}))
+
+
+def _numbers(ends: tuple[str, ...]) -> list[str | float]:
+    """Return the ends of a range as a study takes them: unit strings, or plain numbers."""
+    return list(ends) if scale_of(ends) is not None else [float(end) for end in ends]

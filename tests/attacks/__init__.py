@@ -1,0 +1,1 @@
+"""The program attacked on purpose: ``python -m tests.attacks --help``."""

@@ -1,0 +1,70 @@
+"""``python -m tests.attacks``: attack the program on purpose, count what happened, and write it down.
+
+Every trial is told by its part, seed and number, and repeats. A campaign that was stopped goes on where it was.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from tests.attacks import page, parts, trial
+from tests.attacks.record import Record
+
+DEFAULT_FOLDER = Path("attacks")
+
+
+def main() -> int:
+    """Run the parts asked for; returns 1 when any trial failed."""
+    parser = argparse.ArgumentParser(prog="python -m tests.attacks", description=__doc__)
+    parser.add_argument("parts", nargs="*", metavar="PART", help=f"default all: {', '.join(parts.PARTS)}")
+    parser.add_argument("--seed", type=int, default=1, help="of every random number")
+    parser.add_argument("--count", type=int, help="trials per part; default: those of a full campaign")
+    parser.add_argument("--minutes", type=float, default=1e6, help="wall time after which no new trial begins")
+    parser.add_argument("--workers", type=int, default=1, help="parts that run side by side")
+    parser.add_argument("--folder", type=Path, default=DEFAULT_FOLDER, help="where outcomes and failures are kept")
+    parser.add_argument("--write", action="store_true", help="write the figures into docs/reliability.md")
+    options = parser.parse_args()
+    if unknown := [name for name in options.parts if name not in parts.PARTS]:
+        parser.error(f"no part {unknown[0]!r}; there are {', '.join(parts.PARTS)}")
+    names = options.parts or list(parts.PARTS)
+    folder = options.folder.resolve()
+    if options.workers > 1 and len(names) > 1:
+        _side_by_side(names, options)
+    else:
+        os.environ.setdefault("XDG_DATA_HOME", str(folder / "data"))  # nobody's own catalogue
+        trial.warm()
+        deadline = time.monotonic() + 60.0 * options.minutes
+        for name in names:
+            part = parts.PARTS[name]
+            parts.run(part, options.seed, part.count if options.count is None else options.count, folder, deadline)
+    text = page.figures({name: Record(folder, name) for name in names})
+    print(text)
+    if options.write:
+        page.write(text, options.seed)
+    return (
+        0
+        if all(entry.get("verdict") in trial.GOOD for name in names for entry in Record(folder, name).entries())
+        else 1
+    )
+
+
+def _side_by_side(names: list[str], options: argparse.Namespace) -> None:
+    """Give each part a process of its own, so many at a time as asked for."""
+    waiting, running = list(names), []
+    while waiting or running:
+        while waiting and len(running) < options.workers:
+            command = [sys.executable, "-P", "-m", "tests.attacks", waiting.pop(0), "--seed", str(options.seed)]
+            command += ["--folder", str(options.folder), "--minutes", str(options.minutes)]
+            command += [] if options.count is None else ["--count", str(options.count)]
+            running.append(subprocess.Popen(command, stdout=subprocess.DEVNULL))
+        running = [process for process in running if process.poll() is None]
+        time.sleep(0.2)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

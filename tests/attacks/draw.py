@@ -1,0 +1,91 @@
+"""Random cases: every bearing and oil of the catalogue, random laws and regimes, from one seed."""
+
+from __future__ import annotations
+
+import random
+from contextlib import closing
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from lambda_core import api
+
+_LAW_CHANCE = 0.25  # of a role to have another law than its default
+# Roles whose laws need data that an oil has or has not, or belong to parts that the case may not have.
+_LEFT = ("rheology", "surface", "permittivity", "cage_contact")
+_TURNS = 1.2  # cage revolutions of a simulated case, at least one
+_CAGE_SHARE = 0.4  # cage speed over that of the inner ring, about
+_LONGEST = 1.0  # [s] of simulated time
+
+
+@dataclass(frozen=True)
+class Stock:
+    """What is drawn from."""
+
+    bearings: tuple[Any, ...]
+    oils: tuple[str, ...]
+    laws: dict[str, tuple[str, ...]]  # role -> names
+
+
+@cache
+def stock() -> Stock:
+    """Return the catalogue's bearings with an inner geometry, its oils, and the laws of every role."""
+    with closing(api.catalogue()) as catalogue:
+        bearings = tuple(row for row in catalogue.bearings("", limit=1000) if row.ball_count is not None)
+        oils = tuple(catalogue.names("lubricant"))
+    laws: dict[str, list[str]] = {}
+    for item in api.plugins().items:
+        if item.kind == "model":
+            laws.setdefault(item.role, []).append(item.name)
+    return Stock(bearings, oils, {role: tuple(names) for role, names in laws.items()})
+
+
+def case(seed: int) -> dict[str, Any]:
+    """Return a random case as plain tables, sensible in its physics: loads up to C/3, speeds up to 1.2 times the limit.
+
+    Parameters
+    ----------
+    seed : int
+        The same seed gives the same case.
+    """
+    draw = random.Random(seed)
+    found = stock()
+    bearing = draw.choice(found.bearings)
+    rating = bearing.dynamic_rating.value if bearing.dynamic_rating else 1e4
+    mean_mm = 500.0 * (bearing.bore_diameter.value + bearing.outside_diameter.value)
+    speed = 10 ** draw.uniform(1.0, 5.7) / mean_mm  # n d_m from 10 to 5e5
+    radial = rating * 10 ** draw.uniform(-2.5, -0.5)
+    axial = draw.choice([0.0, 0.0, rating * 10 ** draw.uniform(-2.5, -1.0)])
+    if axial and draw.random() < 0.2:
+        radial = 0.0
+    duration = min(_LONGEST, _TURNS * 60.0 / (_CAGE_SHARE * speed))
+    made: dict[str, Any] = {
+        "name": f"attack-{seed}",
+        "bearing": {
+            "designation": bearing.designation,
+            "maker": bearing.maker,
+            "clearance": draw.choice(["C2", "CN", "C3", "C4"]),
+        },
+        "lubricant": {
+            "name": draw.choice(found.oils),
+            "temperature": f"{draw.choice([draw.uniform(-20.0, 20.0), draw.uniform(20.0, 110.0)]):.4g} degC",
+        },
+        "loads": {"radial": f"{radial:.6g} N", "axial": f"{axial:.6g} N"},
+        "operation": {"speed": f"{speed:.6g} rpm"},
+        "solver": {"duration": f"{duration:.6g} s"},
+    }
+    models = {
+        role: draw.choice(names)
+        for role, names in found.laws.items()
+        if role not in _LEFT and draw.random() < _LAW_CHANCE
+    }
+    if models:
+        made["models"] = models
+    if draw.random() < 0.15:
+        made["depth"] = {"cage": False}
+    if draw.random() < 0.15:
+        end = draw.uniform(0.0, 1.5) * speed
+        made["operation"]["speed"] = {
+            "kind": "ramp", "start": f"{speed:.6g} rpm", "end": f"{end:.6g} rpm", "end_time": f"{duration:.6g} s",
+        }  # fmt: skip
+    return made

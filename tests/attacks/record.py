@@ -1,0 +1,61 @@
+"""What the attacks found, one line each: written as it comes, so that a stopped campaign goes on where it was."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from tests.attacks.trial import Outcome
+
+
+class Record:
+    """Outcomes of one part of a campaign.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the campaign; holds ``PART.jsonl`` and the folder ``failures``.
+    part : str
+        Name of the part.
+    """
+
+    def __init__(self, folder: Path, part: str) -> None:
+        folder.mkdir(parents=True, exist_ok=True)
+        self.part = part
+        self._file = folder / f"{part}.jsonl"
+        self._failures = folder / "failures"
+
+    def entries(self) -> Iterator[dict[str, Any]]:
+        """Yield what is recorded; a last line that a kill has torn is passed over."""
+        if not self._file.is_file():
+            return
+        for line in self._file.read_text(encoding="utf-8").splitlines():
+            try:
+                yield json.loads(line)
+            except ValueError:
+                continue
+
+    def done(self) -> set[int]:
+        """Return the numbers of the trials that are recorded."""
+        return {int(entry["number"]) for entry in self.entries()}
+
+    def add(self, number: int, outcome: Outcome, command: str, evidence: Path | None = None, **more: Any) -> None:
+        """Record a trial; the files of one that failed are kept, with the command that repeats it."""
+        entry = {"number": number, "command": command, **outcome.data(), **more}
+        if outcome.good:
+            entry["said"] = outcome.said[-300:]
+        elif evidence is not None:
+            kept = self._failures / f"{self.part}-{number}"
+            shutil.rmtree(kept, ignore_errors=True)
+            shutil.copytree(evidence, kept, symlinks=True)
+            (kept / "command").write_text(command + "\n", encoding="utf-8")
+        with self._file.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(entry) + "\n")
+
+    def counts(self) -> Counter[str]:
+        """Return how many trials ended how."""
+        return Counter(str(entry["verdict"]) for entry in self.entries())

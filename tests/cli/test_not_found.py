@@ -1,0 +1,50 @@
+"""What is not there: the message says what is, and what reads like it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from lambda_cli.main import main
+
+from lambda_core.domain.errors import nearest
+
+
+def test_swapped_neighbours_come_first() -> None:
+    assert nearest("6380", ["6303", "61803", "6308", "6300"])[0] == "6308"
+
+
+@pytest.mark.parametrize("words", [["grease"], ["FAG", "6308"], ["7308"]])
+def test_a_search_without_rows_says_what_the_catalogue_holds(
+    words: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["db", "search", *words]) == 3
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert f'nothing matches "{" ".join(words)}"' in shown.err
+    assert "deep groove ball bearings only" in shown.err
+    assert "there are no greases" in shown.err
+
+
+def test_a_slip_in_a_file_name_names_the_file_beside_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("motor.toml").write_text("")
+    assert main(["check", "moter.toml"]) == 2
+    assert "nearest files there: motor.toml" in capsys.readouterr().err
+
+
+def test_a_bad_name_is_blamed_on_the_new_case(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["init", "my motor"]) == 3
+    said = capsys.readouterr().err
+    assert 'new case "my motor": 1 error' in said
+    assert "6319-cp10-1500" not in said
+
+
+def test_show_takes_bare_words(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["db", "show", "SKF", "6308", "C3"]) == 0
+    assert "6308  SKF" in capsys.readouterr().out

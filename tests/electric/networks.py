@@ -1,0 +1,57 @@
+"""Small networks with films that a test sets itself."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.electric import columns as L
+from lambda_core.electric.march import Circuit, Films, March, Strength
+
+SMOOTH = Strength(30e6, 0.0, 0.0, 0.5, 10.0, 0.0, 1e-2)
+ROUGH = Strength(30e6, 0.1e-6, 0.0, 0.5, 10.0, 0.0, 1e-2)
+
+
+def steady(
+    inner: float, outer: float, *, balls: int = 1, film: float = 0.0, leak: float = 0.0, stop: float = 2e-3
+) -> Films:
+    """Return films that do not change."""
+    time = np.linspace(0.0, stop, 3)
+    each = np.ones((3, balls, 2))
+    capacitance = each * np.array([inner, outer])
+    return Films(time, capacitance, leak * each, film * each, each, 0.0 * each, 0.0 * each)
+
+
+def turning(stop: float = 0.02, samples: int = 41, film: float = 0.0, leak: float = 1e-10) -> Films:
+    """Return nine balls that pass a load zone, their surfaces new every 45 us."""
+    time = np.linspace(0.0, stop, samples)
+    phase = 2.0 * np.pi * (np.arange(9) / 9)[None, :, None] + 2.0 * np.pi * 20.0 * time[:, None, None]
+    capacitance = 40e-12 + 25e-12 * np.cos(phase) + np.array([0.0, 5e-12])
+    each = np.ones_like(capacitance)
+    rolled = each * (time / 45e-6)[:, None, None]
+    return Films(time, capacitance, leak * each, film * each, 27000.0 * each, 0.0 * each, rolled)
+
+
+def switching(
+    stop: float, link: float = 800.0, frequency: float = 1e4, rise: float = 50e-9
+) -> tuple[FloatArray, FloatArray]:
+    """Return the corners of a six-step common-mode voltage."""
+    levels = np.array([-3.0, -1.0, 1.0, 3.0, 1.0, -1.0]) * link / 6.0
+    edges = (np.arange(int(stop * frequency * 6)) + 1.0) / (6.0 * frequency)
+    times = np.append(0.0, np.column_stack([edges, edges + rise]).ravel())
+    after = levels[(np.arange(edges.size) + 1) % 6]
+    before = levels[np.arange(edges.size) % 6]
+    return times, np.append(levels[0], np.column_stack([before, after]).ravel())
+
+
+def residuals(found: March, circuit: Circuit, source: tuple[FloatArray, FloatArray]) -> tuple[float, float]:
+    """Return what energy and charge do not add up to, relative to what flowed."""
+    t = found.total
+    stored = t[L.T_STORED] - t[L.T_STORED_0]
+    rest = t[L.T_SOURCE] + t[L.T_MOTION] - t[L.T_OHMIC] - t[L.T_ARC] - stored
+    flowed = np.abs(t[[L.T_SOURCE, L.T_MOTION, L.T_OHMIC, L.T_ARC]]).sum() + abs(stored)
+    begin, end = np.interp([0.0, t[L.T_TIME]], *source)
+    brought = circuit.winding * (end - begin)
+    lost = brought - t[L.T_LEAK] - t[L.T_ARC_CHARGE] - (t[L.T_CHARGE] - t[L.T_CHARGE_0])
+    moved = circuit.winding * (np.abs(np.diff(source[1])).sum() + abs(begin))
+    return float(rest / flowed), float(lost / moved)

@@ -1,0 +1,178 @@
+"""The network against closed forms, and its balance of energy and charge."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from electric.networks import ROUGH, SMOOTH, residuals, steady, switching, turning
+
+from lambda_core.case.electric import Sine
+from lambda_core.electric import columns as L
+from lambda_core.electric.circuit import impedance, voltage_ratio
+from lambda_core.electric.march import Circuit, Strength, march
+from lambda_core.electric.sources import corners
+
+
+@pytest.mark.parametrize(("link", "peak"), [(800.0, 16.0), (400.0, 8.0)])
+def test_voltage_divider_at_every_edge(link: float, peak: float) -> None:
+    """C_wr 50, C_rf 800, two bearings of 200 pF: BVR 0.04 exactly (Muetze and Binder 2007, definition of BVR)."""
+    circuit = Circuit(winding=50e-12, rotor=1000e-12)
+    source = switching(2e-3, link)
+    found = march(steady(400e-12, 400e-12), circuit, SMOOTH, source, window=(0.0, 1.0))
+    assert voltage_ratio(circuit, 200e-12) == pytest.approx(0.04, rel=1e-12)
+    assert found.trace.shape[0] > 200
+    np.testing.assert_allclose(found.trace[:, 2], 0.04 * found.trace[:, 1], rtol=1e-9)
+    assert np.abs(found.trace[:, 2]).max() == pytest.approx(peak, rel=1e-9)
+
+
+def test_discharge_of_the_rotor() -> None:
+    """1.25 nF at 20 V through 10 Ohm: 0.25 uJ, 2 A, time constant 12.5 ns.
+
+    Films of next to no capacitance share the voltage and break down at 10 V; two arcs of 5 Ohm in series.
+    """
+    circuit = Circuit(winding=50e-12, rotor=1200e-12)
+    arcs = Strength(30e6, 0.0, 0.0, 0.5, 5.0, 0.0, 1e-7)
+    source = (np.array([0.0, 1.0]), np.array([500.0, 500.0]) * (1.0 + 1e-9))
+    found = march(steady(1e-20, 1e-20, film=10.0 / 30e6), circuit, arcs, source, window=(0.0, 1.0))
+    energy, charge, peak = (found.events[:, c] for c in (L.E_ENERGY, L.E_CHARGE, L.E_PEAK))
+    assert energy.sum() == pytest.approx(0.25e-6, rel=1e-6)
+    assert charge.max() == pytest.approx(25e-9, rel=1e-6)
+    assert peak.max() == pytest.approx(2.0, rel=1e-6)
+    burning = found.trace[(found.trace[:, 3] > 0.5) & (found.trace[:, 3] < 1.9)]
+    decay = np.diff(burning[:, 0]) / -np.diff(np.log(burning[:, 3]))
+    np.testing.assert_allclose(decay, 12.5e-9, rtol=1e-6)
+    assert max(map(abs, residuals(found, circuit, source))) < 1e-6
+
+
+def test_isolated_rotor_keeps_its_charge() -> None:
+    """Capacitance halves: the voltage doubles, and the surfaces do the work U Q/2."""
+    films = steady(400e-12, 400e-12)
+    films = dataclasses.replace(films, capacitance=films.capacitance * np.array([1.0, 0.5, 0.5])[:, None, None])
+    circuit = Circuit(winding=1e-21, rotor=0.0)  # brings the charge, and is too small to be seen
+    charge = 2e-9
+    source = (np.array([0.0, 1.0]), np.full(2, charge / circuit.winding))
+    found = march(films, circuit, SMOOTH, source, window=(0.0, 1.0))
+    first, last = found.trace[0, 2], found.trace[-1, 2]
+    assert first == pytest.approx(charge / 200e-12, rel=0.3)  # half an interval after the start
+    assert last == pytest.approx(charge / 100e-12, rel=1e-9)
+    work = 0.5 * charge * (last - first)
+    assert found.total[L.T_MOTION] == pytest.approx(work, rel=1e-9)
+
+
+def test_whole_step_doubles_the_voltage() -> None:
+    """With the step inside one interval, start and end are on either side of it."""
+    films = steady(400e-12, 400e-12)
+    time = np.array([0.0, 1e-3, 1e-3 + 1e-12, 2e-3])
+    films = dataclasses.replace(films, time=time, **{
+        f.name: np.ones((4, 1, 2)) * getattr(films, f.name)[0] for f in dataclasses.fields(films) if f.name != "time"
+    })  # fmt: skip
+    films = dataclasses.replace(films, capacitance=films.capacitance * np.array([1.0, 1.0, 0.5, 0.5])[:, None, None])
+    source = (np.array([0.0, 1.0]), np.full(2, 2e-9 / 1e-21))
+    found = march(films, Circuit(1e-21, 0.0), SMOOTH, source, window=(0.0, 1.0))
+    assert found.trace[-1, 2] / found.trace[0, 2] == pytest.approx(2.0, rel=1e-9)
+    assert found.total[L.T_MOTION] == pytest.approx(0.5 * found.trace[0, 2] * 2e-9, rel=1e-9)
+
+
+def test_leak_makes_a_high_pass() -> None:
+    """A resistance across C_tot: |U/V| = BVR w RC/sqrt(1 + (w RC)^2), here at the corner frequency.
+
+    4000 corners per period stand for the sine; their error is (2 pi/4000)^2/12 = 2e-7.
+    """
+    total, resistance = 1.25e-9, 1e5
+    frequency = 1.0 / (2.0 * math.pi * resistance * total)
+    periods, points = 6, 4000
+    stop = periods / frequency
+    circuit = Circuit(winding=50e-12, rotor=1000e-12, brush=1.0 / resistance)
+    source = corners(Sine(amplitude="100 V", frequency=f"{frequency!r} Hz", points=points), 0.0, stop, 0.0)
+    begin = (periods - 1) / frequency
+    found = march(steady(400e-12, 400e-12, stop=stop), circuit, SMOOTH, source, window=(begin, stop))
+    time, _, bearing, _ = np.unique(found.trace, axis=0).T
+    at = np.isclose(time * frequency * points, np.round(time * frequency * points), rtol=0.0, atol=1e-6)
+    time, bearing = time[at][-points:], bearing[at][-points:]
+    amplitude = 2.0 * abs(np.mean(bearing * np.exp(-2j * math.pi * frequency * time)))
+    assert amplitude == pytest.approx(100.0 * 0.04 / math.sqrt(2.0), rel=1e-6)
+
+
+CIRCUITS = [
+    Circuit(50e-12, 1000e-12, 5e-12),
+    Circuit(50e-12, 1000e-12, 5e-12, brush=1e-7),
+    Circuit(50e-12, 1000e-12, 5e-12, brush=0.1),
+    Circuit(50e-12, 1000e-12, 5e-12, coating=3e-9, bridge=1e-9),
+    Circuit(50e-12, 1000e-12, 5e-12, coating=3e-9, bridge=1.0),
+]
+
+
+@pytest.mark.parametrize("circuit", CIRCUITS)
+@pytest.mark.parametrize("metal", [False, True])
+def test_balance_without_arcs(circuit: Circuit, metal: bool) -> None:
+    """Energy and charge add up to 1e-9, with balls that pass, oil that leaks and a film that metal bridges at times."""
+    films = turning()
+    if metal:
+        films.conductance[10:15, 3, 0] = 1.0
+    source = switching(0.02)
+    found = march(films, circuit, SMOOTH, source)
+    assert found.events.shape[0] == 0
+    assert max(map(abs, residuals(found, circuit, source))) < 1e-9
+
+
+@pytest.mark.parametrize("circuit", CIRCUITS)
+@pytest.mark.parametrize("fall", [0.0, 0.3])
+def test_balance_with_arcs(circuit: Circuit, fall: float) -> None:
+    """Energy and charge add up to 1e-6 over hundreds of discharges."""
+    films = turning(film=0.55e-6)
+    films.conductance[10:15, 3, 0] = 1.0
+    films.film[10:15, 3, 0] = 0.0
+    source = switching(0.02)
+    found = march(films, circuit, dataclasses.replace(ROUGH, fall=fall), source, seed=5)
+    assert found.events.shape[0] > 100
+    assert max(map(abs, residuals(found, circuit, source))) < 1e-6
+
+
+def test_brush_keeps_the_bearing_quiet() -> None:
+    """10 Ohm on the shaft: only while edges last does C_wr dV/dt drive a voltage, R C_wr dV/dt at most."""
+    source = switching(2e-3)
+    found = march(steady(400e-12, 400e-12), Circuit(50e-12, 1000e-12, brush=0.1), SMOOTH, source, window=(0.0, 1.0))
+    steepest = 800.0 / 3.0 / 50e-9
+    assert 0.9 < np.abs(found.trace[2:, 2]).max() / (10.0 * 50e-12 * steepest) <= 1.0
+
+
+def test_insulation_takes_the_voltage() -> None:
+    """A coating in series: the bearing keeps C_c/(C_c + C_b) of the rotor's voltage."""
+    circuit = Circuit(50e-12, 1000e-12, coating=50e-12, bridge=1e-15)
+    found = march(steady(400e-12, 400e-12), circuit, SMOOTH, switching(2e-3), window=(0.0, 1.0))
+    expected = voltage_ratio(circuit, 200e-12) * found.trace[:, 1]
+    np.testing.assert_allclose(found.trace[:, 2], expected, rtol=1e-6)
+    rotor = 50e-12 / (50e-12 + 1000e-12 + 40e-12)
+    assert voltage_ratio(circuit, 200e-12) == pytest.approx(rotor * 0.2, rel=1e-12)
+
+
+def test_impedance() -> None:
+    """One ball, capacitance and conductance in each film, the rings beside them."""
+    films = steady(100e-12, 50e-12, leak=1e-8)
+    omega = 2.0 * math.pi * np.array([1.0, 50.0, 1e6])
+    each = [1.0 / (1e-8 + 1j * omega * c) for c in (100e-12, 50e-12)]
+    expected = 1.0 / (1.0 / (each[0] + each[1]) + 1j * omega * 5e-12)
+    np.testing.assert_allclose(impedance(films, 5e-12, omega / (2.0 * math.pi))[0], expected, rtol=1e-12)
+
+
+def test_same_seed_same_events() -> None:
+    """Bit for bit; another seed draws others."""
+    circuit, source = CIRCUITS[0], switching(0.02)
+    films = turning(film=0.55e-6)
+    first, again, other = (march(films, circuit, ROUGH, source, seed=s).events for s in (1, 1, 2))
+    assert first.tobytes() == again.tobytes()
+    assert first.tobytes() != other.tobytes()
+
+
+def test_events_begin_alike_however_long_the_span() -> None:
+    """What comes later does not change what was: a longer run has the same events first."""
+    circuit = CIRCUITS[1]
+    long = march(turning(film=0.55e-6), circuit, ROUGH, switching(0.02), seed=1).events
+    whole = turning(film=0.55e-6)
+    half = dataclasses.replace(whole, **{f.name: getattr(whole, f.name)[:21] for f in dataclasses.fields(whole)})
+    short = march(half, circuit, ROUGH, switching(0.02), seed=1).events
+    assert 20 < short.shape[0] < long.shape[0]
+    np.testing.assert_array_equal(short[:-2], long[: short.shape[0] - 2])

@@ -1,0 +1,110 @@
+"""Common-mode voltages, and the mistakes that can be made with them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lambda_core.case.case import Case
+from lambda_core.case.case_io import load_case
+from lambda_core.case.case_writer import standalone_toml
+from lambda_core.case.electric import Inverter, Series, Step
+from lambda_core.domain.errors import CaseError
+from lambda_core.electric.sources import corners
+
+
+def case_with(electric: dict[str, object], folder: Path | None = None) -> Case:
+    base = load_case("6208-axial-1300")
+    base._folder = folder
+    return base.with_(electric=electric)
+
+
+def test_inverter_levels_and_edges() -> None:
+    """Six edges of a third of the dc link per period, levels of a half and a sixth of it."""
+    source = Inverter(dc_link="600 V", switching_frequency="8 kHz", rise_time="40 ns", modulation=0.5)
+    time, volts = corners(source, 0.25, 0.35, 300.0)
+    assert time[0] == 0.25
+    assert time[-1] >= 0.35
+    assert np.all(np.diff(time) > 0.0)
+    assert np.abs(volts).max() == pytest.approx(300.0)
+    slope = np.diff(volts) / np.diff(time)
+    flat = slope == 0.0
+    np.testing.assert_allclose(np.unique(np.round(np.abs(volts[:-1][flat]))), [100.0, 300.0])
+    single = ~flat & np.isclose(np.diff(time), 40e-9)
+    phases = np.abs(slope[single]) / (200.0 / 40e-9)  # two of them may switch at one instant
+    np.testing.assert_allclose(phases, np.round(phases), rtol=1e-6)
+    assert np.median(phases) == pytest.approx(1.0, rel=1e-6)
+    inside = (time[:-1] >= 0.25) & (time[:-1] < 0.35)
+    assert np.abs(np.diff(volts))[inside].sum() == pytest.approx(6 * 200.0 * 800, rel=2e-3)
+
+
+def test_average_follows_no_fundamental() -> None:
+    """Three sines at 120 degrees: the common mode has no fundamental; its mean over many periods vanishes."""
+    time, volts = corners(Inverter(), 0.0, 0.2, 2.0 * np.pi * 25.0)
+    assert abs(np.trapezoid(volts, time) / 0.2) < 0.02 * 400.0
+
+
+def test_step() -> None:
+    time, volts = corners(Step(amplitude="100 V", time="1 ms", rise_time="1 us"), 0.0, 0.01, 0.0)
+    np.testing.assert_allclose(np.interp([0.5e-3, 1.0005e-3, 2e-3, 9e-3], time, volts), [0.0, 50.0, 100.0, 100.0])
+
+
+def test_series_is_repeated(tmp_path: Path) -> None:
+    (tmp_path / "shaft.csv").write_text("time [us],voltage [V]\n0,1\n10,2\n20,-1\n30,0\n")
+    case = case_with({"series": {"file": "shaft.csv"}}, tmp_path)
+    assert case.electric is not None
+    assert isinstance(case.electric.source, Series)
+    time, volts = corners(case.electric.source, 0.0, 100e-6, 0.0)
+    np.testing.assert_allclose(np.interp([5e-6, 45e-6, 85e-6, 38e-6], time, volts), [1.5, 1.5, 1.5, 0.8])
+    alone = standalone_toml(case)
+    assert "shaft.csv" not in alone
+    assert '"20 us, -1 V"' in alone
+
+
+@pytest.mark.parametrize(
+    ("electric", "where", "words"),
+    [
+        ({"inverter": {"rise_time": "-50 ns"}}, "electric.inverter.rise_time", "must be greater than 0 s"),
+        ({"inverter": {"rise_time": "50"}}, "electric.inverter.rise_time", "has no unit"),
+        ({"inverter": {"rise_time": "20 us"}}, "electric.inverter", "1/20 of a switching period"),
+        ({"inverter": {"dc_lnk": "1 V"}}, "electric.inverter.dc_lnk", "nearest: dc_link"),
+        ({"inverted": {}}, "electric.inverted", "nearest: inverter"),
+        ({"sine": {"frequency": "1 kHz"}}, "electric.sine.amplitude", "is required"),
+        ({"inverter": {"dc_link": "800 A"}}, "electric.inverter.dc_link", "is not a unit of voltage"),
+        ({"inverter": {}, "step": {"amplitude": "1 V"}}, "electric", "inverter and step are both sources"),
+        ({"series": {"points": ["0 s 1 V"]}}, "electric.series", "write a time and a voltage"),
+        ({"grounding": {"shunt": "1 Ohm"}}, "electric.grounding", "bridges an insulation"),
+        ({"discharge": {"least_current": "1 A"}}, "electric", "least_voltage must be above 10 V"),
+        ({"breakdown": {"law": "field-strength"}}, "electric.breakdown.law", "nearest: field"),
+        ({"series": {}}, "electric.series", "give either points or file"),
+    ],
+)
+def test_mistakes_are_named(electric: dict[str, object], where: str, words: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        case_with(electric)
+    (problem,) = caught.value.problems
+    assert problem.where == where
+    assert words in problem.message
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("time [s],voltage [V]\n0,1\n1,2\n2,1\n3,1\n90,1\n", "line 6: a gap of 87 s"),
+        ("time [s],voltage [V]\n0,1\n1,2\n1,1\n", "line 4: the times must increase"),
+        ("time [s],voltage [V]\n0,1\n1,2\n", "at least three rows"),
+        ("time,voltage\n0,1\n1,2\n2,3\n", "must name both columns with units"),
+        ("time [s],voltage [A]\n0,1\n1,2\n2,3\n", "is not a unit of voltage"),
+        ("time [s],voltage [V]\n0,1\n1,\n2,3\n", "line 3"),
+    ],
+)
+def test_mistakes_in_a_series_are_named(text: str, words: str, tmp_path: Path) -> None:
+    (tmp_path / "shaft.csv").write_text(text)
+    with pytest.raises(CaseError) as caught:
+        case_with({"series": {"file": "shaft.csv"}}, tmp_path)
+    (problem,) = caught.value.problems
+    assert problem.where == "electric.series"
+    assert "shaft.csv" in problem.message
+    assert words in problem.message

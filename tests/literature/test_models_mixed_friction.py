@@ -1,0 +1,58 @@
+"""Friction of touching asperities from rest to gross sliding, and its share in the transition to a full film."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from lambda_core.laws.probe import trial_context
+from lambda_core.testing import evaluate
+
+from .published import Published
+
+MU, SPEED = 0.12, 2.0
+ROUNDING = "rounding; the slip of full friction at rest, 1 um/s, against 1 mm/s and more"
+
+
+def carter(stuck: float) -> float:
+    """Shear force over mu times load of Carter's traction, a stuck strip of the share `stuck` at the inlet.
+
+    q = mu p_0/b [sqrt(b^2 - x^2) - sqrt(c^2 - (x + b - c)^2)], the second root in the stuck strip alone, integrated
+    over the contact (Johnson, Contact Mechanics, eq. 8.15 and Fig. 8.4).
+    """
+    x, weights = np.polynomial.legendre.leggauss(4000)
+    inside = np.maximum(stuck**2 - (x + 1.0 - stuck) ** 2, 0.0)
+    return float(weights @ (np.sqrt(1.0 - x**2) - np.sqrt(inside))) / (0.5 * math.pi)
+
+
+@pytest.mark.parametrize("stuck", [0.95, 0.8, 0.5, 0.2, 0.0])
+def test_carters_creep_curve(stuck: float) -> None:
+    """Force of the law at the creep mu b/R (1 - c/b) that leaves the share c/b of the strip stuck."""
+    context = trial_context("ball_inner")
+    half_width_over_radius = 0.03
+    largest = 0.25 * context.e_eff * half_width_over_radius  # p_0 = E' b/(4 R), E' = 2 E*
+    creep = MU * half_width_over_radius * (1.0 - stuck)
+    found = evaluate(
+        "boundary_friction/micro-slip", {"mu": MU}, slip=creep * SPEED, p=0.25 * math.pi * largest, u_mean=SPEED
+    )
+    source = "Carter 1926, Proc. R. Soc. A 112, 151; Johnson, Contact Mechanics (1985), section 8.3"
+    Published(MU * carter(stuck), source, ROUNDING, rel=2e-3).check(float(found[0]))
+
+
+def test_micro_slip_scales_with_the_rolling_speed() -> None:
+    """The same creep gives the same friction at any speed: nothing is smoothed away when a bearing turns slowly."""
+    slow, fast = (
+        evaluate("boundary_friction/micro-slip", {"v_rest": "1e-9 mm/s"}, slip=1e-3 * u, p=1e9, u_mean=u)[0]
+        for u in (1e-3, 10.0)
+    )
+    assert slow == pytest.approx(fast, rel=1e-5)  # 1e-12 m/s of slip at rest against 2.6e-6 m/s
+    assert 0.3 * MU < fast < MU
+
+
+@pytest.mark.parametrize(("film", "share"), [(0.0, 1.0), (0.5, 0.4444444), (1.0, 0.25), (2.0, 0.1111111), (9.0, 0.01)])
+def test_transition_of_spikes_and_olver(film: float, share: float) -> None:
+    found = evaluate("asperity_load/spikes-olver", Lambda=film)
+    source = "Spikes and Olver 2003, Lubr. Sci. 16(1), 3, with m = 2"
+    Published(share, source, "rounding of the printed share", rel=1e-6).check(float(found[0]))

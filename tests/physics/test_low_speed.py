@@ -1,0 +1,41 @@
+"""Friction at low speed and of starved contacts, through the whole solver."""
+
+from __future__ import annotations
+
+import pytest
+
+from lambda_core import api
+
+CASE = "6319-cp10-500"
+CREEP = "models.boundary_friction=micro-slip"
+
+
+def torque(*changes: str) -> float:
+    found = api.quasistatic(CASE, list(changes)).friction_torque_Nmm
+    assert found is not None
+    return found
+
+
+def test_friction_falls_from_rest_with_speed() -> None:
+    """Stribeck's curve where asperities creep; smoothed at 10 mm/s of slip it rises from next to nothing."""
+    slow, faster = (torque(CREEP, f"operation.speed={rpm} rpm") for rpm in (1, 30))
+    assert slow > 1.2 * faster
+    assert torque("models.boundary_friction=cubic", "operation.speed=1 rpm") < 0.25 * slow
+
+
+def test_friction_of_rest_does_not_depend_on_the_slowness() -> None:
+    """At Lambda below 0.05 contacts are nearly dry: a fifth of the speed changes what creep and film change."""
+    one, five = (torque(CREEP, f"operation.speed={rpm} rpm") for rpm in (1, 5))
+    assert one == pytest.approx(five, rel=0.2)
+
+
+def test_starvation_takes_film_and_rolling_resistance() -> None:
+    full, starved = (api.quasistatic(CASE, [f"lubricant.starvation={share}"]) for share in (1, 0.5))
+    assert starved.film_um[0] == pytest.approx(0.5 * full.film_um[0], rel=0.01)
+    rolling = [found.friction_breakdown_Nmm["rolling_inner"] or 0.0 for found in (full, starved)]
+    assert 0.0 < rolling[1] < 0.2 * rolling[0]
+
+
+def test_a_prescribed_film_belongs_to_the_constant_law() -> None:
+    with pytest.raises(api.CaseError, match="belongs to the supply law constant"):
+        api.quasistatic(CASE, ["lubricant.starvation=0.5", "models.supply=skf-replenishment"])

@@ -1,0 +1,61 @@
+"""A plugin package with laws that misbehave, seen by the processes that the tests start."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import pytest
+
+LAWS = """
+import numpy as np
+from lambda_core.plugins import law
+
+
+@law("damping", "endless", role_api=2, reference="none: made to misbehave")
+def endless(delta, delta_dot, load, par, out):
+    out[0] = 0.0
+    while out[0] < 1.0:
+        out[0] = 0.5 * out[0]
+    return 1
+
+
+@law("fluid_drag", "lurking", role_api=2, reference="none: made to misbehave")
+def lurking(v_orbit, omega_spin, azimuth, nu, rho, par, out):
+    out[0] = 0.0
+    out[1] = 0.0
+    if -1.500 < azimuth < -1.490:  # no ball stands there at the start
+        while out[0] < 1.0:
+            out[0] = 0.5 * out[0]
+    return 1
+"""
+METADATA = "Metadata-Version: 2.1\nName: looping\nVersion: 1.0\n"
+
+
+@pytest.fixture(scope="session")
+def misbehaving(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, str]:
+    """Return the environment of a process that sees the package ``looping``."""
+    site = tmp_path_factory.mktemp("site")
+    (site / "looping.py").write_text(LAWS, encoding="utf-8")
+    record = site / "looping-1.0.dist-info"
+    record.mkdir()
+    (record / "METADATA").write_text(METADATA, encoding="utf-8")
+    (record / "entry_points.txt").write_text("[lambda_bearing.plugins]\nmain = looping\n", encoding="utf-8")
+    return {"PYTHONPATH": os.pathsep.join([str(site), *filter(None, [os.environ.get("PYTHONPATH")])])}
+
+
+@pytest.fixture
+def program(tmp_path: Path) -> Callable[..., subprocess.Popen[str]]:
+    """Start ``lambda-bearing`` in a process of its own, in the folder of this test."""
+
+    def start(*arguments: str, env: Mapping[str, str] | None = None) -> subprocess.Popen[str]:
+        return subprocess.Popen(
+            [sys.executable, "-m", "lambda_cli", *arguments],
+            cwd=tmp_path, env=os.environ | dict(env or {}), text=True,
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        )  # fmt: skip
+
+    return start

@@ -1,0 +1,76 @@
+"""Damaged result files: refused in a sentence, never a hang, a dead process or a traceback."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import h5py
+import pytest
+from lambda_cli.main import main
+
+from lambda_core import api
+from lambda_core.results import file_format as layout
+from lambda_core.results.reader import ResultError
+
+SIGNATURE = b"GCOL\x01\x00\x00\x00"
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("result") / "r.h5"
+    api.run("6208-axial-1300", ["solver.duration=1 ms"], out=path)
+    return path
+
+
+@pytest.fixture
+def file(whole: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copy(whole, tmp_path / "r.h5"))
+
+
+def replace_text(path: Path, name: str, text: str) -> None:
+    with h5py.File(path, "r+") as stream:
+        group = stream[layout.INPUTS_GROUP]
+        del group[name]
+        group[name] = text
+
+
+@pytest.mark.parametrize("size", [b"\x00", b"\xff"])
+def test_c3_a_damaged_heap_of_texts_is_refused_not_walked_for_ever(
+    file: Path, size: bytes, capsys: pytest.CaptureFixture[str]
+) -> None:
+    data = bytearray(file.read_bytes())
+    place, found = data.find(SIGNATURE), 0
+    assert place >= 0
+    while place >= 0:
+        data[place + 16 : place + 64], found = size * 48, found + 1
+        place = data.find(SIGNATURE, place + 1)
+    file.write_bytes(data)
+    for arguments in (["show", str(file)], ["cite", str(file)], ["resume", str(file)]):
+        assert main(arguments) == 2
+        assert "is damaged" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda model: "{",
+        lambda model: "[]",
+        lambda model: json.dumps({**model, "geometry": {}}),
+        lambda model: json.dumps({**model, "solver": {**model["solver"], "tolerance": "x"}}),
+        lambda model: json.dumps({key: value for key, value in model.items() if key != "depth"}),
+    ],
+)
+def test_c4_a_damaged_model_is_refused(file: Path, damage: Callable[[dict[str, object]], str]) -> None:
+    replace_text(file, "model_json", damage(api.result(file).model))
+    with pytest.raises(ResultError, match="is damaged"):
+        api.result(file).summary()
+
+
+def test_c4_bytes_that_are_no_text_are_written_out(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with h5py.File(file, "r+") as stream:
+        stream.attrs.create("title", b"bear\xfbing", dtype=h5py.string_dtype())
+    assert main(["show", str(file), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["title"] == "bear\\udcfbing"

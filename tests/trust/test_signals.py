@@ -1,0 +1,115 @@
+"""Signals and limits of time are obeyed in every state; what leads to endless work is refused beforehand."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lambda_core import api
+from lambda_core.discovery.apart import check_apart
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.errors import CaseError
+
+CASE = "6208-axial-700"
+# One record of this takes minutes: 1/40 of a cage turn of 100 s.
+SLOW = ("operation.speed=1.474 rpm",)
+Program = Callable[..., "subprocess.Popen[str]"]
+
+
+def wait_for_life(path: Path, process: subprocess.Popen[str]) -> None:
+    """Wait until the process writes its result."""
+    while process.poll() is None:
+        if path.exists() and api.result(path).status().alive():
+            return
+        time.sleep(0.05)
+    pytest.fail(process.communicate()[1])
+
+
+def changes(*overrides: str) -> list[str]:
+    return [word for override in overrides for word in ("--set", override)]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_c2_4_a_signal_is_answered_within_a_record(number: int, program: Program, tmp_path: Path) -> None:
+    path = tmp_path / "r.h5"
+    process = program("run", CASE, *changes(*SLOW), "--out", str(path), "--json")
+    wait_for_life(path, process)
+    process.send_signal(number)
+    out, err = process.communicate(timeout=30)  # a record would take longer
+    assert process.returncode == 130, err
+    summary = json.loads(out)
+    assert summary["state"] == "interrupted"
+    assert "go on with: lambda-bearing resume" in err
+
+
+def test_c2_4_a_limit_of_wall_time_holds_within_a_record_and_the_run_goes_on(tmp_path: Path) -> None:
+    path = tmp_path / "r.h5"
+    result = api.run(CASE, [*SLOW, "solver.max_wall=0.2 s"], out=path)
+    assert result.status().state == "stopped"
+    # 1/40 of a cage turn of 1/(0.4 x 1.474 rpm)
+    assert 0.0 < result.summary().simulated_s < 60.0 / (0.4 * 1.474) / 40.0
+
+
+def test_d1_samples_closer_than_the_longest_step_over_the_buffer_are_written(tmp_path: Path) -> None:
+    changes = ["operation.speed=10 rpm", "output.interval=50 us", "solver.duration=1 ms"]
+    result = api.run(CASE, changes, out=tmp_path / "r.h5")
+    assert result.status().state == "finished"
+    np.testing.assert_allclose(result["time"][:21], 50e-6 * np.arange(21), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ("output.interval=1e-30 s", "output.interval"),
+        ("output.interval=1e-9 s", "output.interval"),
+        ("solver.max_step=1e-15 s", "solver.max_step"),
+        ("operation.speed=1e-9 rpm", "solver.max_duration"),
+    ],
+)
+def test_c2_4_what_would_never_end_is_refused(change: str, words: str) -> None:
+    with pytest.raises(CaseError, match=words):
+        api.check(CASE, [change])
+
+
+def test_a4_a_second_signal_ends_a_law_that_never_returns(
+    program: Program, misbehaving: Mapping[str, str], tmp_path: Path
+) -> None:
+    path = tmp_path / "r.h5"
+    process = program("run", CASE, "--set", "models.fluid_drag=lurking", "--out", str(path), env=misbehaving)
+    wait_for_life(path, process)
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    with pytest.raises(subprocess.TimeoutExpired):  # Python does not hear it
+        process.wait(timeout=2)
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert "what was written is kept" in err
+    result = api.result(path)
+    assert result.status().state == "running"
+    assert not result.status().alive()
+    assert result.checkpoint() is not None
+
+
+def test_a4_a_law_that_never_returns_does_not_keep_the_others_from_being_checked(
+    misbehaving: Mapping[str, str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYTHONPATH", misbehaving["PYTHONPATH"])
+    monkeypatch.syspath_prepend(misbehaving["PYTHONPATH"].split(":")[0])
+    registry.cache_clear()
+    try:
+        # The first law of a process waits for its imports.
+        cards = list(check_apart(registry(), ["damping"], limit=20.0))
+    finally:
+        registry.cache_clear()
+    found = {card.name: card for card in cards}
+    assert found["cubic"].ok
+    assert found["none"].ok
+    assert "did not come to an end within 20 s" in found["endless"].faults[0]

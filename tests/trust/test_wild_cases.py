@@ -1,0 +1,42 @@
+"""Cases that validation lets through and no bearing is: refused in a sentence that names the option."""
+
+from __future__ import annotations
+
+import pytest
+
+from lambda_core import api
+from lambda_core.domain.errors import CaseError
+
+CASE = "6208-axial-1300"
+
+
+@pytest.mark.parametrize(
+    ("settings", "where"),
+    [
+        (["bearing.clearance=1e9 mm"], "bearing.clearance"),
+        (["bearing.clearance=-1e9 mm"], "bearing.clearance"),
+        (["bearing.geometry.shoulder_diameter_inner=1 nm"], "bearing.geometry.shoulder_diameter_inner"),
+        (["bearing.geometry.shoulder_diameter_inner=93 m"], "bearing.geometry.shoulder_diameter_inner"),
+        (["bearing.geometry.shoulder_diameter_outer=0.2 um"], "bearing.geometry.shoulder_diameter_outer"),
+        (["bearing.geometry.groove_radius_outer=0.8 mm"], "bearing.geometry.groove_radius_outer"),
+        (["bearing.geometry.ball_diameter=1e9 mm", "bearing.fits.shaft=k5"], "bearing.geometry.ball_diameter"),
+        (["bearing.geometry.outside_diameter=1e300 m"], "bearing.geometry.outside_diameter"),
+        (["bearing.geometry.width=1 mm"], "bearing.geometry.width"),
+        (["bearing.temperatures.balls=7e12 K"], "bearing.clearance"),
+        (["bearing.fits.shaft=1e300 mm"], "bearing.clearance"),
+        (["bodies.cage.radial_thickness=1e300 m"], "bodies.cage.radial_thickness"),
+        (["bodies.cage.width=1e200 m"], "bodies.cage.width"),
+        (["bodies.inner_ring.mass=1e300 kg"], "bodies.inner_ring.mass"),
+        (["bodies.inner_ring.shaft_mass=1e300 kg"], "bodies.inner_ring.shaft_mass"),
+    ],
+)
+def test_c4_wild_geometry_is_refused_by_its_option(settings: list[str], where: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        api.check(CASE, settings)
+    assert where in [problem.where for problem in caught.value.problems]
+
+
+@pytest.mark.parametrize("temperature", ["1e6 degC", "1 K"])
+def test_c4_an_oil_that_is_no_liquid_is_refused(temperature: str) -> None:
+    with pytest.raises(CaseError, match="no oil is liquid there"):
+        api.check(CASE, [f"lubricant.temperature={temperature}"])
