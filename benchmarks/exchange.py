@@ -66,7 +66,15 @@ EXCHANGES: tuple[Exchange, ...] = (
     ),
     Exchange("film_thickness", (Law("chittenden"), Law("hamrock-dowson"))),
     Exchange("thermal_correction", (Law("murch-wilson"), Law("zhu-cheng"), Law("none"))),
-    Exchange("supply", (Law("constant"), Law("skf-replenishment"), Law("inlet-distance"), Law("oil-layer"))),
+    Exchange(
+        "supply",
+        (
+            Law("constant"),
+            Law("skf-replenishment"),
+            Law("inlet-distance", ("parameters.supply.distance=2",), note="inlet meniscus two semi-axes b ahead"),
+            Law("oil-layer", ("parameters.supply.layer=0.5 um",), note="a layer of 0.5 um on the track"),
+        ),
+    ),
     Exchange("contact_temperature", (Law("shear-heating"), Law("isothermal"))),
     Exchange("traction", (Law("ree-eyring"), Law("bair-winer"), Law("newtonian"))),
     Exchange("rolling_resistance", (Law("biboulet-houpert"), Law("goksem-hargreaves"), Law("none"))),

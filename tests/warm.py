@@ -108,9 +108,11 @@ class Warm:
     def ready(self) -> Warm:
         """Start the server if it does not run yet."""
         if _HAS_FORK and self._server is None:
+            # A test that called the program in this process may have left PYTHONSAFEPATH: with it the first place of
+            # sys.path, which each process gives up for its own folder, would be the first of PYTHONPATH.
             self._server = subprocess.Popen(
                 [sys.executable, __file__, self._address],
-                env=os.environ | self._own | {"OPENBLAS_NUM_THREADS": "1"},
+                env=os.environ | self._own | {"OPENBLAS_NUM_THREADS": "1", "PYTHONSAFEPATH": ""},
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 text=True,

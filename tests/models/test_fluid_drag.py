@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from lambda_plugins.immersion import OilBath, immersion, kinematic_speeds
-from lambda_plugins.skf_chart import drag_loss_factor
+from lambda_plugins.methods.skf_chart import drag_loss_factor
 
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.plugin_errors import PluginError

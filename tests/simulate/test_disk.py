@@ -68,5 +68,5 @@ def test_a_result_deleted_during_the_run_is_said(warm: Warm, tmp_path: Path) -> 
     path.unlink()
     _, errors = process.communicate()
     assert process.returncode == 5
-    assert "was deleted or renamed during the run" in errors
+    assert "was deleted, renamed or replaced during the run" in errors
     assert not list(tmp_path.iterdir())
