@@ -15,8 +15,8 @@ from pydantic import BeforeValidator
 
 from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, law, parameter
 from lambda_plugins.immersion import OilBath, immersion, kinematic_speeds, mean_immersion, oil_geometry
-from lambda_plugins.shapes import at_least
 from lambda_plugins.methods.skf_chart import UNCERTAINTY, drag_loss_factor
+from lambda_plugins.shapes import at_least
 
 _RPM = math.pi / 30.0
 _SLOW = 1.0  # [1/min] below which a power law with an exponent under 1 becomes linear (numerical)

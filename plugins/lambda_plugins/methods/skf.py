@@ -12,8 +12,8 @@ from typing import Literal
 
 from lambda_core.domain.errors import unknown_name
 from lambda_core.views.method import Lubrication, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
-from lambda_plugins.methods.skf_drag import K_Z, drag_torque, drag_torque_2008
 from lambda_plugins.methods.skf_chart import UNCERTAINTY, drag_loss_factor
+from lambda_plugins.methods.skf_drag import K_Z, drag_torque, drag_torque_2008
 
 MU_BOUNDARY = 0.12  # mu_bl while running
 MU_BOUNDARY_STARTING = 0.15  # mu_bl at rest
