@@ -52,14 +52,14 @@ class BuilderScreen(LiveDraft):
     BuilderScreen #tree { width: 40; height: 1fr; border-right: vkey $border-blurred; }
     BuilderScreen #tree:focus { border-right: vkey $border; }
     BuilderScreen #right { width: 1fr; height: 1fr; background: $background; }
-    BuilderScreen #side { height: 10; width: 1fr; border-top: hkey $border-blurred; }
+    BuilderScreen #side { height: 11; width: 1fr; border-top: hkey $border-blurred; }
     BuilderScreen #help { height: 4; }
     BuilderScreen #sketch { display: none; }
     BuilderScreen.-wide #tree { width: 49; }
     BuilderScreen.-wide #right { layout: horizontal; }
     BuilderScreen.-wide #side { width: 46; height: 1fr; border-top: none; border-left: vkey $border-blurred; }
     BuilderScreen.-wide #help { height: 10; border-bottom: hkey $border-blurred; }
-    BuilderScreen.-wide #derived { height: 15; border-bottom: hkey $border-blurred; }
+    BuilderScreen.-wide #derived { height: 21; border-bottom: hkey $border-blurred; }
     BuilderScreen.-wide #sketch { display: block; height: 1fr; }
     """
 

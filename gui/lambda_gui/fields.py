@@ -17,6 +17,8 @@ from lambda_gui.entry import Entry, text_of, value_of
 from lambda_gui.places import Place
 from lambda_gui.rows import Left, Row, Stepped, Surroundings
 
+_NARROW = 20  # columns of the narrowest entry: the help beside the form says in full what holds when it is empty
+
 
 class TextRow(Row):
     """A number, a quantity, a name or a line of text."""
@@ -54,7 +56,7 @@ class TextRow(Row):
             return "required"
         known = self.around.resolved(self.place.keys) or self.card.default
         _, _, absent = self.card.description.partition("absent: ")
-        return known or absent
+        return known or (absent if len(absent) <= _NARROW else "see the help")
 
     def on_input_changed(self, event: Input.Changed) -> None:
         """Write what was typed."""
