@@ -1,7 +1,8 @@
-"""The core database: built from the seeds at first use, named by their hash, put in place in one step."""
+"""The core database: built from the seeds at first use, named by their hash and its own, put in place in one step."""
 
 from __future__ import annotations
 
+import hashlib
 import logging
 import os
 import sqlite3
@@ -130,21 +131,23 @@ def derive_candidates(connection: Connection) -> None:
         connection.execute(insert(Base.metadata.tables["candidate"]), rows)
 
 
-def build_file(target: Path, plugin_folders: list[Path]) -> None:
-    """Build the database beside `target` and move it into place: a reader never sees half of it."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=target.stem, suffix=".tmp", dir=target.parent)
+def build_file(folder: Path, name: str, plugin_folders: list[Path]) -> Path:
+    """Build the database and move it into its place under its name and digest: a reader never sees half of it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    handle, beside = tempfile.mkstemp(prefix=name, suffix=".tmp", dir=folder)
     os.close(handle)
-    temporary = Path(name)
+    temporary = Path(beside)
     try:
         engine = sqlite_engine(file_uri(temporary, "rw"), "BEGIN")
         with engine.begin() as connection:
             fill(connection, plugin_folders)
         engine.dispose()
+        target = folder / f"{name}-{_digest(temporary)}.sqlite"
         os.replace(temporary, target)
-        _prune(target.parent)
+        _prune(folder)
     finally:
         temporary.unlink(missing_ok=True)
+    return target
 
 
 def _prune(folder: Path) -> None:
@@ -163,15 +166,16 @@ def in_memory(plugin_folders: list[Path]) -> Engine:
     return engine
 
 
+def _digest(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()[:16]
+
+
 def is_sound(path: Path) -> bool:
-    """Tell whether a built file can be read to its end."""
+    """Tell whether a built file is, byte for byte, what was built: its name holds its digest."""
     try:
-        connection = sqlite3.connect(file_uri(path, "ro"), uri=True)
-        try:
-            return bool(connection.execute("PRAGMA quick_check(1)").fetchone() == ("ok",))
-        finally:
-            connection.close()
-    except sqlite3.Error:
+        return path.stem.endswith(f"-{_digest(path)}")
+    except OSError:
         return False
 
 
@@ -180,14 +184,15 @@ def core_database(plugin_folders: list[Path]) -> Path | None:
 
     Returns None if the cache folder cannot be written; the caller then builds in memory.
     """
-    target = cache_folder() / f"catalogue-{fingerprint([BUILT_IN, *plugin_folders])}.sqlite"
-    if target.exists() and is_sound(target):
-        return target
-    if target.exists():
-        log.warning("the catalogue's cache file %s is damaged; building it again", target)
+    folder, name = cache_folder(), f"catalogue-{fingerprint([BUILT_IN, *plugin_folders])}"
+    for path in sorted(folder.glob(f"{name}-*.sqlite")):
+        if is_sound(path):
+            return path
+        log.warning("the catalogue's cache file %s is damaged; building it again", path)
+        with suppress(OSError):
+            path.unlink()
     try:
-        build_file(target, plugin_folders)
+        return build_file(folder, name, plugin_folders)
     except (OSError, sqlite3.OperationalError) as error:
-        log.warning("the catalogue cannot be kept in %s (%s); building it in memory", target.parent, error)
+        log.warning("the catalogue cannot be kept in %s (%s); building it in memory", folder, error)
         return None
-    return target

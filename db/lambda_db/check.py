@@ -48,10 +48,6 @@ def _user_file(catalogue: SqlCatalogue) -> Iterator[Finding]:
     path = user_database()
     if path.exists() and not catalogue.has_user_rows:
         yield Finding("error", str(path), "your own catalogue cannot be read and is left out")
-    elif catalogue.has_user_rows:
-        verdict = catalogue.connection.exec_driver_sql("PRAGMA user.quick_check(1)").scalar_one()
-        if verdict != "ok":
-            yield Finding("error", str(path), f"your own catalogue is damaged: {verdict}")
 
 
 def _bearing(row: Row) -> Iterator[Finding]:

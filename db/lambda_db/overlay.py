@@ -10,11 +10,11 @@ import logging
 from pathlib import Path
 
 from sqlalchemy import Connection
-from sqlalchemy.exc import DatabaseError
 
 from lambda_db.engine import file_uri
 from lambda_db.models import Base
 from lambda_db.seed_tables import CHILDREN, SEED_TABLES
+from lambda_db.soundness import ADVICE, UNREADABLE, DamagedError, check_sound, is_damage, reason_of
 
 log = logging.getLogger("lambda_db")
 VIEWED = (*SEED_TABLES, "candidate")
@@ -56,26 +56,33 @@ def attach_user(connection: Connection, path: Path, schema_version: int) -> bool
             connection.exec_driver_sql("ATTACH DATABASE ? AS user", (file_uri(path, mode),))
             try:
                 found = connection.exec_driver_sql("PRAGMA user.user_version").scalar_one()
-                if found == 0:  # another process has just begun to create it
+                if found == 0 and not _has_tables(connection):  # another process has just begun to create it
                     detach_user(connection)
                     return False
                 if found != schema_version:
                     raise VersionMismatch(_other_version(found, schema_version))
+                check_sound(connection, "user", VIEWED)
                 for table in VIEWED:
-                    connection.exec_driver_sql(f"SELECT count(*) FROM user.{table}")
                     connection.exec_driver_sql(view_statement(table))
-            except (DatabaseError, VersionMismatch):
+            except (*UNREADABLE, VersionMismatch, DamagedError):
                 detach_user(connection)
                 raise
         except VersionMismatch as error:
             trouble = str(error)
             break
-        except DatabaseError as error:
-            trouble = f"{error.orig}"
+        except DamagedError as error:
+            trouble = f"it is damaged: {error}; {ADVICE}"
+            break
+        except UNREADABLE as error:
+            trouble = f"{reason_of(error)}; {ADVICE}" if is_damage(error) else reason_of(error)
         else:
             return True
     log.warning("your own catalogue %s cannot be read (%s); only the built-in catalogue is used", path, trouble)
     return False
+
+
+def _has_tables(connection: Connection) -> bool:
+    return bool(connection.exec_driver_sql("SELECT count(*) FROM user.sqlite_schema").scalar_one())
 
 
 def detach_user(connection: Connection) -> None:

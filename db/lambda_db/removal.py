@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from sqlalchemy import ColumnElement, Connection, delete, func, select
-from sqlalchemy.exc import DatabaseError
 
 from lambda_core.domain.errors import CatalogueError, Problem, UsageError, unknown_name
 from lambda_db.catalogue import SqlCatalogue
@@ -15,6 +14,7 @@ from lambda_db.models import Base
 from lambda_db.paths import user_database
 from lambda_db.records import Row, describe, key_columns, parse_key, same_key, table_of
 from lambda_db.seed_tables import CHILDREN, SEED_TABLES
+from lambda_db.soundness import UNREADABLE
 from lambda_db.user import open_user_database, unwritable
 
 
@@ -60,7 +60,7 @@ def remove_row(catalogue: SqlCatalogue, table: str, cells: Mapping[str, object])
     try:
         with engine.begin() as connection:
             report = _remove(connection, catalogue, table, key, path)
-    except DatabaseError as error:
+    except UNREADABLE as error:
         raise unwritable(path, error) from error
     finally:
         engine.dispose()

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 from sqlalchemy import Connection, delete, insert, select
-from sqlalchemy.exc import DatabaseError
 
 from lambda_core.domain.errors import CatalogueError, Problem, UsageError, unknown_name
 from lambda_core.domain.files import check_target
@@ -23,6 +22,7 @@ from lambda_db.records import Row, columns_of, describe, parse_row, same_key, ta
 from lambda_db.references import Known, known_names, reference_problems
 from lambda_db.seed_files import Record, read_path
 from lambda_db.seed_tables import CHILDREN, SEED_TABLES
+from lambda_db.soundness import UNREADABLE
 from lambda_db.user import open_user_database, unwritable
 
 
@@ -77,7 +77,7 @@ def import_rows(
         good = sum(report.added.values()) + sum(report.replaced.values())
         rest = [Problem("", f"nothing was written; --keep-good takes the {good} good rows")] if good else []
         raise CatalogueError("import", [*report.refused, *rest]) from None
-    except DatabaseError as error:
+    except UNREADABLE as error:
         raise unwritable(path, error) from error
     finally:
         engine.dispose()

@@ -11,6 +11,8 @@ from sqlalchemy.exc import DatabaseError
 from lambda_core.domain.errors import CatalogueError, Problem
 from lambda_db.engine import file_uri, sqlite_engine
 from lambda_db.models import Base
+from lambda_db.overlay import VIEWED
+from lambda_db.soundness import ADVICE, UNREADABLE, DamagedError, check_sound, is_damage, reason_of
 
 # Steps from version n to n + 1; the newest schema is Base.metadata itself.
 MIGRATIONS: dict[int, Callable[[Connection], None]] = {
@@ -34,18 +36,24 @@ def open_user_database(path: Path) -> Engine:
             _bring_up_to_date(connection, path)
     except OSError as error:
         raise CatalogueError(str(path), [Problem("", f"cannot be created: {error.strerror}")]) from error
-    except DatabaseError as error:
+    except DamagedError as error:
+        raise _damaged(path, str(error)) from error
+    except UNREADABLE as error:
         raise unwritable(path, error) from error
     return engine
 
 
-def unwritable(path: Path, error: DatabaseError) -> CatalogueError:
+def _damaged(path: Path, reason: str) -> CatalogueError:
+    return CatalogueError(str(path), [Problem("", f"cannot be written: the file is damaged ({reason}); {ADVICE}")])
+
+
+def unwritable(path: Path, error: DatabaseError | UnicodeDecodeError) -> CatalogueError:
     """Say why the user's database takes no rows."""
-    reason = str(error.orig)
+    reason = reason_of(error)
     if "readonly" in reason or "unable to open" in reason:
         reason = "the file or its folder is read-only; make it writable or set LAMBDA_BEARING_DATA to another folder"
-    elif "malformed" in reason or "not a database" in reason:
-        reason = f"the file is damaged ({reason}); move it away and import your rows again"
+    elif is_damage(error):
+        return _damaged(path, reason)
     return CatalogueError(str(path), [Problem("", f"cannot be written: {reason}")])
 
 
@@ -59,6 +67,7 @@ def _bring_up_to_date(connection: Connection, path: Path) -> None:
     else:
         for version in range(found, SCHEMA_VERSION):
             MIGRATIONS[version](connection)
+        check_sound(connection, "main", VIEWED)
     connection.exec_driver_sql(f"PRAGMA user_version = {SCHEMA_VERSION}")
 
 
@@ -71,5 +80,5 @@ def migrate(path: Path) -> None:
         engine.dispose()
         if 0 < found < SCHEMA_VERSION:
             open_user_database(path).dispose()
-    except (DatabaseError, CatalogueError):
+    except (*UNREADABLE, CatalogueError):
         return

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -26,7 +27,7 @@ def cache(tmp_path: Path, user_folder: Path, monkeypatch: pytest.MonkeyPatch) ->
 def test_built_once_and_named_by_the_seeds(cache: Path) -> None:
     open_catalogue().close()
     (built,) = cache.iterdir()
-    assert built.name == f"catalogue-{fingerprint([BUILT_IN])}.sqlite"
+    assert built.name.startswith(f"catalogue-{fingerprint([BUILT_IN])}-")
     written = built.stat().st_mtime_ns
     open_catalogue().close()
     (again,) = cache.iterdir()
@@ -42,16 +43,37 @@ def test_the_name_follows_every_seed(tmp_path: Path) -> None:
     assert fingerprint([BUILT_IN, folder]) != first
 
 
-def test_a_damaged_file_is_built_again(cache: Path, caplog: pytest.LogCaptureFixture) -> None:
+def nothing_left(content: bytes) -> bytes:
+    return b""
+
+
+def cut_short(content: bytes) -> bytes:
+    return content[: len(content) // 2]
+
+
+def pages_lost(content: bytes) -> bytes:
+    return content[:4096] + os.urandom(20000 - 4096) + content[20000:]
+
+
+def one_number_changed(content: bytes) -> bytes:
+    place = content.index(b"6208SKF")
+    return content[:place] + b"6209" + content[place + 4 :]
+
+
+@pytest.mark.parametrize("damage", [nothing_left, cut_short, pages_lost, one_number_changed])
+def test_c3_a_damaged_cache_of_the_catalogue_is_built_again(
+    damage: Callable[[bytes], bytes], cache: Path, caplog: pytest.LogCaptureFixture
+) -> None:
     open_catalogue().close()
     (built,) = cache.iterdir()
-    content = bytearray(built.read_bytes())
-    content[4096:20000] = os.urandom(20000 - 4096)
-    built.write_bytes(content)
+    whole = built.read_bytes()
+    built.write_bytes(damage(whole))
     catalogue = open_catalogue()
-    assert catalogue.bearing("6208", "NSK")
+    assert catalogue.bearing("6208", "SKF")
     assert "is damaged; building it again" in caplog.text
     catalogue.close()
+    (again,) = cache.iterdir()
+    assert len(again.read_bytes()) == len(whole)
 
 
 def test_no_cache_folder_means_in_memory(
@@ -73,7 +95,7 @@ def test_only_the_last_databases_are_kept(cache: Path) -> None:
         os.utime(path, (i, i))
     open_catalogue().close()
     assert len(list(cache.glob("catalogue-*.sqlite"))) == 8
-    assert (cache / f"catalogue-{fingerprint([BUILT_IN])}.sqlite").exists()
+    assert list(cache.glob(f"catalogue-{fingerprint([BUILT_IN])}-*.sqlite"))
 
 
 FIRST_USE = "from lambda_db.catalogue import open_catalogue; print(len(open_catalogue().bearings(limit=1000)))"

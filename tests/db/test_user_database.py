@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import sqlite3
@@ -149,6 +150,33 @@ def test_a_file_cut_short_leaves_the_core_working(catalogue: SqlCatalogue, caplo
     again = open_catalogue()
     assert again.bearing("6208", "SKF").layer == "core"
     assert "cannot be read" in caplog.text
+    again.close()
+
+
+@pytest.mark.parametrize(
+    ("found", "put"),
+    [(b"my own drawing", b"my \xc3wn drawing"), (b"bearing", b"b\xffaring"), (b"mass_kg", b"mast_kg")],
+    ids=["text", "table", "column"],
+)
+def test_c3_flipped_bytes_are_named_and_leave_the_core_working(
+    found: bytes, put: bytes, catalogue: SqlCatalogue, caplog: pytest.LogCaptureFixture
+) -> None:
+    add_row(catalogue, "bearing", ROW)
+    catalogue.close()
+    path = user_database()
+    with contextlib.closing(sqlite3.connect(path)) as connection:
+        connection.execute("PRAGMA journal_mode = DELETE")
+    content = path.read_bytes()
+    assert found in content
+    path.write_bytes(content.replace(found, put))
+    again = open_catalogue()
+    assert again.bearing("6208", "NSK").layer == "core"
+    (said,) = [record.getMessage() for record in caplog.records]
+    assert str(path) in said
+    assert "cannot be read" in said
+    assert "move it away and import your rows again" in said
+    with pytest.raises(CatalogueError, match=r"the file is damaged .*move it away"):
+        add_row(again, "bearing", ROW | {"designation": "X9"})
     again.close()
 
 
