@@ -1,13 +1,15 @@
 """Put the numbers of a reproduction into docs/validation.md: ``python docs/tools/validation.py RESULT.json``.
 
-RESULT.json is what ``lambda-bearing reproduce all --json`` prints. Bars and tables between the marks are written anew;
-what is said about them is written by hand.
+RESULT.json is what ``lambda-bearing reproduce all --json``, or that of one experiment, prints. Bars and tables between
+the marks are written anew; what is said about them is written by hand.
 """
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
+from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -18,6 +20,7 @@ from lambda_core.report.page import Table
 
 PAGE = Path(__file__).parents[1] / "validation.md"
 # In full only on the page that reproduce writes.
+_PLACES = ["Table 4", "Catalogue", "Fig. 5", "Fig. 7"]
 LEFT_OUT = ("blind parameter set", "boundary of altered running")
 
 
@@ -30,6 +33,25 @@ def summary(found: list[Chapter]) -> list[str]:
             if verdict.startswith(("met", "missed")):
                 rows.append([chapter.title.partition(":")[0], cell(what), verdict])
     return table(("experiment", "bar and what was found", "verdict"), rows)
+
+
+def read(data: dict[str, Any]) -> Reproduction:
+    """Return a reproduction; that of one experiment is printed without its name and what belongs to several."""
+    if "workers" not in data:
+        general = {name: data.pop(name) for name in ("files", "effort")}
+        data = {general["effort"][0]["experiment"]: data, **general, "unconverged": {}, "workers": 1}
+    return Reproduction.model_validate(data)
+
+
+def merged(text: str, found: list[Chapter]) -> list[str]:
+    """Return the table of bars: new rows for the experiments that were found, what stands there for the others."""
+    new = summary(found)
+    named = {chapter.title.partition(":")[0] for chapter in found}
+    old = [line for line in text.splitlines() if line.startswith("| ")][1:]
+    kept = [line for line in old if line.split("|")[1].strip() not in named]
+    rows = [*kept, *new[2:-1]]
+    order = list(dict.fromkeys(_PLACES + [row.split("|")[1].strip() for row in rows]))
+    return [*new[:2], *sorted(rows, key=lambda row: order.index(row.split("|")[1].strip()))]
 
 
 def part(chapter: Chapter) -> list[str]:
@@ -48,11 +70,13 @@ def _sentence(data: Table) -> str:
 
 def main(arguments: list[str]) -> int:
     """Write the parts that the result has."""
-    found = chapters(Reproduction.model_validate_json(Path(arguments[0]).read_text(encoding="utf-8")))
+    found = chapters(read(json.loads(Path(arguments[0]).read_text(encoding="utf-8"))))
     text = PAGE.read_text(encoding="utf-8")
-    for mark, lines in {"bars": summary(found), **{c.name: part(c) for c in found}}.items():
+    for mark in ("bars", *(c.name for c in found)):
         begin, end = f"<!-- {mark}:begin -->\n", f"<!-- {mark}:end -->\n"
         head, _, rest = text.partition(begin)
+        chapter = [c for c in found if c.name == mark]
+        lines = part(chapter[0]) if chapter else merged(rest.partition(end)[0], found)
         text = f"{head}{begin}\n" + "\n".join(lines).rstrip() + f"\n\n{end}{rest.partition(end)[2]}"
     PAGE.write_text(text, encoding="utf-8")
     return 0

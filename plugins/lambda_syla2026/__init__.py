@@ -30,7 +30,8 @@ def reproduce(
     Parameters
     ----------
     what : str
-        ``table4``, ``fig5``, ``fig7`` (of Syla et al. 2026, Lubricants 14, 154) or ``all``.
+        ``table4``, ``fig5``, ``fig7`` (of Syla et al. 2026, Lubricants 14, 154), ``anchors`` (SKF's catalogue model on
+        other bearings) or ``all``.
     out : path-like
         Folder; what an earlier call has computed there is used again.
     workers : int, optional

@@ -12,7 +12,10 @@ from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 
 
 def reproduce(
-    what: Annotated[str, typer.Argument(metavar="table4|fig5|fig7|all", help="Which experiment of the paper.")],
+    what: Annotated[
+        str,
+        typer.Argument(metavar="table4|anchors|fig5|fig7|all", help="Which experiment of the paper, or the catalogue."),
+    ],
     out: Annotated[
         Path, typer.Option("--out", metavar="DIR", help="Folder of figures, page, and all that was computed.")
     ] = Path("reproduction"),
@@ -26,8 +29,9 @@ def reproduce(
 ) -> None:
     """Repeat experiments of Syla et al. 2026, Lubricants 14, 154, beside what they printed.
 
-    table4: friction torque of the 6319, blind and calibrated; fig5: limits of axial excitation of the 6220; fig7:
-    capacitance of the 6208. Writes figures (SVG, PNG) and one HTML page. Called again it goes on where it ended.
+    table4: friction torque of the 6319, blind and calibrated; anchors: friction of other bearings against SKF's model;
+    fig5: limits of axial excitation of the 6220; fig7: capacitance of the 6208. Writes figures (SVG, PNG) and one HTML
+    page. Called again it goes on where it ended.
     """
     from lambda_syla2026 import reproduce as repeat
 

@@ -1,4 +1,4 @@
-"""The blind parameter set: one value and one published range for everything that the experiment does not say."""
+"""The parameter sets: the blind one with a published range for each value, and what the anchored one has instead."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from lambda_core.batch.design import Plan
 
 FILE = "blind.toml"
+ANCHORED_FILE = "anchored.toml"
 
 
 @dataclass(frozen=True)
@@ -70,6 +71,18 @@ def _entry(
     *, range: Sequence[str] = (), alternatives: Sequence[str] = (), path: str, value: str, source: str, **rest: Any
 ) -> Entry:
     return Entry(path, value, source, tuple(range), alternatives=tuple(alternatives), **rest)
+
+
+@cache
+def anchored_set() -> tuple[tuple[str, str | None, str], ...]:
+    """Return path, value and source of what the anchored set has in place of the blind one; None leaves it out."""
+    data = tomllib.loads(files(__package__).joinpath(ANCHORED_FILE).read_text(encoding="utf-8"))
+    return tuple((table["path"], table.get("value"), table["source"]) for table in data["entry"])
+
+
+def anchored() -> dict[str, str | None]:
+    """Return the anchored set as replacements in the blind one."""
+    return {path: value for path, value, _ in anchored_set()}
 
 
 def entry(path: str) -> Entry:

@@ -24,6 +24,7 @@ Numbers = dict[str, float | None]
 
 # Positions of the balls over half a pitch and their weights: under a radial load the other half mirrors it.
 _PHASES = {0.0: 0.125, 0.125: 0.25, 0.25: 0.25, 0.375: 0.25, 0.5: 0.125}
+_COARSE_PHASES = {0.0: 0.25, 0.25: 0.5, 0.5: 0.25}
 MECHANISMS = ("sliding", "spin", "boundary", "rolling", "hysteresis", "damping", "drag", "cage")
 _OF_CAGE = {"pocket": "cage", "land": "cage"}
 
@@ -64,6 +65,26 @@ def skf(model: BearingModel) -> Numbers:
 
     table = registry().method("skf").evaluate(comparison_inputs(solve(model, kernels_of(model))))
     return {row.name: row.value for row in table.rows if row.group == "friction"}
+
+
+def anchor(model: BearingModel) -> Numbers:
+    """Friction torque without cage and drag, mean over the positions of the balls, and SKF's beside it [N mm]."""
+    from lambda_core.batch.job import kernels_of
+    from lambda_core.discovery.manager import registry
+    from lambda_core.run.compare_methods import comparison_inputs
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    kernels, total = kernels_of(model), dict.fromkeys(MECHANISMS, 0.0)
+    for phase, weight in _COARSE_PHASES.items():
+        found = solve(model, kernels, phase=phase)
+        torque = 1e3 * found.losses / found.relative_speed
+        for name, value in _grouped(dict(zip(LOSSES, torque.tolist(), strict=True))).items():
+            total[name] += weight * value
+    table = registry().method("skf").evaluate(comparison_inputs(found, stiffness=False))
+    catalogue = {row.name: row.value for row in table.rows if row.group == "friction"}
+    own = {name: value for name, value in total.items() if name not in ("cage", "drag")}
+    parts = {f"skf {name}": catalogue[name] for name in ("rolling", "sliding")}
+    return {**own, **parts, "torque": sum(own.values()), "skf": sum(parts.values())}
 
 
 def capacitance(model: BearingModel) -> Numbers:
@@ -189,6 +210,7 @@ def contacts(result: Result) -> Numbers:
 STATIC: Mapping[str, Callable[[BearingModel], Numbers]] = {
     "friction": friction,
     "skf": skf,
+    "anchor": anchor,
     "capacitance": capacitance,
     "axial resonance": axial_resonance,
 }

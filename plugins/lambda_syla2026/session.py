@@ -13,14 +13,15 @@ from lambda_core.batch.pool import usable_cores
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.results.record import Record
-from lambda_syla2026 import charts, text
+from lambda_syla2026 import anchor_pages, charts, text
+from lambda_syla2026.anchors import Anchors, anchors
 from lambda_syla2026.fig5 import Fig5, fig5
 from lambda_syla2026.fig7 import Fig7, fig7
 from lambda_syla2026.page import Chapter, write
 from lambda_syla2026.table4 import Table4, table4
 from lambda_syla2026.workshop import Answer, Report, Workshop
 
-What = Literal["table4", "fig5", "fig7", "all"]
+What = Literal["table4", "anchors", "fig5", "fig7", "all"]
 MOST_WORKERS = 4
 
 
@@ -38,6 +39,7 @@ class Reproduction(Record):
     """Everything that was repeated; null what was not asked for."""
 
     table4: Table4 | None = None
+    anchors: Anchors | None = None
     fig5: Fig5 | None = None
     fig7: Fig7 | None = None
     files: list[str] = Field(description="figures and the page")
@@ -84,12 +86,12 @@ def reproduce(
     if what not in get_args(What):
         raise UsageError(unknown_name("experiment", what, get_args(What)))
     say = announce or (lambda sentence: None)
-    found: dict[str, Table4 | Fig5 | Fig7] = {}
+    found: dict[str, Table4 | Anchors | Fig5 | Fig7] = {}
     unconverged: dict[str, list[str]] = {}
     effort: list[Effort] = []
     workers = workers or min(usable_cores(), MOST_WORKERS)
     with Workshop(folder, workers, progress) as workshop:
-        for name, run in (("table4", table4), ("fig7", fig7), ("fig5", fig5)):
+        for name, run in (("table4", table4), ("anchors", anchors), ("fig7", fig7), ("fig5", fig5)):
             if what in (name, "all"):
                 say(f"repeating {name}")
                 before, known, started = len(workshop.failures), set(workshop.answers), time.monotonic()
@@ -123,6 +125,8 @@ def chapters(found: Reproduction) -> list[Chapter]:
         tables = (*text.table4_tables(t), text.blind_table())
         notes = _notes(found, "table4", (f"90 % band: {t.band}", *t.notes))
         result.append(Chapter("table4", "Table 4: friction torque of the 6319", tuple(t.bars), pictures, tables, notes))
+    if found.anchors is not None:
+        result.append(anchor_pages.chapter(found.anchors, _notes(found, "anchors", found.anchors.notes)))
     if found.fig5 is not None:
         f = found.fig5
         title = "Fig. 5: altered running of the 6220"

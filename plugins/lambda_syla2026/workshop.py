@@ -14,6 +14,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Future, as_completed
 from dataclasses import asdict, dataclass, field, replace
 from functools import lru_cache
+from importlib.resources import files
 from pathlib import Path
 from types import TracebackType
 
@@ -26,6 +27,7 @@ from lambda_syla2026.readings import DYNAMIC, STATIC, Numbers
 
 _DIGITS = 20  # of the hash in names of files
 READ_ONCE = {"stability"}  # hundreds of runs: their files go once their numbers are kept
+ANCHOR = "anchor"  # no built-in case: each point names its own bearing
 _FORMAT = 3  # of the kept numbers; raised when a reading changes its meaning
 Report = Callable[[StudyProgress], None]
 
@@ -34,7 +36,7 @@ Report = Callable[[StudyProgress], None]
 class Job:
     """What is to be read of which model."""
 
-    case: str  # name of a built-in case
+    case: str  # name of a built-in case, or ANCHOR
     changes: tuple[str, ...]  # path=value
     kind: str  # of readings.STATIC or readings.DYNAMIC
 
@@ -88,10 +90,12 @@ def do(job: Job, folder: str) -> Answer:
 
 @lru_cache(maxsize=16)
 def case_text(name: str) -> str:
-    """Return a built-in case as a file of its own."""
+    """Return a built-in case as a file of its own, or the one that any bearing is put into."""
     from lambda_core.case.case_io import load_case
     from lambda_core.case.case_writer import standalone_toml
 
+    if name == ANCHOR:
+        return files(__package__).joinpath(f"{ANCHOR}.toml").read_text(encoding="utf-8")
     return standalone_toml(load_case(name))
 
 

@@ -1,0 +1,303 @@
+"""The friction torque against SKF's catalogue model: other bearings than the 6319, grooves, random cases, Stribeck.
+
+No number of Table 4 enters. Both sides are without drag and cage, with SKF's factor of replenishment, quasi-static; the
+mean is over the positions of the balls.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from random import Random
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.results.record import Record
+from lambda_syla2026 import parameters as P
+from lambda_syla2026.workshop import ANCHOR, Answer, Job, Workshop
+
+# Two makers, five series, 25 to 100 mm bore, and the one with printed grooves.
+BEARINGS = (
+    ("6205", "SKF"), ("6208", "SKF"), ("6212", "SKF"), ("6220", "SKF"), ("6305", "SKF"), ("6309", "SKF"),
+    ("6312", "SKF"), ("6010", "SKF"), ("6018", "SKF"), ("61910", "SKF"), ("6206", "NSK"), ("6308", "NSK"),
+    ("6208", "Syla2026"),
+)  # fmt: skip
+LOADS = (6.5, 10.0, 20.0)  # C/P
+SPEEDS = (75e3, 220e3, 440e3)  # n d_m [mm/min]
+GROOVES = {"catalogue": None, "0.515/0.525": (0.515, 0.525), "0.5125/0.525": (0.5125, 0.525)}
+OILS = {"mineral-vg68": "60 degC", "FVA3A": "62.5 degC"}
+POPULATIONS = {"VG 68, radial": 20, "FVA3A, radial": 20, "VG 68, radial and axial": 12}
+STRIBECK = ("6316", "SKF", "13.24 kN")
+STRIBECK_SPEEDS = (1.0, 10.0, 50.0, 111.0, 300.0, 1000.0)  # [1/min]
+STRIBECK_BAR = 300.0  # [1/min] up to which the bar holds
+SETS = ("anchored", "blind")
+_SEED = 16
+_LAWS = ("models.", "parameters.", "surface.")
+_NOT_HERE = ("rheology", "cage_contact", "fluid_drag")
+
+
+class Spread(Record):
+    """How one set compares with SKF's model over the grid: ratios less one."""
+
+    parameters: str
+    grooves: str
+    points: int
+    bias_pct: float = Field(description="mean over the points")
+    rms_pct: float = Field(description="root mean square about zero")
+    worst_pct: float = Field(description="of all points, with its sign")
+    by_load_pct: dict[str, float] = Field(description="bias by C/P")
+    by_speed_pct: dict[str, float] = Field(description="bias by n d_m [mm/min]")
+    by_bearing_pct: dict[str, float]
+
+
+class Population(Record):
+    """Ratios to SKF's model in random cases."""
+
+    name: str
+    parameters: str
+    cases: int
+    median: float
+    lowest: float
+    highest: float
+
+
+class Stribeck(Record):
+    """One speed of the Stribeck curve."""
+
+    speed_rpm: float
+    torque_Nmm: float
+    boundary_Nmm: float
+    skf_Nmm: float
+    ratio: float
+
+
+class Anchors(Record):
+    """The comparison with SKF's catalogue model."""
+
+    spreads: list[Spread]
+    populations: list[Population]
+    stribeck: list[Stribeck]
+    bars: list[str]
+    notes: list[str]
+
+
+@dataclass(frozen=True)
+class _Row:
+    """What of a catalogue bearing the grid needs: mm and N."""
+
+    designation: str
+    maker: str
+    mean_diameter: float
+    rating: float
+
+    @property
+    def name(self) -> str:
+        return f"{self.designation} {self.maker}"
+
+    def changes(self, share: float, speed_factor: float, oil: str = "mineral-vg68", heat: str = "") -> tuple[str, ...]:
+        """Return bearing, load C/P and speed n d_m as changes of the case."""
+        return (
+            f"bearing.designation={self.designation}",
+            f"bearing.maker={self.maker}",
+            f"loads.radial={self.rating / share:.6g} N",
+            f"operation.speed={speed_factor / self.mean_diameter:.6g} rpm",
+            f"lubricant.name={oil}",
+            f"lubricant.temperature={heat or OILS[oil]}",
+        )
+
+
+def laws_of(parameters: str) -> tuple[str, ...]:
+    """Return laws and constants of a set, without what belongs to the 6319, its oil, its cage and its bath."""
+    chosen = P.changes(P.anchored() if parameters == "anchored" else None)
+    return tuple(c for c in chosen if c.startswith(_LAWS) and not any(name in c for name in _NOT_HERE))
+
+
+def anchors(workshop: Workshop, *, quick: bool = False) -> Anchors:
+    """Compare; `quick` leaves out other grooves and random cases."""
+    rows = [_row(*bearing) for bearing in BEARINGS]
+    grooves = ["catalogue"] if quick else list(GROOVES)
+    kinds = [("anchored", name) for name in grooves] + [("blind", "catalogue")]
+    answers = workshop.all([job for kind in kinds for job in _grid(rows, *kind)])
+    count = len(answers) // len(kinds)
+    spreads = [_spread(*kind, rows, answers[i * count : (i + 1) * count]) for i, kind in enumerate(kinds)]
+    populations = [] if quick else _populations(workshop)
+    stribeck = _stribeck(workshop)
+    notes = [
+        "quasi-static, without cage and drag, SKF's replenishment on both sides; VG 68 at 60 degC",
+        "SKF's model is a fit to measurements of its maker: what agrees with it is anchored, not measured",
+        "grooves of catalogue bearings are assumed, 0.52/0.53: nobody prints them",
+    ]
+    if quick:
+        notes.append("quick: catalogue grooves alone, no random cases")
+    return Anchors(
+        spreads=spreads,
+        populations=populations,
+        stribeck=stribeck,
+        bars=[*_bars(spreads), *_population_bars(populations), *_stribeck_bars(stribeck)],
+        notes=notes,
+    )
+
+
+def _row(designation: str, maker: str) -> _Row:
+    from lambda_core.discovery.manager import registry
+
+    found = registry().catalogue().bearing(designation, maker)
+    assert found.dynamic_rating is not None
+    diameter = 500.0 * (found.bore_diameter.value + found.outside_diameter.value)
+    return _Row(designation, maker, diameter, found.dynamic_rating.value)
+
+
+def _grid(rows: Sequence[_Row], parameters: str, grooves: str) -> list[Job]:
+    shape = GROOVES[grooves]
+    geometry = () if shape is None else tuple(
+        f"bearing.geometry.conformity_{ring}={value:g}" for ring, value in zip(("inner", "outer"), shape, strict=True)
+    )  # fmt: skip
+    return [
+        Job(ANCHOR, (*row.changes(load, speed), *geometry, *laws_of(parameters)), "anchor")
+        for row in rows
+        for load in LOADS
+        for speed in SPEEDS
+    ]
+
+
+def _ratio(answer: Answer) -> float:
+    return answer["torque"] / answer["skf"]
+
+
+def _spread(parameters: str, grooves: str, rows: Sequence[_Row], answers: Sequence[Answer]) -> Spread:
+    miss = 100.0 * (np.array([_ratio(answer) for answer in answers]).reshape(len(rows), len(LOADS), len(SPEEDS)) - 1.0)
+    flat = miss.ravel()
+
+    def means(axes: tuple[int, int], names: Sequence[str]) -> dict[str, float]:
+        return dict(zip(names, miss.mean(axis=axes).tolist(), strict=True))
+
+    return Spread(
+        parameters=parameters,
+        grooves=grooves,
+        points=flat.size,
+        bias_pct=float(flat.mean()),
+        rms_pct=float(np.sqrt(np.mean(flat**2))),
+        worst_pct=float(flat[np.abs(flat).argmax()]),
+        by_load_pct=means((0, 2), [f"{load:g}" for load in LOADS]),
+        by_speed_pct=means((0, 1), [f"{speed:.0f}" for speed in SPEEDS]),
+        by_bearing_pct=means((1, 2), [row.name for row in rows]),
+    )
+
+
+def _populations(workshop: Workshop) -> list[Population]:
+    """Return random bearings, loads, speeds and temperatures against SKF's model, by both sets."""
+    kinds = [(name, parameters) for parameters in SETS for name in POPULATIONS]
+    plans = [[Job(ANCHOR, (*case, *laws_of(kind[1])), "anchor") for case in random_cases(kind[0])] for kind in kinds]
+    answers = iter(workshop.all([job for plan in plans for job in plan]))
+    found = []
+    for (name, parameters), plan in zip(kinds, plans, strict=True):
+        ratios = [_ratio(next(answers)) for _ in plan]
+        found.append(
+            Population(
+                name=name,
+                parameters=parameters,
+                cases=len(ratios),
+                median=float(np.median(ratios)),
+                lowest=min(ratios),
+                highest=max(ratios),
+            )
+        )
+    return found
+
+
+def random_cases(name: str) -> list[tuple[str, ...]]:
+    """Return the cases of a population: the same at every call.
+
+    SKF bearings of the series of SKF's friction table, 10 to 120 mm bore; C/P 5 to 40, n d_m 5e3 to 5e5 mm/min
+    (logarithmic), 40 to 80 degC; axial load 0.1 to 0.5 of the radial one.
+    """
+    from lambda_plugins.methods.skf import SERIES
+
+    from lambda_core.discovery.manager import registry
+
+    draw = Random(f"{_SEED} {name}")
+    known = sorted(
+        (row for row in registry().catalogue().bearings("", 10_000)
+         if row.maker == "SKF" and row.layer == "core" and row.series in SERIES and row.ball_diameter is not None
+         and row.dynamic_rating is not None and 0.01 <= row.bore_diameter.value <= 0.12),
+        key=lambda row: row.designation,
+    )  # fmt: skip
+    cases = []
+    for chosen in draw.sample(known, POPULATIONS[name]):
+        row = _row(chosen.designation, chosen.maker)
+        share, factor = _log_uniform(draw, 5.0, 40.0), _log_uniform(draw, 5e3, 5e5)
+        oil = "FVA3A" if name.startswith("FVA3A") else "mineral-vg68"
+        case = row.changes(share, factor, oil, f"{draw.uniform(40.0, 80.0):.1f} degC")
+        if name.endswith("axial"):
+            case = (*case, f"loads.axial={draw.uniform(0.1, 0.5) * row.rating / share:.6g} N")
+        cases.append(case)
+    return cases
+
+
+def _log_uniform(draw: Random, low: float, high: float) -> float:
+    return math.exp(draw.uniform(math.log(low), math.log(high)))
+
+
+def _stribeck(workshop: Workshop) -> list[Stribeck]:
+    designation, maker, load = STRIBECK
+    case = (f"bearing.designation={designation}", f"bearing.maker={maker}", f"loads.radial={load}")
+    jobs = [
+        Job(ANCHOR, (*case, f"operation.speed={speed:g} rpm", *laws_of("anchored")), "anchor")
+        for speed in STRIBECK_SPEEDS
+    ]
+    return [
+        Stribeck(
+            speed_rpm=speed,
+            torque_Nmm=answer["torque"],
+            boundary_Nmm=answer["boundary"],
+            skf_Nmm=answer["skf"],
+            ratio=_ratio(answer),
+        )
+        for speed, answer in zip(STRIBECK_SPEEDS, workshop.all(jobs), strict=True)
+    ]
+
+
+def _verdict(good: bool, sentence: str) -> str:
+    return f"{'met' if good else 'missed'}: {sentence}"
+
+
+def _bars(spreads: Sequence[Spread]) -> list[str]:
+    lines = []
+    for s in spreads:
+        if s.parameters != "anchored":
+            continue
+        what = f"{s.grooves} grooves, {s.points} points"
+        lines.append(_verdict(abs(s.bias_pct) <= 5.0, f"{what}: bias {s.bias_pct:+.1f} %, bar +-5 %"))
+        lines.append(_verdict(s.rms_pct <= 10.0, f"{what}: rms {s.rms_pct:.1f} %, bar 10 %"))
+        for name, biases in (("load", s.by_load_pct), ("speed", s.by_speed_pct)):
+            trend = max(biases.values()) - min(biases.values())
+            lines.append(_verdict(trend <= 10.0, f"{what}: trend with {name} {trend:.1f} % over the range, bar 10 %"))
+    return lines
+
+
+def _population_bars(populations: Sequence[Population]) -> list[str]:
+    return [
+        _verdict(
+            0.85 <= p.median <= 1.15 and p.lowest >= 1.0 / 1.8 and p.highest <= 1.8,
+            f"{p.cases} random cases, {p.name}: median {p.median:.2f}, {p.lowest:.2f} to {p.highest:.2f}, "
+            "bar median 0.85 to 1.15, none beyond a factor of 1.8",
+        )
+        for p in populations
+        if p.parameters == "anchored"
+    ]
+
+
+def _stribeck_bars(points: Sequence[Stribeck]) -> list[str]:
+    inside = [p for p in points if p.speed_rpm <= STRIBECK_BAR]
+    ratios = ", ".join(f"{p.ratio:.2f}" for p in inside)
+    speeds = "/".join(f"{p.speed_rpm:g}" for p in inside)
+    falls = all(later.torque_Nmm < earlier.torque_Nmm for earlier, later in pairwise(inside))
+    near = all(abs(p.ratio - 1.0) <= 0.3 for p in inside)
+    case = f"Stribeck, {STRIBECK[0]} under {STRIBECK[2]}, VG 68, 60 degC"
+    return [
+        _verdict(near, f"{case}, over SKF's at {speeds} 1/min: {ratios}, bar 0.7 to 1.3"),
+        _verdict(falls, f"{case}: torque falls with speed up to {STRIBECK_BAR:g} 1/min"),
+    ]

@@ -1,0 +1,94 @@
+"""The friction torque against SKF's catalogue model on other bearings: what is compared, and how it is summed up."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from lambda_syla2026 import anchors as A
+from lambda_syla2026 import parameters as P
+from lambda_syla2026.anchor_pages import chapter
+from lambda_syla2026.readings import MECHANISMS, anchor
+from lambda_syla2026.workshop import ANCHOR, Answer, Job, case_text
+
+from lambda_core.batch.job import resolve_point
+
+
+class Invented:
+    """A workshop whose torque is SKF's but for what it is told about load and set."""
+
+    def all(self, jobs: list[Job]) -> list[Answer]:
+        return [
+            Answer("done", "", "", {"torque": 100.0 * self.ratio(job), "skf": 100.0, "boundary": 1.0}) for job in jobs
+        ]
+
+    def ratio(self, job: Job) -> float:
+        if "parameters.traction.tau_eyring=8 MPa" not in job.changes:
+            return 0.7
+        return 1.1 if "bearing.designation=6205" in job.changes else 1.0
+
+
+def test_the_grid_is_no_table_4() -> None:
+    """Ten bearings or more, two makers, three loads and three speeds; none of them the 6319."""
+    assert len(A.BEARINGS) >= 10
+    assert "6319" not in {name for name, _ in A.BEARINGS}
+    assert {"SKF", "NSK"} <= {maker for _, maker in A.BEARINGS}
+    assert len(A.LOADS) == len(A.SPEEDS) == 3
+
+
+def test_bias_and_scatter_of_known_ratios() -> None:
+    found = A.anchors(Invented())  # type: ignore[arg-type]
+    first = found.spreads[0]
+    count = len(A.BEARINGS)
+    assert first.points == 9 * count
+    assert first.bias_pct == pytest.approx(10.0 / count)
+    assert first.rms_pct == pytest.approx(10.0 / count**0.5)
+    assert first.by_bearing_pct["6205 SKF"] == pytest.approx(10.0)
+    assert list(first.by_load_pct.values()) == pytest.approx([10.0 / count] * 3)
+    blind = found.spreads[-1]
+    assert (blind.parameters, blind.bias_pct) == ("blind", pytest.approx(-30.0))
+    assert "met: catalogue grooves" in found.bars[0]
+    titles = [table.caption for table in chapter(found, ()).tables]
+    assert len(titles) == len(set(titles)) == 5
+
+
+def test_quick_says_what_it_leaves_out() -> None:
+    found = A.anchors(Invented(), quick=True)  # type: ignore[arg-type]
+    assert not found.populations
+    assert {s.grooves for s in found.spreads} == {"catalogue"}
+    assert found.notes[-1].startswith("quick")
+
+
+def test_random_cases_are_the_same_every_time() -> None:
+    for name, count in A.POPULATIONS.items():
+        cases = A.random_cases(name)
+        assert cases == A.random_cases(name)
+        assert len({case[0] for case in cases}) == count
+        assert all(any(c.startswith("loads.axial") for c in case) == name.endswith("axial") for case in cases)
+
+
+@pytest.mark.parametrize("parameters", A.SETS)
+def test_a_point_of_either_set(parameters: str) -> None:
+    """A 6208 at C/P = 10: parts add up, the sets differ, and SKF's is the catalogue's own number."""
+    changes = ("bearing.designation=6208", "loads.radial=3.25 kN", "operation.speed=3667 rpm", *A.laws_of(parameters))
+    found = anchor(resolve_point(case_text(ANCHOR), changes))
+    assert found["torque"] == pytest.approx(
+        sum(found[n] or 0.0 for n in MECHANISMS if n not in ("cage", "drag") and n in found)
+    )
+    assert found["skf"] == pytest.approx((found["skf rolling"] or 0.0) + (found["skf sliding"] or 0.0))
+    ratio = (found["torque"] or 0.0) / (found["skf"] or 1.0)
+    assert (0.8 if parameters == "anchored" else 0.6) < ratio < (1.05 if parameters == "anchored" else 0.8)
+
+
+def test_the_anchored_set_replaces_what_the_blind_one_names() -> None:
+    """Every path but the laws that come with it stands in the blind set too, and everything has a source."""
+    blind = {entry.path for entry in P.blind_set()}
+    for path, value, source in P.anchored_set():
+        assert source
+        assert path in blind, path
+        assert value or path.startswith("parameters.")
+    assert not any("lubricant" in path or "bearing" in path for path in P.anchored())
+
+
+def test_the_case_of_the_anchors_needs_no_other_file(tmp_path: Path) -> None:
+    assert resolve_point(case_text(ANCHOR), ()).geometry.ball_count == 9
