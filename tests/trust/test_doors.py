@@ -140,13 +140,6 @@ def test_c4_exported_rows_hold_no_formula(tmp_path: Path, user_folder: Path) -> 
         assert list(csv.reader(stream))[1][0] == "'=1+1"
 
 
-def write_case(folder: Path, file: str) -> Path:
-    text = api.case(CASE).to_toml() if hasattr(api.case(CASE), "to_toml") else api.case_text(CASE)
-    path = folder / "case.toml"
-    path.write_text(f'{text}\n[loads.inner_ring.force_y]\nkind = "table"\nfile = "{file}"\n', encoding="utf-8")
-    return path
-
-
 @pytest.mark.skipif(os.name == "nt", reason="pipes and devices of POSIX")
 def test_c3_table_files_are_regular_and_bounded(tmp_path: Path) -> None:
     from lambda_core.case.signals import read_table

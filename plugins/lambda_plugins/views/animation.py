@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from lambda_core.plugins import FloatArray, Scene
 from lambda_plugins.views.style import INK, RC, ROLES, SOFT
+from lambda_plugins.views.verbatim import verbatim
 
 _SIZE, _DPI = (12.8, 7.2), 80  # inch, dots per inch: 1024 x 576
 _RING, _CAGE = "#e9e9e9", ROLES["cage"].colour
@@ -29,6 +30,7 @@ _SPOT = 0.72  # distance of a ball's spot from its centre over the radius
 
 def frames(scene: Scene) -> Iterator[NDArray[np.uint8]]:
     """Yield the frames of a scene as RGB images."""
+    scene = verbatim(scene)
     with matplotlib.rc_context(RC):
         figure = Figure(figsize=_SIZE, dpi=_DPI)
         canvas: Any = FigureCanvasAgg(figure)

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from lambda_plugins.views.panels import draw_panel
 from lambda_plugins.views.style import INK, RC, SOFT
+from lambda_plugins.views.verbatim import verbatim
 
 if TYPE_CHECKING:
     from lambda_core.plugins import Panel, ViewData
@@ -35,6 +36,7 @@ class HouseFigure(Figure):
 
 def draw(data: ViewData) -> Figure:
     """Draw a view: title, source, panels, notes."""
+    data = verbatim(data)
     with matplotlib.rc_context(RC):
         columns = min(data.columns, len(data.panels))
         rows = -(-len(data.panels) // columns)

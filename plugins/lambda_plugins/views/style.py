@@ -17,6 +17,7 @@ RC: Any = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],
     "font.size": 12.0,
+    "text.usetex": False,  # whatever matplotlibrc says: texts of strangers are not handed to another program
     "axes.titlesize": 12.5,
     "axes.titlelocation": "left",
     "axes.titlepad": 8.0,
