@@ -36,7 +36,7 @@ def main() -> int:
     if options.workers > 1 and len(names) > 1:
         _side_by_side(names, options)
     else:
-        os.environ.setdefault("XDG_DATA_HOME", str(folder / "data"))  # nobody's own catalogue
+        os.environ["LAMBDA_BEARING_DATA"] = str(folder / "data")  # nobody's own catalogue
         trial.warm()
         deadline = time.monotonic() + 60.0 * options.minutes
         for name in names:
@@ -45,7 +45,7 @@ def main() -> int:
     text = page.figures({name: Record(folder, name) for name in names})
     print(text)
     if options.write:
-        page.write(text, options.seed)
+        page.write(text)
     return (
         0
         if all(entry.get("verdict") in trial.GOOD for name in names for entry in Record(folder, name).entries())
@@ -55,7 +55,8 @@ def main() -> int:
 
 def _side_by_side(names: list[str], options: argparse.Namespace) -> None:
     """Give each part a process of its own, so many at a time as asked for."""
-    waiting, running = list(names), []
+    waiting = list(names)
+    running: list[subprocess.Popen[bytes]] = []
     while waiting or running:
         while waiting and len(running) < options.workers:
             command = [sys.executable, "-P", "-m", "tests.attacks", waiting.pop(0), "--seed", str(options.seed)]

@@ -1,11 +1,12 @@
 """Hostile inputs: a case that is right but for one value, a study, a command line.
 
-Half of the values are of the right kind and unit, so that they get behind validation: tiny, huge, zero, negative.
+Most values are of the right kind and unit, so that they get behind validation: tiny, huge, or merely unusual. What an
+option needs beside it (the kind and the other values of a time function, the rest of a material) is filled in with
+usual values, so that the one hostile value decides.
 """
 
 from __future__ import annotations
 
-import json
 import math
 import random
 from collections.abc import Iterator
@@ -15,7 +16,9 @@ from pathlib import Path
 from typing import Any
 
 from lambda_core import api
+from lambda_core.domain.errors import LambdaError
 from tests.attacks import draw
+from tests.attacks.written import toml
 
 _EXPONENTS = (-30, 30)  # of a wild value in a unit that its option takes
 _USUAL = (-4, 4)  # of one that is merely unusual
@@ -26,45 +29,109 @@ _WORDS = (
     "1 furlong", "1 N N", "0x10 N", "1_0 N",
 )  # fmt: skip
 _SIMPLE: tuple[Any, ...] = (None, True, [], {}, [[]], [1, "2"], {"kind": "ramp"}, {"kind": "sum", "terms": []})
-_COMMANDS = ("check", "quasistatic", "run", "run", "compare")
+_COMPUTING = ("quasistatic", "quasistatic", "quasistatic", "run", "run", "compare")
 _LIMITS = ("gt", "ge", "lt", "le", "minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum")
-_RIGHT = 0.85  # share of hostile values of the right kind
+_RIGHT = 0.88  # share of hostile values of the right kind
+_WILD = 0.4  # share of those that lie anywhere between the largest and the smallest exponents
+_NEGATIVE = 0.08
 _SHORT = "0.2 ms"  # of simulated time
+_AT_MOST = "2 s"  # of wall time
+_BASES = 150  # cases that hostile values are put into
+_SEED_OF_BASES = 7
+# Options that seldom fit the rest of a case: they are hit less often.
+_SELDOM = (
+    ("bearing", "geometry"), ("lubricant", "properties"), ("forces", "ball_ball"), ("parameters", "cage_contact"),
+    ("models", "cage_contact"), ("loads", "outer_ring"),
+)  # fmt: skip
+# Sections that decide what is computed, and how much likelier than the others they are hit.
+_DECIDE = {"bearing": 2, "loads": 2, "operation": 2, "lubricant": 6, "bodies": 3, "parameters": 4, "solver": 6,
+           "depth": 4, "surface": 6, "materials": 3, "output": 6, "gravity": 4}  # fmt: skip
+_KIND = "kind"  # what tells time functions apart
+Path_ = tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class Leaf:
-    """An option of a case: where it is, and the units that it takes."""
+    """An option of a case: where it is, the units that it takes, and what it needs beside it."""
 
-    path: tuple[str, ...]
-    units: tuple[str, ...]
-    limits: dict[str, float]
-    choices: tuple[str, ...]
-    whole: bool  # an integer
+    path: Path_
+    units: tuple[str, ...] = ()
+    limits: tuple[tuple[str, float], ...] = ()
+    choices: tuple[str, ...] = ()
+    whole: bool = False  # an integer
+    needs: tuple[tuple[Path_, Any], ...] = ()
+
+    @property
+    def can_be_right(self) -> bool:
+        """Tell whether the schema says what a right value looks like."""
+        return bool(self.units or self.choices or self.limits)
 
 
 @cache
 def leaves() -> tuple[Leaf, ...]:
-    """Return every option that the schema of cases knows, time functions as one."""
+    """Return every option that the schema of cases knows, every kind of time function, every parameter of a law."""
     schema = api.schema()
-    return tuple(_walk(schema, schema["$defs"], (), 0))
+    return (*_walk(schema, schema["$defs"], (), (), 0), *_of_laws())
 
 
-def _walk(node: dict[str, Any], definitions: dict[str, Any], path: tuple[str, ...], depth: int) -> Iterator[Leaf]:
+def _walk(
+    node: dict[str, Any], definitions: dict[str, Any], path: Path_, needs: tuple[tuple[Path_, Any], ...], depth: int
+) -> Iterator[Leaf]:
     if depth > 6:
         return
-    variants = node.get("anyOf") or node.get("oneOf") or [node]
-    for variant in variants:
-        if "$ref" in variant:
-            target = definitions[variant["$ref"].rsplit("/", 1)[1]]
-            yield from _walk(target, definitions, path, depth + 1)
-        elif "properties" in variant:
+    if path[-1:] == ("motion",):
+        needs = (*needs, ((*path[:-1], "mode"), "prescribed"))
+    for variant in _variants(node, definitions):
+        if "properties" in variant:
+            required = [name for name in variant.get("required", ()) if path]
+            usual = {name: _usual(variant["properties"][name], definitions) for name in required}
             for name, child in variant["properties"].items():
-                yield from _walk(child, definitions, (*path, name), depth + 1)
+                if "const" in child:
+                    continue
+                beside = tuple(((*path, other), value) for other, value in usual.items() if other != name)
+                yield from _walk(child, definitions, (*path, name), needs + beside, depth + 1)
         elif path and variant.get("type") != "null":
-            limits = {key: variant[key] for key in _LIMITS if key in variant}
-            whole = variant.get("type") == "integer"
-            yield Leaf(path, tuple(variant.get("x-units", ())), limits, tuple(variant.get("enum", ())), whole)
+            yield _leaf(variant, path, needs)
+
+
+def _variants(node: dict[str, Any], definitions: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """Yield what may stand in one place, references followed."""
+    for variant in node.get("anyOf") or node.get("oneOf") or [node]:
+        if "$ref" in variant:
+            variant = definitions[variant["$ref"].rsplit("/", 1)[1]]
+        if "anyOf" in variant or "oneOf" in variant:
+            yield from _variants(variant, definitions)
+        else:
+            yield variant
+
+
+def _leaf(node: dict[str, Any], path: Path_, needs: tuple[tuple[Path_, Any], ...] = ()) -> Leaf:
+    limits = tuple((key, float(node[key])) for key in _LIMITS if key in node)
+    whole = node.get("type") == "integer"
+    return Leaf(path, tuple(node.get("x-units", ())), limits, tuple(node.get("enum", ())), whole, needs)
+
+
+def _usual(node: dict[str, Any], definitions: dict[str, Any]) -> Any:
+    """Return a harmless value for what an option requires beside it."""
+    first = next(_variants(node, definitions))
+    if "const" in first:
+        return first["const"]
+    if first.get("enum"):
+        return first["enum"][0]
+    return f"1 {first['x-units'][0]}" if first.get("x-units") else 0.3
+
+
+def _of_laws() -> Iterator[Leaf]:
+    """Yield the parameters of every installed law, with the choice of that law."""
+    models = api.registry()
+    for role, names in draw.stock().laws.items():
+        for name in names:
+            schema = models.model(role, name).parameters.model_json_schema()
+            if schema.get("required"):  # data of an oil, which most oils lack
+                continue
+            for parameter, node in schema.get("properties", {}).items():
+                made = _leaf(node, ("parameters", role, parameter), ((("models", role), name),))
+                yield made if made.can_be_right else Leaf(made.path, ("",), needs=made.needs)
 
 
 def value(pick: random.Random, leaf: Leaf, allowed: bool) -> Any:
@@ -72,16 +139,7 @@ def value(pick: random.Random, leaf: Leaf, allowed: bool) -> Any:
     if allowed and leaf.choices:
         return pick.choice(leaf.choices)
     if allowed:
-        number = 10.0 ** pick.uniform(*(_EXPONENTS if pick.random() < 0.5 else _USUAL))
-        lowest = max(leaf.limits.get(name, -math.inf) for name in ("gt", "ge", "minimum", "exclusiveMinimum"))
-        highest = min(leaf.limits.get(name, math.inf) for name in ("lt", "le", "maximum", "exclusiveMaximum"))
-        if lowest < 0.0 and pick.random() < 0.2:
-            number = -number
-        if not leaf.units and highest < math.inf:
-            number = lowest + (highest - lowest) * pick.random() ** 4
-        if leaf.whole:
-            number = int(min(number, 2**62))
-        return f"{number:.6g} {pick.choice(leaf.units)}" if leaf.units else number
+        return _extreme(pick, leaf)
     kind = pick.random()
     if kind < 0.4:
         return pick.choice(_WORDS)
@@ -91,68 +149,113 @@ def value(pick: random.Random, leaf: Leaf, allowed: bool) -> Any:
     return pick.choice(_SIMPLE)
 
 
+def _extreme(pick: random.Random, leaf: Leaf) -> Any:
+    """Return a number of the right kind, far from what is usual, within the limits that the schema gives."""
+    limits = dict(leaf.limits)
+    number = 10.0 ** pick.uniform(*(_EXPONENTS if pick.random() < _WILD else _USUAL))
+    lowest = max(limits.get(name, -math.inf) for name in ("gt", "ge", "minimum", "exclusiveMinimum"))
+    highest = min(limits.get(name, math.inf) for name in ("lt", "le", "maximum", "exclusiveMaximum"))
+    if lowest < 0.0 and pick.random() < _NEGATIVE:
+        number = -number
+    if not leaf.units and highest < math.inf:
+        number = lowest + (highest - lowest) * pick.random() ** 4 if lowest > -math.inf else highest - number
+    if leaf.whole:
+        return int(min(number, 2**62))
+    return f"{number:.6g} {pick.choice(leaf.units)}".strip() if leaf.units else number
+
+
+@cache
+def bases() -> tuple[dict[str, Any], ...]:
+    """Return cases that are right, of many bearings, oils and laws."""
+    found: list[dict[str, Any]] = []
+    seed = _SEED_OF_BASES * 1_000_003
+    while len(found) < _BASES:
+        seed += 1
+        made = draw.case(seed)
+        try:
+            api.check(made)
+        except LambdaError:
+            continue
+        found.append(made)
+    return tuple(found)
+
+
+@cache
+def _weights(right: bool) -> tuple[tuple[Leaf, ...], tuple[float, ...]]:
+    """Return the options that may be hit, and how likely: time functions, which are many, count as a few."""
+    chosen = tuple(leaf for leaf in leaves() if not right or leaf.can_be_right)
+    return chosen, tuple(_weight(leaf) for leaf in chosen)
+
+
+def _weight(leaf: Leaf) -> float:
+    weight = float(_DECIDE.get(leaf.path[0], 1))
+    if _is_in_function(leaf):
+        weight *= 0.2
+    if leaf.path[:2] in _SELDOM or leaf.path[-1] == "mode":
+        weight *= 0.2
+    return weight
+
+
+def _is_in_function(leaf: Leaf) -> bool:
+    return any(path[-1] == _KIND for path, _ in leaf.needs)
+
+
 def case(pick: random.Random) -> dict[str, Any]:
     """Return a short case with one hostile value."""
-    made = draw.case(pick.randrange(2**31))
-    made["solver"] = {"duration": _SHORT}
+    made = {**pick.choice(bases()), "solver": {"duration": _SHORT, "max_wall": _AT_MOST}}
     right = pick.random() < _RIGHT
-    leaf = pick.choice([leaf for leaf in leaves() if not right or leaf.units or leaf.choices or leaf.limits])
-    place = made
-    for name in leaf.path[:-1]:
-        inner = place.get(name)
-        place[name] = inner if isinstance(inner, dict) else {}
-        place = place[name]
-    place[leaf.path[-1]] = value(pick, leaf, right)
+    leaf = pick.choices(*_weights(right))[0]
+    if _is_in_function(leaf):
+        place, name = _place(made, leaf.path[:-1])
+        place[name] = {}
+    for path, usual in leaf.needs:
+        place, name = _place(made, path)
+        if path[0] == "models" or name not in place:
+            place[name] = usual
+    place, name = _place(made, leaf.path)
+    place[name] = value(pick, leaf, right)
     return made
+
+
+def _place(made: dict[str, Any], path: Path_) -> tuple[dict[str, Any], str]:
+    """Return the table that an option stands in, made where it is not there, and the option's name."""
+    place = made
+    for name in path[:-1]:
+        inner = place.get(name)
+        place[name] = dict(inner) if isinstance(inner, dict) else {}
+        place = place[name]
+    return place, path[-1]
 
 
 def study(pick: random.Random) -> dict[str, Any]:
-    """Return a study whose parameter, kind or response is hostile."""
-    path = ".".join(pick.choice(leaves()).path)
+    """Return a study; half of them are right but for one hostile value."""
+    leaf = pick.choices(*_weights(True))[0]
+    right = pick.random() < 0.6
+    parameter: dict[str, Any] = {"path": ".".join(leaf.path)}
+    if right:
+        parameter["values"] = [value(pick, leaf, True) for _ in range(pick.choice((1, 2)))]
+    else:
+        parameter |= pick.choice([{}, {"values": []}, {"range": ["1 N", "x"]}, {"values": [None]}, {"range": 5}])
     made: dict[str, Any] = {
         "name": "attack",
         "case": "6208-axial-1300",
-        "kind": pick.choice(["quasistatic", "quasistatic", "dynamic", "", 7]),
-        "parameters": {path: pick.choice([["1 N", "2 N"], [], {"from": "1 N", "to": "x"}, 5, {"values": [None]}])},
-        "responses": pick.choice([["friction_torque_Nmm"], [], ["nothing"], "all"]),
+        "mode": "quasi-static" if right else pick.choice(["quasi-static", "dynamic", "", 7]),
+        "parameters": [parameter],
+        "responses": ["friction_torque_Nmm"] if right else pick.choice([[], ["nothing"], "all"]),
     }
-    if pick.random() < 0.5:
-        made[pick.choice(["samples", "workers", "seed", "limit", "\x00"])] = pick.choice(_NUMBERS)
+    if not right and pick.random() < 0.5:
+        made[pick.choice(["max_points", "design", "optimise", "\x00"])] = pick.choice(_NUMBERS)
     return made
 
 
-def written(made: dict[str, Any], file: Path, pick: random.Random) -> None:
-    """Write a table as TOML, now and then damaged."""
-    text = "\n".join(_toml(made))
-    if pick.random() < 0.05:
+def damaged(text: str, pick: random.Random) -> str:
+    """Return a document, now and then damaged."""
+    if pick.random() < 0.03:
         at = pick.randrange(len(text))
         text = text[:at] + pick.choice(['"', "\x00", "[[", "]" * 500, "=", "\n[a.b.c]\n"]) + text[at:]
-    if pick.random() < 0.01:
+    if pick.random() < 0.005:
         text += "\nx = " + "[" * 3000 + "]" * 3000
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(text, encoding="utf-8", errors="surrogateescape")
-
-
-def _toml(made: dict[str, Any]) -> Iterator[str]:
-    for key, content in made.items():
-        yield f"{_key(key)} = {_inline(content)}"
-
-
-def _key(text: str) -> str:
-    return json.dumps(text, ensure_ascii=True)
-
-
-def _inline(content: Any) -> str:
-    """Return a value as TOML; what TOML has no word for is left to the reader to refuse."""
-    if isinstance(content, dict):
-        return "{" + ", ".join(f"{_key(key)} = {_inline(inner)}" for key, inner in content.items()) + "}"
-    if isinstance(content, list):
-        return "[" + ", ".join(_inline(inner) for inner in content) + "]"
-    if isinstance(content, str):
-        return json.dumps(content, ensure_ascii=True)
-    if isinstance(content, bool):
-        return str(content).lower()
-    return "null" if content is None else repr(content)
+    return text
 
 
 def command(pick: random.Random) -> list[str]:
@@ -162,21 +265,30 @@ def command(pick: random.Random) -> list[str]:
         "init", "schema", "quasistatic", "search", "list", "status", "--json", "--set", "--out", "--force", "--limit",
         "loads.radial=1 N", "6208-axial-1300", "nothing.h5", "99999999999999999999", "-1", "--help", "", "a=b=c", "--x",
         "solver.duration=0.1 ms", "x" * 300, "/dev/zero", "/dev/null", ".", "--no-plugin", "lambda_db", "name\x1b[0m",
+        "thermal", "electric", "electric-film", "cross-check", "--max-wall", "1 s", "--duration",
     ]  # fmt: skip
-    return [pick.choice(words) for _ in range(pick.randrange(1, 6))]
+    first = pick.choice(words[:14]) if pick.random() < 0.7 else pick.choice(words)
+    return [first, *(pick.choice(words) for _ in range(pick.randrange(0, 5)))]
 
 
-def attack(seed: int, folder: Path) -> list[str]:
-    """Write the input of one attack into a folder and return the command line that meets it."""
+def attack(seed: int, folder: Path) -> tuple[list[str], bool]:
+    """Write the input of one attack into a folder.
+
+    Returns
+    -------
+    arguments : list of str
+        The command line that meets the input.
+    computes : bool
+        Whether that command computes with it, so that what is accepted has got behind validation.
+    """
     pick = random.Random(seed)
     kind = pick.random()
-    if kind < 0.8:
-        written(case(pick), folder / "case.toml", pick)
-        chosen = pick.choice(_COMMANDS)
+    if kind < 0.88:
+        (folder / "case.toml").write_text(damaged(toml(case(pick)), pick), encoding="utf-8", errors="surrogateescape")
+        chosen = "check" if pick.random() < 0.03 else pick.choice(_COMPUTING)
         more = ["--out", "out.h5"] if chosen == "run" else []
-        return [chosen, "case.toml", *more, *pick.choice([[], ["--json"]])]
-    if kind < 0.9:
-        written(study(pick), folder / "study.toml", pick)
-        return ["study", pick.choice(["check", "run"]), "study.toml", *pick.choice([[], ["--dry-run"]])]
-    folder.mkdir(parents=True, exist_ok=True)
-    return command(pick)
+        return [chosen, "case.toml", *more, *pick.choice([[], ["--json"]])], chosen != "check"
+    if kind < 0.93:
+        (folder / "study.toml").write_text(damaged(toml(study(pick)), pick), encoding="utf-8", errors="surrogateescape")
+        return ["study", "run", "study.toml", "--workers", "1"], True
+    return command(pick), False

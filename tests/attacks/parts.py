@@ -15,14 +15,10 @@ from typing import Any
 import h5py
 import numpy as np
 
-from tests.attacks import draw, hostile
+from tests.attacks import cases, hostile
 from tests.attacks.record import Record
 from tests.attacks.trial import Outcome, Trial, attempt
 
-_WALL = 20.0  # wall limit that cases set themselves [s]
-_OVER = 2.0  # by which it may be passed [s]
-_START = 40.0  # for equilibrium, closing and a busy machine, beyond which a trial hangs [s]
-_ENERGY = 1e-3  # residual that a converged run may have
 _SHORT_CASE = "6208-axial-1300"
 _SHORT_RUN = "40 ms"  # of simulated time
 _WRITING = 0.1  # wall time within which such a run is killed after it has opened its file [s]
@@ -42,49 +38,11 @@ def _line(arguments: list[str]) -> str:
     return "lambda-bearing " + shlex.join(arguments)
 
 
-def random_case(seed: int, number: int, folder: Path) -> tuple[Outcome, str, dict[str, Any]]:
-    """Run a random case of at least one cage revolution, or as far as its own wall limit lets it."""
-    made = draw.case(seed * 1_000_003 + number)
-    made["solver"]["max_wall"] = f"{_WALL:g} s"
-    hostile.written(made, folder / "case.toml", _never())
-    arguments = ["run", "case.toml", "--out", "out.h5", "--json"]
-    outcome = attempt(arguments, folder, _WALL + _START)
-    more = _numbers(folder)
-    wall = more.get("wall_s", 0.0)
-    if outcome.good and wall > _WALL + _OVER:
-        outcome = Outcome("late", outcome.wall_s, outcome.memory, f"integrated {wall:.1f} s, {_WALL:g} s were allowed")
-    if outcome.verdict == "fine" and abs(more.get("energy_residual", 0.0)) > _ENERGY:
-        outcome = Outcome("leaking", outcome.wall_s, outcome.memory, f"energy residual {more['energy_residual']}")
-    return outcome, _line(arguments), more
-
-
-def _never() -> random.Random:
-    """Return a generator whose numbers never ask for damage."""
-    made = random.Random(0)
-    made.random = lambda: 1.0  # type: ignore[method-assign]
-    return made
-
-
-def _numbers(folder: Path) -> dict[str, Any]:
-    """Return what the summary of a run says that a trial is judged by."""
-    import json
-
-    try:
-        said = json.loads((folder / "stdout").read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return {}
-    wanted = ("energy_residual", "friction_torque_Nmm", "converged")
-    found = {name: said[name] for name in wanted if said.get(name) is not None}
-    if said.get("wall_per_simulated_second") and said.get("simulated_s"):
-        found["wall_s"] = said["wall_per_simulated_second"] * said["simulated_s"]
-    return found
-
-
 def hostile_input(seed: int, number: int, folder: Path) -> tuple[Outcome, str, dict[str, Any]]:
     """Meet a case, study or command line with one hostile value."""
-    arguments = hostile.attack(seed * 1_000_003 + number, folder)
+    arguments, computes = hostile.attack(seed * 1_000_003 + number, folder)
     outcome = attempt(arguments, folder, 60.0)
-    behind = outcome.verdict not in ("usage", "refused")
+    behind = computes and outcome.verdict not in ("usage", "refused")
     return outcome, _line(arguments), {"behind": behind}
 
 
@@ -109,10 +67,10 @@ def killed_run(seed: int, number: int, folder: Path) -> tuple[Outcome, str, dict
     victim.kill()
     victim.wait(1.0)
     if not file.is_file():
-        return Outcome("fine", 0.0, 0, "killed before there was a file"), _line(arguments), {"met": False}
+        return Outcome("fine", said="killed before there was a file"), _line(arguments), {"met": False}
     outcome = attempt(["resume", "out.h5"], folder, 60.0)
     if outcome.verdict in ("fine", "partial") and (wrong := _different(whole, file)):
-        outcome = Outcome("different", outcome.wall_s, outcome.memory, f"not bit for bit: {', '.join(wrong)}")
+        outcome = outcome.but("different", f"not bit for bit: {', '.join(wrong)}")
     return outcome, _line(arguments), {"met": True}
 
 
@@ -167,14 +125,14 @@ def race(seed: int, number: int, folder: Path) -> tuple[Outcome, str, dict[str, 
     shown = attempt(["show", str(folder / "out.h5")], folder / "show", 60.0)
     left = [path.name for path in folder.iterdir() if path.name.startswith(".")]
     if bad is None and left:
-        bad = Outcome("litter", 0.0, 0, f"left behind: {', '.join(left)}")
+        bad = Outcome("litter", said=f"left behind: {', '.join(left)}")
     return bad or shown, _line(arguments), {}
 
 
 PARTS = {
     part.name: part
     for part in (
-        Part("cases", "random cases over catalogue, laws and regimes", 1000, random_case),
+        Part("cases", "random cases over catalogue, laws and regimes", 1000, cases.random_case),
         Part("hostile", "one hostile value behind validation; studies; command lines", 10000, hostile_input),
         Part("kills", "runs killed with a file open, gone on with, compared bit for bit", 200, killed_run),
         Part("corruption", "damaged results, shown, drawn and gone on with", 200, corrupted),

@@ -7,20 +7,27 @@ a parent that ends it when its time is over.
 
 from __future__ import annotations
 
+import gc
+import json
 import os
+import resource
+import select
 import signal
 import sys
 import time
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
-# Exit codes of the program, and what an outcome is called.
-NAMES = {0: "fine", 2: "usage", 3: "refused", 4: "unsolved", 5: "partial", 130: "interrupted"}
+# Exit codes of the program, and what an outcome is called. 130 is no good end: nobody interrupted the trial.
+NAMES = {0: "fine", 2: "usage", 3: "refused", 4: "unsolved", 5: "partial"}
 GOOD = frozenset(NAMES.values())
-_PATIENCE = 0.01  # [s] between two looks at a child
+MEMORY = 1 << 30  # [byte] of resident memory that a trial may take, what it shares with its parent included
+_GLANCE = 0.02  # [s] between two looks at a child that runs
 _TOLD = 4000  # characters of the end of stderr that are kept
-MEMORY = 1 << 30  # [bytes] of resident memory above the parent's, beyond which a trial counts as greedy
+_READ = 1 << 20  # [byte] of stderr that are judged
+# Sentences that are none: Python's own words, or an error that does not say what was wrong.
+_RAW = ("RuntimeWarning", "DeprecationWarning", "UserWarning", "Exception ignored in", 'cannot use "a file"')
 
 
 @dataclass(frozen=True)
@@ -31,22 +38,33 @@ class Outcome:
     ----------
     verdict : str
         A value of `NAMES`; or ``hang``, ``killed`` (by a signal of its own), ``traceback``, ``bug``, ``silent`` (failed
-        without a word), ``greedy`` (memory), ``code N``.
-    wall_s, memory : float, int
-        Wall time [s]; resident memory beyond the parent's [bytes].
+        without a word), ``raw`` (warnings of Python instead of a sentence), ``garbled`` (asked for JSON, gave none),
+        ``greedy`` (memory), ``code N``.
+    wall_s, cpu_s : float
+        Wall time and processor time, from the fork to the end [s].
+    memory : int
+        Highest resident memory, what is shared with the parent included [byte].
     said : str
         The end of stderr.
+    open_s : float
+        Wall time from when the file to be watched stood there to the end; 0 without one [s].
     """
 
     verdict: str
-    wall_s: float
-    memory: int
-    said: str
+    wall_s: float = 0.0
+    memory: int = 0
+    said: str = ""
+    cpu_s: float = 0.0
+    open_s: float = 0.0
 
     @property
     def good(self) -> bool:
         """Tell whether the program behaved: it did the work, or said in a sentence why not."""
         return self.verdict in GOOD
+
+    def but(self, verdict: str, said: str) -> Outcome:
+        """Return the same with another verdict and the reason for it."""
+        return replace(self, verdict=verdict, said=f"{said}\n{self.said}")
 
     def data(self) -> dict[str, object]:
         """Return a plain dictionary."""
@@ -64,6 +82,13 @@ def warm() -> None:
     for step in api.iterate(api.case("6208-axial-1300")):
         del step
         break
+    settle()
+
+
+def settle() -> None:
+    """Leave what stands in memory to be shared by the trials: a collection in a child would copy it page by page."""
+    gc.collect()
+    gc.freeze()
 
 
 class Trial:
@@ -75,52 +100,110 @@ class Trial:
         Behind the program's name.
     folder : Path
         Working directory, made when it is not there; the files ``stdout`` and ``stderr`` are left in it.
+    environment : mapping of str to str, optional
+        Variables that the child has in addition.
+    before : callable, optional
+        Called in the child before the command: limits, for example.
+    watched : Path, optional
+        A file; how long the command went on once it stood there is measured.
     """
 
-    def __init__(self, arguments: Sequence[str], folder: Path) -> None:
+    def __init__(
+        self,
+        arguments: Sequence[str],
+        folder: Path,
+        environment: Mapping[str, str] | None = None,
+        before: Callable[[], None] | None = None,
+        watched: Path | None = None,
+    ) -> None:
         folder.mkdir(parents=True, exist_ok=True)
-        self._folder = folder
-        self._before = _resident(os.getpid())
+        self._folder, self._watched = folder, watched
+        self._json = "--json" in arguments
         self._began = time.monotonic()
+        self._seen = 0.0
         sys.stdout.flush()
         sys.stderr.flush()
         self.process = os.fork()
         if self.process == 0:
-            _live(arguments, folder)
+            _live(arguments, folder, environment or {}, before)
+        self._handle = os.pidfd_open(self.process)
 
     def wait(self, limit_s: float) -> Outcome:
         """Wait until it ends, or end it when `limit_s` of wall time are over [s]; the latter counts as a hang."""
-        highest = 0
+        ended, greedy = "", False
         while True:
-            done, status = os.waitpid(self.process, os.WNOHANG)
+            over = bool(select.select([self._handle], [], [], 0.0 if ended else _GLANCE)[0])
             wall = time.monotonic() - self._began
-            if done:
-                said = _tail(self._folder)
-                mute = not said.strip() and not (self._folder / "stdout").stat().st_size
-                return Outcome(_verdict(status, said, mute, highest), wall, highest, said)
-            highest = max(highest, _resident(self.process) - self._before)
-            if wall > limit_s or highest > 2 * MEMORY:
+            if self._watched is not None and not self._seen and self._watched.is_file():
+                self._seen = wall
+            if over or ended:
+                break
+            greedy = greedy or _resident(self.process) > 2 * MEMORY
+            if greedy or wall > limit_s:
+                ended = "greedy" if greedy else "hang"
                 self.kill()
-                os.waitpid(self.process, 0)
-                return Outcome("hang" if wall > limit_s else "greedy", wall, highest, _tail(self._folder))
-            time.sleep(_PATIENCE)
+        _, status, used = os.wait4(self.process, 0)
+        os.close(self._handle)
+        memory, cpu = used.ru_maxrss * 1024, used.ru_utime + used.ru_stime
+        said = self.said()
+        verdict = ended or self._verdict(status, said, memory)
+        return Outcome(verdict, wall, memory, said[-_TOLD:], cpu, wall - self._seen if self._seen else 0.0)
 
     def kill(self) -> None:
         """End it at once, and whatever it has started."""
-        os.killpg(self.process, signal.SIGKILL)
+        try:
+            os.killpg(self.process, signal.SIGKILL)
+        except ProcessLookupError:  # it has no group of its own yet
+            os.kill(self.process, signal.SIGKILL)
+
+    def said(self) -> str:
+        """Return what stands on stderr."""
+        try:
+            return (self._folder / "stderr").read_bytes()[-_READ:].decode(errors="replace")
+        except OSError:
+            return ""
+
+    def _verdict(self, status: int, said: str, memory: int) -> str:
+        if os.WIFSIGNALED(status):
+            return "killed"
+        if "Traceback (most recent call last)" in said:
+            return "traceback"
+        if "has a bug" in said:
+            return "bug"
+        if memory > MEMORY:
+            return "greedy"
+        code = os.WEXITSTATUS(status)
+        if any(word in said for word in _RAW):
+            return "raw"
+        if self._json and code in (0, 5) and not _strict(self._folder / "stdout"):
+            return "garbled"
+        if code != 0 and not said.strip() and not (self._folder / "stdout").stat().st_size:
+            return "silent"
+        return NAMES.get(code, f"code {code}")
 
 
-def attempt(arguments: Sequence[str], folder: Path, limit_s: float) -> Outcome:
+def attempt(
+    arguments: Sequence[str],
+    folder: Path,
+    limit_s: float,
+    environment: Mapping[str, str] | None = None,
+    before: Callable[[], None] | None = None,
+    watched: Path | None = None,
+) -> Outcome:
     """Run a command line to its end; see :class:`Trial`."""
-    return Trial(arguments, folder).wait(limit_s)
+    return Trial(arguments, folder, environment, before, watched).wait(limit_s)
 
 
-def _live(arguments: Sequence[str], folder: Path) -> None:
+def _live(
+    arguments: Sequence[str], folder: Path, environment: Mapping[str, str], before: Callable[[], None] | None
+) -> None:
     """Be the child: run the command and leave, never to return."""
     code = 70
     try:
         os.setsid()
         os.chdir(folder)
+        os.environ.update(environment)
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         for name, number in (("stdout", 1), ("stderr", 2)):
             file = os.open(name, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o644)
             os.dup2(file, number)
@@ -128,6 +211,8 @@ def _live(arguments: Sequence[str], folder: Path) -> None:
         sys.stdin = open(0, closefd=False)  # noqa: SIM115
         sys.stdout = open(1, "w", buffering=1, closefd=False)  # noqa: SIM115
         sys.stderr = open(2, "w", buffering=1, closefd=False)  # noqa: SIM115
+        if before is not None:
+            before()
         from lambda_cli.main import main
 
         code = main(list(arguments))
@@ -144,30 +229,26 @@ def _live(arguments: Sequence[str], folder: Path) -> None:
         os._exit(code if isinstance(code, int) and 0 <= code < 256 else 1)
 
 
-def _verdict(status: int, said: str, mute: bool, memory: int) -> str:
-    if os.WIFSIGNALED(status):
-        return "killed"
-    if "Traceback (most recent call last)" in said:
-        return "traceback"
-    if "has a bug" in said:
-        return "bug"
-    if memory > MEMORY:
-        return "greedy"
-    code = os.WEXITSTATUS(status)
-    if code != 0 and mute:
-        return "silent"
-    return NAMES.get(code, f"code {code}")
-
-
-def _tail(folder: Path) -> str:
+def _strict(file: Path) -> bool:
+    """Tell whether a file is empty or holds JSON documents as the standard has them, one or one a line."""
+    text = file.read_text(encoding="utf-8", errors="replace")
     try:
-        return (folder / "stderr").read_bytes()[-_TOLD:].decode(errors="replace")
-    except OSError:
-        return ""
+        json.loads(text or "0", parse_constant=_refuse)
+    except ValueError:
+        try:
+            for line in text.splitlines():
+                json.loads(line, parse_constant=_refuse)
+        except ValueError:
+            return False
+    return True
+
+
+def _refuse(word: str) -> None:
+    raise ValueError(f"{word} is no JSON")
 
 
 def _resident(process: int) -> int:
-    """Return the resident memory of a process [bytes], 0 when it has gone."""
+    """Return the resident memory of a process [byte], 0 when it has gone."""
     try:
         pages = int(Path(f"/proc/{process}/statm").read_text(encoding="ascii").split()[1])
     except (OSError, ValueError, IndexError):

@@ -1,0 +1,133 @@
+"""Random cases run, and how each end is judged: converged, named, at its own limit, refused with a reason that holds.
+
+A case is *accepted* unless it is refused for a reason that was tried and holds: taken away, the case is accepted. It is
+*physically sensible* when it is accepted and its shaft always turns at 10 rpm at least: below, catalogues size a bearing
+as one that stands still (SKF, Rolling bearings, 2018, "static load rating"; ISO 76). It *ends usable* when there is a
+result with a finite friction torque that is not negative and an energy residual of 1e-3 at most, over a whole turn of the
+cage or as much of it as the case's own limit of wall time allowed.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import shlex
+from pathlib import Path
+from typing import Any
+
+import h5py
+
+from lambda_core import api
+from lambda_core.domain.errors import LambdaError
+from tests.attacks import draw
+from tests.attacks.trial import Outcome, attempt
+from tests.attacks.written import toml
+
+WALL = 4.0  # limit of wall time that each case sets itself [s]
+OVER = 2.0  # by which it may be passed, measured from when the result file is there to the end of the process [s]
+ENERGY = 1e-3  # |energy residual| that a usable result may have
+_START = 60.0  # for start, equilibrium and a busy machine, beyond which a trial hangs [s]
+_SLOWEST = 10.0  # speed of a sensible case [rpm]
+_TURN = 0.999  # of the cage; the last record may end within the last step
+_WANTED = ("energy_residual", "friction_torque_Nmm", "converged", "state", "reasons", "simulated_s")
+
+
+def random_case(seed: int, number: int, folder: Path) -> tuple[Outcome, str, dict[str, Any]]:
+    """Run a random case of at least one cage revolution, or as far as its own wall limit lets it."""
+    made = draw.case(seed * 1_000_003 + number)
+    made.setdefault("solver", {})["max_wall"] = f"{WALL:g} s"
+    (folder / "case.toml").write_text(toml(made), encoding="utf-8")
+    arguments = ["run", "case.toml", "--out", "out.h5", "--json"]
+    outcome = attempt(arguments, folder, WALL + _START, watched=folder / "out.h5")
+    found = _numbers(folder)
+    turns = _turns(folder / "out.h5")
+    outcome, end = _judge(outcome, made, found, turns)
+    more = {
+        "end": end,
+        "slow": _lowest_speed(made) < _SLOWEST,
+        "usable": end in ("converged", "named", "at its limit") and _is_usable(found),
+        "turns": round(turns, 3),
+        "load": _busy(),
+        **found,
+    }
+    return outcome, "lambda-bearing " + shlex.join(arguments), more
+
+
+def _busy() -> float:
+    """Return how many processes wanted the processors in the last minute."""
+    return round(float(Path("/proc/loadavg").read_text(encoding="ascii").split()[0]), 1)
+
+
+def _lowest_speed(made: dict[str, Any]) -> float:
+    """Return the lowest speed of the shaft [rpm]."""
+    speed = made["operation"]["speed"]
+    texts = [speed["start"], speed["end"]] if isinstance(speed, dict) else [speed]
+    return min(float(text.removesuffix(" rpm")) for text in texts)
+
+
+def _judge(outcome: Outcome, made: dict[str, Any], found: dict[str, Any], turns: float) -> tuple[Outcome, str]:
+    """Return the outcome, worse where something does not hold, and in what class the case ended."""
+    if not outcome.good:
+        return outcome, "failed"
+    if outcome.verdict in ("refused", "usage"):
+        reason = _reason_that_holds(made)
+        return (outcome, f"refused: {reason}") if reason else (outcome.but("unfounded", "no reason found"), "failed")
+    if outcome.verdict == "unsolved":
+        return outcome, "without a solution"
+    if outcome.open_s > WALL + OVER:
+        return outcome.but("late", f"{outcome.open_s:.1f} s with its file open, {WALL:g} s were allowed"), "failed"
+    residual, torque = found.get("energy_residual"), found.get("friction_torque_Nmm")
+    reasons = " ".join(found.get("reasons", ()))
+    if residual is None or (abs(residual) > ENERGY and "energy residual" not in reasons):
+        return outcome.but("leaking", f"energy residual {residual}, and nothing says so"), "failed"
+    if torque is None or torque < 0.0 or not math.isfinite(torque):
+        return outcome.but("absurd", f"friction torque {torque} N mm"), "failed"
+    if outcome.verdict == "fine":
+        return outcome, "converged"
+    if not reasons:
+        return outcome.but("silent", "not converged, and no reason"), "failed"
+    if found.get("state") == "stopped":
+        return outcome, "at its limit"
+    if turns < _TURN:
+        return outcome.but("short", f"ended after {turns:.3f} turns of the cage"), "failed"
+    return outcome, "named"
+
+
+def _is_usable(found: dict[str, Any]) -> bool:
+    return abs(float(found["energy_residual"])) <= ENERGY
+
+
+def _reason_that_holds(made: dict[str, Any]) -> str:
+    """Find why a case is refused by taking that reason away: it has to be accepted then."""
+    for reason, part, key in (
+        ("a law whose data the oil lacks", "models", None),
+        ("a clearance class that is not tabulated for this bore", "bearing", "clearance"),
+    ):
+        if part not in made:
+            continue
+        other = {**made, part: {} if key is None else {k: v for k, v in made[part].items() if k != key}}
+        try:
+            api.check(other)
+        except LambdaError:
+            continue
+        return reason
+    return ""
+
+
+def _numbers(folder: Path) -> dict[str, Any]:
+    """Return what the summary of a run says that a trial is judged by."""
+    try:
+        said = json.loads((folder / "stdout").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return {name: said[name] for name in _WANTED if said.get(name) is not None}
+
+
+def _turns(file: Path) -> float:
+    """Return the turns of the cage that a result file holds, 0 without one; of the balls where there is no cage."""
+    try:
+        with h5py.File(file, "r") as stream:
+            angle = stream["integrals/cage_angle"][...]
+    except (OSError, KeyError):
+        return 0.0
+    return abs(float(angle[-1])) / (2.0 * math.pi) if len(angle) else 0.0
