@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from lambda_core.batch.definition import Study, read_study, validate_study
 from lambda_core.batch.design import Plan
-from lambda_core.batch.job import Task, point_hash, resolve_point
+from lambda_core.batch.job import RUNS, Task, point_hash, resolve_point
 from lambda_core.batch.optimise import Best, best_row, search
 from lambda_core.batch.pool import pool, usable_cores
 from lambda_core.batch.scheduler import Director, Report
@@ -187,7 +187,10 @@ def _work(
     retry: bool,
 ) -> StudyStatus:
     """Work until every point has an outcome."""
+    from lambda_core.results.files import sweep
+
     with manifest.directed():
+        sweep(manifest.folder / RUNS)  # a worker that was killed while it packed a finished run
         todo = manifest.pending(retry)
         study = manifest.study
         begun = time.monotonic()

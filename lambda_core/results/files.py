@@ -45,11 +45,16 @@ def reserve(file: h5py.File, growth: int) -> None:
 
 def beside(path: Path) -> Path:
     """Return a hidden name in the same folder, of this process; sweep away those of dead ones."""
-    for old in path.absolute().parent.glob(f".{glob.escape(path.name)}.*"):
-        number = old.name.rpartition(".")[2]
-        if number.isdecimal() and not exists(int(number)):
-            old.unlink(missing_ok=True)
+    sweep(path.absolute().parent, glob.escape(path.name))
     return path.with_name(f".{path.name}.{os.getpid()}")
+
+
+def sweep(folder: Path, name: str = "*.h5") -> None:
+    """Remove what killed processes left half made in a folder: the names of :func:`beside`, and no others."""
+    for old in folder.glob(f".{name}.*"):
+        number = old.name.rpartition(".")[2]
+        if number.isdecimal() and not exists(int(number)) and not old.is_dir():
+            old.unlink(missing_ok=True)
 
 
 def trim(path: Path, size: int) -> None:
