@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from lambda_core.system.describe import ValueReport, value_reports
     from lambda_core.system.oil_table import oil_table
     from lambda_core.system.operating_limits import operating_warnings
-    from lambda_core.thermal.answers import thermal, thermal_pictures, warm_up
+    from lambda_core.thermal.temperatures import thermal, thermal_pictures, warm_up
 
 # Where each name is at home.
 _CALLS = {
@@ -58,7 +58,7 @@ _CALLS = {
     "system.checking": "check describe problems resolve",
     "run.simulation": "cross_check estimate iterate quasistatic resume run warmup",
     "run.answers": "cite compare result summary",
-    "thermal.answers": "thermal thermal_pictures warm_up",
+    "thermal.temperatures": "thermal thermal_pictures warm_up",
     "electric.door": "check_discharges_file electric film_from_outside write_discharges",
     "batch.study_runs": "study_check study_resume study_run study_schema study_status study_table",
     "report.pictures": "animate draw report view view_all view_stem views",

@@ -170,7 +170,7 @@ def is_study(path: Path) -> bool:
 def _fingerprint(plan: Plan, case_toml: str) -> str:
     """Return a hash of the first point with all its laws and of the compiled core."""
     from lambda_core.laws.kernels import sources_key
-    from lambda_core.solver.sources import compiled_sources
+    from lambda_core.solver.code_files import compiled_sources
 
     model = resolve_point(case_toml, plan.point(0).changes)
     return f"{point_hash(model)} {sources_key(*compiled_sources())}"

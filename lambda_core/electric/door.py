@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from lambda_core.case.case import Case
+    from lambda_core.electric.circuit_run import Simulation
     from lambda_core.electric.inversion import FilmOutcome
-    from lambda_core.electric.simulation import Simulation
     from lambda_core.system.bearing import BearingModel
 
 
@@ -67,7 +67,7 @@ def check_discharges_file(path: str | Path, *, overwrite: bool = False) -> None:
     UsageError
         When the file exists, its folder does not, or the ending is unknown.
     """
-    from lambda_core.electric.files import check_target
+    from lambda_core.electric.event_files import check_target
 
     check_target(Path(path), overwrite)
 
@@ -94,7 +94,7 @@ def write_discharges(simulation: Simulation, path: str | Path, *, overwrite: boo
     UsageError
         When the file exists or cannot be written, or the ending is neither.
     """
-    from lambda_core.electric.files import write
+    from lambda_core.electric.event_files import write
 
     check_discharges_file(path, overwrite=overwrite)
     return write(simulation, Path(path))

@@ -14,7 +14,7 @@ from lambda_core.domain.channels import RINGS
 from lambda_core.electric import columns as L
 
 if TYPE_CHECKING:
-    from lambda_core.electric.simulation import Simulation
+    from lambda_core.electric.circuit_run import Simulation
 
 IntArray = NDArray[np.int64]
 

@@ -171,7 +171,7 @@ def march(
     SolverError
         When the network has no capacitance somewhere, or a discharge does not end.
     """
-    from lambda_core.electric.compiled import march as code
+    from lambda_core.electric.compiled import edges as code
 
     run = compiled(announce)
     samples, balls, _ = films.capacitance.shape
@@ -203,7 +203,7 @@ def march(
 def compiled(announce: Any) -> Any:
     """Return the compiled march, loaded once per process; it is compiled where the disk does not have it."""
     if not _loaded:
-        from lambda_core.electric.compiled import march as code
+        from lambda_core.electric.compiled import edges as code
         from lambda_core.laws.kernels import compile_host
 
         _loaded.append(compile_host(code.march, code.march_sig, (Path(code.__file__).parent,), announce).dispatcher)

@@ -12,12 +12,12 @@ from lambda_core.case.electric import Inverter, Sine, Step
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.electric import columns as L
 from lambda_core.electric.circuit import bearing_capacitance, impedance, voltage_ratio
+from lambda_core.electric.current_limits import LIMITS, Limit
 from lambda_core.electric.events import discharges_of, sector_shares
-from lambda_core.electric.limits import LIMITS, Limit
 from lambda_core.results.record import INTERFACE, Record
 
 if TYPE_CHECKING:
-    from lambda_core.electric.simulation import Simulation
+    from lambda_core.electric.circuit_run import Simulation
 
 
 _FREQUENCIES = (1e3, 1e4, 1e5, 1e6)
@@ -73,7 +73,7 @@ class Outcome(Record):
 
     def text(self) -> str:
         """Return the lines for people."""
-        from lambda_core.electric.text import outcome_text
+        from lambda_core.electric.circuit_lines import outcome_text
 
         return outcome_text(self)
 

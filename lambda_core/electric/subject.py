@@ -11,8 +11,8 @@ from lambda_core.case.case import Case
 from lambda_core.case.case_io import apply_overrides, parse_case
 from lambda_core.case.electric import Electric
 from lambda_core.domain.errors import UsageError
+from lambda_core.electric.circuit_run import Simulation, simulate
 from lambda_core.electric.contacts import contacts_of_equilibria, contacts_of_run, equilibria
-from lambda_core.electric.simulation import Simulation, simulate
 from lambda_core.results.convergence import window
 from lambda_core.system.bearing import Solver
 

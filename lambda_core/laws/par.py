@@ -14,7 +14,7 @@ from lambda_core.domain.roles import ROLES
 from lambda_core.laws.context import Context
 from lambda_core.laws.jit.binding import bound
 from lambda_core.laws.law import Law
-from lambda_core.laws.record import Layout, RecordError, flatten, is_record, layout_of
+from lambda_core.laws.named_numbers import Layout, RecordError, flatten, is_record, layout_of
 
 _DECLARE = (
     "declare its names, class Constants(NamedTuple): factor: float, and "

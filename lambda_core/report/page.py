@@ -13,7 +13,7 @@ from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_target
 from lambda_core.report.gallery import every
-from lambda_core.report.tables import (
+from lambda_core.report.key_tables import (
     Table,
     breakdown,
     contacts,

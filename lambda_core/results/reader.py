@@ -20,7 +20,7 @@ from lambda_core.domain.printable import printable
 from lambda_core.results import checkpoint
 from lambda_core.results import file_format as layout
 from lambda_core.results.averages import INTEGRALS
-from lambda_core.results.files import open_for_reading, reason
+from lambda_core.results.hdf5 import open_for_reading, reason
 from lambda_core.results.integrity import check_model, heaps_are_whole
 from lambda_core.results.run_status import Status
 from lambda_core.system.bearing import ResolvedValue

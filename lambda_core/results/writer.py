@@ -19,7 +19,7 @@ from lambda_core.domain.channels import Channel
 from lambda_core.domain.errors import PartialResultError, UsageError
 from lambda_core.domain.files import check_target
 from lambda_core.results import file_format as layout
-from lambda_core.results import files
+from lambda_core.results import hdf5
 from lambda_core.results.averages import INTEGRALS, spans
 from lambda_core.results.checkpoint import Checkpoint
 from lambda_core.results.provenance import Provenance
@@ -81,10 +81,10 @@ class ResultWriter:
         UsageError
             When the file exists and `force` is not set, or cannot be written.
         """
-        made = files.beside(check_target(path))
+        made = hdf5.beside(check_target(path))
         try:
             with h5py.File(made, "w", libver="latest") as file:
-                files.reserve(file, 0)
+                hdf5.reserve(file, 0)
                 layout.create(file, provenance, channels)
             # Under its name only when SWMR is on: from its first moment it can be read, whatever happens.
             writer = cls(h5py.File(made, "r+", libver="latest", rdcc_nbytes=_CACHE), path, channels, status)
@@ -92,7 +92,7 @@ class ResultWriter:
             return writer
         except (OSError, RuntimeError) as error:
             made.unlink(missing_ok=True)
-            raise UsageError(f"cannot write {path}: {files.reason(error)}") from None
+            raise UsageError(f"cannot write {path}: {hdf5.reason(error)}") from None
 
     @classmethod
     def continued(cls, path: Path, channels: Sequence[Channel], status: Status) -> ResultWriter:
@@ -100,7 +100,7 @@ class ResultWriter:
 
         The file is copied first: one whose writer was killed can be read, not written.
         """
-        made = files.copy(path, status.rows, compress=False)
+        made = hdf5.copy(path, status.rows, compress=False)
         writer = cls(h5py.File(made, "r+", libver="latest", rdcc_nbytes=_CACHE), path, channels, status)
         os.replace(made, path)
         return writer
@@ -160,10 +160,10 @@ class ResultWriter:
             )
         if compress:
             try:
-                os.replace(files.copy(self.path, self._written, compress=True), self.path)
+                os.replace(hdf5.copy(self.path, self._written, compress=True), self.path)
             except UsageError:
                 # No room for a second copy or no right to make one: the result is complete as it is.
-                files.trim(self.path, size)
+                hdf5.trim(self.path, size)
 
     def _append_samples(self) -> None:
         if not self._samples:
@@ -210,9 +210,9 @@ class ResultWriter:
     def _reserve(self, growth: int) -> None:
         """Make sure of room; without it close the result as it is, in order and readable."""
         try:
-            files.reserve(self._file, growth)
+            hdf5.reserve(self._file, growth)
         except OSError as error:
-            full = DiskError(self.path, files.reason(error))
+            full = DiskError(self.path, hdf5.reason(error))
             self._put_status(replace(self._status, state="stopped", message=str(full)))
             self.close(compress=False)
             raise full from None
@@ -222,7 +222,7 @@ class ResultWriter:
         try:
             yield
         except (OSError, RuntimeError) as error:
-            raise DiskError(self.path, files.reason(error)) from None
+            raise DiskError(self.path, hdf5.reason(error)) from None
 
 
 def _append(data: Any, start: int, values: NDArray[np.float64]) -> None:

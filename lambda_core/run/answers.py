@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.errors import UsageError, unknown_name
-from lambda_core.thermal.answers import ready_model
+from lambda_core.thermal.temperatures import ready_model
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence

@@ -12,7 +12,7 @@ from lambda_core.results.convergence import AVERAGED_AT_LEAST, DISCARDED_AT_LEAS
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import Record
-from lambda_core.run.rating import rating_of
+from lambda_core.run.engineering import rating_of
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.system.bearing import BearingModel

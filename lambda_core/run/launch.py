@@ -13,12 +13,12 @@ from lambda_core.laws.kernels import sources_key
 from lambda_core.results.provenance import Provenance, differences, model_data
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.reader import Result, ResultError
+from lambda_core.run.engineering import rating_of
 from lambda_core.run.loop import resume, run
 from lambda_core.run.progress import Report
-from lambda_core.run.rating import rating_of
+from lambda_core.solver.code_files import physics_sources
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import solve
-from lambda_core.solver.sources import physics_sources
 from lambda_core.system.bearing import BearingModel
 
 Announce = Callable[[str], None]

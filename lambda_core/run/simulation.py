@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.run.answers import result
 from lambda_core.system.checking import resolve
-from lambda_core.thermal.answers import ready_model
+from lambda_core.thermal.temperatures import ready_model
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping

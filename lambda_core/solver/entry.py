@@ -14,10 +14,10 @@ from lambda_core.laws.jit.machine_code import Pointer
 from lambda_core.laws.kernels import compile_host, host_folder, host_key
 from lambda_core.solver import layout
 from lambda_core.solver import sampling as observe
+from lambda_core.solver.code_files import compiled_sources
 from lambda_core.solver.contact import raceway, tangent
 from lambda_core.solver.integrator import bdf, handle, memory
 from lambda_core.solver.motion import forces, jacobian
-from lambda_core.solver.sources import compiled_sources
 from lambda_core.solver.statics import continuation as statics
 
 SOURCES = compiled_sources()

@@ -9,6 +9,7 @@ State vector y, float64, shape (9 Z + n_active,):
 
 from __future__ import annotations
 
+from collections import namedtuple
 from typing import Any, NamedTuple
 
 import numba
@@ -46,24 +47,8 @@ def table_t(kind: np.dtype[Any]) -> Any:
     return types.Array(record_t(kind), 1, "C")
 
 
-class RacewayLaws(NamedTuple):
-    """Pointers to the kernels of one ball-raceway force element."""
-
-    normal_contact: Any
-    damping: Any
-    rheology: Any
-    film_thickness: Any
-    thermal_correction: Any
-    contact_temperature: Any
-    traction: Any
-    rolling_resistance: Any
-    elastic_hysteresis: Any
-    asperity_load: Any
-    boundary_friction: Any
-    permittivity: Any
-    capacitance: Any
-    surface: Any
-    supply: Any
+# Pointers to the kernels of one ball-raceway force element, by role.
+RacewayLaws: Any = namedtuple("RacewayLaws", R.RACEWAY_ROLES)  # type: ignore[misc] # its fields are the roles
 
 
 class Laws(NamedTuple):
@@ -135,7 +120,7 @@ def _law_t(role: str) -> Any:
     return types.FunctionType(role_signature(ROLES[role]))
 
 
-raceway_laws_t = types.NamedTuple([_law_t(role) for role in RacewayLaws._fields], RacewayLaws)
+raceway_laws_t = types.NamedTuple([_law_t(role) for role in R.RACEWAY_ROLES], RacewayLaws)
 laws_t = types.NamedTuple(
     [
         types.UniTuple(raceway_laws_t, 2),

@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from lambda_core.domain.roles import RACEWAYS, ROLES
+
 f8, i8 = np.float64, np.int64
 
 
@@ -171,24 +173,7 @@ ROW = record(
     ("pocket", i8, (2,)),  # where the parameters of its laws begin and end
     ("drag", i8, (2,)),
 )
-# Laws of a raceway contact, in the order of the fields of layout.RacewayLaws.
-RACEWAY_ROLES = (
-    "normal_contact",
-    "damping",
-    "rheology",
-    "film_thickness",
-    "thermal_correction",
-    "contact_temperature",
-    "traction",
-    "rolling_resistance",
-    "elastic_hysteresis",
-    "asperity_load",
-    "boundary_friction",
-    "permittivity",
-    "capacitance",
-    "surface",
-    "supply",
-)
+RACEWAY_ROLES = tuple(name for name, role in ROLES.items() if role.elements == RACEWAYS)  # of a raceway contact
 RACEWAY = record(
     ("number", i8),  # its row in the table of raceways
     ("body", i8),  # that carries it

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from lambda_core.solver.cage.guides import guide_force, land_state, pocket_apply, pocket_state
+from lambda_core.solver.contact.contact_capacitance import bulk_permittivity, contact_capacitance, gap_capacitance
 from lambda_core.solver.contact.contact_kinematics import axis_x, contact_angle, contact_kinematics, surface_lift
-from lambda_core.solver.contact.electric import bulk_permittivity, contact_capacitance, gap_capacitance
-from lambda_core.solver.contact.losses import raceway_losses
+from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.integrator.memory import evaluate_t
 from lambda_core.solver.layout import (
     MECHANISMS,
@@ -25,8 +25,8 @@ from lambda_core.solver.layout import (
     losses_of,
     part,
 )
-from lambda_core.solver.motion.elements import add_contact, clear_forces
 from lambda_core.solver.motion.energy import stored_energy
+from lambda_core.solver.motion.force_elements import add_contact, clear_forces
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.records import BALL, CONTACT_SAMPLE, TOTALS
 from lambda_core.solver.vec import clear, combine_onto, dot, store

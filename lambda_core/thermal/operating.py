@@ -11,7 +11,7 @@ from lambda_core.case.case_io import parse_case
 from lambda_core.results.convergence import window
 from lambda_core.results.reader import Result
 from lambda_core.system.bearing import BearingModel
-from lambda_core.thermal.loop import Loop, Steady
+from lambda_core.thermal.feedback import Loop, Steady
 from lambda_core.thermal.losses import Announce
 
 _ZERO_CELSIUS = 273.15

@@ -13,7 +13,7 @@ from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import merged_cage
 from lambda_core.system.describe import headline
 from lambda_core.system.resolve_clearance import CLEARANCE_HOLDS
-from lambda_core.thermal.loop import Gain, Loop, Steady, runaway_sentence
+from lambda_core.thermal.feedback import Gain, Loop, Steady, runaway_sentence
 from lambda_core.thermal.losses import Point
 from lambda_core.thermal.transient import Course, rise_time
 
@@ -83,7 +83,7 @@ class SteadyTemperatures(Record):
 
     def text(self) -> str:
         """Return the lines for people."""
-        from lambda_core.thermal.text import steady_text
+        from lambda_core.thermal.temperature_lines import steady_text
 
         return steady_text(self)
 
@@ -124,7 +124,7 @@ class TemperaturesOverTime(Record):
 
     def text(self) -> str:
         """Return the lines for people."""
-        from lambda_core.thermal.text import course_text
+        from lambda_core.thermal.temperature_lines import course_text
 
         return course_text(self)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
-from lambda_core.thermal.loop import Gain, Loop
+from lambda_core.thermal.feedback import Gain, Loop
 from lambda_core.thermal.losses import LossMap, Point
 
 MOMENTS = 181  # that are kept: as a square, closer together at the start

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lambda_core.report.tables import Table
+from lambda_core.report.key_tables import Table
 from lambda_syla2026.calibration import TAU_GRID, Calibration
 from lambda_syla2026.fig5 import Fig5
 from lambda_syla2026.fig7 import STATED, Fig7

@@ -141,7 +141,7 @@ class Workshop:
 
     def __post_init__(self) -> None:
         from lambda_core.laws.kernels import sources_key
-        from lambda_core.solver.sources import physics_sources
+        from lambda_core.solver.code_files import physics_sources
 
         key = sources_key(*physics_sources())
         self._work = self.folder / "work" / key[:12]

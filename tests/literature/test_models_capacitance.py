@@ -14,7 +14,7 @@ from scipy.special import roots_legendre
 
 from lambda_core.domain.hertz import hertz_contact
 from lambda_core.laws.probe import trial_context
-from lambda_core.solver.contact.electric import gap_capacitance
+from lambda_core.solver.contact.contact_capacitance import gap_capacitance
 from lambda_core.testing import evaluate
 
 from .oils import BODE_PERMITTIVITY

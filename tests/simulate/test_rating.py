@@ -8,7 +8,7 @@ from lambda_core import api
 from lambda_core.discovery.manager import registry
 from lambda_core.results.rating import Rating
 from lambda_core.results.text import hours, rating_lines, summary_text
-from lambda_core.run.rating import rating_of
+from lambda_core.run.engineering import rating_of
 from lambda_core.solver.drivers.equilibrium import solve
 
 CASE = {

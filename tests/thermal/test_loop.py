@@ -12,7 +12,7 @@ from warm_bearings import preloaded
 from lambda_core import api
 from lambda_core.case.case import merged
 from lambda_core.domain.errors import CaseError, SolverError
-from lambda_core.thermal.loop import Loop, Runaway
+from lambda_core.thermal.feedback import Loop, Runaway
 from lambda_core.thermal.losses import LossMap
 
 

@@ -1,5 +1,5 @@
 """Compiled code of the electric network. Nothing here is imported before a network is marched through time.
 
 The folder's sources are hashed into the name of the compiled-code cache; only the entry point of
-:mod:`lambda_core.electric.compiled.march` is cached.
+:mod:`lambda_core.electric.compiled.edges` is cached.
 """

@@ -8,7 +8,7 @@ metal joins one of them to a ring.
 from __future__ import annotations
 
 from lambda_core.electric import columns as L
-from lambda_core.electric.compiled.layout import helper, shared_helper
+from lambda_core.electric.compiled.array_types import helper, shared_helper
 from lambda_core.electric.compiled.modes import charges, decay_functions, propagate, voltages
 
 _ROOT, _PLACE = 60, 1e-9  # steps of the search for a change at most; how well it is placed

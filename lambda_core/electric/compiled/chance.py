@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from lambda_core.electric.compiled.layout import helper, shared_helper
+from lambda_core.electric.compiled.array_types import helper, shared_helper
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 _MIX_1 = np.uint64(0xBF58476D1CE4E5B9)

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from lambda_core.electric import columns as L
 from lambda_core.electric.compiled.arc import book, open_network, reduce_network, restore_charges, until_change
-from lambda_core.electric.compiled.assembly import across_bearing
-from lambda_core.electric.compiled.layout import helper, shared_helper
+from lambda_core.electric.compiled.array_types import helper, shared_helper
+from lambda_core.electric.compiled.matrices import across_bearing
 from lambda_core.electric.compiled.modes import amplitudes, charges, modes, propagate, voltages
 from lambda_core.electric.compiled.source import slope_at, source_work, voltage_at
 

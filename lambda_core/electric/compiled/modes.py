@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.electric.compiled.layout import helper, shared_helper
+from lambda_core.electric.compiled.array_types import helper, shared_helper
 
 _SWEEPS = 40
 _RELATIVE, _ABSOLUTE = 1e-16, 1e-19

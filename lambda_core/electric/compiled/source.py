@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from lambda_core.electric.columns import ROTOR
-from lambda_core.electric.compiled.layout import helper, shared_helper
+from lambda_core.electric.compiled.array_types import helper, shared_helper
 
 
 @shared_helper

@@ -13,7 +13,7 @@ from functools import lru_cache
 from types import FunctionType
 from typing import Any
 
-from lambda_core.laws.record import Layout
+from lambda_core.laws.named_numbers import Layout
 
 FILE = "<parameters by name>"  # stands for the file of generated code in messages
 

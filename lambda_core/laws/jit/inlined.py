@@ -1,5 +1,7 @@
-"""Options of ``numba.njit`` for functions that exist inside their compiled callers only (:mod:`parts`); none on the
-plain way."""
+"""Options of ``numba.njit`` for functions that exist inside their compiled callers only; none on the plain way.
+
+They come from :mod:`inside_callers`.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +14,6 @@ APART: dict[
     str, Any
 ] = {}  # the same for a function none of whose arrays shares memory with another one that is written
 if not is_plain():
-    from lambda_core.laws.jit import parts
+    from lambda_core.laws.jit import inside_callers
 
-    OPTIONS, APART = parts.OPTIONS, parts.APART
+    OPTIONS, APART = inside_callers.OPTIONS, inside_callers.APART

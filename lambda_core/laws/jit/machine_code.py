@@ -78,7 +78,7 @@ def environment_key() -> str:
     words += _way().processor()
     words += [str(config.OPT), config.BOUNDSCHECK, config.DEBUGINFO_DEFAULT]
     words += [OPTIONS["error_model"], sorted(OPTIONS["fastmath"]), is_plain()]
-    words.append(Path(__file__).with_name("parts.py").read_bytes())
+    words.append(Path(__file__).with_name("inside_callers.py").read_bytes())
     return hashlib.sha256(repr(words).encode()).hexdigest()[:16]
 
 

@@ -1,7 +1,8 @@
 """The plain way to machine code: nothing but what Python and Numba document.
 
 Taken where ``LAMBDA_BEARING_PLAIN_JIT`` is 1, or where Numba's internals are not those that :mod:`disk_cache` and
-:mod:`parts` know. The same keys and results; but nothing is kept on disk, so every process compiles for itself.
+:mod:`inside_callers` know. The same keys and results; but nothing is kept on disk, so every process compiles for
+itself.
 """
 
 # Numba's compiler carries only part of its types.
@@ -32,10 +33,10 @@ def is_plain() -> bool:
     if is_forced():
         return True
     try:
-        from lambda_core.laws.jit import disk_cache, parts
+        from lambda_core.laws.jit import disk_cache, inside_callers
     except (ImportError, AttributeError):  # another Numba than the one that was known
         return True
-    return not (disk_cache.KNOWN and parts.KNOWN)
+    return not (disk_cache.KNOWN and inside_callers.KNOWN)
 
 
 def instructions(code: CodeType) -> tuple[tuple[str, str], ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lambda_core.solver import records as R
 from lambda_core.solver.contact.contact_kinematics import contact_kinematics, surface_lift
-from lambda_core.solver.contact.losses import raceway_losses
+from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.layout import array1, bundle_t, cells_of, grid_of, i8, losses_of, table_t
 
 probe_sig = i8(table_t(R.BALL), table_t(R.BODY_STATE), i8, bundle_t, array1)

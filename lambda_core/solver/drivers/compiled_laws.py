@@ -16,6 +16,7 @@ from lambda_core.laws.kernels import compile_kernel
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, oil_of
 from lambda_core.solver.entry import begin
+from lambda_core.solver.records import RACEWAY_ROLES
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame, build_context, prepare
 
@@ -51,7 +52,7 @@ class Kernels:
             return self.compiled[element, role].pointer
 
         def raceway(element: str) -> L.RacewayLaws:
-            return L.RacewayLaws(*(law(element, role) for role in L.RacewayLaws._fields))
+            return L.RacewayLaws(*(law(element, role) for role in RACEWAY_ROLES))
 
         pocket, land_inner, land_outer = (law(element, "cage_contact") for element in self._guides)
         drag = law("fluid_drag", "fluid_drag")

@@ -17,11 +17,11 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.laws.kernels import compile_host
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.code_files import compiled_sources
 from lambda_core.solver.contact import cell_probe as probe
 from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.contact_grid import unit_grid
 from lambda_core.solver.drivers.equilibrium import fault_sentence
-from lambda_core.solver.sources import compiled_sources
 
 
 @dataclass(frozen=True)

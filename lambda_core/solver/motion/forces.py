@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from lambda_core.solver.layout import NB, helper, losses_of, running_of
-from lambda_core.solver.motion.elements import cage_forces, clear_forces, drag_force, land_forces, raceway_forces
 from lambda_core.solver.motion.equations import ball_rates, body_rates
+from lambda_core.solver.motion.force_elements import cage_forces, clear_forces, drag_force, land_forces, raceway_forces
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.records import BALL
 from lambda_core.solver.vec import dot, increase, turning

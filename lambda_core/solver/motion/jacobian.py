@@ -18,7 +18,7 @@ from lambda_core.solver.cage.guide_columns import land_columns, neighbour_column
 from lambda_core.solver.contact.raceway_columns import raceway_columns
 from lambda_core.solver.layout import BPSI, NB, helper
 from lambda_core.solver.motion.block_rows import ball_block, body_rows, force_map, shared_rows
-from lambda_core.solver.motion.elements import drag_force
+from lambda_core.solver.motion.force_elements import drag_force
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.motion.steps import add_slope, ball_step
 from lambda_core.solver.records import BALL

@@ -10,7 +10,7 @@ from pydantic import Field
 from lambda_core.plugins import Axis, NotApplicable, Options, Panel, Series, View, ViewData
 
 if TYPE_CHECKING:
-    from lambda_core.electric.simulation import Simulation
+    from lambda_core.electric.circuit_run import Simulation
 
 _SHOWN = 3e-4  # of the bearing voltage, edge by edge [s]
 _FREQUENCIES = np.geomspace(1e2, 1e7, 51)

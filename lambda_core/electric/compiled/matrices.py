@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lambda_core.electric.columns import M_BRIDGE, M_BRUSH, M_COATING, M_RINGS, M_ROTOR, M_WINDING, RING, ROTOR
-from lambda_core.electric.compiled.layout import helper
+from lambda_core.electric.compiled.array_types import helper
 
 
 @helper

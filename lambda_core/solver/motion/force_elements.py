@@ -18,7 +18,7 @@ from lambda_core.solver.cage.guides import (
     pocket_state,
 )
 from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, surface_lift
-from lambda_core.solver.contact.losses import raceway_losses
+from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.faults import FLUID_DRAG, report
 from lambda_core.solver.layout import cells_of, grid_of, helper, part
 from lambda_core.solver.vec import clear, increase

@@ -9,7 +9,7 @@ from lambda_core.results.text import line
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from lambda_core.electric.limits import Limit
+    from lambda_core.electric.current_limits import Limit
     from lambda_core.electric.outcome import Outcome
 
 

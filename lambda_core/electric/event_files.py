@@ -13,7 +13,7 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.electric.circuit import bearing_capacitance
 
 if TYPE_CHECKING:
-    from lambda_core.electric.simulation import Simulation
+    from lambda_core.electric.circuit_run import Simulation
 
 # Column -> unit and meaning; the order is that of the rows.
 COLUMNS: dict[str, tuple[str, str]] = {

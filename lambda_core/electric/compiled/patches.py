@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from lambda_core.electric.columns import F_LEAST, F_PARTICLE, F_ROUGHNESS, F_STRENGTH
+from lambda_core.electric.compiled.array_types import shared_helper
 from lambda_core.electric.compiled.chance import uniform, upper_quantile
-from lambda_core.electric.compiled.layout import shared_helper
 
 
 @shared_helper

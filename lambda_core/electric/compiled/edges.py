@@ -5,11 +5,21 @@ from __future__ import annotations
 import math
 
 from lambda_core.electric import columns as L
-from lambda_core.electric.compiled.assembly import across, across_bearing, assemble
-from lambda_core.electric.compiled.breakdown import threshold
+from lambda_core.electric.compiled.array_types import (
+    array1,
+    array2,
+    array3,
+    f8,
+    helper,
+    i8,
+    iarray1,
+    iarray2,
+    shared_helper,
+)
 from lambda_core.electric.compiled.discharge import discharge, record
-from lambda_core.electric.compiled.layout import array1, array2, array3, f8, helper, i8, iarray1, iarray2, shared_helper
+from lambda_core.electric.compiled.matrices import across, across_bearing, assemble
 from lambda_core.electric.compiled.modes import amplitudes, charges, heat, modes, propagate, voltages
+from lambda_core.electric.compiled.patches import threshold
 from lambda_core.electric.compiled.source import slope_at, source_work, voltage_at
 
 march_sig = i8(

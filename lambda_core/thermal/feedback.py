@@ -11,7 +11,7 @@ from lambda_core.case.thermal import Thermal
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.system.bearing import BearingModel
-from lambda_core.thermal.bearing import BearingNetwork
+from lambda_core.thermal.bearing_network import BearingNetwork
 from lambda_core.thermal.losses import Announce, Losses, Point
 from lambda_core.thermal.network import Network
 

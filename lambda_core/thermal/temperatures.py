@@ -49,7 +49,7 @@ def thermal(
     SolverError
         When there are no steady temperatures: a runaway is named with the gain that caused it.
     """
-    from lambda_core.thermal.loop import Loop
+    from lambda_core.thermal.feedback import Loop
     from lambda_core.thermal.operating import of_run
     from lambda_core.thermal.report import steady_of
 
@@ -99,7 +99,7 @@ def warm_up(
     SolverError
         When a point on the way has no equilibrium, with the time reached.
     """
-    from lambda_core.thermal.loop import Loop
+    from lambda_core.thermal.feedback import Loop
     from lambda_core.thermal.report import course_of
     from lambda_core.thermal.transient import warm_up as integrate
 
@@ -123,7 +123,7 @@ def thermal_pictures(found: SteadyTemperatures | TemperaturesOverTime) -> list[V
     list of ViewData
         For :func:`draw`.
     """
-    from lambda_core.thermal.pictures import pictures
+    from lambda_core.thermal.charts import pictures
 
     return pictures(found)
 

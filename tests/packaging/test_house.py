@@ -1,0 +1,60 @@
+"""The order of the house, counted: names that are unique, numbers that have names, rooms that stay small."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+CORE = sorted((ROOT / "lambda_core").rglob("*.py"))
+OURS = [*CORE, *(path for room in ("plugins", "db", "gui", "cli") for path in sorted((ROOT / room).rglob("*.py")))]
+LONGEST = 360  # lines of a module
+MOST_EQUAL = 3  # names of modules that occur twice
+
+
+def found(pattern: str, paths: list[Path]) -> list[str]:
+    """Return where a pattern occurs."""
+    return [
+        f"{path.relative_to(ROOT)}:{number}"
+        for path in paths
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+        if re.search(pattern, line)
+    ]
+
+
+def test_modules_of_the_core_have_names_of_their_own() -> None:
+    names = Counter(path.name for path in CORE if not path.name.startswith("__"))
+    assert len([name for name, count in names.items() if count > 1]) <= MOST_EQUAL, names.most_common(MOST_EQUAL + 1)
+
+
+@pytest.mark.parametrize("path", OURS, ids=lambda path: str(path.relative_to(ROOT)))
+def test_no_module_is_long(path: Path) -> None:
+    assert len(path.read_text(encoding="utf-8").splitlines()) <= LONGEST
+
+
+def test_laws_read_their_parameters_by_name() -> None:
+    pages = [*(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").rglob("*.py")]
+    assert found(r"\bpar\[[0-9]", [*OURS, *pages]) == []
+
+
+def test_no_array_is_read_by_a_constant_that_stands_for_a_name() -> None:
+    assert found(r"\w\[[A-Z]{1,2}_[A-Z0-9_]+\b", [path for path in CORE if "electric" not in path.parts]) == []
+
+
+def test_roles_are_declared_once() -> None:
+    assert {place.split(":")[0] for place in found('"elastic_hysteresis"', CORE)} == {"lambda_core/domain/roles.py"}
+    assert len(found(r"FloatArray = NDArray", OURS)) == 1
+
+
+def test_processes_are_started_in_few_places() -> None:
+    """Studies, the compile step, the check of plugins apart, and the builder's runs."""
+    places = {place.split(":")[0] for place in found(r"ProcessPoolExecutor|subprocess\.Popen", OURS)}
+    assert places == {
+        "lambda_core/batch/pool.py",
+        "lambda_core/discovery/apart.py",
+        "lambda_core/solver/entry.py",
+        "gui/lambda_gui/runs.py",
+    }
