@@ -62,6 +62,25 @@ class Counts:
     pending: int
 
 
+@contextmanager
+def readable(folder: Path) -> Iterator[None]:
+    """Read the manifest of a study in here, and nothing else: whatever its content leads to is damage.
+
+    Raises
+    ------
+    UsageError
+        For a manifest that is damaged, with what to do.
+    """
+    try:
+        yield
+    except (sqlite3.DatabaseError, ValueError, TypeError, KeyError, IndexError) as error:
+        words = "a text in it is no UTF-8" if isinstance(error, UnicodeDecodeError) else " ".join(str(error).split())
+        raise UsageError(
+            f"{folder / FILE} is damaged ({words}); start the study again in another folder: lambda-bearing study run "
+            f"{folder / 'study.toml'} --out {folder}-2"
+        ) from None
+
+
 class Manifest:
     """Access to the manifest of one study.
 
@@ -83,10 +102,11 @@ class Manifest:
             raise UsageError(f"{folder} {what}; start one with: lambda-bearing study run STUDY.toml")
         mode = "rw" if write else "ro"
         self._database = sqlite3.connect(f"{self.path.resolve().as_uri()}?mode={mode}", uri=True, timeout=30.0)
-        try:
+        with readable(folder):
+            found = self._database.execute("PRAGMA integrity_check(1)").fetchone()[0]
+            if found != "ok":
+                raise sqlite3.DatabaseError(found)
             version = self.meta("version")
-        except sqlite3.DatabaseError as error:
-            raise UsageError(f"{self.path} cannot be read: {error}") from None
         if version != str(VERSION):
             raise UsageError(f"{self.path} has version {version}; this program reads version {VERSION}")
 
@@ -202,6 +222,17 @@ class Manifest:
         with self._database:
             self._database.executemany("INSERT INTO points (number, changes, coordinates) VALUES (?, ?, ?)", rows)
         return first
+
+    def verify(self) -> None:
+        """Read everything once; errors as :func:`readable` takes them."""
+        for table in ("meta", "columns", "points"):
+            for _ in self._database.execute(f"SELECT * FROM {table}"):
+                pass
+        self.table()
+        self.pending(retry=True)
+        for name in ("wall", "efficiency"):
+            float(self.meta(name) or 0.0)
+        json.loads(self.meta("director") or "{}")
 
     def find(self, point: Point) -> dict[str, Any] | None:
         """Return number, state and responses of the point with the same changes, None when there is none."""

@@ -17,7 +17,7 @@ from lambda_core.batch.job import RUNS, Task, point_hash, resolve_point
 from lambda_core.batch.optimise import Best, best_row, search
 from lambda_core.batch.pool import pool, usable_cores
 from lambda_core.batch.scheduler import Director, Report
-from lambda_core.batch.store import Manifest
+from lambda_core.batch.store import Manifest, readable
 from lambda_core.batch.study_check import Announce, Ready, check, duration
 from lambda_core.domain.errors import UsageError
 from lambda_core.views.table import StudyTable
@@ -125,6 +125,8 @@ def resume(
         was started, so that its points would not belong together.
     """
     with closing(Manifest(folder, write=True)) as manifest:
+        with readable(folder):
+            manifest.verify()
         study = manifest.study
         plan = Plan(study)
         if manifest.counts().total < plan.fixed_count:  # killed while it was being set up
@@ -142,13 +144,13 @@ def resume(
 
 def status(folder: Path) -> StudyStatus:
     """Return where a study stands, also while it is being worked on."""
-    with closing(Manifest(folder)) as manifest:
+    with closing(Manifest(folder)) as manifest, readable(folder):
         return _status(manifest)
 
 
 def table(folder: Path) -> StudyTable:
     """Return the table of a study as far as it is known."""
-    with closing(Manifest(folder)) as manifest:
+    with closing(Manifest(folder)) as manifest, readable(folder):
         return manifest.table()
 
 
@@ -156,7 +158,7 @@ def files(folder: Path) -> tuple[str, str]:
     """Return the study file and the case, complete, as they were when the study was started."""
     import tomlkit
 
-    with closing(Manifest(folder)) as manifest:
+    with closing(Manifest(folder)) as manifest, readable(folder):
         return tomlkit.dumps(manifest.study.model_dump(mode="json", exclude_unset=True)), manifest.case_toml
 
 

@@ -50,6 +50,31 @@ def test_c4_what_a_killed_study_left_half_made_is_removed(study: Path, executor:
     assert sorted(path.name for path in runs.iterdir()) == sorted(own)
 
 
+@pytest.mark.parametrize(
+    ("found", "put"),
+    [
+        (b"6208, axial", b"62\xff8, axial"),
+        (b'{"max_load_N"', b'["max_load_N"'),
+        (b"largest", b"l\xc3rgest"),
+        (b"CREATE", b"C"),
+    ],
+    ids=["case", "row", "heading", "page"],
+)
+def test_c4_a_damaged_manifest_is_named(
+    found: bytes, put: bytes, study: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = study / "manifest.sqlite"
+    content = path.read_bytes()
+    assert found in content
+    path.write_bytes(content.replace(found, put))
+    refused = {command: main(["study", command, str(study)]) for command in ("show", "status", "resume")}
+    said = capsys.readouterr().err.splitlines()
+    assert refused["resume"] == 2
+    assert set(refused.values()) <= {0, 2}  # what does not look at the damage works
+    assert len(said) == list(refused.values()).count(2)
+    assert all(f"{path} is damaged" in line and "start the study again" in line for line in said)
+
+
 def test_c4_an_infinite_response_is_shown(study: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     with closing(Manifest(study, write=True)) as manifest:
         manifest.keep([Outcome(0, "done", "", "", {"max_load_N": math.inf}, "", 0.0)])
