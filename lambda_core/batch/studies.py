@@ -189,7 +189,7 @@ def _work(
     retry: bool,
 ) -> StudyStatus:
     """Work until every point has an outcome."""
-    from lambda_core.results.files import sweep
+    from lambda_core.results.hdf5 import sweep
 
     with manifest.directed():
         sweep(manifest.folder / RUNS)  # a worker that was killed while it packed a finished run
