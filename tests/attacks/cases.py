@@ -1,10 +1,10 @@
 """Random cases run, and how each end is judged: converged, named, at its own limit, refused with a reason that holds.
 
-A case is *accepted* unless it is refused for a reason that was tried and holds: taken away, the case is accepted. It is
-*physically sensible* when it is accepted and its shaft always turns at 10 rpm at least: below, catalogues size a bearing
-as one that stands still (SKF, Rolling bearings, 2018, "static load rating"; ISO 76). It *ends usable* when there is a
-result with a finite friction torque that is not negative and an energy residual of 1e-3 at most, over a whole turn of the
-cage or as much of it as the case's own limit of wall time allowed.
+A case is *accepted* unless it is refused for a reason that was tried and holds: taken away, the case is accepted.
+It is *physically sensible* when it is accepted and its shaft always turns at 10 rpm at least: below, catalogues size a
+bearing as one that stands still (SKF, Rolling bearings, 2018, "static load rating"; ISO 76). It *ends usable* when
+there is a result with a finite friction torque that is not negative and an energy residual of 1e-3 at most, over a
+whole turn of the cage or as much of it as the case's own limit of wall time allowed.
 """
 
 from __future__ import annotations

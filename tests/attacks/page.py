@@ -61,8 +61,8 @@ def _of_cases(entries: Entries) -> list[str]:
     slow = [entry for entry in accepted if entry["slow"]]
     return [
         "; ".join(f"{end} {count}" for end, count in ends.most_common()),
-        f"each of at least one cage revolution or its own wall limit of {cases.WALL:g} s; the longest had its file open "
-        f"for {max(opened, default=0.0):.1f} s ({cases.WALL + cases.OVER:g} s are allowed)",
+        f"each of at least one cage revolution or its own wall limit of {cases.WALL:g} s; the longest had its file "
+        f"open for {max(opened, default=0.0):.1f} s ({cases.WALL + cases.OVER:g} s are allowed)",
         f"energy residual at most {cases.ENERGY:g} in {len(residuals) - over} of {len(residuals)} results, named among "
         f"the reasons in the other {over}",
         f"usable: {_share(sensible)} of those physically sensible, {_share(slow)} of those slower than 10 rpm",

@@ -1,0 +1,205 @@
+"""Results under attack: runs killed while they write, files damaged afterwards, two runs on one file.
+
+What is compared is what a user would see: every number of a run that was killed and gone on with, every word of a
+command that reads a damaged file. A damaged file may be refused or called damaged; it may not look whole and differ.
+"""
+
+from __future__ import annotations
+
+import random
+import shlex
+import shutil
+import time
+from collections.abc import Callable
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from tests.attacks.trial import Outcome, Trial, attempt
+
+CASE = "6208-axial-1300"
+DURATION = "40 ms"  # of simulated time
+_RUN = ("run", CASE, "--set", f"solver.duration={DURATION}", "--out", "out.h5")
+_STOPPED = ("--max-wall", "60 ms")  # so that about half of it is left to do
+_WRITING = 1.2  # times the wall time that the run had its file open, within which it is killed
+_TRIES = 4  # at meeting a run that still goes on
+_LIMIT = 60.0  # [s] of wall time for any command on such a file
+_READS = (
+    ("show", "out.h5"),
+    ("show", "out.h5", "--json"),
+    ("show", "out.h5", "--assumptions"),
+    ("cite", "out.h5"),
+    ("view", "out.h5", "film", "--out", "pictures"),
+    ("resume", "out.h5", "--json"),
+)
+Said = tuple[Outcome, str, dict[str, Any]]
+
+
+def line(arguments: tuple[str, ...] | list[str]) -> str:
+    """Return a command line as it is typed."""
+    return "lambda-bearing " + shlex.join(arguments)
+
+
+def _made(folder: Path, name: str, make: Callable[[Path], None]) -> Path:
+    """Return a folder beside those of the trials, made once per campaign."""
+    place = folder.parent / name
+    if not (place / "done").is_file():
+        shutil.rmtree(place, ignore_errors=True)
+        place.mkdir(parents=True)
+        make(place)
+        (place / "done").touch()
+    return place
+
+
+def _whole(folder: Path) -> Path:
+    """Return the result of the run that nobody disturbed."""
+    return _made(folder, f"whole-{folder.name.split('-')[0]}", lambda place: _must(_RUN, place)) / "out.h5"
+
+
+def _half(folder: Path) -> Path:
+    """Return the result of the same run, stopped in the middle."""
+    return _made(folder, "half", lambda place: _must((*_RUN, *_STOPPED), place)) / "out.h5"
+
+
+def _must(arguments: tuple[str, ...], place: Path) -> None:
+    outcome = attempt(arguments, place, 2.0 * _LIMIT, watched=place / "out.h5")
+    if not outcome.good:
+        raise RuntimeError(f"{line(arguments)}: {outcome.verdict}: {outcome.said}")
+    (place / "open").write_text(str(outcome.open_s), encoding="utf-8")
+
+
+def killed_run(seed: int, number: int, folder: Path) -> Said:
+    """Kill a run while its file is open, go on, and compare every number with the run that nobody killed."""
+    whole = _whole(folder)
+    pick = random.Random(seed * 1_000_003 + number)
+    file = folder / "out.h5"
+    longest = _WRITING * float((whole.parent / "open").read_text(encoding="utf-8"))
+    for _ in range(_TRIES):
+        file.unlink(missing_ok=True)
+        if killed := _kill(folder, pick.uniform(0.0, longest)):
+            break
+    if not killed:
+        return Outcome("fine", said="every run was over before it could be killed"), line(_RUN), {"met": False}
+    outcome = attempt(("resume", "out.h5"), folder, _LIMIT)
+    if outcome.verdict not in ("fine", "partial"):
+        outcome = outcome.but("lost", "could not be gone on with") if outcome.good else outcome
+    elif wrong := differences(whole, file):
+        outcome = outcome.but("different", f"not bit for bit: {', '.join(wrong)}")
+    elif left := _hidden(folder):
+        outcome = outcome.but("litter", f"left behind: {', '.join(left)}")
+    return outcome, line(_RUN), {"met": True}
+
+
+def _kill(folder: Path, after_s: float) -> bool:
+    """Start the run and kill it so long after it has opened its file [s]; tell whether it still went on."""
+    victim = Trial(_RUN, folder)
+    end = time.monotonic() + _LIMIT
+    while not (folder / "out.h5").is_file() and time.monotonic() < end:
+        time.sleep(0.001)
+    time.sleep(after_s)
+    victim.kill()
+    return victim.wait(1.0).verdict == "killed"
+
+
+def _hidden(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir() if path.name.startswith("."))
+
+
+def differences(one: Path, other: Path) -> list[str]:
+    """Return the datasets that differ, states of the machine aside: wall times, checkpoints, who wrote it when."""
+    found: list[str] = []
+    with h5py.File(one, "r") as a, h5py.File(other, "r") as b:
+
+        def look(name: str, item: Any) -> None:
+            if not isinstance(item, h5py.Dataset) or name.split("/")[0] in ("restart", "status"):
+                return
+            if name not in b or item.shape != b[name].shape:
+                found.append(name)
+            elif item.dtype.kind == "f":
+                if not np.array_equal(item[...], b[name][...], equal_nan=True):
+                    found.append(name)
+            elif name.startswith("inputs/") and "rating" not in name and not np.array_equal(item[...], b[name][...]):
+                found.append(name)
+
+        a.visititems(look)
+    return found
+
+
+def corrupted(seed: int, number: int, folder: Path) -> Said:
+    """Damage a result and ask for what it says: the same as before, or a word about the damage."""
+    pick = random.Random(seed * 1_000_003 + number)
+    arguments = pick.choice(_READS)
+    source = _half(folder) if arguments[0] == "resume" or pick.random() < 0.3 else _whole(folder)
+    before = _answers(source, folder, arguments)
+    data = bytearray(source.read_bytes())
+    _damage(data, pick)
+    (folder / "out.h5").write_bytes(data)
+    outcome = attempt(arguments, folder, _LIMIT)
+    told = _what_differs(outcome, arguments, folder, before)
+    if outcome.good and told:
+        outcome = outcome.but("different", told)
+    return outcome, line(arguments), {"sha256": sha256(data).hexdigest()[:16]}
+
+
+def _damage(data: bytearray, pick: random.Random) -> None:
+    """Overwrite places, half of them near the beginning, or cut the end off."""
+    for _ in range(pick.choice((1, 1, 8, 64))):
+        start = pick.randrange(len(data) if pick.random() < 0.5 else min(len(data), 65536))
+        length = pick.choice((1, 1, 16, 4096))
+        data[start : start + length] = bytes(length) if pick.random() < 0.5 else pick.randbytes(length)
+    if pick.random() < 0.2:
+        del data[pick.randrange(len(data)) :]
+
+
+def _answers(source: Path, folder: Path, arguments: tuple[str, ...]) -> Path:
+    """Return the folder in which a command was given a file that nobody damaged; made once per campaign."""
+
+    def make(place: Path) -> None:
+        shutil.copy(source, place / "out.h5")
+        _must(arguments, place)
+
+    name = sha256(repr((source.parent.name, arguments)).encode()).hexdigest()[:8]
+    return _made(folder, f"answers-{name}", make)
+
+
+def _what_differs(outcome: Outcome, arguments: tuple[str, ...], folder: Path, before: Path) -> str:
+    """Tell how an answer that does not speak of damage differs from that of the file before; "" if it does not."""
+    if outcome.verdict not in ("fine", "partial") or "damage" in outcome.said:
+        return ""
+    if arguments[0] == "resume":
+        return ", ".join(differences(before / "out.h5", folder / "out.h5"))
+    if arguments[0] == "view":
+        pictures = [sorted(path.name for path in (place / "pictures").iterdir()) for place in (folder, before)]
+        if pictures[0] != pictures[1]:
+            return f"other pictures: {pictures}"
+        same = all(_drawn(folder / "pictures" / name) == _drawn(before / "pictures" / name) for name in pictures[0])
+        return "" if same else "another picture"
+    return "" if (folder / "stdout").read_bytes() == (before / "stdout").read_bytes() else "another answer"
+
+
+def _drawn(file: Path) -> str:
+    """Return a hash of a picture; SVG without the lines that carry random names and the date."""
+    content = file.read_bytes()
+    if file.suffix == ".svg":
+        content = b"\n".join(row for row in content.splitlines() if b"dc:date" not in row and b"id=" not in row)
+    return sha256(content).hexdigest()
+
+
+def race(seed: int, number: int, folder: Path) -> Said:
+    """Let two runs write one file at the same time; the later one has it, the file is whole, nothing is left behind."""
+    pick = random.Random(seed * 1_000_003 + number)
+    arguments = ["run", CASE, "--set", "solver.duration=5 ms", "--out", str(folder / "out.h5"), "--force"]
+    one = Trial(arguments, folder / "one")
+    time.sleep(pick.uniform(0.0, 0.3))
+    other = Trial(arguments, folder / "two")
+    ends = [one.wait(_LIMIT), other.wait(_LIMIT)]
+    bad = next((end for end in ends if not end.good), None)
+    shown = attempt(["show", str(folder / "out.h5")], folder / "show", _LIMIT)
+    if bad is None and shown.verdict != "fine":
+        bad = shown.but("torn", "the file of two runs is not whole") if shown.good else shown
+    if bad is None and (left := _hidden(folder)):
+        bad = Outcome("litter", said=f"left behind: {', '.join(left)}")
+    return bad or shown, line(arguments), {}
