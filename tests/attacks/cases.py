@@ -4,7 +4,8 @@ A case is *accepted* unless it is refused for a reason that was tried and holds:
 It is *physically sensible* when it is accepted and its shaft always turns at 10 rpm at least: below, catalogues size a
 bearing as one that stands still (SKF, Rolling bearings, 2018, "static load rating"; ISO 76). It *ends usable* when
 there is a result with a finite friction torque that is not negative and an energy residual of 1e-3 at most, over a
-whole turn of the cage or as much of it as the case's own limit of wall time allowed.
+whole turn of the cage or as much of it as the case's own limit of wall time allowed. A sensible one that was stopped
+too early for that is gone on with once, for longer.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from tests.attacks.written import toml
 WALL = 4.0  # limit of wall time that each case sets itself [s]
 OVER = 2.0  # by which it may be passed, measured from when the result file is there to the end of the process [s]
 ENERGY = 1e-3  # |energy residual| that a usable result may have
+LONGER = 20.0  # limit of wall time with which such a case is gone on with [s]
 _START = 60.0  # for start, equilibrium and a busy machine, beyond which a trial hangs [s]
 _SLOWEST = 10.0  # speed of a sensible case [rpm]
 _TURN = 0.999  # of the cage; the last record may end within the last step
@@ -39,13 +41,16 @@ def random_case(seed: int, number: int, folder: Path) -> tuple[Outcome, str, dic
     (folder / "case.toml").write_text(toml(made), encoding="utf-8")
     arguments = ["run", "case.toml", "--out", "out.h5", "--json"]
     outcome = attempt(arguments, folder, WALL + _START, watched=folder / "out.h5")
-    found = _numbers(folder)
-    turns = _turns(folder / "out.h5")
+    found, turns = _numbers(folder), _turns(folder / "out.h5")
     outcome, end = _judge(outcome, made, found, turns)
+    slow = _lowest_speed(made) < _SLOWEST
+    usable = end in ("converged", "named", "at its limit") and _is_usable(found)
+    if end == "at its limit" and not usable and not slow:
+        outcome, usable = _gone_on_with(outcome, folder)
     more = {
         "end": end,
-        "slow": _lowest_speed(made) < _SLOWEST,
-        "usable": end in ("converged", "named", "at its limit") and _is_usable(found),
+        "slow": slow,
+        "usable": usable,
         "turns": round(turns, 3),
         "load": _busy(),
         **found,
@@ -95,6 +100,16 @@ def _judge(outcome: Outcome, made: dict[str, Any], found: dict[str, Any], turns:
 
 def _is_usable(found: dict[str, Any]) -> bool:
     return abs(float(found["energy_residual"])) <= ENERGY
+
+
+def _gone_on_with(outcome: Outcome, folder: Path) -> tuple[Outcome, bool]:
+    """Resume a run that was stopped early; return the outcome, worse where that fails, and whether it is usable now."""
+    place = folder / "longer"
+    arguments = ["resume", str(folder / "out.h5"), "--max-wall", f"{LONGER:g} s", "--json"]
+    longer = attempt(arguments, place, LONGER + _START)
+    if longer.verdict not in ("fine", "partial"):
+        return (longer.but("lost", "could not be gone on with") if longer.good else longer), False
+    return outcome, _is_usable(_numbers(place))
 
 
 def _reason_that_holds(made: dict[str, Any]) -> str:

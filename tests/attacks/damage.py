@@ -77,14 +77,15 @@ def killed_run(seed: int, number: int, folder: Path) -> Said:
     pick = random.Random(seed * 1_000_003 + number)
     file = folder / "out.h5"
     longest = _WRITING * float((whole.parent / "open").read_text(encoding="utf-8"))
-    for _ in range(_TRIES):
+    for again in range(_TRIES):
         file.unlink(missing_ok=True)
-        if killed := _kill(folder, pick.uniform(0.0, longest)):
+        if killed := _kill(folder, pick.uniform(0.0, longest) / 2.0**again):
             break
     if not killed:
         return Outcome("fine", said="every run was over before it could be killed"), line(_RUN), {"met": False}
     outcome = attempt(("resume", "out.h5"), folder, _LIMIT)
-    if outcome.verdict not in ("fine", "partial"):
+    over = outcome.verdict == "usage" and "is finished: nothing is left to do" in outcome.said
+    if outcome.verdict not in ("fine", "partial") and not over:
         outcome = outcome.but("lost", "could not be gone on with") if outcome.good else outcome
     elif wrong := differences(whole, file):
         outcome = outcome.but("different", f"not bit for bit: {', '.join(wrong)}")

@@ -44,10 +44,11 @@ def _nothing(entries: Entries) -> list[str]:
 def _cost(entries: Entries) -> str:
     memory = max(int(entry["memory"]) for entry in entries) / 2**20
     longest = max(float(entry["wall_s"]) for entry in entries)
-    seeds = ", ".join(str(seed) for seed in sorted({entry.get("seed", 1) for entry in entries}))
+    seeds = ", ".join(sorted({str(entry["seed"]) for entry in entries}))
+    commits = ", ".join(f"{count} at {commit}" for commit, count in Counter(e["commit"] for e in entries).items())
     return (
         f"highest resident memory of a trial {memory:.0f} MiB (allowed {MEMORY / 2**20:.0f} MiB), "
-        f"the longest took {longest:.1f} s; seed {seeds}"
+        f"the longest took {longest:.1f} s; seed {seeds}; trials: {commits}"
     )
 
 
@@ -66,6 +67,7 @@ def _of_cases(entries: Entries) -> list[str]:
         f"energy residual at most {cases.ENERGY:g} in {len(residuals) - over} of {len(residuals)} results, named among "
         f"the reasons in the other {over}",
         f"usable: {_share(sensible)} of those physically sensible, {_share(slow)} of those slower than 10 rpm",
+        f"a sensible one that was stopped before it was usable was gone on with for {cases.LONGER:g} s",
     ]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -45,9 +46,15 @@ PARTS = {
 }
 
 
+def _commit() -> str:
+    """Return the commit of the program that is attacked, "+" behind it where files differ from it."""
+    command = ["git", "describe", "--always", "--dirty=+", "--exclude=*"]
+    return subprocess.run(command, cwd=Path(__file__).parent, capture_output=True, text=True).stdout.strip()
+
+
 def run(part: Part, seed: int, count: int, folder: Path, deadline: float) -> None:
     """Do the trials of a part that are not recorded yet, until all are done or the clock says stop."""
-    record = Record(folder, part.name)
+    record, commit = Record(folder, part.name), _commit()
     done = record.done()
     for number in range(count):
         if number in done or time.monotonic() > deadline:
@@ -56,5 +63,5 @@ def run(part: Part, seed: int, count: int, folder: Path, deadline: float) -> Non
         shutil.rmtree(place, ignore_errors=True)
         place.mkdir(parents=True)
         outcome, command, more = part.trial(seed, number, place)
-        record.add(number, outcome, command, place, seed=seed, **more)
+        record.add(number, outcome, command, place, seed=seed, commit=commit, **more)
         shutil.rmtree(place, ignore_errors=True)
