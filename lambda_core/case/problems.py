@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from difflib import SequenceMatcher
 from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
@@ -10,9 +11,10 @@ from pydantic import BaseModel, ValidationError
 from lambda_core.case.option import quantity_of
 from lambda_core.case.signals import SIGNAL_KINDS
 from lambda_core.domain.errors import Problem, nearest
-from lambda_core.domain.option_tree import model_at, option_paths
+from lambda_core.domain.option_tree import is_tag, model_at, option_paths
 from lambda_core.domain.units import show
 
+_SLIP = 0.8  # likeness of a name that one slip makes another
 _LIMITS = {
     "greater_than": ("gt", "must be greater than"),
     "greater_than_equal": ("ge", "must be at least"),
@@ -59,12 +61,20 @@ def problems(error: ValidationError, model: type[BaseModel], data: Any, prefix: 
 
 def _path(location: Sequence[int | str]) -> list[int | str]:
     """Drop the parts of pydantic's location that are no keys of the file (union tags)."""
-    return [part for part in location if not (isinstance(part, str) and part.startswith("kind:"))]
+    return [part for part in location if not is_tag(part)]
+
+
+def _parent(location: Sequence[int | str], model: type[BaseModel]) -> type[BaseModel] | None:
+    """Return the table that the last key of a location stands in; its tags say which of several it is."""
+    keys = list(location)
+    while keys and is_tag(keys[-1]):
+        keys.pop()
+    return model_at(model, keys[:-1])
 
 
 def _message(item: Any, path: list[int | str], model: type[BaseModel]) -> str:
     kind, value, context = item["type"], item.get("input"), item.get("ctx", {})
-    parent, name = model_at(model, path[:-1]), str(path[-1]) if path else ""
+    parent, name = _parent(item["loc"], model), str(path[-1]) if path else ""
     if kind == "extra_forbidden":
         return _unknown_key(name, parent, model)
     if kind == "missing":
@@ -120,11 +130,13 @@ def _choices(parent: type[BaseModel] | None, name: str) -> list[str]:
 
 
 def _unknown_key(name: str, parent: type[BaseModel] | None, root: type[BaseModel]) -> str:
+    """Say what an unknown option might be: the same name in another table counts more than a like one here."""
     siblings = list(parent.model_fields) if parent else []
     close = nearest(name, siblings)
+    paths = sorted((path for path in option_paths(root) if path.rpartition(".")[2] == name), key=lambda p: p.count("."))
+    if elsewhere := paths[:3]:
+        here = [sibling for sibling in close if SequenceMatcher(None, sibling, name).ratio() > _SLIP]
+        return f"is not an option here; did you mean {' or '.join([*here, *elsewhere])}?"
     if close:
         return f"is not a known option; nearest: {', '.join(close)}"
-    elsewhere = [path for path in option_paths(root) if path.rpartition(".")[2] == name][:3]
-    if elsewhere:
-        return f"is not an option here; did you mean {' or '.join(elsewhere)}?"
     return f"is not a known option; here are: {', '.join(siblings)}"

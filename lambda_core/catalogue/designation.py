@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from lambda_core.case.parts import CLEARANCE_CLASSES
 from lambda_core.catalogue.protocol import BearingRow, Catalogue
 from lambda_core.catalogue.suffixes import Suffix
 from lambda_core.domain.errors import CatalogueError, Problem, nearest
@@ -117,10 +118,16 @@ def _suffixes(text: str, base: str, known: Sequence[Suffix]) -> Iterator[tuple[s
     for part in filter(None, _SEPARATORS.split(text.upper())):
         found = _split(part, known)
         if found is None:
-            close = nearest(part, [suffix.written for suffix in known])
-            more = f"nearest: {', '.join(close)}" if close else "see the table of suffixes in docs/catalogue.md"
-            raise _error(f'"{part}" is not a known suffix of {base}; {more}')
+            raise _error(f'"{part}" is not a known suffix of {base}; {_instead(part, known)}')
         yield from found
+
+
+def _instead(part: str, known: Sequence[Suffix]) -> str:
+    """Say what might be meant by an unknown suffix: a number behind a C stands for a clearance class."""
+    if re.fullmatch(r"C\d+", part):
+        return f"classes of clearance: {', '.join(CLEARANCE_CLASSES)}"
+    close = nearest(part, [suffix.written for suffix in known])
+    return f"nearest: {', '.join(close)}" if close else "see the table of suffixes in docs/catalogue.md"
 
 
 def _split(part: str, known: Sequence[Suffix]) -> list[tuple[str, Suffix]] | None:

@@ -10,6 +10,8 @@ from typing import Any, Union, get_args, get_origin
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+_TAG = "kind:"
+
 
 def members(annotation: Any) -> Iterator[type[BaseModel]]:
     """Yield the tables that a field's annotation allows (through unions, Annotated and dict values)."""
@@ -26,18 +28,35 @@ def members(annotation: Any) -> Iterator[type[BaseModel]]:
         yield from members(arguments[1])
 
 
+def is_tag(part: object) -> bool:
+    """Tell whether a part of a path is the tag of a union, which is no key of a file."""
+    return isinstance(part, str) and part.startswith(_TAG)
+
+
 def model_at(root: type[BaseModel], path: Sequence[int | str]) -> type[BaseModel] | None:
-    """Return the table's class at `path`, None where the path leaves the declared tables."""
+    """Return the table's class at `path`, None where the path leaves the declared tables.
+
+    A tag behind a key ("kind:ramp") says which of its tables is meant; without one it is the first.
+    """
     candidates: list[type[BaseModel]] = [root]
     open_keys = False
     for part in path:
         if isinstance(part, int) or open_keys:
             open_keys = False
             continue
+        if is_tag(part):
+            candidates = [table for table in candidates if part.removeprefix(_TAG) in _kinds(table)]
+            continue
         infos = [info for c in candidates if (info := c.model_fields.get(part)) is not None]
         candidates = [member for info in infos for member in members(info.annotation)]
         open_keys = any(get_origin(info.annotation) is dict for info in infos)
     return candidates[0] if candidates else None
+
+
+def _kinds(table: type[BaseModel]) -> tuple[Any, ...]:
+    """Return what may stand as the kind of a time function."""
+    kind = table.model_fields.get("kind")
+    return get_args(kind.annotation) if kind else ()
 
 
 def field_at(root: type[BaseModel], path: str) -> FieldInfo | None:

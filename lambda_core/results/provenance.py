@@ -20,7 +20,7 @@ from lambda_core.system.bearing import BearingModel
 
 _LIBRARIES = ("numpy", "scipy", "numba", "llvmlite", "h5py", "pydantic")
 # Of the model these stand in datasets of their own, or follow from the case and are part of the geometry.
-_APART = ("values", "assumptions", "case_toml", "plugins", "mounting", "thermal")
+_APART = ("values", "assumptions", "case_toml", "plugins", "mounting", "thermal", "contradictions")
 
 
 @dataclass(frozen=True)

@@ -185,6 +185,8 @@ class BearingModel:
         The network by which the temperatures are still to be found, before anything runs; None: they are given.
     mounting : Mounting or None
         What the clearance follows from as the temperatures change.
+    contradictions : tuple of str
+        Where the case says two things, and which of them counts.
     values : tuple of ResolvedValue
         Every frozen number with its origin.
     """
@@ -216,3 +218,4 @@ class BearingModel:
     markers: Mapping[str, Marker] = field(default_factory=dict)  # by name
     thermal: Thermal | None = None
     mounting: Mounting | None = None
+    contradictions: tuple[str, ...] = ()

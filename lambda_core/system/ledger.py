@@ -21,6 +21,7 @@ class Ledger:
 
     values: list[ResolvedValue] = field(default_factory=list)
     assumptions: list[str] = field(default_factory=list)
+    contradictions: list[str] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list)
 
     def record(
@@ -45,6 +46,10 @@ class Ledger:
         """Add one assumption in plain words, once."""
         if sentence not in self.assumptions:
             self.assumptions.append(sentence)
+
+    def contradict(self, sentence: str) -> None:
+        """Note that the case says two things, and which of them counts."""
+        self.contradictions.append(sentence)
 
     def problem(self, where: str, message: str) -> None:
         """Note one thing that is wrong; the resolution goes on to find the others."""

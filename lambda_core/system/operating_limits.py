@@ -47,7 +47,15 @@ def operating_warnings(model: BearingModel) -> list[str]:
     list of str
         Empty where nothing is beyond a limit; the limits and their sources stand at the head of this module.
     """
-    return [*_speed(model), *_load(model), *_tilt(model), *_oil(model), *_heating(model), *_surface(model)]
+    return [
+        *model.contradictions,
+        *_speed(model),
+        *_load(model),
+        *_tilt(model),
+        *_oil(model),
+        *_heating(model),
+        *_surface(model),
+    ]
 
 
 def tilt_warning(tilt: float, what: str = "the inner ring tilts by") -> list[str]:

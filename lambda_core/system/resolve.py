@@ -126,6 +126,7 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingM
         markers={name: Marker(m.body, (m.x, m.y, m.z)) for name, m in case.markers.items()},
         thermal=case.thermal if case.operation.temperatures == "computed" else None,
         mounting=mounting,
+        contradictions=tuple(ledger.contradictions),
     )
 
 
@@ -265,7 +266,7 @@ def case_hash(model: BearingModel) -> str:
     The laws count with everything their kernels reach: an edited law has another hash. Name,
     title, sources and assumptions are left out: two cases that mean the same run share one.
     """
-    silent = {"name", "title", "values", "assumptions", "case_toml", "plugins"}
+    silent = {"name", "title", "values", "assumptions", "contradictions", "case_toml", "plugins"}
     if model.thermal is None:
         silent |= {"thermal", "mounting"}
     data = {f.name: _plain(getattr(model, f.name)) for f in dataclasses.fields(model) if f.name not in silent}

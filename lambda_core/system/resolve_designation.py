@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from lambda_core.case.case import Case
+from lambda_core.case.parts import CLEARANCE_CLASSES
 from lambda_core.catalogue.designation import Designation, designated
 from lambda_core.catalogue.protocol import BearingRow, Catalogue
 from lambda_core.catalogue.suffixes import Suffix
@@ -54,6 +55,11 @@ def _clearance(case: Case, written: str, suffix: Suffix, ledger: Ledger) -> Case
     name = {"C0": "CN"}.get(written, f"C{written[2]}" if written.startswith("P") else written)
     inline = case.bearing.geometry
     if case.bearing.clearance:
+        if case.bearing.clearance[:2] in CLEARANCE_CLASSES and case.bearing.clearance != name:
+            ledger.contradict(
+                f"{written} of the designation and bearing.clearance = {case.bearing.clearance} contradict each other: "
+                f"{case.bearing.clearance} counts"
+            )
         return _left(case, written, suffix, f"bearing.clearance = {case.bearing.clearance}", ledger)
     if inline and inline.race_diameter_inner and inline.race_diameter_outer:
         return _left(case, written, suffix, "the raceway diameters", ledger)

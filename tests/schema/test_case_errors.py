@@ -52,6 +52,17 @@ def test_the_valid_case_is_valid(problems: Problems) -> None:
         ({"operation": {"speed": {"kind": "rmp"}}}, "operation.speed", '"rmp" is not a kind of time function'),
         ({"operation": {"speed": {"start": "1 rpm"}}}, "operation.speed", "a time function needs its kind"),
         (
+            {"operation": {"speed": {"kind": "ramp", "end": "9 rpm", "end_time": "1 s"}}},
+            "operation.speed.start",
+            "is required: value before the ramp",
+        ),
+        (
+            {"operation": {"speed": {"kind": "ramp", "start": "0 rpm", "end": "9 rpm", "end_time": "1 s", "to": "9"}}},
+            "operation.speed.to",
+            "here are: kind, start, end, start_time, end_time",
+        ),
+        ({"clearance": "C3"}, "clearance", "is not an option here; did you mean bearing.clearance?"),
+        (
             {"operation": {"speed": {"kind": "ramp", "start": "0 rpm", "end": "9 N", "end_time": "1 s"}}},
             "operation.speed.end",
             "not a unit of rotational_speed",

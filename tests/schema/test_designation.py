@@ -12,6 +12,7 @@ from lambda_core import api
 from lambda_core.catalogue.designation import read_designation, without_suffixes
 from lambda_core.domain.errors import CaseError
 from lambda_core.system.bearing import BearingModel
+from lambda_core.system.operating_limits import operating_warnings
 
 with closing(api.catalogue()) as _opened:
     SUFFIXES = _opened.suffixes()
@@ -177,11 +178,20 @@ def test_what_the_case_says_wins(designation: str, changes: Any, words: str, fou
     assert words in said[0]
 
 
+@pytest.mark.parametrize(("clearance", "count"), [("C3", 1), ("C2", 0), ("6 um", 0)])
+def test_two_classes_of_clearance_are_a_warning(clearance: str, count: int) -> None:
+    """A measured value beside a class is how one writes it; another class is a slip of one of the two."""
+    warned = operating_warnings(model("SKF 6208 C2", bearing={"clearance": clearance}))
+    assert [sentence for sentence in warned if "contradict" in sentence] == count * [
+        "C2 of the designation and bearing.clearance = C3 contradict each other: C3 counts"
+    ]
+
+
 @pytest.mark.parametrize(
     ("designation", "bearing", "where", "words"),
     [
         ("SKF 6208-2RSX", {}, "bearing.designation", '"2RSX" is not a known suffix of 6208; nearest: 2RS'),
-        ("SKF 6208 C7", {}, "bearing.designation", '"C7" is not a known suffix of 6208'),
+        ("SKF 6208 C7", {}, "bearing.designation", '"C7" is not a known suffix of 6208; classes of clearance: C2, CN'),
         ("SKF 6208/C5 C3", {}, "bearing.designation", '"C5" and "C3" contradict each other'),
         ("SKF 6208-MTN9", {}, "bearing.designation", '"M" and "TN9" contradict each other'),
         ("SKF 6208 E", {}, "bearing.designation", "reinforced ball set"),
