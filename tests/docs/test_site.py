@@ -57,7 +57,20 @@ def test_formulas_are_set_as_formulas(site: Path) -> None:
         assert "$$" not in text, path.name
         assert "<merror" not in text, path.name
         found += text.count("<math ")
-    assert found >= 30
+    assert found >= 200
+
+
+def test_no_formula_of_the_theory_is_left_in_plain_text() -> None:
+    """A line of code on a theory page is a command, Python or a case file; a formula stands between dollars."""
+    for path in (DOCS / "theory").glob("*.md"):
+        fenced = False
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            place = f"{path.name}:{number}"
+            if line.startswith("```"):
+                assert fenced or line != "```", f"{place}: say the block's language"
+                fenced = not fenced
+            elif not fenced:
+                assert not re.match(r" {4}(?!\$\$)\S", line), f"{place}: a formula in plain text: {line}"
 
 
 def test_images_exist_and_are_drawings(site: Path) -> None:
