@@ -7,6 +7,7 @@ file is flushed, so a resumed run writes what an uninterrupted one would have wr
 
 from __future__ import annotations
 
+import glob
 import math
 import time
 from collections.abc import Callable
@@ -19,6 +20,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import PartialResultError, SolverError, UsageError
 from lambda_core.domain.kinematics import epicyclic_ratio
+from lambda_core.results import hdf5
 from lambda_core.results.averages import COLUMNS, Interval, boundaries, finite, row
 from lambda_core.results.checkpoint import Checkpoint, Position
 from lambda_core.results.convergence import Window, revolutions_wanted, shortfalls, window
@@ -91,6 +93,7 @@ def resume(engine: Engine, provenance: Provenance, path: Path, *, report: Report
     status = result.status()
     if status.alive():
         raise ResultError(f"{path} is still being written by process {status.process['pid']}")
+    hdf5.sweep(path.absolute().parent, glob.escape(path.name))
     checkpoint = result.checkpoint()
     if checkpoint is None:  # killed before the first one: the beginning is as good
         return _begin(
@@ -98,13 +101,17 @@ def resume(engine: Engine, provenance: Provenance, path: Path, *, report: Report
         )
     position = checkpoint.position
     engine.restore(checkpoint.state)
-    start = result.integrals()[position.rows.records - 1]
-    known = list(result.revolutions()[: position.rows.revolutions])
+    records = result.integrals()[: position.rows.records]
+    start, known = records[-1], list(result.revolutions()[: position.rows.revolutions])
     if status.state == "finished" and not _left_to_do(provenance.model.solver, engine.time, known, start):
         raise UsageError(f"{path} is finished: nothing is left to do; a longer --duration continues it")
     status = replace(status, state="running", message="", rows=position.rows, process=this_process())
     writer = ResultWriter.continued(path, engine.channels, status)
-    return _Session(engine, provenance.model, writer, known, start, position, report).drive()
+    session = _Session(engine, provenance.model, writer, known, start, position, report)
+    # Convergence is looked at where a revolution ends: a run that was killed right behind that has nothing left to do.
+    if len(records) > 1 and known[-1][0] > records[-2][0]:
+        session.judge()
+    return session.drive()
 
 
 def _left_to_do(solver: Solver, now: float, known: list[FloatArray], last: FloatArray) -> bool:
@@ -189,11 +196,17 @@ class _Session:
             )
         return Result(self._writer.path)
 
+    def judge(self) -> None:
+        """Look whether the run has converged."""
+        self._converged = _converged(self._solver, self._known, self._last)
+
     def _loop(self, stop: StopRequest) -> tuple[State, str]:
         def pause() -> bool:  # a checkpoint between two records is as good as one behind them
             self._housekeeping()
             return bool(stop) or self._late()
 
+        if self._done() and self._engine.time > self._last[0]:
+            self._keep(math.inf)  # killed between its last checkpoint, which has no end off the grid, and its last word
         while not self._done():
             if stop:
                 return "interrupted", f"stopped by {stop.words()} at t = {self._engine.time:.6g} s"
@@ -217,7 +230,12 @@ class _Session:
         advance = engine.advance(min(target, self._end), pause)
         if advance.ok and engine.time <= before:
             advance = Advance(False, f"the engine does not get past t = {before:.9g} s")
-        record = row(engine.time, engine.integrals())
+        self._keep(target)
+        return advance
+
+    def _keep(self, target: float) -> None:
+        """Keep a record of now; `target` is the time of the grid that it stands for [s]."""
+        record = row(self._engine.time, self._engine.integrals())
         crossed = boundaries(self._last, record, len(self._known) - 1)
         self._writer.add_record(record, crossed)
         self._recent, self._last = Interval(self._last, record), record
@@ -226,8 +244,7 @@ class _Session:
             self._window = window(self._solver, np.stack(self._known), record)
             self._converged = bool(crossed) and _converged(self._solver, self._known, record)
         # An end between two records is none of the grid's: a longer run would not have stopped here.
-        self._off_grid = Rows(0, 1, len(crossed)) if engine.time < target else Rows()
-        return advance
+        self._off_grid = Rows(0, 1, len(crossed)) if self._engine.time < target else Rows()
 
     def _done(self) -> bool:
         if self._engine.time >= self._end:

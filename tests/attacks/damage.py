@@ -6,6 +6,7 @@ command that reads a damaged file. A damaged file may be refused or called damag
 
 from __future__ import annotations
 
+import math
 import random
 import shlex
 import shutil
@@ -22,8 +23,11 @@ from tests.attacks.trial import Outcome, Trial, attempt
 
 CASE = "6208-axial-1300"
 DURATION = "40 ms"  # of simulated time
-_RUN = ("run", CASE, "--set", f"solver.duration={DURATION}", "--out", "out.h5")
-_STOPPED = ("--max-wall", "60 ms")  # so that about half of it is left to do
+# Checkpoints in quick succession, so that many kills meet one that is being written.
+RUN = (
+    *("run", CASE, "--out", "out.h5"),
+    *("--set", f"solver.duration={DURATION}", "--set", "output.checkpoint_interval=20 ms"),
+)
 _WRITING = 1.2  # times the wall time that the run had its file open, within which it is killed
 _TRIES = 4  # at meeting a run that still goes on
 _LIMIT = 60.0  # [s] of wall time for any command on such a file
@@ -54,58 +58,73 @@ def _made(folder: Path, name: str, make: Callable[[Path], None]) -> Path:
     return place
 
 
-def _whole(folder: Path) -> Path:
+def _part(folder: Path) -> str:
+    """Return the name of the part that a trial's folder belongs to: each may run in a process of its own."""
+    return folder.name.partition("-")[0]
+
+
+def whole(folder: Path) -> Path:
     """Return the result of the run that nobody disturbed."""
-    return _made(folder, f"whole-{folder.name.split('-')[0]}", lambda place: _must(_RUN, place)) / "out.h5"
+    return _made(folder, f"whole-{_part(folder)}", lambda place: _must(RUN, place)) / "out.h5"
 
 
-def _half(folder: Path) -> Path:
-    """Return the result of the same run, stopped in the middle."""
-    return _made(folder, "half", lambda place: _must((*_RUN, *_STOPPED), place)) / "out.h5"
+def half(folder: Path) -> Path:
+    """Return the result of the same run, killed in the middle."""
+
+    def make(place: Path) -> None:
+        open_s = float((whole(folder).parent / "open").read_text(encoding="utf-8"))
+        for again in range(_TRIES):
+            (place / "out.h5").unlink(missing_ok=True)
+            if _kill(place, 0.4 * open_s / 2.0**again):
+                return
+        raise RuntimeError("no run could be killed in its middle")
+
+    return _made(folder, f"half-{_part(folder)}", make) / "out.h5"
 
 
 def _must(arguments: tuple[str, ...], place: Path) -> None:
     outcome = attempt(arguments, place, 2.0 * _LIMIT, watched=place / "out.h5")
-    if not outcome.good:
+    if outcome.verdict not in ("fine", "partial"):
         raise RuntimeError(f"{line(arguments)}: {outcome.verdict}: {outcome.said}")
     (place / "open").write_text(str(outcome.open_s), encoding="utf-8")
 
 
 def killed_run(seed: int, number: int, folder: Path) -> Said:
     """Kill a run while its file is open, go on, and compare every number with the run that nobody killed."""
-    whole = _whole(folder)
+    undisturbed = whole(folder)
     pick = random.Random(seed * 1_000_003 + number)
     file = folder / "out.h5"
-    longest = _WRITING * float((whole.parent / "open").read_text(encoding="utf-8"))
+    longest = _WRITING * float((undisturbed.parent / "open").read_text(encoding="utf-8"))
     for again in range(_TRIES):
         file.unlink(missing_ok=True)
         if killed := _kill(folder, pick.uniform(0.0, longest) / 2.0**again):
             break
     if not killed:
-        return Outcome("fine", said="every run was over before it could be killed"), line(_RUN), {"met": False}
+        return Outcome("fine", said="every run was over before it could be killed"), line(RUN), {"met": False}
     outcome = attempt(("resume", "out.h5"), folder, _LIMIT)
     over = outcome.verdict == "usage" and "is finished: nothing is left to do" in outcome.said
     if outcome.verdict not in ("fine", "partial") and not over:
         outcome = outcome.but("lost", "could not be gone on with") if outcome.good else outcome
-    elif wrong := differences(whole, file):
+    elif wrong := differences(undisturbed, file):
         outcome = outcome.but("different", f"not bit for bit: {', '.join(wrong)}")
-    elif left := _hidden(folder):
+    elif left := hidden(folder):
         outcome = outcome.but("litter", f"left behind: {', '.join(left)}")
-    return outcome, line(_RUN), {"met": True}
+    return outcome, line(RUN), {"met": True}
 
 
 def _kill(folder: Path, after_s: float) -> bool:
     """Start the run and kill it so long after it has opened its file [s]; tell whether it still went on."""
-    victim = Trial(_RUN, folder)
+    victim = Trial(RUN, folder)
     end = time.monotonic() + _LIMIT
     while not (folder / "out.h5").is_file() and time.monotonic() < end:
         time.sleep(0.001)
     time.sleep(after_s)
     victim.kill()
-    return victim.wait(1.0).verdict == "killed"
+    return victim.wait(math.inf).verdict == "killed"
 
 
-def _hidden(folder: Path) -> list[str]:
+def hidden(folder: Path) -> list[str]:
+    """Return the hidden files of a folder, which no command may leave behind."""
     return sorted(path.name for path in folder.iterdir() if path.name.startswith("."))
 
 
@@ -133,7 +152,7 @@ def corrupted(seed: int, number: int, folder: Path) -> Said:
     """Damage a result and ask for what it says: the same as before, or a word about the damage."""
     pick = random.Random(seed * 1_000_003 + number)
     arguments = pick.choice(_READS)
-    source = _half(folder) if arguments[0] == "resume" or pick.random() < 0.3 else _whole(folder)
+    source = half(folder) if arguments[0] == "resume" or pick.random() < 0.3 else whole(folder)
     before = _answers(source, folder, arguments)
     data = bytearray(source.read_bytes())
     _damage(data, pick)
@@ -163,7 +182,7 @@ def _answers(source: Path, folder: Path, arguments: tuple[str, ...]) -> Path:
         _must(arguments, place)
 
     name = sha256(repr((source.parent.name, arguments)).encode()).hexdigest()[:8]
-    return _made(folder, f"answers-{name}", make)
+    return _made(folder, f"answers-{_part(folder)}-{name}", make)
 
 
 def _what_differs(outcome: Outcome, arguments: tuple[str, ...], folder: Path, before: Path) -> str:
@@ -201,6 +220,6 @@ def race(seed: int, number: int, folder: Path) -> Said:
     shown = attempt(["show", str(folder / "out.h5")], folder / "show", _LIMIT)
     if bad is None and shown.verdict != "fine":
         bad = shown.but("torn", "the file of two runs is not whole") if shown.good else shown
-    if bad is None and (left := _hidden(folder)):
+    if bad is None and (left := hidden(folder)):
         bad = Outcome("litter", said=f"left behind: {', '.join(left)}")
     return bad or shown, line(arguments), {}

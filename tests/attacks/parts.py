@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tests.attacks import cases, damage, hostile
+from tests.attacks import cases, damage, disks, hostile
 from tests.attacks.damage import line
 from tests.attacks.record import Record
 from tests.attacks.trial import Outcome, attempt
@@ -41,6 +41,7 @@ PARTS = {
         Part("hostile", "one hostile value behind validation; studies; command lines", 10000, hostile_input),
         Part("kills", "runs killed with a file open, gone on with, compared bit for bit", 200, damage.killed_run),
         Part("corruption", "damaged results, shown, drawn and gone on with", 200, damage.corrupted),
+        Part("disks", "disks that are full and folders that are read-only, then room again", 200, disks.full_disk),
         Part("races", "two runs on one output", 20, damage.race),
     )
 }

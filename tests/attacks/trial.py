@@ -8,8 +8,10 @@ a parent that ends it when its time is over.
 from __future__ import annotations
 
 import gc
+import importlib
 import json
 import os
+import pkgutil
 import resource
 import select
 import signal
@@ -78,6 +80,7 @@ def warm() -> None:
 
     from lambda_core import api
 
+    load_everything()
     api.quasistatic("6208-axial-1300")
     for step in api.iterate(api.case("6208-axial-1300")):
         del step
@@ -89,6 +92,20 @@ def settle() -> None:
     """Leave what stands in memory to be shared by the trials: a collection in a child would copy it page by page."""
     gc.collect()
     gc.freeze()
+
+
+def load_everything() -> None:
+    """Import every module of the program, so that files that change meanwhile do not matter to a long campaign."""
+    import lambda_cli
+    import lambda_db
+    import lambda_plugins
+
+    import lambda_core
+
+    for package in (lambda_core, lambda_cli, lambda_db, lambda_plugins):
+        for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            if ".template" not in module.name and not module.name.endswith("__main__"):
+                importlib.import_module(module.name)
 
 
 class Trial:
@@ -106,6 +123,8 @@ class Trial:
         Called in the child before the command: limits, for example.
     watched : Path, optional
         A file; how long the command went on once it stood there is measured.
+    fresh : bool
+        Start Python anew, as a user does: what the parent has loaded and compiled does not help.
     """
 
     def __init__(
@@ -115,6 +134,7 @@ class Trial:
         environment: Mapping[str, str] | None = None,
         before: Callable[[], None] | None = None,
         watched: Path | None = None,
+        fresh: bool = False,
     ) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         self._folder, self._watched = folder, watched
@@ -125,7 +145,7 @@ class Trial:
         sys.stderr.flush()
         self.process = os.fork()
         if self.process == 0:
-            _live(arguments, folder, environment or {}, before)
+            _live(arguments, folder, environment or {}, before, fresh)
         self._handle = os.pidfd_open(self.process)
 
     def wait(self, limit_s: float) -> Outcome:
@@ -189,13 +209,18 @@ def attempt(
     environment: Mapping[str, str] | None = None,
     before: Callable[[], None] | None = None,
     watched: Path | None = None,
+    fresh: bool = False,
 ) -> Outcome:
     """Run a command line to its end; see :class:`Trial`."""
-    return Trial(arguments, folder, environment, before, watched).wait(limit_s)
+    return Trial(arguments, folder, environment, before, watched, fresh).wait(limit_s)
 
 
 def _live(
-    arguments: Sequence[str], folder: Path, environment: Mapping[str, str], before: Callable[[], None] | None
+    arguments: Sequence[str],
+    folder: Path,
+    environment: Mapping[str, str],
+    before: Callable[[], None] | None,
+    fresh: bool,
 ) -> None:
     """Be the child: run the command and leave, never to return."""
     code = 70
@@ -213,6 +238,8 @@ def _live(
         sys.stderr = open(2, "w", buffering=1, closefd=False)  # noqa: SIM115
         if before is not None:
             before()
+        if fresh:
+            os.execv(sys.executable, [sys.executable, "-P", "-m", "lambda_cli", *arguments])
         from lambda_cli.main import main
 
         code = main(list(arguments))
