@@ -26,6 +26,9 @@ def main() -> int:
     parser.add_argument("--count", type=int, help="trials per part; default: those of a full campaign")
     parser.add_argument("--minutes", type=float, default=1e6, help="wall time after which no new trial begins")
     parser.add_argument("--workers", type=int, default=1, help="parts that run side by side")
+    parser.add_argument(
+        "--share", type=_share, default=(1, 1), metavar="K/N", help="every N-th trial, from the K-th on"
+    )
     parser.add_argument("--folder", type=Path, default=DEFAULT_FOLDER, help="where outcomes and failures are kept")
     parser.add_argument("--write", action="store_true", help="write the figures into docs/reliability.md")
     options = parser.parse_args()
@@ -41,7 +44,9 @@ def main() -> int:
         deadline = time.monotonic() + 60.0 * options.minutes
         for name in names:
             part = parts.PARTS[name]
-            parts.run(part, options.seed, part.count if options.count is None else options.count, folder, deadline)
+            first, step = options.share
+            numbers = range(first - 1, part.count if options.count is None else options.count, step)
+            parts.run(part, options.seed, numbers, folder, deadline)
     text = page.figures({name: Record(folder, name) for name in names})
     print(text)
     if options.write:
@@ -51,6 +56,14 @@ def main() -> int:
         if all(entry.get("verdict") in trial.GOOD for name in names for entry in Record(folder, name).entries())
         else 1
     )
+
+
+def _share(text: str) -> tuple[int, int]:
+    """Read "2/3": the second of three processes that share the trials of a part."""
+    first, _, step = text.partition("/")
+    if not 1 <= int(first) <= int(step):
+        raise ValueError(text)
+    return int(first), int(step)
 
 
 def _side_by_side(names: list[str], options: argparse.Namespace) -> None:

@@ -27,7 +27,7 @@ from tests.attacks.written import toml
 WALL = 4.0  # limit of wall time that each case sets itself [s]
 OVER = 2.0  # by which it may be passed, measured from when the result file is there to the end of the process [s]
 ENERGY = 1e-3  # |energy residual| that a usable result may have
-LONGER = 20.0  # limit of wall time with which such a case is gone on with [s]
+LONGER = 45.0  # limit of wall time with which such a case is gone on with [s]
 _START = 60.0  # for start, equilibrium and a busy machine, beyond which a trial hangs [s]
 _SLOWEST = 10.0  # speed of a sensible case [rpm]
 _TURN = 0.999  # of the cage; the last record may end within the last step

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -53,11 +53,11 @@ def _commit() -> str:
     return subprocess.run(command, cwd=Path(__file__).parent, capture_output=True, text=True).stdout.strip()
 
 
-def run(part: Part, seed: int, count: int, folder: Path, deadline: float) -> None:
+def run(part: Part, seed: int, numbers: Iterable[int], folder: Path, deadline: float) -> None:
     """Do the trials of a part that are not recorded yet, until all are done or the clock says stop."""
     record, commit = Record(folder, part.name), _commit()
     done = record.done()
-    for number in range(count):
+    for number in numbers:
         if number in done or time.monotonic() > deadline:
             continue
         place = folder / "work" / f"{part.name}-{number}"
