@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 import tomllib
 from collections.abc import Mapping
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import tomlkit
+from tomlkit.items import Array, Trivia
 from tomlkit.toml_document import TOMLDocument
 
 from lambda_core.case.builtin import builtin_cases, builtin_text
@@ -20,6 +22,7 @@ from lambda_core.case.signals import Table as TimeTableFile
 from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.domain.files import check_target
 
+_PLAIN = re.compile(r"[\w .+/-]*", re.ASCII)  # texts without anything to escape
 _INLINE_KEYS = frozenset({"kind", "mode", "points"})  # small tables that read best on one line
 
 
@@ -36,9 +39,7 @@ def case_toml(case: Case, original: str | None = None) -> str:
     """
     written = case.written()
     if original is None:
-        document = tomlkit.document()
-        _fill(document, written)
-        return tomlkit.dumps(document)
+        return _fresh(written)
     try:
         before = parse_case(original, folder=case.folder).written()
     except CaseError:
@@ -50,7 +51,13 @@ def case_toml(case: Case, original: str | None = None) -> str:
 
 def standalone_toml(case: Case) -> str:
     """Write a case that needs no other file: CSV tables become points in the text."""
-    return case_toml(Case.model_validate(_inlined(case, case.written()), context={"folder": case.folder}))
+    return _fresh(_inlined(case, case.written()))
+
+
+def _fresh(tables: Mapping[str, Any]) -> str:
+    document = tomlkit.document()
+    _fill(document, tables)
+    return tomlkit.dumps(document)
 
 
 def tables_toml(tables: Mapping[str, Any], original: str = "") -> str:
@@ -152,17 +159,30 @@ def _item(value: Any) -> Any:
         table: Any = tomlkit.inline_table() if _is_inline(value) else tomlkit.table(is_super_table=_only_tables(value))
         _fill(table, value)
         return table
+    return _List(value) if isinstance(value, list) else tomlkit.item(value)
+
+
+class _List(Array):
+    """A list that is written at once: the library's own takes time with the square of its length."""
+
+    def __init__(self, values: list[Any]) -> None:
+        super().__init__([], Trivia())
+        self._text = _inline(values)
+
+    def as_string(self) -> str:
+        """Return the text."""
+        return self._text
+
+
+def _inline(value: Any) -> str:
+    """Write a value on one line."""
     if isinstance(value, list):
-        array = tomlkit.array()
-        for entry in value:
-            if isinstance(entry, Mapping):
-                inline = tomlkit.inline_table()
-                inline.update(entry)
-                array.append(inline)
-            else:
-                array.append(entry)
-        return array
-    return tomlkit.item(value)
+        return f"[{', '.join(map(_inline, value))}]"
+    if isinstance(value, Mapping):
+        return f"{{{', '.join(f'{tomlkit.key(name).as_string()} = {_inline(item)}' for name, item in value.items())}}}"
+    if isinstance(value, str) and _PLAIN.fullmatch(value):
+        return f'"{value}"'
+    return str(tomlkit.item(value).as_string())
 
 
 def _only_tables(value: Mapping[str, Any]) -> bool:

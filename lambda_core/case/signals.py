@@ -20,6 +20,8 @@ from lambda_core.domain.files import read_text
 from lambda_core.domain.units import Angle, Frequency, Quantity, Time, parse
 
 V = TypeVar("V")
+_MOST_POINTS, _LARGEST_TABLE = 100_000, 16 * 2**20  # points, byte
+_MOST_TERMS = 1000  # of a sum: each is evaluated at every step
 SIGNAL_KINDS = ("constant", "ramp", "harmonic", "table", "sum")
 
 
@@ -82,6 +84,8 @@ class Table(TimeTable, Generic[V]):
         if (self.points is None) == (self.file is None):
             raise ValueError("give either points or file")
         if self.points is not None:
+            if len(self.points) > _MOST_POINTS:
+                raise ValueError(f"{len(self.points)} points, at most {_MOST_POINTS}")
             rows = tuple((time, float(value)) for time, value in self.points)  # type: ignore[arg-type]
         else:
             folder = Path((info.context or {}).get("folder") or ".")
@@ -129,10 +133,19 @@ class Sum(TimeTable, Generic[V]):
             | Annotated[Table[V], Tag("kind:table")],
             Discriminator(_kind),
         ]
-    ] = option(description="values and tables that are added", min_length=1)
+    ] = option(description=f"values and tables that are added, {_MOST_TERMS} at most", min_length=1)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _count(cls, data: Any) -> Any:
+        terms = data.get("terms") if isinstance(data, dict) else None
+        if isinstance(terms, list) and len(terms) > _MOST_TERMS:
+            raise ValueError(
+                f"{len(terms)} terms, at most {_MOST_TERMS}: each is evaluated at every step; write a table of points"
+            )
+        return data
 
 
-_MOST_POINTS, _LARGEST_TABLE = 100_000, 16 * 2**20  # points, byte
 _HEADER = re.compile(r"^\s*(.*?)\s*\[\s*(.*?)\s*\]\s*$")
 
 

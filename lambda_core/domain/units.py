@@ -11,6 +11,7 @@ import math
 import re
 from dataclasses import dataclass
 from decimal import Decimal
+from functools import cache, lru_cache
 from typing import Annotated, Any
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -76,6 +77,7 @@ _GROUPED = re.compile(
 )
 
 
+@lru_cache(maxsize=256)
 def _spelling(unit: str) -> str:
     """Fold the spellings people use for one unit (micro sign, dots, superscripts, spaces)."""
     table = str.maketrans({"µ": "u", "μ": "u", "·": " ", "*": " ", "²": "2", "³": "3", "°": "deg"})
@@ -142,12 +144,7 @@ def parse(text: object, quantity: str) -> float:
         close = nearest(unit, units)
         hint = f"; did you mean {close[0]}?" if close else ""
         raise ValueError(f'"{text}": {unit} is not a unit of {quantity}; allowed: {", ".join(units)}{hint}')
-    # Decimal arithmetic rounds once: "0.1 um" is 1e-07, not 9.999999999999999e-08.
-    try:
-        exact = Decimal(match[1]) * Decimal(repr(units[unit]))
-        value = float(exact + _ZERO_CELSIUS if quantity == "temperature" and unit == "degC" else exact)
-    except ArithmeticError:
-        value = math.inf
+    value = _to_si(match[1], quantity, unit)
     if not math.isfinite(value):
         raise ValueError(f'"{text}" is not a finite number')
     if quantity == "temperature" and value <= 0.0:
@@ -155,14 +152,27 @@ def parse(text: object, quantity: str) -> float:
     return value
 
 
+@cache
+def _factor(quantity: str, unit: str) -> Decimal:
+    return Decimal(repr(UNITS[quantity][unit]))
+
+
+def _to_si(number: str, quantity: str, unit: str) -> float:
+    """Convert the digits of a number; Decimal arithmetic rounds once: "0.1 um" is 1e-07, not 9.999999999999999e-08."""
+    try:
+        exact = Decimal(number) * _factor(quantity, unit)
+        return float(exact + _ZERO_CELSIUS if quantity == "temperature" and unit == "degC" else exact)
+    except ArithmeticError:
+        return math.inf
+
+
 def from_si(value: float, quantity: str, unit: str | None = None) -> float:
     """Convert an SI float to `unit` (default: the first of the quantity)."""
-    units = UNITS[quantity]
-    unit = unit or next(iter(units))
+    unit = unit or next(iter(UNITS[quantity]))
     exact = Decimal(repr(float(value)))
     if quantity == "temperature" and unit == "degC":
         return float(exact - _ZERO_CELSIUS)
-    return float(exact / Decimal(repr(units[unit])))
+    return float(exact / _factor(quantity, unit))
 
 
 def show(value: float, quantity: str, digits: int | None = None) -> str:
@@ -179,20 +189,13 @@ def show(value: float, quantity: str, digits: int | None = None) -> str:
         if not math.isfinite(converted):
             continue
         for number in (f"{converted:.12g}", repr(converted)):
-            if _reads_back(f"{number} {unit}", quantity, value):
+            if _to_si(number, quantity, unit) == value:
                 handy = value == 0.0 or 0.1 <= abs(converted) < 1000.0 or quantity == "temperature"
                 spellings.append((len(number) > 9, not handy, f"{number} {unit}"))
                 break
     if not spellings:
         raise ValueError(f"{value!r} has no exact spelling as a {quantity}")
     return min(spellings, key=lambda spelling: spelling[:2])[2]
-
-
-def _reads_back(text: str, quantity: str, value: float) -> bool:
-    try:
-        return parse(text, quantity) == value
-    except ValueError:  # rounding at the end of the floats' range
-        return False
 
 
 # Quantities that people read in one unit, whatever the magnitude.

@@ -229,19 +229,18 @@ def check_bodies(case: Case, ledger: Ledger) -> None:
     if inner.spin.mode == "free" and any(term.kind != "constant" for term in speed.terms):
         ledger.problem("operation.speed", "where the spin is free this is the initial speed: write one value")
     if not case.depth.cage:
-        written = case.written()
         for where, there in (
             ("loads.cage", case.loads.cage is not None),
             ("models.cage_contact", case.models.cage_contact is not None),
             ("parameters.cage_contact", "cage_contact" in case.parameters),
-            *((f"forces.{e}", e in written.get("forces", {})) for e in ("ball_cage", "cage_inner", "cage_outer")),
+            *((f"forces.{e}", e in case.forces.model_fields_set) for e in ("ball_cage", "cage_inner", "cage_outer")),
             *((f"markers.{name}", marker.body == "cage") for name, marker in case.markers.items()),
         ):
             if there:
                 ledger.problem(
                     where, "contradicts depth.cage = false: there is no cage (forces.ball_ball is between the balls)"
                 )
-    elif "ball_ball" in case.written().get("forces", {}):
+    elif "ball_ball" in case.forces.model_fields_set:
         ledger.problem("forces.ball_ball", "balls touch each other only without a cage: it needs depth.cage = false")
     _check_locked_loads(case, ledger)
     _say_free_tilt(case, ledger)

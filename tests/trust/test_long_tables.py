@@ -1,0 +1,65 @@
+"""Long tables and sums of time functions: quick, or refused with a limit that is stated."""
+
+from __future__ import annotations
+
+import time
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from lambda_core import api
+from lambda_core.case.case_writer import standalone_toml, tables_toml
+from lambda_core.domain.errors import CaseError
+
+CASE = "6208-axial-1300"
+
+
+def case_with(signal: dict[str, Any], folder: Path) -> Path:
+    """Write a case with this force on its inner ring."""
+    tables = tomllib.loads(api.init_case("long", CASE, folder / "case.toml").read_text(encoding="utf-8"))
+    tables["loads"]["inner_ring"] = {"force_x": signal}
+    path = folder / "long.toml"
+    path.write_text(tables_toml(tables), encoding="utf-8")
+    return path
+
+
+def points(count: int) -> list[list[str]]:
+    return [[f"{0.1 * number:.6g} ms", f"{100 + number % 7} N"] for number in range(count)]
+
+
+def test_c3_a_long_table_is_checked_in_seconds(tmp_path: Path) -> None:
+    """20 000 points in the case itself: time with the square of the number was minutes."""
+    path = case_with({"kind": "table", "points": points(20_000)}, tmp_path)
+    start = time.process_time()
+    model = api.resolve(api.case(path))
+    assert time.process_time() - start < 8.0
+    assert tomllib.loads(model.case_toml)["loads"]["inner_ring"]["force_x"]["points"][-1] == ["1.9999 s", "100 N"]
+
+
+@pytest.mark.parametrize(
+    ("signal", "words"),
+    [
+        ({"kind": "sum", "terms": ["1 N"] * 20_000}, "20000 terms, at most 1000"),
+        ({"kind": "table", "points": points(100_001)}, "100001 points, at most 100000"),
+    ],
+)
+def test_c3_what_is_too_long_is_refused_with_its_limit(signal: dict[str, Any], words: str, tmp_path: Path) -> None:
+    path = case_with(signal, tmp_path)
+    start = time.process_time()
+    with pytest.raises(CaseError, match=words) as caught:
+        api.check(path)
+    assert time.process_time() - start < 8.0
+    assert [problem.where for problem in caught.value.problems] == ["loads.inner_ring.force_x"]
+
+
+def test_lists_are_written_as_toml_reads_them(tmp_path: Path) -> None:
+    texts = ['a "quoted" \\ text', "tab\tand line\n", "\x7f \u20ac", ""]
+    terms: list[Any] = ["1 N", {"kind": "table", "points": points(3)}]
+    case = api.case(case_with({"kind": "sum", "terms": terms}, tmp_path)).with_(assumptions=texts)
+    found = tomllib.loads(standalone_toml(case))
+    assert found["assumptions"] == texts
+    assert found["loads"]["inner_ring"]["force_x"]["terms"] == [
+        "1 N", {"kind": "table", "points": [["0 s", "100 N"], ["0.1 ms", "101 N"], ["0.2 ms", "102 N"]]}
+    ]  # fmt: skip
