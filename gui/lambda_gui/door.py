@@ -20,6 +20,15 @@ from textual_serve.server import Server
 
 MOST_SOCKETS = 4  # builders at once, two processes each
 _FROM_OUTSIDE = re.compile(r"<link[^>]*https?://[^>]*>")
+# The keyboard belongs to the builder from the start, and again when its tab comes to the front: keys would do what the
+# browser does with them, F5 load the page anew.
+_KEYBOARD = """<script>
+const keys = () => document.querySelector("textarea");
+const waiting = setInterval(() => {
+  if (keys() && document.body.classList.contains("-first-byte")) { keys().focus(); clearInterval(waiting); }
+}, 100);
+addEventListener("focus", () => keys()?.focus());
+</script></body>"""
 Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 
@@ -99,7 +108,7 @@ class LockedServer(Server):  # type: ignore[misc, unused-ignore]
         """Serve the page, with addresses under the name that the browser asked for and nothing from other places."""
         self.public_url = f"{request.scheme}://{request.host}"
         page: Any = await super().handle_index(request)
-        page.text = _FROM_OUTSIDE.sub("", page.text)
+        page.text = _FROM_OUTSIDE.sub("", page.text).replace("</body>", _KEYBOARD)
         return page
 
     async def handle_websocket(self, request: web.Request) -> web.WebSocketResponse:

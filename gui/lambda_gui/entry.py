@@ -75,12 +75,22 @@ class Completion(Suggester):
 
 
 class Entry(Input):
-    """One line of text; a number takes its unit when the entry is left or Enter is pressed."""
+    """One line of text; a number takes its unit when the entry is left or Enter is pressed.
+
+    What stands there is selected when the keyboard comes: what is typed takes its place.
+    """
 
     def __init__(self, card: FieldCard, names: Callable[[], Sequence[str]] | None = None) -> None:
-        super().__init__(compact=True, suggester=Completion(card.units, names), select_on_focus=False)
+        super().__init__(compact=True, suggester=Completion(card.units, names))
         self._card = card
         self._names = names
+
+    def begin(self, letter: str) -> None:
+        """Take the keyboard with the first letter of a new value."""
+        self.select_on_focus = False  # until the entry is left: what follows belongs to that letter
+        self.focus()
+        self.value = letter
+        self.cursor_position = len(letter)
 
     def complete(self) -> None:
         """Write out the unit, or the name that is meant but for capitals."""
@@ -100,3 +110,4 @@ class Entry(Input):
     def on_blur(self) -> None:
         """Complete what was typed."""
         self.complete()
+        self.select_on_focus = True

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from pydantic import BaseModel
+from textual import events
 from textual.app import ComposeResult
 from textual.containers import Horizontal, Vertical
 from textual.widget import Widget
@@ -22,6 +23,7 @@ from lambda_gui.fields import LinesRow, row_for
 from lambda_gui.places import Option, Part
 from lambda_gui.rows import Left, Surroundings
 
+_BEGINS_A_NUMBER = "0123456789.+-"
 _SIGNALS = {
     "value": "the same at all times",
     "constant": "the same at all times, written as a table",
@@ -120,6 +122,14 @@ class SignalRow(Branch):
             Button("remove the last", id="drop-term", compact=True, disabled=len(terms) < 2),
             classes="buttons",
         )
+
+    def on_key(self, event: events.Key) -> None:
+        """Let a number that is typed on the kind be the beginning of the value."""
+        if event.character and event.character in _BEGINS_A_NUMBER and self.query_one(Choice).has_focus:
+            entry = next((entry for entry in self.query(Entry) if entry.display), None)
+            if entry is not None:
+                event.stop()
+                entry.begin(event.character)
 
     def on_choice_changed(self, event: Choice.Changed) -> None:
         """Write the new kind with what the old one has for it."""

@@ -18,7 +18,7 @@ from typing import Any
 import aiohttp
 from rich.cells import cell_len
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 # Name -> what a terminal sends, and what a browser's key event carries
 KEYS: dict[str, tuple[str, dict[str, Any]]] = {
     "enter": ("\r", {"key": "Enter", "windowsVirtualKeyCode": 13, "text": "\r"}),
@@ -130,6 +130,15 @@ class Chromium(Browser):
                 assert "error" not in answer, answer
                 return dict(answer["result"])
 
+    async def until_it_has_the_keyboard(self, seconds: float = 20.0) -> None:
+        """Wait until keys go to the terminal of the page, of its own accord."""
+        async with asyncio.timeout(seconds):
+            while True:
+                found = await self.ask("Runtime.evaluate", expression="document.activeElement.tagName")
+                if found["result"]["value"] == "TEXTAREA":
+                    return
+                await asyncio.sleep(0.1)
+
     async def press(self, key: str) -> None:
         """Press a key."""
         event = KEYS[key][1]
@@ -188,7 +197,7 @@ async def chromium(address: str, folder: Path) -> AsyncIterator[Browser]:
                 await browser.ask("Network.enable")
                 await browser.ask("Page.navigate", url=address)
                 await browser.until("which case?")
-                await browser.ask("Runtime.evaluate", expression="document.querySelector('textarea').focus()")
+                await browser.until_it_has_the_keyboard()
                 yield browser
         drain.cancel()
     finally:

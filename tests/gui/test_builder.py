@@ -24,6 +24,7 @@ from driving import (
 from lambda_gui import recovery
 from lambda_gui.app import BuilderApp
 from lambda_gui.checking import Checker
+from lambda_gui.choice import Choice
 from lambda_gui.dialogs import Ask
 from lambda_gui.help import HelpScreen
 from lambda_gui.tree import ModelTree
@@ -115,6 +116,30 @@ async def test_a_load_over_time(hand_written: Path) -> None:
         await checked(pilot)
         assert draft.get("loads", "radial", "end_time") == "20 ms"
         assert not builder(pilot).check.problems
+
+
+async def test_a_number_typed_on_the_kind_of_a_load_is_its_value(hand_written: Path) -> None:
+    """Arrow keys meet the kind first; what is typed replaces what stood there, in one go from either."""
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        draft = builder(pilot).draft
+        await find(pilot, "loads.radial")
+        await write(pilot, "2.5 k")
+        await pilot.press("enter")
+        assert draft.get("loads", "radial") == "2.5 kN"
+        await find(pilot, "loads.axial")
+        await pilot.press("shift+tab")
+        await write(pilot, "0.5 k")
+        await pilot.press("enter")
+        assert draft.get("loads", "axial") == "0.5 kN"
+        await find(pilot, "loads.radial")
+        await pilot.press("shift+tab", "enter", "down", "enter")  # value, ramp
+        await wait_for(pilot, lambda: draft.get("loads", "radial", "end") == "2.5 kN")
+        await find(pilot, "loads.radial")
+        assert isinstance(pilot.app.focused, Choice)
+        await write(pilot, "12")
+        await pilot.press("enter")
+        assert draft.get("loads", "radial", "start") == "12 N"
 
 
 async def test_a_sum_of_loads_and_a_table_of_points(hand_written: Path) -> None:

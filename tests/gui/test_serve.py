@@ -137,6 +137,14 @@ async def build_and_run(browser: Browser) -> None:
     await browser.until("untitled.toml", without="unsaved")
     await browser.press("f5")
     await browser.until("✔  untitled", seconds=200.0)
+    await browser.press("enter")
+    await browser.until("power loss")  # the summary
+    await browser.press("down")
+    await browser.until("over azimuth")  # the first view
+    await browser.write("t")
+    await browser.until("report into the file")
+    await browser.press("enter")
+    await browser.until("untitled.html", seconds=90.0)
 
 
 def saw_to_it(folder: Path) -> None:

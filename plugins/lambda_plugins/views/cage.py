@@ -10,6 +10,7 @@ from lambda_core.plugins import Axis, FloatArray, Mark, NotApplicable, Options, 
 from lambda_plugins.views.azimuth import AZIMUTH
 from lambda_plugins.views.common import BODY, averaging, number, over_azimuth, require_cage, source, speeds, trace
 
+_SMALL = 0.5  # of the clearance: an orbit below is shown once more, enlarged
 _WHIRL_WINDOW = 0.1  # cage revolutions over which the whirl speed is averaged
 
 
@@ -39,6 +40,7 @@ def cage_orbit(run: RunData, options: Options) -> ViewData:
     path = trace("centre of the cage", away[:, 0], away[:, 1], "cage")
     end = Series("end state", away[-1:, 0], away[-1:, 1], "points", "total")
     series = [path, end]
+    close = _close_up(path, end, 1e6 * radius)
     if math.isfinite(radius):
         series.append(Series(name, *_circle(1e6 * radius), "line", "reference"))
     kinematic = speeds(run, span).cage
@@ -48,6 +50,7 @@ def cage_orbit(run: RunData, options: Options) -> ViewData:
     whirl = _whirl(time, away, spin)
     panels = (
         Panel("orbit of the centre", Axis("y", "um"), Axis("z", "um"), tuple(series), shape="plane"),
+        *close,
         Panel("whirl", Axis("time", "ms"), Axis("whirl speed over cage speed"), whirl, (Mark("in step", 1.0),)),
         Panel("cage speed", Axis("time", "ms"), Axis("over kinematic speed"), (ratio,), (Mark("no slip", 1.0),)),
     )
@@ -57,6 +60,16 @@ def cage_orbit(run: RunData, options: Options) -> ViewData:
         f"kinematic cage speed {kinematic * 30.0 / math.pi:.5g} rpm",
     )
     return ViewData("cage-orbit", "Orbit and whirl of the cage", source(run), panels, 2, notes)
+
+
+def _close_up(path: Series, end: Series, radius: float) -> tuple[Panel, ...]:
+    """Return the orbit alone where it is small beside the circle [um] of the clearance."""
+    size = max(float(np.ptp(path.x)), float(np.ptp(path.y)))
+    if not math.isfinite(radius) or size > _SMALL * 2.0 * radius:
+        return ()
+    return (
+        Panel("orbit, close up", Axis("y", "um", least=0.01), Axis("z", "um", least=0.01), (path, end), shape="plane"),
+    )
 
 
 def _whirl(time: FloatArray, away: FloatArray, spin: FloatArray) -> tuple[Series, ...]:

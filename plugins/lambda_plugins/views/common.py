@@ -156,6 +156,7 @@ class Speeds:
             "FTF": orders.cage * turns,
             "shaft": turns,
             "BSF": orders.ball_spin * turns,
+            "2 BSF": 2.0 * orders.ball_spin * turns,
             "BPFO": orders.outer_pass * turns,
             "BPFI": orders.inner_pass * turns,
         }

@@ -64,6 +64,8 @@ def contact_map(run: RunData, options: Choice) -> ViewData:
         f"ball {ball + 1}, {options.ring} ring, azimuth {math.degrees(sample['ball_azimuth'][ball]) % 360.0:.1f} deg, "
         f"t = {1e3 * float(sample['time']):.5g} ms (sample {row}): load {found.load:.5g} N, "
         f"{found.semi_axis_a * 2e3:.3g} x {found.semi_axis_b * 2e3:.3g} mm, loss {found.loss:.3g} W",
+        f"not to one scale: the ellipse is {found.semi_axis_a / found.semi_axis_b:.2g} times as wide across rolling as "
+        "along it",
         f"{_STRIPS} x {_ROWS} cells; arrows: velocity of the ball over the ring; dashed: no slip along rolling",
         "film: uniform under load, as the film laws give it; around it the gap of Hertz's surfaces above the film",
         "the speed at which the ring tilts is not recorded and left out",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from lambda_core.domain.channels import DIMENSIONS
@@ -10,6 +12,7 @@ from lambda_plugins.views.common import BODY, averaging, source, spectrum, speed
 
 _FLOOR = 1e-5  # of the largest amplitude: what is shown at most
 _WIDTH = 3.5  # times the highest characteristic frequency
+_TURNS = 2.0  # of the shaft, the last ones: what stands out of the orbit
 _STILL = 1e-12  # [m] below this a ring does not move
 
 
@@ -21,8 +24,10 @@ def ring_orbit(run: RunData, options: Options) -> ViewData:
     place = 1e6 * run["body_position"][rows, BODY["inner"]]
     mean = place.mean(axis=0)
     away = place - mean
+    last = _last_turns(run, rows)
     orbit = (
-        trace("centre of the inner ring", away[:, 1], away[:, 2], "inner"),
+        trace("whole span", away[:, 1], away[:, 2], "reference"),
+        trace(f"last {_TURNS:g} turns", away[last:, 1], away[last:, 2], "inner"),
         Series("end state", away[-1:, 1], away[-1:, 2], "points", "total"),
     )
     motion = tuple(
@@ -36,8 +41,18 @@ def ring_orbit(run: RunData, options: Options) -> ViewData:
         Panel("over time", Axis("time", "ms"), Axis("displacement from the mean", "um", least=0.01), motion),
     )
     places = ", ".join(f"{axis} {value:.4g}" for axis, value in zip(DIMENSIONS["axis"], mean, strict=True))
-    notes = (f"over {span.words}; mean place: {places} um", "x along the shaft, y horizontal, z up")
+    notes = (
+        f"over {span.words}; mean place: {places} um; a sample every {1e3 * np.diff(time).mean():.3g} us",
+        "x along the shaft, y horizontal, z up",
+    )
     return ViewData("ring-orbit", "Orbit of the inner ring", source(run), panels, 2, notes)
+
+
+def _last_turns(run: RunData, rows: slice) -> int:
+    """Return the first row, within a span, of the last turns of the rings against each other."""
+    spin = run["body_spin_angle"][rows]
+    turned = np.abs(spin[:, BODY["inner"]] - spin[:, BODY["outer"]]) / (2.0 * np.pi)
+    return int(np.searchsorted(turned, turned[-1] - _TURNS)) if turned[-1] > turned[0] else 0
 
 
 def ring_spectrum(run: RunData, options: Options) -> ViewData:
@@ -57,19 +72,25 @@ def ring_spectrum(run: RunData, options: Options) -> ViewData:
         raise NotApplicable("the inner ring does not move in the averaging window")
     top = max(float(s.y.max()) for s in series)
     series = [s for s in series if s.y.max() > _FLOOR * top]
-    panel = Panel(
-        "",
-        Axis("frequency", "Hz", low=0.0, high=limit or None),
-        Axis("amplitude", "um", log=True, low=_FLOOR * top, high=3.0 * top),
-        tuple(series),
-        tuple(Mark(name, value, "x") for name, value in marks.items() if value > 0.0),
+    lines = tuple(Mark(name, value, "x") for name, value in marks.items() if value > 0.0)
+    panels = tuple(
+        Panel(
+            f"along {one.name}",
+            Axis("frequency", "Hz", low=0.0, high=limit or None),
+            Axis("amplitude", "um", log=True, low=_FLOOR * top, high=3.0 * top),
+            (replace(one, unlisted=True),),
+            lines,
+        )
+        for one in series
     )
+    step = series[0].x[1] - series[0].x[0]
     values = ", ".join(f"{name} {value:.4g}" for name, value in marks.items())
     notes = (
-        f"Hann window over {span.words}; x along the shaft, y horizontal, z up",
+        f"Hann window over {span.words}; x along the shaft, y horizontal, z up; a point every {step:.3g} Hz: "
+        "longer runs tell more (solver.average_revolutions)",
         f"characteristic frequencies of rolling without slip [Hz]: {values}",
     )
-    return ViewData("ring-spectrum", "Spectrum of the inner ring's motion", source(run), (panel,), 1, notes)
+    return ViewData("ring-spectrum", "Spectrum of the inner ring's motion", source(run), panels, 1, notes)
 
 
 _ORDERS = "Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 1, ch. 10"
