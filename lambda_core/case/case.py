@@ -62,6 +62,10 @@ class Case(Section):
 
     __hash__ = None  # type: ignore[assignment]
 
+    def __dir__(self) -> list[str]:
+        """Return the names that a notebook completes: sections, and what a case can do."""
+        return sorted({*type(self).model_fields, "folder", "written", "with_"})
+
     def written(self) -> dict[str, Any]:
         """Return what stands in the case's file: plain tables with unit strings, no defaults."""
         return self.model_dump(mode="json", exclude_unset=True, exclude_none=True)

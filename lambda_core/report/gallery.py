@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict
 
 from lambda_core.discovery.registry import Registry
+from lambda_core.discovery.shown import data_of
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.files import check_target
 from lambda_core.views.chart import ViewData
@@ -18,7 +19,6 @@ from lambda_core.views.view import Subject, View
 
 FORMATS = ("svg", "png", "pdf")
 _RESOLUTION = 160  # of PNG [dots per inch]
-_WORDS = {"result": "one result", "results": "several results", "study": "a study"}
 
 
 class OptionCard(BaseModel):
@@ -61,56 +61,6 @@ def cards(registry: Registry, subject: Subject | None = None) -> list[ViewCard]:
         for view in registry.views.values()
         if subject in (None, view.subject)
     ]
-
-
-def view_of(registry: Registry, name: str, subject: Subject) -> View:
-    """Return a view by name.
-
-    Raises
-    ------
-    UsageError
-        When there is no such view, or it looks at something else.
-    """
-    fitting = [view.name for view in registry.views.values() if view.subject == subject]
-    if name not in registry.views:
-        raise UsageError(unknown_name("view", name, fitting))
-    view = registry.view(name)
-    if view.subject != subject:
-        raise UsageError(
-            f'the view "{name}" looks at {_WORDS[view.subject]}, this is {_WORDS[subject]}; '
-            f"for it there are: {', '.join(fitting)}"
-        )
-    return view
-
-
-def data_of(view: View, subject: Any, options: Mapping[str, Any]) -> ViewData:
-    """Return the data of a view.
-
-    Parameters
-    ----------
-    subject : object
-        What the view looks at: a run, a sequence of runs, or the table of a study.
-    options : mapping
-        Options by name; text is converted.
-
-    Raises
-    ------
-    UsageError
-        For an option that does not exist or takes no such value.
-    NotApplicable
-        When the view has nothing to show.
-    """
-    known = view.options.model_fields
-    for name in options:
-        if name not in known:
-            raise UsageError(f"view {view.name}: {unknown_name('option', name, known)}")
-    try:
-        chosen = view.options.model_validate(dict(options))
-    except ValidationError as error:
-        first = error.errors()[0]
-        name = ".".join(str(part) for part in first["loc"])
-        raise UsageError(f'view {view.name}: {name} = "{first["input"]}": {first["msg"]}') from None
-    return view.data(subject, chosen)
 
 
 def every(registry: Registry, subject: Any, kind: Subject) -> Iterator[tuple[View, ViewData | NotApplicable]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from lambda_core.report.gallery import ViewCard
-    from lambda_core.results.reader import Result
     from lambda_core.views.chart import ViewData
     from lambda_core.views.view import Subject
 
@@ -38,7 +38,7 @@ def views(subject: Subject | None = None) -> list[ViewCard]:
 
 
 def view(
-    source: str | Path | Result | Sequence[str | Path | Result], name: str, options: Mapping[str, Any] | None = None
+    source: str | PathLike[str] | Sequence[str | PathLike[str]], name: str, options: Mapping[str, Any] | None = None
 ) -> ViewData:
     """Return what one view shows, as data with units.
 
@@ -64,14 +64,14 @@ def view(
         When there is nothing to show; the sentence says why.
     """
     from lambda_core.discovery.manager import registry
-    from lambda_core.report.gallery import data_of, view_of
+    from lambda_core.discovery.shown import data_of, view_of
 
     subject, kind = subject_of(source)
     return data_of(view_of(registry(), name, kind), subject, options or {})
 
 
 def view_all(
-    source: str | Path | Result | Sequence[str | Path | Result],
+    source: str | PathLike[str] | Sequence[str | PathLike[str]],
 ) -> Iterator[tuple[str, ViewData | LambdaError]]:
     """Show every view of a source, one after the other.
 
@@ -128,13 +128,13 @@ def draw(data: ViewData, folder: str | Path, stem: str, formats: Sequence[str] =
     return write(registry(), data, Path(folder), stem, formats)
 
 
-def view_stem(source: Sequence[str | Path]) -> str:
+def view_stem(source: Sequence[str | PathLike[str]]) -> str:
     """Return the beginning of file names for pictures of these results.
 
     Parameters
     ----------
     source : sequence of path-like
-        Result files, or the folder of one study.
+        Results or their files, or the folder of one study.
 
     Returns
     -------
@@ -146,7 +146,7 @@ def view_stem(source: Sequence[str | Path]) -> str:
 
 
 def animate(
-    source: str | Path,
+    source: str | PathLike[str],
     out: str | Path | None = None,
     *,
     turns: float = 1.0,
@@ -161,7 +161,7 @@ def animate(
     Parameters
     ----------
     source : path-like
-        A result file.
+        A result or its file.
     out : path-like, optional
         File whose ending says the format: ``.gif``, ``.mp4`` (with the extra ``animation``) or ``.glb``; default: the
         name of the source with ``.gif`` in the working directory.
@@ -201,13 +201,13 @@ def animate(
     return write_animation(registry(), scene, path, fps, progress)
 
 
-def report(source: str | Path, out: str | Path | None = None, *, overwrite: bool = False) -> Path:
+def report(source: str | PathLike[str], out: str | Path | None = None, *, overwrite: bool = False) -> Path:
     """Write one self-contained, printable HTML page about a run or a study.
 
     Parameters
     ----------
     source : path-like
-        A result file or the folder of a study.
+        A result or its file, or the folder of a study.
     out : path-like, optional
         Default: the name of the source with ``.html`` in the working directory.
     overwrite : bool
@@ -250,14 +250,14 @@ def _refuse_existing(path: Path, overwrite: bool) -> None:
         raise UsageError(f"cannot write {path}: the folder {folder} does not exist")
 
 
-def subject_of(source: str | Path | Result | Sequence[str | Path | Result]) -> tuple[Any, Subject]:
+def subject_of(source: str | PathLike[str] | Sequence[str | PathLike[str]]) -> tuple[Any, Subject]:
     """Return what a view looks at, and what kind of thing it is."""
     from lambda_core.batch.studies import is_study, table
     from lambda_core.results.reader import Result
 
     if isinstance(source, Result):
         return source, "result"
-    if not isinstance(source, str | Path):
+    if not isinstance(source, str | PathLike):
         if len(source) != 1:
             return [one if isinstance(one, Result) else result(one) for one in source], "results"
         source = source[0]

@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -39,9 +40,9 @@ class ResultError(UsageError):
 class Result:
     """One run, read from its file.
 
-    The file is opened for each access and closed again, so a result that is still
-    growing shows what is there now. Fields of the summary are attributes:
-    ``result.friction_torque_Nmm``.
+    It stands for its file wherever a path is taken. The file is opened for each access and
+    closed again, so a result that is still growing shows what is there now. Fields of the
+    summary are attributes: ``result.friction_torque_Nmm``.
 
     Parameters
     ----------
@@ -60,7 +61,7 @@ class Result:
     (1000, 9, 2)
     """
 
-    def __init__(self, path: str | Path) -> None:
+    def __init__(self, path: str | PathLike[str]) -> None:
         self.path = Path(path)
         with self._open() as file:
             if not heaps_are_whole(self.path):
@@ -214,6 +215,10 @@ class Result:
 
         return sorted({*super().__dir__(), *Summary.model_fields})
 
+    def __fspath__(self) -> str:
+        """Return the file: a result is taken wherever a path is."""
+        return str(self.path)
+
     def __repr__(self) -> str:
         return f"<Result {self.path}: {self.title}, {self.status().state}>"
 
@@ -226,6 +231,34 @@ class Result:
         except UsageError as error:  # a run that has just begun holds no samples
             text = str(error)
         return f"<pre>{escape(self.headline)}\n{escape(text)}</pre>"
+
+    def plot(self, name: str, **options: Any) -> Any:
+        """Return a view of the result as a matplotlib figure; a notebook shows it.
+
+        Parameters
+        ----------
+        name : str
+            View (:func:`lambda_core.api.views`), for example ``"load-distribution"``.
+        **options
+            Options of the view by name.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            ``savefig`` writes it.
+
+        Raises
+        ------
+        UsageError
+            For a view or an option that does not exist.
+        NotApplicable
+            When there is nothing to show; the sentence says why.
+        """
+        from lambda_core.discovery.manager import registry
+        from lambda_core.discovery.shown import data_of, view_of
+
+        view = view_of(registry(), name, "result")
+        return registry().figure(view, data_of(view, self, options))
 
     def to_xarray(self) -> Any:
         """Return all channels as an xarray.Dataset with dimensions, labels, units and meanings.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from lambda_core.system.bearing import BearingModel
 
 
-def result(path: str | Path) -> Result:
+def result(path: str | PathLike[str]) -> Result:
     """Open a result file: finished, still growing, or left behind by a killed process.
 
     Parameters
@@ -42,13 +43,13 @@ def result(path: str | Path) -> Result:
     return Result(path)
 
 
-def summary(path: str | Path) -> Summary:
+def summary(path: str | PathLike[str]) -> Summary:
     """Return the averages and the end state of a result (the machine interface).
 
     Parameters
     ----------
     path : path-like
-        Result file.
+        Result file, or a result.
 
     Returns
     -------
@@ -63,13 +64,13 @@ def summary(path: str | Path) -> Summary:
     return result(path).summary()
 
 
-def cite(path: str | Path) -> Citation:
+def cite(path: str | PathLike[str]) -> Citation:
     """Return the references of exactly the laws and data that a result used, and of the program.
 
     Parameters
     ----------
     path : path-like
-        Result file.
+        Result file, or a result.
 
     Returns
     -------
@@ -91,7 +92,7 @@ def compare(
     overrides: Iterable[str] = (),
     *,
     methods: Sequence[str] = (),
-    result: str | Path | None = None,
+    result: str | PathLike[str] | None = None,
     contamination: float | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Comparison:
@@ -104,7 +105,7 @@ def compare(
     methods : sequence of str
         Names of methods; every installed one when empty.
     result : path-like, optional
-        Result file of the same case: its simulation becomes the first column.
+        Result of the same case, or its file: its simulation becomes the first column.
     contamination : float, optional
         e_C of ISO 281, for modified lives.
     announce : callable, optional

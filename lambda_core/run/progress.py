@@ -10,6 +10,8 @@ from types import FrameType
 
 from pydantic import BaseModel, ConfigDict
 
+from lambda_core.domain.number_text import plus_minus
+
 
 class Progress(BaseModel):
     """Where a run stands; one JSON line each with ``--progress=json``."""
@@ -30,6 +32,13 @@ class Progress(BaseModel):
     inner_loads_N: tuple[float, ...]  # of each ball on the inner ring at the last sample
     wall_s: float
     left_s: float | None
+
+    def __str__(self) -> str:
+        """Say where the run stands in one line; the fields say more."""
+        turns = f"{self.cage_revolutions:.1f} of {self.cage_revolutions_wanted:.0f} cage revolutions"
+        left = "" if self.left_s is None else f"{self.left_s:.0f} s left"
+        torque = plus_minus(self.friction_torque_Nmm, self.friction_torque_ci_Nmm)
+        return "   ".join(filter(None, (f"{self.percent:.0f} %", turns, f"friction torque {torque} N mm", left)))
 
 
 Report = Callable[[Progress], None]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import matplotlib
@@ -25,6 +26,12 @@ _CHARACTER = 0.074  # width of a character of the notes [inch]
 
 class HouseFigure(Figure):
     """A matplotlib figure that is always written in the house's style."""
+
+    def _repr_png_(self) -> bytes:
+        """Return the figure as a notebook shows it."""
+        buffer = BytesIO()
+        self.savefig(buffer, format="png")
+        return buffer.getvalue()
 
     def savefig(self, fname: Any, **options: Any) -> None:
         """Write the figure; an SVG carries no date, so that equal data give equal files."""
