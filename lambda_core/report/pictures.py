@@ -235,7 +235,7 @@ def report(source: str | PathLike[str], out: str | Path | None = None, *, overwr
 
         definition, case_toml = files(Path(source))
         inputs = case_inputs(resolve(parse_case(case_toml, str(source))))
-        text = study_report(registry(), subject, study_status(source), inputs, definition)
+        text = study_report(registry(), subject, study_status(Path(source)), inputs, definition)
     else:
         text = run_report(registry(), subject)
     return write_page(text, path)
