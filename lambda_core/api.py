@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from lambda_core.batch.scheduler import StudyProgress
     from lambda_core.batch.studies import StudyStatus
+    from lambda_core.batch.study_files import init_study, study_examples
     from lambda_core.batch.study_runs import (
         study_check,
         study_resume,
@@ -60,6 +61,7 @@ _CALLS = {
     "run.answers": "cite compare result summary",
     "thermal.temperatures": "thermal thermal_pictures warm_up",
     "electric.door": "check_discharges_file electric film_from_outside write_discharges",
+    "batch.study_files": "init_study study_examples",
     "batch.study_runs": "study_check study_resume study_run study_schema study_status study_table",
     "report.pictures": "animate draw report view view_all view_stem views",
 }

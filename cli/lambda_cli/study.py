@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from lambda_cli.options import JsonOption
+from lambda_cli.options import ForceOption, JsonOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.printable import cell_text, printable
 
@@ -33,6 +33,36 @@ ExecutorOption = Annotated[
         help="processes, dask (a cluster on this machine), or a dask scheduler: its address (tcp://host:8786) or file.",
     ),
 ]
+
+
+@app.command()
+def init(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the new study.")],
+    start: Annotated[
+        str | None,
+        typer.Option(
+            "--from", metavar="STUDY", help="friction-map (default), warm-and-tight, what-decides or cage-stability."
+        ),
+    ] = None,
+    case: Annotated[
+        str | None,
+        typer.Option("--case", metavar="CASE", help="Built-in case or case file to study; look at the ranges, too."),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="FILE", help="File to write; default: NAME.toml.")
+    ] = None,
+    force: ForceOption = False,
+) -> None:
+    """Write a commented study file to start from.
+
+    friction-map: friction over speed and load, 500 points; warm-and-tight: the least friction that film and pressure
+    allow, a search; what-decides: which parameter decides, Sobol' indices; cage-stability: where the cage turns
+    steadily, 16 runs.
+    """
+    from lambda_core import api
+
+    target = api.init_study(name, start, out, overwrite=force, case=case)
+    typer.echo(f"wrote {target}; next: lambda-bearing study run {target} --dry-run", err=True)
 
 
 @app.command()

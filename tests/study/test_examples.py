@@ -1,9 +1,10 @@
-"""The study files of examples/studies: each is valid, and those that take little time do what they promise."""
+"""The study files that come with the program: each is valid, and those that take little time do what they promise."""
 
 from __future__ import annotations
 
 import tomllib
 from concurrent.futures import Executor
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -11,14 +12,46 @@ import pytest
 
 from lambda_core import api
 
-STUDIES = Path(__file__).parents[2] / "examples" / "studies"
+ROOT = Path(__file__).parents[2]
+STUDIES = Path(str(resources.files("lambda_core.batch"))) / "examples"
 FILES = sorted(STUDIES.glob("*.toml"))
 
 
-def test_every_file_is_listed() -> None:
-    listed = (STUDIES / "README.md").read_text(encoding="utf-8")
+def test_every_study_that_comes_with_the_program_is_offered() -> None:
     assert len(FILES) >= 4
-    assert all(f"`{path.name}`" in listed for path in FILES)
+    assert list(api.study_examples()) == [path.stem for path in FILES]
+    assert all(title for title in api.study_examples().values())
+    page = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
+    offered = (ROOT / "docs" / "reference" / "cli.md").read_text(encoding="utf-8")
+    assert all(f"`{path.stem}`" in page and path.stem in offered for path in FILES)
+
+
+@pytest.mark.parametrize("name", ["friction-map", "cage-stability"])
+def test_a_study_is_started_from_an_example(name: str, tmp_path: Path) -> None:
+    case = api.init_case("fan", path=tmp_path / "fan.toml")
+    path = api.init_study("mine", name, tmp_path / "mine.toml", case=case.name)
+    tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    assert (tables["name"], tables["case"]) == ("mine", "fan.toml")
+    assert "lambda-bearing study run mine.toml" in path.read_text(encoding="utf-8")
+    assert tables["parameters"] == tomllib.loads((STUDIES / f"{name}.toml").read_text(encoding="utf-8"))["parameters"]
+
+
+def test_a_name_of_an_example_starts_from_it(tmp_path: Path) -> None:
+    path = api.init_study("what-decides", path=tmp_path / "what-decides.toml")
+    assert path.read_text(encoding="utf-8") == (STUDIES / "what-decides.toml").read_text(encoding="utf-8")
+
+
+def test_what_cannot_start_a_study_is_told(tmp_path: Path) -> None:
+    target = tmp_path / "mine.toml"
+    with pytest.raises(api.UsageError, match='no study "friction-mop" to start from; there are: friction-map'):
+        api.init_study("mine", "friction-mop", target)
+    with pytest.raises(api.CaseError, match="name"):
+        api.init_study("a b", path=target)
+    assert not target.exists()
+    target.write_text("mine", encoding="utf-8")
+    with pytest.raises(api.UsageError, match="exists: choose another name"):
+        api.init_study("mine", path=target)
+    assert target.read_text(encoding="utf-8") == "mine"
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
