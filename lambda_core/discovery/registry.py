@@ -13,7 +13,7 @@ import pluggy
 
 from lambda_core.discovery.collect import Collection, is_own, law_fault
 from lambda_core.domain.errors import nearest, unknown_name
-from lambda_core.domain.plugin_errors import PluginError, PluginFault, describe
+from lambda_core.domain.plugin_errors import PluginError, PluginFault, blamed, describe
 from lambda_core.domain.roles import ROLES
 from lambda_core.laws.law import Law, LazyLaw, law_of
 from lambda_core.views.method import Method
@@ -112,8 +112,9 @@ class Registry:
             When neither exists.
         """
         if view is not None and view.figure is not None:
-            return view.figure(data)
-        found: Figure | None = self._hooks.hook.lambda_figure(data=data)
+            with blamed(f'the drawing of the view "{view.name}" ({view.distribution})'):
+                return view.figure(data)
+        found: Figure | None = self._first("lambda_figure", "savefig", data=data)
         if found is None:
             raise PluginError(f"no plugin draws figures{self._not_loaded()}")
         return found
@@ -126,7 +127,7 @@ class Registry:
         PluginError
             When no plugin does.
         """
-        found: Iterator[NDArray[np.uint8]] | None = self._hooks.hook.lambda_frames(scene=scene)
+        found: Iterator[NDArray[np.uint8]] | None = self._first("lambda_frames", "__iter__", scene=scene)
         if found is None:
             raise PluginError(f"no plugin draws animations{self._not_loaded()}")
         return found
@@ -141,10 +142,33 @@ class Registry:
         PluginError
             When no installed plugin provides one.
         """
-        found: Catalogue | None = self._hooks.hook.lambda_catalogue(seed_folders=[f for _, f in self.data_folders])
+        folders = [folder for _, folder in self.data_folders]
+        found: Catalogue | None = self._first("lambda_catalogue", "bearing", seed_folders=folders)
         if found is None:
             raise PluginError(f"no plugin provides a catalogue{self._not_loaded()}")
         return found
+
+    def _first(self, hook: str, has: str, **given: Any) -> Any:
+        """Return what the first plugin answers that has an answer; the failure of one is told with its name.
+
+        Parameters
+        ----------
+        hook : str
+            Its name.
+        has : str
+            Attribute by which an answer is known to be of the right kind.
+        **given : object
+            Arguments by name; a plugin may leave some out.
+        """
+        for one in reversed(getattr(self._hooks.hook, hook).get_hookimpls()):
+            what = f"{hook} of {one.plugin_name.partition(':')[0]}"
+            with blamed(what):
+                found = one.function(*(given[name] for name in one.argnames))
+            if found is not None and not hasattr(found, has):
+                raise PluginError(f'{what} returns a {type(found).__name__}, which has no "{has}"')
+            if found is not None:
+                return found
+        return None
 
     def _named(self, kind: str, name: str, known: Mapping[str, Any]) -> Any:
         if name not in known:

@@ -9,6 +9,7 @@ from pydantic import ValidationError
 
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError, unknown_name
+from lambda_core.domain.plugin_errors import PluginError, blamed
 from lambda_core.views.chart import ViewData
 from lambda_core.views.view import Subject, View
 
@@ -51,6 +52,8 @@ def data_of(view: View, subject: Any, options: Mapping[str, Any]) -> ViewData:
         For an option that does not exist or takes no such value.
     NotApplicable
         When the view has nothing to show.
+    PluginError
+        When its code fails.
     """
     known = view.options.model_fields
     for name in options:
@@ -62,4 +65,9 @@ def data_of(view: View, subject: Any, options: Mapping[str, Any]) -> ViewData:
         first = error.errors()[0]
         name = ".".join(str(part) for part in first["loc"])
         raise UsageError(f'view {view.name}: {name} = "{first["input"]}": {first["msg"]}') from None
-    return view.data(subject, chosen)
+    what = f'the view "{view.name}" ({view.distribution})'
+    with blamed(what):
+        found = view.data(subject, chosen)
+    if not isinstance(found, ViewData):
+        raise PluginError(f"{what} returns a {type(found).__name__}, not a ViewData")
+    return found

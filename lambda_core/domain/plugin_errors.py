@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -32,6 +34,28 @@ class PluginFault:
 
     def __str__(self) -> str:
         return f"{self.distribution} ({self.entry_point}): {self.message}"
+
+
+@contextmanager
+def blamed(what: str) -> Iterator[None]:
+    """Turn what a plugin's own code raises into a sentence that names the plugin.
+
+    Parameters
+    ----------
+    what : str
+        What was called, with its distribution: ``the view "film" (my-views 0.1)``.
+
+    Raises
+    ------
+    PluginError
+        For everything but the program's own errors, which have their sentence, and an interruption.
+    """
+    try:
+        yield
+    except LambdaError:
+        raise
+    except (Exception, SystemExit) as error:
+        raise PluginError(f"{what} fails: {describe(error)}") from error
 
 
 def describe(error: BaseException) -> str:

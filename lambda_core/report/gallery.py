@@ -13,6 +13,7 @@ from lambda_core.discovery.registry import Registry
 from lambda_core.discovery.shown import data_of
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.files import check_target
+from lambda_core.domain.plugin_errors import PluginError, blamed
 from lambda_core.views.chart import ViewData
 from lambda_core.views.method import NotApplicable
 from lambda_core.views.view import Subject, View
@@ -66,11 +67,17 @@ def cards(registry: Registry, subject: Subject | None = None) -> list[ViewCard]:
 def every(registry: Registry, subject: Any, kind: Subject) -> Iterator[tuple[View, ViewData | NotApplicable]]:
     """Yield every view that is offered for a subject with its data, or with the reason why it shows nothing."""
     for view in registry.views.values():
-        if view.subject == kind and (view.offered is None or view.offered(subject)):
-            try:
+        if view.subject != kind:
+            continue
+        try:
+            with blamed(f'the view "{view.name}" ({view.distribution})'):
+                is_offered = view.offered is None or view.offered(subject)
+            if is_offered:
                 yield view, data_of(view, subject, {})
-            except NotApplicable as reason:
-                yield view, reason
+        except NotApplicable as reason:
+            yield view, reason
+        except PluginError as fault:  # of one package: the other views are drawn
+            yield view, NotApplicable(str(fault))
 
 
 def write(registry: Registry, data: ViewData, folder: Path, stem: str, formats: Sequence[str]) -> list[Path]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from lambda_core.domain.errors import LambdaError, unknown_name
+from lambda_core.domain.plugin_errors import PluginError, blamed
 from lambda_core.laws.context import Material, Oil
 
 METHOD_API = 1
@@ -183,11 +184,16 @@ class MethodAnswer:
 
 
 def evaluate_methods(methods: Iterable[Method], inputs: MethodInputs) -> tuple[MethodAnswer, ...]:
-    """Ask every method; one that does not apply answers with its reason and does not stop the others."""
+    """Ask every method; one that does not apply, or fails, answers with its reason and does not stop the others."""
     answers = []
     for method in methods:
+        what = f'the method "{method.name}" ({method.distribution})'
         try:
-            answers.append(MethodAnswer(method, method.evaluate(inputs)))
-        except NotApplicable as error:
+            with blamed(what):
+                table = method.evaluate(inputs)
+            if not isinstance(table, MethodTable):
+                raise PluginError(f"{what} returns a {type(table).__name__}, not a MethodTable")
+            answers.append(MethodAnswer(method, table))
+        except (NotApplicable, PluginError) as error:
             answers.append(MethodAnswer(method, None, str(error)))
     return tuple(answers)

@@ -47,9 +47,9 @@ def line(arguments: tuple[str, ...] | list[str]) -> str:
     return "lambda-bearing " + shlex.join(arguments)
 
 
-def _made(folder: Path, name: str, make: Callable[[Path], None]) -> Path:
-    """Return a folder beside those of the trials, made once per campaign."""
-    place = folder.parent / name
+def made_once(folder: Path, name: str, make: Callable[[Path], object]) -> Path:
+    """Return a folder beside those of the trials of a part, made once per campaign."""
+    place = folder.parent / f"{_part(folder)}.{name}"
     if not (place / "done").is_file():
         shutil.rmtree(place, ignore_errors=True)
         place.mkdir(parents=True)
@@ -65,7 +65,7 @@ def _part(folder: Path) -> str:
 
 def whole(folder: Path) -> Path:
     """Return the result of the run that nobody disturbed."""
-    return _made(folder, f"whole-{_part(folder)}", lambda place: _must(RUN, place)) / "out.h5"
+    return made_once(folder, "whole", lambda place: _must(RUN, place)) / "out.h5"
 
 
 def half(folder: Path) -> Path:
@@ -79,7 +79,7 @@ def half(folder: Path) -> Path:
                 return
         raise RuntimeError("no run could be killed in its middle")
 
-    return _made(folder, f"half-{_part(folder)}", make) / "out.h5"
+    return made_once(folder, "half", make) / "out.h5"
 
 
 def _must(arguments: tuple[str, ...], place: Path) -> None:
@@ -182,7 +182,7 @@ def _answers(source: Path, folder: Path, arguments: tuple[str, ...]) -> Path:
         _must(arguments, place)
 
     name = sha256(repr((source.parent.name, arguments)).encode()).hexdigest()[:8]
-    return _made(folder, f"answers-{_part(folder)}-{name}", make)
+    return made_once(folder, f"answers-{name}", make)
 
 
 def _what_differs(outcome: Outcome, arguments: tuple[str, ...], folder: Path, before: Path) -> str:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tests.attacks import cases, damage, disks, hostile
+from tests.attacks import cases, damage, disks, guests, hostile, stores, sweeps
 from tests.attacks.damage import line
 from tests.attacks.record import Record
 from tests.attacks.trial import Outcome, attempt
@@ -42,6 +42,10 @@ PARTS = {
         Part("kills", "runs killed with a file open, gone on with, compared bit for bit", 200, damage.killed_run),
         Part("corruption", "damaged results, shown, drawn and gone on with", 200, damage.corrupted),
         Part("disks", "disks that are full and folders that are read-only, then room again", 200, disks.full_disk),
+        Part("code", "compiled code damaged on disk", 30, stores.damaged_code),
+        Part("catalogues", "the catalogue's cache and a catalogue of one's own damaged", 200, stores.damaged_catalogue),
+        Part("plugins", "packages of laws, methods and views with faults", 200, guests.plugin),
+        Part("studies", "studies killed and gone on with, or run by two processes", 20, sweeps.study),
         Part("races", "two runs on one output", 20, damage.race),
     )
 }

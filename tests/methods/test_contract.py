@@ -162,8 +162,9 @@ def test_bug_in_a_method_is_not_hidden() -> None:
     def broken(_: MethodInputs) -> MethodTable:
         raise ZeroDivisionError
 
-    with pytest.raises(ZeroDivisionError):
-        evaluate_methods([Method("broken", "", "", broken)], inputs())
+    (answer,) = evaluate_methods([Method("broken", "", "", broken, distribution="mine 1.0")], inputs())
+    assert answer.table is None
+    assert answer.reason.startswith('the method "broken" (mine 1.0) fails: ZeroDivisionError (test_contract.py, line')
 
 
 def test_unknown_row_names_the_nearest(methods: dict[str, Method]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Annotated, Any, Literal
 
 import pytest
@@ -161,9 +161,9 @@ def test_the_catalogue_hook_of_a_refused_plugin_is_not_called() -> None:
 
 
 def test_the_catalogue_gets_the_folders_of_all_plugins(tmp_path: Path) -> None:
-    opener = hooks(lambda_catalogue=hookimpl(lambda seed_folders: list(seed_folders)))
+    opener = hooks(lambda_catalogue=hookimpl(lambda seed_folders: SimpleNamespace(bearing=list(seed_folders))))
     registry = discover([source("store", opener), source("rows", plugin(str(tmp_path), hook="lambda_data"))])
-    assert registry.catalogue() == [tmp_path]  # type: ignore[comparison-overlap]
+    assert registry.catalogue().bearing == [tmp_path]  # type: ignore[comparison-overlap]
     assert registry.data_folders == (("rows 1.2", tmp_path),)
 
 

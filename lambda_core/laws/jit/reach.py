@@ -249,6 +249,8 @@ def _globals_read(code: CodeType, scope: dict[str, Any], where: str) -> Iterator
             continue
         if value is _MISSING:
             raise UnreachableError(f'{where} uses "{path}", which does not exist')
+        if value is print:
+            raise UnreachableError(f"{where} prints: a kernel is a function of its arguments only")
         if isinstance(value, ModuleType):
             if value.__name__ in _IMPURE:
                 raise UnreachableError(f'{where} uses "{value.__name__}": a kernel is a function of its arguments only')
