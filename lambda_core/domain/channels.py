@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 RINGS = ("inner", "outer")
+SHORTED = 0.01  # asperities that carry more than this share of the load short the contact electrically
 # Dissipators; each is non-negative on its own. Per ring where the name says so.
 LOSSES = (
     "sliding_inner",  # fluid shear along the mean slip of the contact

@@ -168,7 +168,6 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
     at, turn = moved % phases, moved // phases
     ball = (np.arange(z)[None, :] + turn[:, None]) % z
     table = np.stack([e.contacts for e in found])  # (phases, Z, 2, channels)
-    table[..., CONTACT_CHANNELS.index("capacitance")] = _shorted(table)
     rows = table[at[:, None], ball]
     parts = {name: rows[..., CONTACT_CHANNELS.index(channel)] for name, channel in _CHANNELS.items()}
     azimuth = -0.5 * math.pi + 2.0 * math.pi / z * (np.arange(z)[None, :] + moved[:, None] / phases)
@@ -181,15 +180,6 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
         origin=f"quasi-static equilibria at {phases} positions of the balls",
         **parts,
     )
-
-
-def _shorted(table: FloatArray) -> FloatArray:
-    """Return the capacitances with inf where asperities short a contact, as in a run."""
-    from lambda_core.solver.drivers.observation import SHORTED
-    from lambda_core.solver.sampling import CONTACT_CHANNELS
-
-    capacitance, share = (table[..., CONTACT_CHANNELS.index(name)] for name in ("capacitance", "asperity_share"))
-    return np.where(share > SHORTED, np.inf, capacitance)
 
 
 def films(contacts: Contacts, options: Electric) -> Films:

@@ -13,7 +13,15 @@ from lambda_core.domain.loading import CARRYING, Ring, largest_contact, loaded_b
 from lambda_core.results.averages import finite
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.results.summary import LOADED_BALLS, MAX_LOAD, Contact, contact_list, merged_cage, span
+from lambda_core.results.summary import (
+    LOADED_BALLS,
+    MAX_LOAD,
+    Contact,
+    capacitance_note,
+    contact_list,
+    merged_cage,
+    span,
+)
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.sampling import CONTACT_CHANNELS
@@ -43,6 +51,7 @@ class QuasiStatic(Record):
     inner_ring_tilt_mrad: list[float]
     film_um: list[float] = Field(description="smallest and largest central film under load")
     film_parameter: list[float] = Field(description="smallest and largest Lambda under load")
+    capacitance_note: str = Field(description="which contacts asperities short, where they do", default="")
     shoulders: list[Shoulder] = Field(description="how near contacts come to the shoulders, the worst on each ring")
     warnings: list[str] = Field(
         description="where the case or the state leaves what bearing, oil and laws are made for"
@@ -89,6 +98,7 @@ def quasistatic_of(found: Equilibrium) -> QuasiStatic:
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
         film_um=span(1e6 * channels["film_central"][carrying]),
         film_parameter=span(channels["film_parameter"][carrying]),
+        capacitance_note=capacitance_note(load, channels["capacitance"]),
         shoulders=edges,
         warnings=[
             *operating_warnings(model),

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from lambda_core.domain.channels import RINGS
+from lambda_core.domain.channels import RINGS, SHORTED
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.kinematics import epicyclic_ratio
 from lambda_core.domain.loading import CARRYING, Ring, largest_contact, loaded_balls
@@ -86,6 +86,7 @@ class Summary(Record):
     film_parameter: list[float] = Field(description="smallest and largest Lambda under load at the end state")
     contact_capacitance_pF: list[float] = Field(description="smallest and largest under load at the end state")
     bearing_capacitance_nF: float | None = Field(description="at the end state")
+    capacitance_note: str = Field(description="which contacts asperities short, where they do", default="")
     rating: Rating | None = Field(description="life, safety and catalogue friction of the case at its start")
     shoulders: list[Shoulder] = Field(description="how near contacts came to the shoulders, the worst on each ring")
     warnings: list[str] = Field(description="where case or run left what bearing, oil and laws are made for")
@@ -155,6 +156,7 @@ def summarise(result: Result) -> Summary:
         film_parameter=span(end["film_parameter"][carrying]),
         contact_capacitance_pF=span(1e12 * end["capacitance"][carrying]),
         bearing_capacitance_nF=finite(1e9 * float(end["bearing_capacitance"])),
+        capacitance_note=capacitance_note(end["load"], end["capacitance"]),
         rating=result.rating,
         shoulders=edges,
         warnings=[
@@ -250,6 +252,19 @@ def contact_list(state: Mapping[str, NDArray[np.float64]]) -> list[Contact]:
         for ball in range(load.shape[0])
         for ring, name in enumerate(get_args(Ring))
     ]
+
+
+def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64]) -> str:
+    """Say which loaded contacts have no capacitance, shape (ball, ring), and so why the bearing may have none."""
+    shorted, loaded = np.isinf(capacitance) & (load > 0.0), load > 0.0
+    if not shorted.any():
+        return ""
+    both = bool(shorted.all(axis=1).any())
+    return (
+        f"{np.count_nonzero(shorted)} of {np.count_nonzero(loaded)} loaded contacts shorted: asperities carry more "
+        f"than {100.0 * SHORTED:g} % of their load"
+        + (", some balls' at both rings: the bearing is no capacitor" if both else "")
+    )
 
 
 def _sample(result: Result, row: int) -> dict[str, NDArray[np.float64]]:

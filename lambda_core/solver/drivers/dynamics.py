@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.channels import CHANNELS, LOSSES
+from lambda_core.domain.channels import CHANNELS, LOSSES, SHORTED
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
@@ -17,7 +17,7 @@ from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.compiled_laws import Announce
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION, Advance
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, solve
-from lambda_core.solver.drivers.observation import SHORTED, Scratch, channels_of
+from lambda_core.solver.drivers.observation import Scratch, channels_of
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import CAGE, running
 from lambda_core.solver.drivers.time_tables import FORCE, MOMENT

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import DOFS
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
@@ -270,7 +271,7 @@ def _contacts(compiled: Core, assembly: Assembly, state: FloatArray) -> tuple[Fl
     system = bundle.system[0]
     system["guides_on"] = 0
     ok = compiled.observe(
-        np.zeros(1), state.reshape(1, -1), bundle, compiled.evaluate_pointer, 1.0, contacts, np.zeros((1, z, 3)),
+        np.zeros(1), state.reshape(1, -1), bundle, compiled.evaluate_pointer, SHORTED, contacts, np.zeros((1, z, 3)),
         np.zeros((1, 2, 3)), np.zeros((1, L.NI + 2)), np.zeros((1, bundle.shared.size)), rates, np.zeros(assembly.size),
     )  # fmt: skip
     system["guides_on"] = 1

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
@@ -15,9 +16,6 @@ from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.entry import Core
 from lambda_core.solver.sampling import CONTACT_CHANNELS
-
-# Asperities that carry more than this share of the load short the contact electrically.
-SHORTED = 0.01
 
 
 class Scratch(NamedTuple):

@@ -1,0 +1,41 @@
+"""Where there is no capacitance the result says why, the same in a run and without time."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from lambda_core import api
+from lambda_core.results.summary import capacitance_note
+
+CASE = "6208-axial-700"
+SLOW = ["operation.speed=10 rpm"]
+
+
+def test_c1_a_capacitance_that_is_not_there_is_explained(tmp_path: Path) -> None:
+    result = api.run(CASE, [*SLOW, "output.interval=50 us", "solver.duration=1 ms"], out=tmp_path / "r.h5")
+    summary = result.summary()
+    assert summary.bearing_capacitance_nF is None
+    assert summary.contact_capacitance_pF == []
+    assert not np.isnan(result["capacitance"]).any()
+    said = "18 of 18 loaded contacts shorted: asperities carry more than 1 % of their load"
+    assert summary.capacitance_note.startswith(said)
+    assert said in summary.text()
+
+
+def test_d5_the_equilibrium_shorts_what_a_run_shorts() -> None:
+    found = api.quasistatic(CASE, SLOW)
+    assert [contact.capacitance_pF for contact in found.contacts] == [None] * 18
+    assert "18 of 18 loaded contacts shorted" in found.text()
+    fast = api.quasistatic(CASE)
+    assert fast.capacitance_note == ""
+    assert all(contact.capacitance_pF for contact in fast.contacts)
+
+
+def test_contacts_without_load_are_not_shorted() -> None:
+    load = np.array([[1.0, 1.0], [0.0, 0.0]])
+    capacitance = np.array([[math.inf, 1e-12], [1e-12, 1e-12]])
+    assert capacitance_note(load, capacitance).startswith("1 of 2 loaded contacts shorted")
+    assert "no capacitor" not in capacitance_note(load, capacitance)
