@@ -6,15 +6,18 @@ stdout carries data, stderr carries talk. Exit codes: 0 ok, 1 bug, 2 usage, 3 in
 
 from __future__ import annotations
 
+import errno
 import inspect
 import os
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 
+import lambda_core
 from lambda_cli.commands import Entry, entries
 from lambda_cli.interrupt import second_signal_ends
 from lambda_core.domain.errors import CaseError, LambdaError, UsageError
@@ -23,6 +26,7 @@ from lambda_core.domain.printable import printable
 PROGRAM = "lambda-bearing"
 INTERRUPTED = 130
 _LONGEST_NAME = 100
+_NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.EIO)
 DEBUG_VARIABLE = "LAMBDA_BEARING_DEBUG"
 
 
@@ -129,15 +133,27 @@ def _main(arguments: Sequence[str] | None) -> int:
     except RecursionError:
         _say("what was given is nested too deeply")
         return CaseError.exit_code
-    except OSError as error:  # of a file that is named on the way: no name, no room, no right
-        name = str(error.filename or "a file")
-        _say(f'cannot use "{name if len(name) < _LONGEST_NAME else name[:_LONGEST_NAME] + "..."}": {error.strerror}')
+    except OSError as error:
+        why = _not_ours(error)
+        if not why:
+            return _bug(error)
+        _say(why)
         return UsageError.exit_code
     except Exception as error:
         if isinstance(code := getattr(error, "exit_code", None), int) and hasattr(error, "format_message"):
             _say_usage(error)
             return code
         return _bug(error)
+
+
+def _not_ours(error: OSError) -> str:
+    """Say what the system refused: a file of somebody's, or room; "" for a mistake of the program."""
+    if error.errno in _NO_ROOM:
+        return f"the system refuses: {os.strerror(error.errno)}"
+    name = os.fsdecode(error.filename) if isinstance(error.filename, str | bytes) else ""
+    if not name or not error.strerror or Path(name).is_relative_to(Path(lambda_core.__file__).parent):
+        return ""
+    return f'cannot use "{name if len(name) < _LONGEST_NAME else name[:_LONGEST_NAME] + "..."}": {error.strerror}'
 
 
 def _say(text: str) -> None:

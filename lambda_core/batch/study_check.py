@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import islice, product
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -173,6 +174,7 @@ def _try_ends(study: Study, plan: Plan, case_toml: str) -> list[str]:
 
 def _trials(study: Study, plan: Plan) -> Iterator[tuple[str, tuple[str, ...], bool]]:
     """Yield a name, the changes, and whether it tries a name of a list."""
+    yield from _names_together(study, plan)
     if study.design.kind == "zipped":
         last = plan.point(plan.count - 1)
         yield f"point {plan.count}", last.changes, False
@@ -180,6 +182,18 @@ def _trials(study: Study, plan: Plan) -> Iterator[tuple[str, tuple[str, ...], bo
     for place, c in enumerate(plan.coordinates):
         for pair in _tried(c):
             yield f"{c.parameter.path} = {pair[0]}", _corner(plan, {place: pair}).changes, c.scale is None
+
+
+def _names_together(study: Study, plan: Plan) -> Iterator[tuple[str, tuple[str, ...], bool]]:
+    """Yield what names of several lists give together: an oil may lack the data of a law."""
+    lists = {place: c for place, c in enumerate(plan.coordinates) if c.scale is None}
+    if len(lists) < 2:
+        return
+    values = [[c.value(index) for index in range(c.count)] for c in lists.values()]
+    together = zip(*values, strict=True) if study.design.kind == "zipped" else product(*values)
+    for pairs in islice(dict.fromkeys(together), _TRIED_VALUES):
+        named = ", ".join(f"{c.parameter.path} = {text}" for c, (text, _) in zip(lists.values(), pairs, strict=True))
+        yield named, _corner(plan, dict(zip(lists, pairs, strict=True))).changes, True
 
 
 def _tried(c: Coordinate) -> Iterator[tuple[str, float | str]]:

@@ -21,7 +21,7 @@ from lambda_core.system.ledger import Ledger, Status
 NONE = "none"
 _WEAK = ("grade C)", "grade D)")  # how the origin of an estimate ends
 BALL_BALL = "ball-ball"  # takes the place of the pockets when there is no cage
-PRESCRIBED = "constant"  # supply law that takes lubricant.starvation
+PRESCRIBED = "constant"  # supply law that takes lubricant.starvation; permittivity law that needs no data
 # Element -> default model where the role's own default does not fit it.
 LANDS = {"cage_inner": "inner ring", "cage_outer": "outer ring"}
 
@@ -153,10 +153,11 @@ class LawResolver:
         name = DEFAULT_MODELS[role]
         if name == "auto":
             return self._automatic(role)
-        known = self.lubricant.parameters.get(role, {}) if self.lubricant and role == "permittivity" else {}
-        if known and name not in known:
-            other = next(iter(known))
-            assert self.lubricant is not None
+        if role != "permittivity" or self.lubricant is None or role in self.case.parameters:
+            return name
+        known = self.lubricant.parameters.get(role, {})
+        if name not in known:
+            other = next(iter(known), PRESCRIBED)
             self.ledger.assume(f"{role} model {other}: {self.lubricant.name} has no data for {name}")
             return other
         return name
@@ -189,7 +190,13 @@ class LawResolver:
         texts: Mapping[str, Any],
         case_texts: Mapping[str, tuple[Any, str]],
     ) -> None:
+        fields = chosen.parameters.model_fields
+        missing = [key for key, info in fields.items() if info.is_required() and key not in texts]
+        if len(missing) > 1 and self.lubricant is not None:
+            self.ledger.problem(self._choice(element, role)[1], self._lacking(role, chosen, missing))
         for problem in problems(error, chosen.parameters, dict(texts)):
+            if len(missing) > 1 and problem.where in missing and self.lubricant is not None:
+                continue
             key, _, inside = problem.where.partition(".")
             where = (
                 ".".join(filter(None, (case_texts[key][1], inside)))
@@ -200,6 +207,16 @@ class LawResolver:
             if key not in texts and self.lubricant is not None:
                 message = f"{role} {chosen.name} needs it, and the lubricant {self.lubricant.name} has no data for it"
             self.ledger.problem(where, message)
+
+    def _lacking(self, role: str, chosen: Law, missing: list[str]) -> str:
+        """Say in one sentence what a law needs, and which laws the oil has data for."""
+        assert self.lubricant is not None
+        known = [name for name in self.lubricant.parameters.get(role, {}) if name != chosen.name]
+        others = f"; it has data for {', '.join(known)}" if known else ""
+        return (
+            f"{role} {chosen.name} needs {', '.join(missing)}, and the lubricant {self.lubricant.name} has no data for "
+            f"them{others}; give them under parameters.{role}, or choose another law"
+        )
 
     def _foreign_parameter(self, key: str, role: str, chosen: Law, case_texts: Mapping[str, tuple[Any, str]]) -> None:
         known = ", ".join(chosen.parameters.model_fields) or "none"

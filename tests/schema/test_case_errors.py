@@ -133,8 +133,8 @@ def test_mistake_in_the_file(problems: Problems, changes: dict[str, Any], where:
         ),
         (
             {"models": {"rheology": "vogel-dicke"}},
-            "parameters.rheology.vogel_k",
-            "the lubricant bode-mineral has no data for it",
+            "models.rheology",
+            "density_slope, and the lubricant bode-mineral has no data for them; it has data for barus-limited, bode",
         ),
     ],
 )
