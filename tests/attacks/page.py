@@ -43,12 +43,12 @@ def _nothing(entries: Entries) -> list[str]:
 
 def _cost(entries: Entries) -> str:
     memory = max(int(entry["memory"]) for entry in entries) / 2**20
-    longest = max(float(entry["wall_s"]) for entry in entries)
+    longest = max(float(entry["wall_s"]) - float(entry.get("waited_s", 0.0)) for entry in entries)
     seeds = ", ".join(sorted({str(entry["seed"]) for entry in entries}))
     commits = ", ".join(f"{count} at {commit}" for commit, count in Counter(e["commit"] for e in entries).items())
     return (
         f"highest resident memory of a trial {memory:.0f} MiB (allowed {MEMORY / 2**20:.0f} MiB), "
-        f"the longest took {longest:.1f} s; seed {seeds}; trials: {commits}"
+        f"longest trial {longest:.1f} s; seed {seeds}; trials: {commits}"
     )
 
 
@@ -63,7 +63,8 @@ def _of_cases(entries: Entries) -> list[str]:
     return [
         "; ".join(f"{end} {count}" for end, count in ends.most_common()),
         f"each of at least one cage revolution or its own wall limit of {cases.WALL:g} s; the longest had its file "
-        f"open for {max(opened, default=0.0):.1f} s ({cases.WALL + cases.OVER:g} s are allowed)",
+        f"open for {max(opened, default=0.0):.1f} s ({cases.WALL + cases.OVER:g} s are allowed; time in which it waited "
+        "for a processor that others had is not counted)",
         f"energy residual at most {cases.ENERGY:g} in {len(residuals) - over} of {len(residuals)} results, named among "
         f"the reasons in the other {over}",
         f"usable: {_share(sensible)} of those physically sensible, {_share(slow)} of those slower than 10 rpm",

@@ -49,7 +49,10 @@ class Outcome:
     said : str
         The end of stderr.
     open_s : float
-        Wall time from when the file to be watched stood there to the end; 0 without one [s].
+        Wall time from when the file to be watched stood there to the end; 0 without one. Without the time in which
+        it waited for a processor that others had, so that a busy machine does not make it look late [s].
+    waited_s : float
+        Time in which it waited for a processor, in all [s].
     """
 
     verdict: str
@@ -58,6 +61,7 @@ class Outcome:
     said: str = ""
     cpu_s: float = 0.0
     open_s: float = 0.0
+    waited_s: float = 0.0
 
     @property
     def good(self) -> bool:
@@ -140,7 +144,7 @@ class Trial:
         self._folder, self._watched = folder, watched
         self._json = "--json" in arguments
         self._began = time.monotonic()
-        self._seen = 0.0
+        self._seen = 0.0  # since the beginning, without waiting [s]
         sys.stdout.flush()
         sys.stderr.flush()
         self.process = os.fork()
@@ -149,17 +153,17 @@ class Trial:
         self._handle = os.pidfd_open(self.process)
 
     def wait(self, limit_s: float) -> Outcome:
-        """Wait until it ends, or end it when `limit_s` of wall time are over [s]; the latter counts as a hang."""
-        ended, greedy = "", False
+        """Wait until it ends, or end it when `limit_s` are over, waiting not counted [s]; the latter is a hang."""
+        ended, greedy, waited = "", False, 0.0
         while True:
             over = bool(select.select([self._handle], [], [], 0.0 if ended else _GLANCE)[0])
-            wall = time.monotonic() - self._began
+            wall, waited = time.monotonic() - self._began, max(waited, _waited(self.process))
             if self._watched is not None and not self._seen and self._watched.is_file():
-                self._seen = wall
+                self._seen = wall - waited
             if over or ended:
                 break
             greedy = greedy or _resident(self.process) > 2 * MEMORY
-            if greedy or wall > limit_s:
+            if greedy or wall - waited > limit_s:
                 ended = "greedy" if greedy else "hang"
                 self.kill()
         _, status, used = os.wait4(self.process, 0)
@@ -167,7 +171,8 @@ class Trial:
         memory, cpu = used.ru_maxrss * 1024, used.ru_utime + used.ru_stime
         said = self.said()
         verdict = ended or self._verdict(status, said, memory)
-        return Outcome(verdict, wall, memory, said[-_TOLD:], cpu, wall - self._seen if self._seen else 0.0)
+        open_s = wall - waited - self._seen if self._seen else 0.0
+        return Outcome(verdict, wall, memory, said[-_TOLD:], cpu, open_s, waited)
 
     def kill(self) -> None:
         """End it at once, and whatever it has started."""
@@ -272,6 +277,14 @@ def _strict(file: Path) -> bool:
 
 def _refuse(word: str) -> None:
     raise ValueError(f"{word} is no JSON")
+
+
+def _waited(process: int) -> float:
+    """Return how long a process has waited for a processor [s], 0 where the system does not say."""
+    try:
+        return int(Path(f"/proc/{process}/schedstat").read_text(encoding="ascii").split()[1]) * 1e-9
+    except (OSError, ValueError, IndexError):
+        return 0.0
 
 
 def _resident(process: int) -> int:
