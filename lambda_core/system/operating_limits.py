@@ -16,6 +16,7 @@ from lambda_core.domain.ratings import dynamic_rating, static_factor, static_rat
 from lambda_core.domain.units import show
 from lambda_core.laws.par import flat_kernel
 from lambda_core.system.bearing import BearingModel, Body
+from lambda_core.system.proportions import proportion_warnings
 from lambda_core.system.time_functions import peak
 
 # What laws of viscosity were fitted to, at the most: oils are measured from 0 to 120 degC, charts go a little further.
@@ -49,6 +50,7 @@ def operating_warnings(model: BearingModel) -> list[str]:
     """
     return [
         *model.contradictions,
+        *proportion_warnings(model.geometry),
         *_speed(model),
         *_load(model),
         *_tilt(model),

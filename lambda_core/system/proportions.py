@@ -1,0 +1,42 @@
+"""Proportions of a geometry against those of the bearings in the catalogue: what no maker builds is told.
+
+A geometry may be possible and still a slip of the pen: three balls, an outside diameter of 99 m. The ranges are those
+of all 286 deep-groove ball bearings with known balls in the built-in catalogue; a test computes them anew.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from lambda_core.system.bearing import Geometry
+
+FILLING = (165.0, 198.0)  # angle that the balls span side by side, as at assembly [deg]
+WALL = (0.25, 0.61)  # radial wall of a ring under the groove, over the ball diameter
+WIDTH = (1.20, 2.21)  # over the ball diameter
+
+
+def proportion_warnings(g: Geometry) -> Iterator[str]:
+    """Yield a sentence for every proportion that no bearing of the catalogue has.
+
+    The angle of filling is 2 (Z - 1) arcsin(D_w/d_m): Z balls that touch each other, from the first centre to the last.
+    """
+    ball = g.ball_diameter
+    angle = 2.0 * (g.ball_count - 1) * math.degrees(math.asin(min(ball / g.pitch_diameter, 1.0)))
+    if not FILLING[0] <= angle <= FILLING[1]:
+        yield (
+            f"{g.ball_count} balls of {ball * 1e3:.6g} mm side by side span {angle:.0f} deg of the pitch circle: "
+            f"bearings of the catalogue are filled to {FILLING[0]:g} to {FILLING[1]:g} deg"
+        )
+    inner = 0.5 * (g.race_diameter_inner - g.bore_diameter)
+    outer = 0.5 * (g.outside_diameter - g.race_diameter_outer)
+    for what, size, (least, most) in (
+        ("the wall of the inner ring under its groove", inner, WALL),
+        ("the wall of the outer ring under its groove", outer, WALL),
+        ("the width", g.width, WIDTH),
+    ):
+        if not least * ball <= size <= most * ball:
+            yield (
+                f"{what}, {size * 1e3:.4g} mm, is {size / ball:.3g} ball diameters: {least:g} to {most:g} in bearings "
+                "of the catalogue"
+            )

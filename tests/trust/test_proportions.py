@@ -1,0 +1,55 @@
+"""Geometries that are possible and that nobody builds are told."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from lambda_core import api
+from lambda_core.system import proportions
+
+CASE = "6208-axial-1300"
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ("ball_count=3", "3 balls of 11.91 mm side by side span 46 deg of the pitch circle"),
+        ("outside_diameter=99 m", "the wall of the outer ring under its groove"),
+        ("bore_diameter=1 mm", "the wall of the inner ring under its groove"),
+        ("width=90 m", "the width, 9e+04 mm"),
+    ],
+)
+def test_what_no_maker_builds_is_told(change: str, words: str) -> None:
+    case = [f"bearing.geometry.{change}"]
+    (found,) = [
+        text for text in api.operating_warnings(api.resolve(api.case(CASE, case))) if "of the catalogue" in text
+    ]
+    assert found.startswith(words)
+    assert not [text for text in api.operating_warnings(api.resolve(api.case(CASE))) if "of the catalogue" in text]
+
+
+@pytest.mark.parametrize("change", ["ball_count=16", "ball_count=1", "outside_diameter=59 mm", "bore_diameter=61 mm"])
+def test_what_is_impossible_is_refused(change: str) -> None:
+    with pytest.raises(api.CaseError, match=change.split("=")[0] + "|pitch_diameter"):
+        api.check(CASE, [f"bearing.geometry.{change}"])
+
+
+def test_the_ranges_are_those_of_the_catalogue() -> None:
+    filling, wall, width = [], [], []
+    for row in api.catalogue().bearings(limit=10_000):
+        if row.ball_count is None or row.ball_diameter is None:
+            continue
+        ball = row.ball_diameter.value
+        bore, outside, broad = row.bore_diameter.value, row.outside_diameter.value, row.width.value
+        pitch = row.pitch_diameter.value if row.pitch_diameter else 0.5 * (bore + outside)
+        filling.append(2.0 * (row.ball_count.value - 1) * math.degrees(math.asin(ball / pitch)))
+        wall += [0.5 * (pitch - ball - bore) / ball, 0.5 * (outside - pitch - ball) / ball]
+        width.append(broad / ball)
+    assert len(filling) == 286
+    for found, (least, most), step in (
+        (filling, proportions.FILLING, 1.0), (wall, proportions.WALL, 0.01), (width, proportions.WIDTH, 0.01)
+    ):  # fmt: skip
+        assert least == pytest.approx(math.floor(min(found) / step) * step)
+        assert most == pytest.approx(math.ceil(max(found) / step) * step)
