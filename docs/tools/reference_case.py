@@ -11,7 +11,7 @@ from lambda_core.case import modelling, motion, parts, signals
 from lambda_core.case.cards import FieldCard, field_card
 from lambda_core.case.case import Case
 from lambda_core.domain.elements import ELEMENTS
-from lambda_core.domain.roles import DEFAULT_MODELS, ROLES
+from lambda_core.domain.roles import DEFAULT_MODELS, MOTION_ROLES
 from lambda_core.domain.units import UNITS
 
 _DOFS = (motion.Translation, motion.Tilt, motion.Spin, motion.InnerSpin)
@@ -133,7 +133,7 @@ def _models() -> list[str]:
             md.cell(modelling.Models.model_fields[role.name].description or ""),
             ", ".join(md.code(element) for element in role.elements),
         ]
-        for role in ROLES.values()
+        for role in MOTION_ROLES.values()
     ]
     return [
         "## `[models]`",

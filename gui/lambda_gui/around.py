@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal, cast
 
 from lambda_core.domain.errors import LambdaError
-from lambda_core.domain.roles import ROLES
+from lambda_core.domain.roles import MOTION_ROLES
 from lambda_gui.outline import Keys
 from lambda_gui.rows import Surroundings
 
@@ -84,6 +84,6 @@ def _path(keys: Keys) -> str:
     first = keys[0]
     if keys[:2] in (("bearing", "geometry"), ("lubricant", "properties")):
         keys = (first, *keys[2:])
-    if first in ("models", "parameters") and keys[1] in ROLES:
-        keys = ("forces", ROLES[keys[1]].elements[0], *keys)
+    if first in ("models", "parameters") and keys[1] in MOTION_ROLES:
+        keys = ("forces", MOTION_ROLES[keys[1]].elements[0], *keys)
     return ".".join(keys)

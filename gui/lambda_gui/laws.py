@@ -11,13 +11,13 @@ from textual.widgets import Static
 
 from lambda_core.api import FieldCard, Models, field_card
 from lambda_core.domain.errors import LambdaError
-from lambda_core.domain.roles import DEFAULT_MODELS
+from lambda_core.domain.roles import DEFAULT_MODELS, ROLES
 from lambda_gui.branch import Branch
 from lambda_gui.choice import Choice, unset
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.entry import text_of
 from lambda_gui.fields import ChoiceRow, row_for
-from lambda_gui.outline import Node
+from lambda_gui.outline import Node, table_model
 from lambda_gui.places import Option
 from lambda_gui.rows import Left, Surroundings
 
@@ -46,15 +46,16 @@ def _gist(role: str, name: str) -> str:
     return "\n".join(filter(None, (card.summary, card.reference)))
 
 
-def law_card(role: str) -> FieldCard:
+def law_card(node: Node) -> FieldCard:
     """Return the card of the choice of a role's model."""
-    return field_card(Models, role)
+    table = table_model(node.law_places[0][:-1])
+    return field_card(table, "law") if ROLES[node.role].section else field_card(Models, node.role)
 
 
 def law_choice_row(draft: Draft, node: Node, around: Surroundings) -> ChoiceRow:
     """Return a row that only chooses the model."""
     place = Option(draft, node.law_places[0])
-    return ChoiceRow(place, law_card(node.role), around, lambda: law_choices(node.role), short=node.short)
+    return ChoiceRow(place, law_card(node), around, lambda: law_choices(node.role), short=node.short)
 
 
 class LawRow(Branch):
@@ -67,7 +68,7 @@ class LawRow(Branch):
 
     def __init__(self, draft: Draft, node: Node, around: Surroundings) -> None:
         model, self._parameters = (Option(draft, keys) for keys in node.law_places)
-        super().__init__(model, law_card(node.role), around, label="model")
+        super().__init__(model, law_card(node), around, label="model")
         self._draft, self._node = draft, node
 
     def control(self) -> Widget:

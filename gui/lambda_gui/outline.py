@@ -16,7 +16,7 @@ from pydantic import BaseModel
 from lambda_core.api import Case
 from lambda_core.domain.elements import DOFS
 from lambda_core.domain.option_tree import members, model_at
-from lambda_core.domain.roles import ROLES
+from lambda_core.domain.roles import MOTION_ROLES, ROLES
 
 Keys = tuple[str, ...]
 Kind = Literal["form", "roles", "role", "markers", "marker"]
@@ -117,7 +117,11 @@ class Node:
     @property
     def law_places(self) -> tuple[Keys, Keys]:
         """Where the model of a role and its parameters are written."""
-        base: Keys = ("forces", self.element) if self.element else ()
+        base: Keys
+        if ROLES[self.role].section:
+            base = (ROLES[self.role].section, self.role)
+            return (*base, "law"), (*base, "parameters")
+        base = ("forces", self.element) if self.element else ()
         return (*base, "models", self.role), (*base, "parameters", self.role)
 
 
@@ -177,11 +181,11 @@ def _forces() -> Node:
         "All elements",
         "one choice for every force element that has the role",
         kind="roles",
-        children=[_role("", role) for role in ROLES],
+        children=[_role("", role) for role in MOTION_ROLES],
     )
     nodes = [every]
     for element, title in ELEMENTS.items():
-        roles = [role.name for role in ROLES.values() if element in role.elements]
+        roles = [role.name for role in MOTION_ROLES.values() if element in role.elements]
         nodes.append(
             Node(
                 f"forces.{element}",
@@ -246,11 +250,21 @@ def _electric() -> Node:
         "machine": "Machine",
         "grounding": "Grounding",
         "film": "Films",
-        "breakdown": "Breakdown",
-        "discharge": "Arcs",
+        "cage": "Cage",
     }
     node.children = [_form(f"electric.{name}", title, ("electric", name)) for name, title in tables.items()]
+    node.children += [_film_law(role, title) for role, title in (("breakdown", "Breakdown"), ("discharge", "Arcs"))]
     return node
+
+
+def _film_law(role: str, title: str) -> Node:
+    """Return the node of a law that stands in a section of its own, beside further options of that section."""
+    table = ("electric", role)
+    names = tuple(name for name in plain_fields(table) if name not in ("law", "parameters"))
+    return Node(
+        f"electric.{role}", title, ROLES[role].summary, [Group("", table, names)] if names else [],
+        kind="role", role=role, heading=f"Electric circuit · {title.lower()}",
+    )  # fmt: skip
 
 
 def _form(key: str, title: str, table: Keys) -> Node:

@@ -10,15 +10,12 @@ from pydantic import PrivateAttr, ValidationInfo, model_validator
 
 from lambda_core.case.option import Section, option
 from lambda_core.case.signals import read_table
+from lambda_core.domain.roles import DEFAULT_MODELS
 from lambda_core.domain.units import (
     Capacitance,
     Conductivity,
-    Current,
-    FieldStrength,
     Frequency,
-    NumberDensity,
     Resistance,
-    SmallLength,
     Time,
     Voltage,
     parse,
@@ -161,29 +158,33 @@ class Film(Section):
     surroundings: Capacitance | None = option(
         None, "of the rings against each other past the balls; absent: shoulders as coaxial cylinders in air", ge=0.0
     )
+    seals: Capacitance = option("0 pF", "of seals and shields between the rings, beside that", ge=0.0)
+    ball_permittivity: float | None = option(
+        None, "relative permittivity of balls that insulate (silicon nitride: about 8); absent: they conduct", gt=1.0
+    )
+
+
+class Cage(Section):
+    """A cage of metal as a conductor between the balls; absent: a cage of plastic, which is none."""
+
+    pocket: Capacitance = option(description="of one ball against the cage", gt=0.0)
+    inner: Capacitance = option("0 pF", "of the cage against the inner ring", ge=0.0)
+    outer: Capacitance = option("0 pF", "of the cage against the outer ring", ge=0.0)
 
 
 class Breakdown(Section):
     """Voltage that a film stands."""
 
-    law: Literal["statistical", "field", "particles"] = option(
-        "statistical", "rough film, smooth film, or rough film with particles"
-    )
-    strength: FieldStrength = option(
-        "30 V/um", "E_b, field that breaks the oil down", reference="second-hand: 15 to 30 V/um and more", gt=0.0
-    )
-    correlation_length: SmallLength = option("10 um", "distance at which roughness is independent", gt=0.0)
-    least_voltage: Voltage = option("0.5 V", "below which nothing breaks down", gt=0.0)
-    particle_size: SmallLength = option("0.3 um", "of conducting particles", gt=0.0)
-    particle_density: NumberDensity = option("1000 1/mm3", "of conducting particles in the oil", ge=0.0)
+    law: str = option(DEFAULT_MODELS["breakdown"], "law of the role breakdown")
+    parameters: dict[str, Any] = option({}, "parameters of that law")
+    least_voltage: Voltage = option("0.5 V", "below which nothing breaks down, whatever the law says", gt=0.0)
 
 
 class Discharge(Section):
     """The arc in a film that broke down."""
 
-    resistance: Resistance = option("10 Ohm", "of the arc", reference="assumed", gt=0.0)
-    voltage: Voltage = option("0 V", "fall that does not depend on the current", ge=0.0)
-    least_current: Current = option("10 mA", "below which the arc dies", gt=0.0)
+    law: str = option(DEFAULT_MODELS["discharge"], "law of the role discharge")
+    parameters: dict[str, Any] = option({}, "parameters of that law")
 
 
 class Electric(Section):
@@ -196,6 +197,7 @@ class Electric(Section):
     machine: Machine = option({}, "capacitances of the machine")
     grounding: Grounding = option({}, "brush, insulation, shunt")
     film: Film = option({}, "conduction and surroundings of the films")
+    cage: Cage | None = option(None, "a cage that conducts")
     breakdown: Breakdown = option({}, "when a film breaks down")
     discharge: Discharge = option({}, "what burns then")
     seed: int = option(1, "key of the random numbers: the same seed gives the same discharges", ge=0, lt=2**31)
@@ -215,12 +217,8 @@ class Electric(Section):
             raise ValueError(f"{' and '.join(given)} are both sources: give one of inverter, sine, step, series")
         return self
 
-    @model_validator(mode="after")
-    def _arcs_can_burn(self) -> Electric:
-        least = self.discharge.voltage + self.discharge.resistance * self.discharge.least_current
-        if self.breakdown.least_voltage <= least:
-            raise ValueError(
-                f"breakdown.least_voltage must be above {least:.4g} V, which the least current of an arc needs "
-                "(discharge.voltage + discharge.resistance * discharge.least_current)"
-            )
-        return self
+    def inlined(self) -> Electric:
+        """Return the same with a measured series written out, so that it stands alone."""
+        if self.series is None or self.series.file is None:
+            return self
+        return self.model_copy(update={"series": Series.model_validate(self.series.inlined())})

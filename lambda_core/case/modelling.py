@@ -8,7 +8,7 @@ from pydantic import create_model
 
 from lambda_core.case.option import Section, option
 from lambda_core.domain.elements import ELEMENTS
-from lambda_core.domain.roles import DEFAULT_MODELS, ROLES, Role
+from lambda_core.domain.roles import DEFAULT_MODELS, MOTION_ROLES, Role
 from lambda_core.domain.units import Time
 
 Parameters = dict[str, dict[str, Any]]  # role -> parameter -> value
@@ -32,7 +32,7 @@ else:
         __base__=Section,
         __doc__="Model by role, for every force element that has the role; absent: the built-in default.",
         __module__=__name__,
-        **{role.name: (str | None, option(None, _help(role))) for role in ROLES.values()},
+        **{role.name: (str | None, option(None, _help(role))) for role in MOTION_ROLES.values()},
     )
 
 

@@ -35,7 +35,7 @@ class Role:
     summary: str
     arguments: tuple[Argument, ...]
     outputs: tuple[str, ...]  # meaning of out[0], out[1], ... or of the elementwise output
-    elements: tuple[str, ...]  # force elements that carry this role
+    elements: tuple[str, ...]  # force elements, or films of a circuit, that carry this role
     elementwise: bool = False
     # Of valid outputs; the solver relies on them (a dissipator never drives).
     bounds: tuple[tuple[float, float], ...] = ()
@@ -43,11 +43,15 @@ class Role:
     vanishes_with: str = ""  # argument of an elementwise law where whose zeros its output is zero
     # (output, of which output, by which argument) that must be derivatives: forces come from them, energy has to close
     slopes: tuple[tuple[int, int, str], ...] = ()
+    # Section of the case where the law is chosen, for one that acts on a motion that is known; "": it makes the motion.
+    section: str = ""
 
 
 _POSITIVE = (0.0, math.inf)
+_RESISTIVE = (1e-9, math.inf)
 _ANY = (-math.inf, math.inf)
 RACEWAYS = tuple(elements.RACEWAYS)
+FILMS = tuple(elements.FILMS)
 CAGE = (*elements.POCKETS, *elements.LANDS)
 GUIDES = (*CAGE, *elements.NEIGHBOURS)
 
@@ -277,8 +281,39 @@ ROLES: dict[str, Role] = {
             RACEWAYS,
             slopes=((1, 0, "azimuth"), (2, 0, "contact_angle")),
         ),
+        Role(
+            "breakdown",
+            "voltage that a film stands while it is on one patch of surface",
+            _arguments(
+                "h f central film [m]; h_min f minimum film [m]; sigma f composite rms roughness [m]; "
+                "area f Hertzian area [m2]; u_1 f random number of the patch, 0..1; "
+                "u_2 f another one; par a parameters; out A results"
+            ),
+            ("voltage at which the film breaks down [V]",),
+            FILMS,
+            bounds=(_POSITIVE,),
+            section="electric",
+        ),
+        Role(
+            "discharge",
+            "arc in a film that broke down: i = (V - U)/R until it is too small",
+            _arguments(
+                "V f voltage of the contact when its film breaks down, > 0 [V]; h f central film [m]; "
+                "area f Hertzian area [m2]; par a parameters; out A results"
+            ),
+            (
+                "resistance R of the channel, > 0 [Ohm]",
+                "fall U against the current, whatever it is [V]",
+                "least current, below which the arc dies [A]",
+            ),
+            FILMS,
+            bounds=(_RESISTIVE, _POSITIVE, _RESISTIVE),
+            section="electric",
+        ),
     )
 }
+MOTION_ROLES = {name: role for name, role in ROLES.items() if not role.section}
+ELECTRIC_ROLES = {name: role for name, role in ROLES.items() if role.section == "electric"}
 
 # Built-in default per role; "auto" is resolved to the model for which the lubricant has data.
 DEFAULT_MODELS: dict[str, str] = {
@@ -299,4 +334,6 @@ DEFAULT_MODELS: dict[str, str] = {
     "permittivity": "bode",
     "capacitance": "schneider",
     "surface": "none",
+    "breakdown": "statistical",
+    "discharge": "resistance",
 }

@@ -13,12 +13,12 @@ from lambda_core.case.electric import Electric
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.electric.circuit import circuit_of
 from lambda_core.electric.contacts import Contacts, films
-from lambda_core.electric.march import Circuit, Films, March, Strength, compiled, march
-from lambda_core.electric.sources import corners
+from lambda_core.electric.film_laws import FilmLaw, film_laws
+from lambda_core.electric.march import Circuit, Films, March, Network, Strength
+from lambda_core.electric.sources import corners, reach
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
+    from lambda_core.electric.electrified import Electrified
     from lambda_core.electric.events import Events
     from lambda_core.electric.outcome import Outcome
 
@@ -29,9 +29,8 @@ class Simulation:
 
     Attributes
     ----------
-    case : str
-        Name of the case.
-    options : Electric
+    bearing : Electrified
+        The bearing and the section of its case.
     contacts, films, circuit
         What the bearing and its circuit are.
     source : tuple of float64[:]
@@ -44,8 +43,7 @@ class Simulation:
         Wall time of the march [s].
     """
 
-    case: str
-    options: Electric
+    bearing: Electrified
     contacts: Contacts
     films: Films
     circuit: Circuit
@@ -53,6 +51,16 @@ class Simulation:
     march: March
     speed: float
     wall: float
+
+    @property
+    def case(self) -> str:
+        """Name of the case."""
+        return self.bearing.case
+
+    @property
+    def options(self) -> Electric:
+        """Section of the case."""
+        return self.bearing.options
 
     @property
     def duration(self) -> float:
@@ -64,7 +72,7 @@ class Simulation:
         """Films that broke down, one entry each."""
         from lambda_core.electric.events import events_of
 
-        return events_of(self)
+        return events_of(self.march, self.contacts)
 
     @cached_property
     def outcome(self) -> Outcome:
@@ -74,26 +82,16 @@ class Simulation:
         return outcome_of(self)
 
 
-def strength_of(options: Electric, roughness: float) -> Strength:
+def strength_of(laws: tuple[FilmLaw, FilmLaw], options: Electric, roughness: float) -> Strength:
     """Return when films break down and what burns then; `roughness` is the composite rms one [m]."""
-    law, arc = options.breakdown, options.discharge
-    return Strength(
-        field=law.strength,
-        roughness=0.0 if law.law == "field" else roughness,
-        particle=law.particle_size,
-        least_voltage=law.least_voltage,
-        resistance=arc.resistance,
-        fall=arc.voltage,
-        least_current=arc.least_current,
-    )
+    return Strength(*laws, roughness, options.breakdown.least_voltage)
 
 
 def simulate(
     contacts: Contacts,
-    options: Electric,
-    geometry: Mapping[str, float],
+    bearing: Electrified,
     *,
-    case: str = "",
+    settled: float | None = None,
     window: tuple[float, float] | None = None,
     announce: Any = None,
 ) -> Simulation:
@@ -101,10 +99,12 @@ def simulate(
 
     Parameters
     ----------
-    case : str
-        Name of the case.
-    geometry : mapping
-        Geometry of the bearing by name, SI.
+    bearing : Electrified
+        Its circuit, and what laws may know of it.
+    settled : float, optional
+        Time from which on is counted [s]; the circuit is marched from the first sample on all the same, so that it is
+        the one of a run that computes it beside the motion. The samples are those of a run then, and the march ends as
+        far before the last as the source needs. Default: everything is counted.
     window : tuple of float, optional
         Times between which every corner of the voltages is recorded [s]; default: none.
 
@@ -113,21 +113,36 @@ def simulate(
     SolverError
         When the circuit cannot be solved.
     """
-    electric = films(contacts, options)
-    circuit = circuit_of(options, electric, geometry)
+    options = bearing.options
+    electric, circuit = films(contacts, options), circuit_of(options, bearing.geometry)
     begin, end = float(contacts.time[0]), float(contacts.time[-1])
-    turned = contacts.inner_angle - contacts.outer_angle
-    speed = float((turned[-1] - turned[0]) / (end - begin))
-    source = corners(options.source, begin, end, speed)
-    compiled(announce)
-    started = time.perf_counter()
-    found = march(
-        electric,
+    laws = film_laws(bearing.laws, bearing.contexts, announce)
+    network = Network(
         circuit,
-        strength_of(options, contacts.roughness),
-        source,
+        strength_of(laws, options, contacts.roughness),
+        electric.film.shape[1],
         seed=options.seed,
-        window=(np.inf, -np.inf) if window is None else window,
         announce=announce,
     )
-    return Simulation(case, options, contacts, electric, circuit, source, found, speed, time.perf_counter() - started)
+    source = corners(options.source, begin, end + reach(options.source), contacts.turned)
+    last, first = contacts.time.size, 0
+    started, spent = time.perf_counter(), 0.0
+    if settled is not None:
+        last = marched(contacts.time, reach(options.source)) + 1
+        first = min(int(np.searchsorted(contacts.time, settled)), last - 2)
+        if first > 0:
+            network.advance(electric.part(slice(0, first + 1)), source)
+        spent = float(electric.time[first] - begin)
+    rows = slice(first, last)
+    found = network.advance(electric.part(rows), source, (np.inf, -np.inf) if window is None else window)
+    wall = time.perf_counter() - started
+    contacts, electric = contacts.part(rows), electric.part(rows)
+    length = float(electric.time[-1] - electric.time[0])
+    angle = contacts.inner_angle - contacts.outer_angle
+    speed = float((angle[-1] - angle[0]) / length)
+    return Simulation(bearing, contacts, electric, circuit, source, found, speed, wall * length / (length + spent))
+
+
+def marched(time: FloatArray, margin: float) -> int:
+    """Return the number of the last sample that a run's circuit is marched to: `margin` [s] before the newest one."""
+    return max(int(np.searchsorted(time, time[-1] - margin, side="right")) - 1, 1)

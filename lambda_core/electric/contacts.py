@@ -14,6 +14,8 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.electric.march import Films
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from lambda_core.case.electric import Electric
     from lambda_core.results.reader import Result
     from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
@@ -80,13 +82,28 @@ class Contacts:
         """Hertzian area of each contact [m2]."""
         return np.asarray(math.pi * self.semi_a * self.semi_b)
 
-    def until(self, duration: float) -> Contacts:
-        """Return the samples of the first `duration` [s]."""
-        count = int(np.searchsorted(self.time, self.time[0] + duration, side="right"))
-        rows = slice(0, max(count, 2))
+    def part(self, rows: slice) -> Contacts:
+        """Return some of the samples."""
         values = {f.name: getattr(self, f.name) for f in fields(self)}
         parts: dict[str, Any] = {name: a[rows] for name, a in values.items() if isinstance(a, np.ndarray)}
         return replace(self, **parts)
+
+    def after(self, earlier: Contacts | None) -> Contacts:
+        """Return these samples behind earlier ones."""
+        if earlier is None:
+            return self
+        values = {f.name: (getattr(earlier, f.name), getattr(self, f.name)) for f in fields(self)}
+        parts: dict[str, Any] = {
+            name: np.concatenate(pair) for name, pair in values.items() if isinstance(pair[0], np.ndarray)
+        }
+        return replace(self, **parts)
+
+    def turned(self, times: FloatArray) -> FloatArray:
+        """Return the angle of the inner ring against the outer at times [s], straight between and beyond samples."""
+        angle = self.inner_angle - self.outer_angle
+        i = np.clip(np.searchsorted(self.time, times, side="right") - 1, 0, self.time.size - 2)
+        slope = (angle[i + 1] - angle[i]) / (self.time[i + 1] - self.time[i])
+        return np.asarray(angle[i] + slope * (times - self.time[i]))
 
 
 _CHANNELS = {
@@ -102,29 +119,33 @@ _CHANNELS = {
 }
 
 
-def contacts_of_run(result: Result, start: float, duration: float | None = None) -> Contacts:
-    """Read the contacts of a run from time `start` [s] on.
+def contacts_of_samples(samples: Mapping[str, FloatArray], roughness: float, origin: str) -> Contacts:
+    """Return the contacts in the samples of a run, channel -> array."""
+    angle = samples["body_spin_angle"]
+    return Contacts(
+        time=samples["time"],
+        azimuth=samples["ball_azimuth"],
+        inner_angle=angle[:, 0],
+        outer_angle=angle[:, 1],
+        roughness=roughness,
+        origin=origin,
+        **{name: samples[channel] for name, channel in _CHANNELS.items()},
+    )
+
+
+def contacts_of_run(result: Result) -> Contacts:
+    """Read the contacts of a run.
 
     Raises
     ------
     UsageError
-        When there are not two samples.
+        When there are not three samples.
     """
-    time = result["time"]
-    first = int(np.searchsorted(time, start))
-    if time.size - first < 2:
-        raise UsageError(f"{result.path}: fewer than two samples from {start:.4g} s on")
-    angle = result["body_spin_angle"][first:]
-    found = Contacts(
-        time=time[first:],
-        azimuth=result["ball_azimuth"][first:],
-        inner_angle=angle[:, 0],
-        outer_angle=angle[:, 1],
-        roughness=float(result.model["roughness"]),
-        origin=f"the run {result.path.name} from {1e3 * start:.4g} ms on",
-        **{name: result[channel][first:] for name, channel in _CHANNELS.items()},
-    )
-    return found if duration is None else found.until(duration)
+    names = ("time", "body_spin_angle", "ball_azimuth", *_CHANNELS.values())
+    samples = {name: result[name] for name in names}
+    if samples["time"].size < 3:
+        raise UsageError(f"{result.path}: fewer than three samples")
+    return contacts_of_samples(samples, float(result.model["roughness"]), f"the run {result.path.name}")
 
 
 def equilibria(
@@ -182,40 +203,77 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
     )
 
 
-def films(contacts: Contacts, options: Electric) -> Films:
+def films(contacts: Contacts, options: Electric, rolled: FloatArray | None = None) -> Films:
     """Return the contacts as electric parts: capacitance, conductance, and what breaks down.
 
-    Raises
-    ------
-    UsageError
-        When no contact has a film.
+    Each sample is treated alone, so that a run gives the same films however its samples come.
+
+    Parameters
+    ----------
+    rolled : float64[:, :], shape (Z, 2), optional
+        Patches rolled over at the first sample; default: none.
     """
     shorted, loaded = contacts.shorted, contacts.loaded
     capacitance = np.where(shorted, contacts.hertz, contacts.capacitance) + rough_excess(contacts, options)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        permittivity = np.where(loaded & ~shorted, contacts.hertz * contacts.film / contacts.area, np.nan)
-    if not np.isfinite(permittivity).any():
-        permittivity[:] = VACUUM_PERMITTIVITY  # every contact is shorted: metal conducts, not oil
-    permittivity = np.where(np.isfinite(permittivity), permittivity, np.nanmean(permittivity))
-    conductance = options.film.conductivity * capacitance / permittivity
+    conductance = options.film.conductivity * capacitance / _permittivity(contacts)
     conductance = np.where(shorted, 1.0 / options.film.metal_resistance, conductance)
-    breaks = loaded & ~shorted
-    law = options.breakdown
-    film = np.where(breaks, contacts.film_minimum if law.law == "field" else contacts.film, 0.0)
+    film = np.where(loaded & ~shorted, contacts.film, 0.0)
+    if options.film.ball_permittivity is not None:
+        through = ball_capacitance(contacts, options.film.ball_permittivity)
+        capacitance = capacitance * through / (capacitance + through)
+        conductance, film = np.zeros_like(conductance), np.zeros_like(film)
     with np.errstate(divide="ignore", invalid="ignore"):
         rate = np.where(loaded, np.abs(contacts.entrainment) / (2.0 * contacts.semi_b), 0.0)
     steps = 0.5 * (rate[1:] + rate[:-1]) * np.diff(contacts.time)[:, None, None]
-    rolled = np.concatenate([np.zeros_like(rate[:1]), np.cumsum(steps, axis=0)])
-    particles = law.particle_density * contacts.area * contacts.film if law.law == "particles" else np.zeros_like(rate)
+    first = np.zeros_like(rate[:1]) if rolled is None else rolled[None]
     return Films(
         time=contacts.time,
         capacitance=capacitance,
         conductance=conductance,
         film=film,
-        spots=np.maximum(contacts.area / law.correlation_length**2, 1.0),
-        particles=particles,
-        rolled=rolled,
+        thinnest=contacts.film_minimum,
+        area=contacts.area,
+        rolled=np.cumsum(np.concatenate([first, steps]), axis=0),
     )
+
+
+def _permittivity(contacts: Contacts) -> FloatArray:
+    """Return the permittivity of the oil in each contact [F/m]; outside films that of the films of the same sample."""
+    carried = contacts.loaded & ~contacts.shorted
+    with np.errstate(divide="ignore", invalid="ignore"):
+        own = np.where(carried, contacts.hertz * contacts.film / contacts.area, 0.0)
+    total, count = np.zeros(contacts.time.size), np.zeros(contacts.time.size)
+    for ball in range(own.shape[1]):  # one after the other: a sum by numpy depends on how many samples there are
+        for ring in range(2):
+            total += own[:, ball, ring]
+            count += carried[:, ball, ring]
+    mean = np.where(count > 0.0, total / np.maximum(count, 1.0), VACUUM_PERMITTIVITY)
+    return np.where(carried, own, mean[:, None, None])
+
+
+def ball_capacitance(contacts: Contacts, permittivity: float) -> FloatArray:
+    """Return the capacitance from each contact into a ball that insulates [F]; two of them are in series in a ball.
+
+    The flux spreads from the Hertzian ellipse into a half-space: C = 2 pi eps_0 eps_r a/K(m), m = 1 - (b/a)^2, a the
+    larger semi-axis, K the complete elliptic integral of the first kind; a circle gives 4 eps_0 eps_r a. It is the
+    spreading resistance rho K/(2 pi a) of an ellipse (Holm 1967, Electric Contacts, par. 3) with eps for 1/rho. An
+    unloaded ball gets that of a circle of the mean size of the loaded ones in its sample, an upper bound. Field lines
+    beside the ellipse are left out, so that the result is a lower bound for loaded balls.
+    """
+    from scipy.special import ellipk
+
+    large, small = np.maximum(contacts.semi_a, contacts.semi_b), np.minimum(contacts.semi_a, contacts.semi_b)
+    loaded = contacts.loaded & (large > 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        own = np.where(loaded, large / ellipk(np.where(loaded, 1.0 - (small / large) ** 2, 0.0)), 0.0)
+    total, count = np.zeros(contacts.time.size), np.zeros(contacts.time.size)
+    for ball in range(own.shape[1]):
+        for ring in range(2):
+            total += own[:, ball, ring]
+            count += loaded[:, ball, ring]
+    mean = np.where(count > 0.0, total / np.maximum(count, 1.0), 1e-6)
+    size = np.where(loaded, own, mean[:, None, None])
+    return np.asarray(2.0 * math.pi * VACUUM_PERMITTIVITY * permittivity * size)
 
 
 def rough_excess(contacts: Contacts, options: Electric) -> FloatArray:

@@ -14,7 +14,8 @@ from lambda_core.domain.channels import RINGS
 from lambda_core.electric import columns as L
 
 if TYPE_CHECKING:
-    from lambda_core.electric.circuit_run import Simulation
+    from lambda_core.electric.contacts import Contacts
+    from lambda_core.electric.march import March
 
 IntArray = NDArray[np.int64]
 
@@ -80,9 +81,9 @@ class Events:
         ]
 
 
-def events_of(simulation: Simulation) -> Events:
-    """Return the discharges of a simulation with the state of their contacts."""
-    table, contacts = simulation.march.events, simulation.contacts
+def events_of(march: March, contacts: Contacts) -> Events:
+    """Return the discharges of a march with the state of the contacts that it went through."""
+    table = march.events
     ball, ring = table[:, L.E_BALL].astype(np.int64), table[:, L.E_RACEWAY].astype(np.int64)
     low = np.clip(table[:, L.E_SAMPLE].astype(np.int64), 0, contacts.time.size - 2)
     share = table[:, L.E_SAMPLE] - low
@@ -126,13 +127,14 @@ class Discharges:
 
 def discharges_of(events: Events) -> Discharges:
     """Put the arcs of each discharge together."""
-    count = int(events.discharge[-1]) + 1 if events.discharge.size else 0
-    energy = np.bincount(events.discharge, events.energy, count).astype(np.float64)
+    numbers, each = np.unique(events.discharge, return_inverse=True)
+    count = numbers.size
+    energy = np.bincount(each, events.energy, count).astype(np.float64)
     peak, voltage, time = np.zeros(count), np.zeros(count), np.full(count, np.inf)
-    np.maximum.at(peak, events.discharge, events.peak)
-    np.maximum.at(voltage, events.discharge, np.abs(events.bearing_voltage))
-    np.minimum.at(time, events.discharge, events.time)
-    return Discharges(time, voltage, energy, peak, np.bincount(events.discharge, minlength=count) > 1)
+    np.maximum.at(peak, each, events.peak)
+    np.maximum.at(voltage, each, np.abs(events.bearing_voltage))
+    np.minimum.at(time, each, events.time)
+    return Discharges(time, voltage, energy, peak, np.bincount(each, minlength=count) > 1)
 
 
 def sector_shares(events: Events, ring: int, sectors: int = SECTORS) -> FloatArray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.electric import columns as L
+from lambda_core.electric.film_laws import FilmLaw
 
 
 @dataclass(frozen=True)
@@ -23,10 +24,10 @@ class Films:
         [s]
     capacitance, conductance : float64[:, :, :]
         [F], [S]
-    film : float64[:, :, :]
-        Film that decides over breakdown; 0 where there is none [m].
-    spots, particles : float64[:, :, :]
-        Independent spots in the contact; mean number of particles in it.
+    film, thinnest : float64[:, :, :]
+        Central film where it may break down, 0 elsewhere, and its minimum [m].
+    area : float64[:, :, :]
+        Hertzian area [m2].
     rolled : float64[:, :, :]
         Patches of surface rolled over since the start.
     """
@@ -35,9 +36,13 @@ class Films:
     capacitance: FloatArray
     conductance: FloatArray
     film: FloatArray
-    spots: FloatArray
-    particles: FloatArray
+    thinnest: FloatArray
+    area: FloatArray
     rolled: FloatArray
+
+    def part(self, rows: slice) -> Films:
+        """Return a stretch of the samples."""
+        return Films(**{f.name: getattr(self, f.name)[rows] for f in fields(self)})
 
 
 @dataclass(frozen=True)
@@ -56,6 +61,10 @@ class Circuit:
         Conductance from the rotor to the frame [S].
     coating, bridge : float
         Outer ring to frame: capacitance [F] and conductance [S]; an infinite conductance joins them.
+    twins : float
+        Further bearings of the machine that are like this one, rotor to frame, by their capacitance alone.
+    pocket, cage_inner, cage_outer : float
+        Of a cage that conducts against each ball, the inner and the outer ring [F]; pocket 0: there is none.
     """
 
     winding: float
@@ -64,52 +73,49 @@ class Circuit:
     brush: float = 0.0
     coating: float = 0.0
     bridge: float = np.inf
+    twins: float = 0.0
+    pocket: float = 0.0
+    cage_inner: float = 0.0
+    cage_outer: float = 0.0
 
     @property
     def insulated(self) -> bool:
         """Whether the outer ring has a potential of its own."""
         return bool(np.isfinite(self.bridge))
 
-    def array(self) -> FloatArray:
-        """Return the constants in the order of the compiled code (M_*)."""
+    def constants(self) -> L.Machine:
+        """Return what the compiled march reads."""
         bridge = self.bridge if self.insulated else 0.0
-        return np.array([self.winding, self.rotor, self.rings, self.brush, self.coating, bridge])
+        return L.Machine(
+            self.winding,
+            self.rotor,
+            self.rings,
+            self.brush,
+            self.coating,
+            float(bridge),
+            self.twins,
+            self.pocket,
+            self.cage_inner,
+            self.cage_outer,
+        )
 
 
 @dataclass(frozen=True)
 class Strength:
-    """When films break down, and what burns then, SI.
+    """When films break down, and what burns then.
 
     Attributes
     ----------
-    field, roughness, particle, least_voltage : float
-        E_b [V/m]; sigma of the film, 0 for the deterministic field [m]; size of particles [m]; voltage below which
-        nothing breaks down [V].
-    resistance, fall, least_current : float
-        Of an arc [Ohm], [V], [A].
+    breakdown, discharge : FilmLaw
+        Laws of these roles.
+    roughness, least_voltage : float
+        Composite rms roughness [m]; voltage below which nothing breaks down [V].
     """
 
-    field: float
+    breakdown: FilmLaw
+    discharge: FilmLaw
     roughness: float
-    particle: float
     least_voltage: float
-    resistance: float
-    fall: float
-    least_current: float
-
-    def array(self) -> FloatArray:
-        """Return the constants in the order of the compiled code (F_*)."""
-        return np.array(
-            [
-                self.field,
-                self.roughness,
-                self.particle,
-                self.least_voltage,
-                self.resistance,
-                self.fall,
-                self.least_current,
-            ]
-        )
 
 
 @dataclass(frozen=True)
@@ -125,7 +131,7 @@ class March:
     trace : float64[:, :], shape (m, 4)
         Time [s], source [V], bearing voltage [V], arc current [A] at every corner inside the window.
     total : float64[:], shape (N_TOTAL,)
-        Sums (columns.T_*).
+        Sums over this stretch (columns.T_*).
     """
 
     events: FloatArray
@@ -134,9 +140,137 @@ class March:
     total: FloatArray
 
 
-_FIRST_ROOM = 65536  # events that there is room for at first
+_FIRST_ROOM = 4096  # events that there is room for at first
 _TRACE_ROOM = 20000
+_SUMS = slice(L.T_SOURCE, L.T_ARC_CHARGE + 1)
 _loaded: list[Any] = []
+
+
+class Network:
+    """The network of one bearing between two moments: it can be marched on, stretch by stretch, as samples come.
+
+    Between corners of the source and changes of the capacitances the network is solved exactly by its modes. Charges
+    are conserved where capacitances change (d(Cv)/dt, not C dv/dt). However the samples are cut into stretches, what
+    comes out is the same, bit for bit.
+
+    Parameters
+    ----------
+    circuit, strength
+        What surrounds the films, and when they break down.
+    balls : int
+    seed : int
+        Key of the random numbers: the same seed gives the same discharges, bit for bit.
+    substeps : int
+        Intervals of constant capacitance between samples.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+    """
+
+    def __init__(
+        self,
+        circuit: Circuit,
+        strength: Strength,
+        balls: int,
+        *,
+        seed: int = 0,
+        substeps: int = 2,
+        announce: Any = None,
+    ) -> None:
+        from lambda_core.electric.compiled import edges as code
+
+        self._run = compiled(announce)
+        self._circuit, self._strength, self._seed, self._substeps = circuit, strength, seed, substeps
+        size = balls + 2
+        self._work = np.zeros((code.N_WORK, size, size))
+        self._vectors = np.zeros((code.N_VECTORS, size))
+        self._held, self._known = L.Held(*np.zeros((7, balls, 2))), np.zeros((balls, 2), dtype=np.int64)
+        self._drawn, self._outs = np.zeros((balls, 2)), (np.zeros(1), np.zeros(3))
+        self._channels = np.zeros((2, L.N_EVENT)), L.Channels(*np.zeros((5, 2)))
+        self._total = np.zeros(L.N_TOTAL)
+        self._began = False
+
+    @property
+    def time(self) -> float:
+        """How far the network has come: the end of its last stretch, or of a discharge that went on beyond it [s]."""
+        return float(self._total[L.T_TIME])
+
+    def advance(
+        self, films: Films, source: tuple[FloatArray, FloatArray], window: tuple[float, float] = (np.inf, -np.inf)
+    ) -> March:
+        """March through the times of the films, from discharge to discharge.
+
+        Parameters
+        ----------
+        films : Films
+            Of the first stretch, or from the last sample of the stretch before on.
+        source : tuple of float64[:]
+            Corners of the common-mode voltage, times [s] increasing, and volts.
+        window : tuple of float
+            Times between which every corner is recorded [s].
+
+        Raises
+        ------
+        SolverError
+            When the network has no capacitance somewhere, a discharge does not end, or a law refuses a contact.
+        """
+        before, vectors = self._total.copy(), self._vectors.copy()
+        room = _FIRST_ROOM
+        while True:
+            events, extremes = np.zeros((room, L.N_EVENT)), np.zeros((films.time.size - 1, 2))
+            trace = np.zeros((_TRACE_ROOM, L.N_TRACE))
+            self._total[:], self._vectors[:] = before, vectors
+            self._total[L.T_EVENTS] = self._total[L.T_TRACE] = 0.0
+            status = self._march(films, source, extremes, events, trace, np.array(window, dtype=np.float64))
+            if status != L.EVENTS_FULL:
+                break
+            room *= 8
+        if status != L.OK:
+            raise SolverError(self._fault(status))
+        self._began = True
+        extremes[~np.isfinite(extremes)] = np.nan
+        total = self._total.copy()
+        total[_SUMS] -= before[_SUMS]
+        if before[L.T_TIME] > 0.0 or before[L.T_SEGMENTS] > 0.0:
+            total[L.T_STORED_0], total[L.T_CHARGE_0] = before[L.T_STORED], before[L.T_CHARGE]
+        return March(events[: int(total[L.T_EVENTS])].copy(), extremes, trace[: int(total[L.T_TRACE])].copy(), total)
+
+    def _march(
+        self, films: Films, source: tuple[FloatArray, FloatArray], extremes: FloatArray, events: FloatArray,
+        trace: FloatArray, window: FloatArray,
+    ) -> int:  # fmt: skip
+        """Call the compiled march; return its status."""
+        strength, circuit = self._strength, self._circuit
+        tables = (
+            films.time,
+            films.capacitance,
+            films.conductance,
+            films.film,
+            films.thinnest,
+            films.area,
+            films.rolled,
+        )
+        breaks, arcs = strength.breakdown, strength.discharge
+        status = self._run(
+            int(not self._began), *(np.ascontiguousarray(a, dtype=np.float64) for a in (*source, *tables)),
+            circuit.constants(), strength.roughness, strength.least_voltage,
+            breaks.kernel.pointer, breaks.par, arcs.kernel.pointer, arcs.par,
+            int(circuit.insulated), self._seed, self._substeps, self._work, self._vectors, self._held, self._known,
+            self._drawn, *self._outs, *self._channels, np.zeros(1, dtype=np.int64), extremes, events, trace, window,
+            self._total,
+        )  # fmt: skip
+        return int(status)
+
+    def _fault(self, status: int) -> str:
+        """Say why the march ended."""
+        if status == L.NOT_POSITIVE:
+            return "the electric network has a node without capacitance"
+        if status == L.ENDLESS:
+            return "a discharge does not end: is the least current of an arc too small?"
+        law = (self._strength.breakdown if status == L.NO_VOLTAGE else self._strength.discharge).law
+        if status == L.ARC_STARVED:
+            return f"{law.label}: its least current needs more voltage than a film broke down at"
+        code = int(self._total[L.T_STATUS])
+        return f"{law.label} refuses a contact at t = {self.time:.6g} s: {law.errors.get(code, f'status {code}')}"
 
 
 def march(
@@ -150,80 +284,18 @@ def march(
     window: tuple[float, float] = (np.inf, -np.inf),
     announce: Any = None,
 ) -> March:
-    """March the network through the times of the films, from discharge to discharge.
-
-    Between corners of the source and changes of the capacitances the network is solved exactly by its modes. Charges
-    are conserved where capacitances change (d(Cv)/dt, not C dv/dt).
-
-    Parameters
-    ----------
-    source : tuple of float64[:]
-        Corners of the common-mode voltage, times [s] increasing, and volts.
-    seed : int
-        Key of the random numbers: the same seed gives the same discharges, bit for bit.
-    substeps : int
-        Intervals of constant capacitance between samples.
-    window : tuple of float
-        Times between which every corner is recorded [s].
-
-    Raises
-    ------
-    SolverError
-        When the network has no capacitance somewhere, or a discharge does not end.
-    """
-    from lambda_core.electric.compiled import edges as code
-
-    run = compiled(announce)
-    samples, balls, _ = films.capacitance.shape
-    size = balls + 2
-    tables = [np.ascontiguousarray(a, dtype=np.float64) for a in _tables(films)]
-    corners = [np.ascontiguousarray(a, dtype=np.float64) for a in source]
-    room = _FIRST_ROOM
-    while True:
-        events, total = np.zeros((room, L.N_EVENT)), np.zeros(L.N_TOTAL)
-        extremes, trace = np.zeros((samples - 1, 2)), np.zeros((_TRACE_ROOM, L.N_TRACE))
-        status = run(
-            *corners, *tables, circuit.array(), strength.array(), int(circuit.insulated), seed, substeps,
-            _longest_step(films), np.zeros((code.N_WORK, size, size)), np.zeros((code.N_VECTORS, size)),
-            np.zeros((code.N_HELD, balls, 2)), np.full((balls, 2), -(2**62)), np.zeros((balls, 2, 2)),
-            np.zeros((2, L.N_EVENT)), np.zeros((2, 2)), np.zeros(1, dtype=np.int64), extremes, events, trace,
-            np.array(window, dtype=np.float64), total,
-        )  # fmt: skip
-        if status != L.EVENTS_FULL:
-            break
-        room *= 8
-    if status == L.NOT_POSITIVE:
-        raise SolverError("the electric network has a node without capacitance")
-    if status == L.ENDLESS:
-        raise SolverError("a discharge does not end: is the least current of an arc too small?")
-    extremes[~np.isfinite(extremes)] = np.nan
-    return March(events[: int(total[L.T_EVENTS])].copy(), extremes, trace[: int(total[L.T_TRACE])].copy(), total)
+    """March a network through the times of the films; see :class:`Network`."""
+    network = Network(circuit, strength, films.film.shape[1], seed=seed, substeps=substeps, announce=announce)
+    return network.advance(films, source, window)
 
 
 def compiled(announce: Any) -> Any:
     """Return the compiled march, loaded once per process; it is compiled where the disk does not have it."""
     if not _loaded:
+        import numba.experimental.function_type  # noqa: F401  # teaches Numba the type of pointers, which it forgets
+
         from lambda_core.electric.compiled import edges as code
         from lambda_core.laws.kernels import compile_host
 
         _loaded.append(compile_host(code.march, code.march_sig, (Path(code.__file__).parent,), announce).dispatcher)
     return _loaded[0]
-
-
-def _tables(films: Films) -> tuple[FloatArray, ...]:
-    return (
-        films.time,
-        films.capacitance,
-        films.conductance,
-        films.film,
-        films.spots,
-        films.particles,
-        films.rolled,
-    )
-
-
-def _longest_step(films: Films) -> float:
-    """Return a step in which no loaded contact rolls over more than one patch [s]."""
-    rate = np.abs(np.diff(films.rolled, axis=0)) / np.diff(films.time)[:, None, None]
-    fastest = float(rate[films.film[:-1] > 0.0].max(initial=0.0))
-    return 1.0 / fastest if fastest > 0.0 else np.inf

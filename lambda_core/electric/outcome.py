@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,11 +16,14 @@ from lambda_core.electric.circuit import bearing_capacitance, impedance, voltage
 from lambda_core.electric.current_limits import LIMITS, Limit
 from lambda_core.electric.events import discharges_of, sector_shares
 from lambda_core.results.record import INTERFACE, Record
+from lambda_core.system.resolve_electric import assumed
 
 if TYPE_CHECKING:
     from lambda_core.electric.circuit_run import Simulation
+    from lambda_core.electric.march import Circuit
 
 
+_CERAMIC = re.compile(r"ceramic|si3n4|silicon.?nitride|zro2|zirconia", re.IGNORECASE)
 _FREQUENCIES = (1e3, 1e4, 1e5, 1e6)
 _BINS = 20
 
@@ -87,7 +91,7 @@ def outcome_of(simulation: Simulation) -> Outcome:
     films, circuit, contacts = simulation.films, simulation.circuit, simulation.contacts
     capacitance = bearing_capacitance(films)
     area = float(contacts.area.sum(axis=1).mean())
-    meter = impedance(films, circuit.rings, np.array(_FREQUENCIES)).mean(axis=0)
+    meter = impedance(films, circuit, np.array(_FREQUENCIES)).mean(axis=0)
     names = [f"{frequency:g} Hz" for frequency in _FREQUENCIES]
     total, length = simulation.march.total, simulation.duration
     some = bool(through.any())
@@ -101,7 +105,7 @@ def outcome_of(simulation: Simulation) -> Outcome:
         bearing_capacitance_pF=[1e12 * float(f(capacitance)) for f in (np.min, np.median, np.max)],
         unloaded_share=unloaded_share(simulation),
         rings_capacitance_pF=1e12 * circuit.rings,
-        rotor_capacitance_pF=1e12 * (circuit.winding + circuit.rotor + circuit.rings + float(capacitance.mean())),
+        rotor_capacitance_pF=1e12 * rotor_capacitance(circuit, float(capacitance.mean())),
         shorted_share=float(contacts.shorted.mean()),
         bearing_voltage_ratio=voltage_ratio(circuit, float(capacitance.mean())),
         bearing_voltage_V=[float(np.nanmin(extremes[:, 0])), float(np.nanmax(extremes[:, 1]))],
@@ -130,6 +134,11 @@ def outcome_of(simulation: Simulation) -> Outcome:
     )
 
 
+def rotor_capacitance(circuit: Circuit, capacitance: float) -> float:
+    """Return everything between the rotor and its surroundings [F]; `capacitance` is that of the balls."""
+    return circuit.winding + circuit.rotor + (1.0 + circuit.twins) * (circuit.rings + capacitance)
+
+
 def unloaded_share(simulation: Simulation) -> float:
     """Return the share of the bearing's capacitance that balls carry which a ring does not press on."""
     capacitance = simulation.films.capacitance
@@ -150,9 +159,9 @@ def energy_residual(total: FloatArray) -> float:
 def charge_residual(simulation: Simulation) -> float:
     """Return charge brought by the source - leaked - through arcs - kept, over the charge that the source moved."""
     total, (times, volts) = simulation.march.total, simulation.source
-    end = float(np.interp(total[L.T_TIME], times, volts))
+    begin, end = np.interp((simulation.films.time[0], total[L.T_TIME]), times, volts)
     winding = simulation.circuit.winding
-    rest = winding * (end - volts[0]) - total[L.T_LEAK] - total[L.T_ARC_CHARGE]
+    rest = winding * (end - begin) - total[L.T_LEAK] - total[L.T_ARC_CHARGE]
     rest -= total[L.T_CHARGE] - total[L.T_CHARGE_0]
     whole = winding * float(np.abs(np.diff(volts)).sum() + abs(volts[0]))
     return float(rest) / whole if whole > 0.0 else 0.0
@@ -181,13 +190,23 @@ def assumptions(simulation: Simulation) -> list[str]:
         if name not in written:
             found.append(f"{words} is {1e12 * getattr(options.machine, name):g} pF: an order of size, not this machine")
     if options.machine.other_bearings is None:
-        found.append("the machine has one more bearing like this, of the mean capacitance")
+        found.append("the machine has one more bearing like this, of the same capacitance at every moment")
     if options.film.surroundings is None:
-        found.append("between the rings there is air outside the balls; cage and seals are left out")
-    if "strength" not in options.breakdown.model_fields_set:
-        found.append("films break down at 30 V/um of local gap; values of 15 to more than 30 V/um are in circulation")
-    if options.breakdown.law != "field":
-        found.append("heights of rough spots are Gaussian and independent; each patch of two contact widths is new")
+        found.append("between the rings there is air outside the balls")
+    if options.film.seals == 0.0:
+        found.append("seals are left out")
+    if options.cage is None:
+        found.append("the cage does not conduct")
+    found += assumed(simulation.bearing.laws)
+    if options.film.ball_permittivity is not None:
+        found.append("balls insulate: no film breaks down, field lines beside the Hertzian areas are left out")
+        return found
+    ball = simulation.bearing.contexts[0].ball
+    if _CERAMIC.search(ball.name):
+        found.append(
+            f"balls of {ball.name} are computed as conductors: electric.film.ball_permittivity makes them insulate"
+        )
+    found.append("each patch of two contact widths has its own breakdown voltage")
     found.append("contacts without load do not break down; craters do not change the surfaces")
     return found
 

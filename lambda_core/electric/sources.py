@@ -1,86 +1,103 @@
-"""Common-mode voltage of the winding as corners of straight lines: what each kind of source makes of a span of time."""
+"""Common-mode voltage of the winding as corners of straight lines: what each kind of source makes of a span of time.
+
+Every corner is found from the number of its period alone: a span that is cut into stretches has the same corners.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
 from lambda_core.case.electric import Inverter, Series, Sine, Step
 from lambda_core.domain.arrays import FloatArray
 
+Turned = Callable[[FloatArray], FloatArray]  # times [s] -> angles of the rotor [rad]
+_LATER = 1e6  # after the end, where nothing changes any more [s]
+
 
 def corners(
-    source: Inverter | Sine | Step | Series, start: float, stop: float, speed: float
+    source: Inverter | Sine | Step | Series, start: float, stop: float, turned: Turned, origin: float | None = None
 ) -> tuple[FloatArray, FloatArray]:
-    """Return times [s] and volts of the corners of a source over start..stop.
+    """Return times [s] and volts of the corners of a source over start..stop at least.
 
     Parameters
     ----------
-    speed : float
-        Of the rotor [rad/s], for the fundamental of an inverter.
+    turned : callable
+        Angle of the rotor [rad] at times [s]: an inverter's fundamental turns with it.
+    origin : float, optional
+        When the source began [s]; default: `start`.
     """
-    length = stop - start
+    origin = start if origin is None else origin
+    begin, end = start - origin, stop - origin
     if isinstance(source, Inverter):
-        t, v = inverter(source, length, source.pole_pairs * abs(speed) / (2.0 * math.pi))
+        t, v = inverter(source, begin, end, lambda times: turned(times + origin))
     elif isinstance(source, Sine):
-        count = max(math.ceil(length * source.frequency * source.points), 1)
-        t = np.arange(count + 1) / (source.frequency * source.points)
-        v = source.amplitude * np.sin(2.0 * math.pi * source.frequency * t)
+        rate = source.frequency * source.points
+        count = np.arange(math.floor(begin * rate), math.ceil(end * rate) + 1)
+        t = count / rate
+        v = source.amplitude * np.sin(2.0 * math.pi * (count % source.points) / source.points)
     elif isinstance(source, Step):
-        t = np.array([0.0, source.time, source.time + source.rise_time, source.time + source.rise_time + length])
+        t = np.array([0.0, source.time, source.time + source.rise_time, source.time + source.rise_time + _LATER])
         v = np.array([0.0, 0.0, source.amplitude, source.amplitude])
         keep = np.concatenate([[True], np.diff(t) > 0.0])
         t, v = t[keep], v[keep]
     else:
-        t, v = _repeated(np.array(source.rows), length)
-    return t + start, v
+        t, v = _repeated(np.array(source.rows), begin, end)
+    return t + origin, v
 
 
-def inverter(source: Inverter, length: float, fundamental: float) -> tuple[FloatArray, FloatArray]:
-    """Return the common-mode voltage of a two-level inverter, (V_a + V_b + V_c)/3, over `length` [s].
+def reach(source: Inverter | Sine | Step | Series) -> float:
+    """Return for how long the voltage is known ahead of the rotor's last known angle [s], 0 where it needs none."""
+    return 1.0 / source.switching_frequency if isinstance(source, Inverter) else 0.0
+
+
+def inverter(source: Inverter, start: float, stop: float, turned: Turned) -> tuple[FloatArray, FloatArray]:
+    """Return the common-mode voltage of a two-level inverter, (V_a + V_b + V_c)/3, over start..stop [s].
 
     Sine-triangle modulation, the references held over each half period of the triangle (Holmes and Lipo 2003, Pulse
     Width Modulation for Power Converters, ch. 3). Levels +-U_dc/2 and +-U_dc/6; six edges of U_dc/3 per switching
-    period, each a straight line of the rise time around its instant.
+    period, each a straight line of the rise time around its instant. Half periods are whole: three edges each.
     """
     half = 0.5 / source.switching_frequency
-    count = math.ceil(length / half) + 1
-    begin = np.arange(count) * half
-    phase = 2.0 * math.pi * (fundamental * begin[:, None] - np.arange(3)[None, :] / 3.0)
+    first = max(math.floor(start / half * (1.0 - 1e-15)), 0)
+    number = np.arange(first, max(math.ceil(stop / half), first + 1))
+    begin = np.asarray(number * half, dtype=np.float64)
+    phase = source.pole_pairs * turned(begin)[:, None] - 2.0 * math.pi / 3.0 * np.arange(3)[None, :]
     reference = source.modulation * np.sin(phase)
     # On a rising flank of the triangle (from -1 to 1) a phase goes from + to - where the triangle passes it.
-    rising = (np.arange(count) % 2 == 0)[:, None]
+    rising = (number % 2 == 0)[:, None]
     share = 0.5 * (1.0 + np.where(rising, reference, -reference))
     share = np.clip(share, source.rise_time / half, 1.0 - source.rise_time / half)
-    instant = (begin[:, None] + share * half).ravel()
-    change = np.broadcast_to(np.where(rising, -1.0, 1.0), share.shape).ravel() * source.dc_link / 3.0
-    first = 0.5 * source.dc_link  # at the triangle's lowest point all three are at +
-    return _ramps(instant, change, source.rise_time, first, length)
-
-
-def _ramps(
-    instant: FloatArray, change: FloatArray, rise: float, first: float, length: float
-) -> tuple[FloatArray, FloatArray]:
-    """Return the corners of a sum of ramps around their instants, each over the rise time."""
-    t = np.concatenate([instant - 0.5 * rise, instant + 0.5 * rise])
-    slope = np.concatenate([change, -change]) / rise
-    order = np.argsort(t, kind="stable")
-    t, slope = t[order], np.cumsum(slope[order])
-    level = np.concatenate([[0.0], np.cumsum(slope[:-1] * np.diff(t))])
-    step = np.abs(change).max()
-    still = np.abs(slope) < 1e-6 * step / rise
-    flat = still | np.concatenate([[True], still[:-1]])
-    level = np.where(flat, step * np.round(level / step), level)  # on the levels exactly, whatever was added up
-    t, v = np.concatenate([[0.0], t, [max(length, t[-1] + rise)]]), np.concatenate([[0.0], level, level[-1:]]) + first
+    instant = begin[:, None] + share * half
+    change = np.where(rising, -1.0, 1.0) * source.dc_link / 3.0
+    t, v = _ramps(instant, change, source.rise_time)
+    v += np.where(rising, 0.5, -0.5) * source.dc_link  # at the triangle's lowest point all three are at +
+    t = np.concatenate([begin[:1], t.ravel(), [(number[-1] + 1) * half]])
+    v = np.concatenate([v[0, :1], v.ravel(), v[-1, -1:]])
     keep = np.concatenate([[True], np.diff(t) > 0.0])
     return t[keep], v[keep]
 
 
-def _repeated(rows: FloatArray, length: float) -> tuple[FloatArray, FloatArray]:
-    """Return a measured series, repeated until `length` is over; its end joins its start over one more row's step."""
+def _ramps(instant: FloatArray, change: FloatArray, rise: float) -> tuple[FloatArray, FloatArray]:
+    """Return the corners of sums of ramps around their instants, each over the rise time; row by row, from 0 on."""
+    t = np.concatenate([instant - 0.5 * rise, instant + 0.5 * rise], axis=1)
+    slope = np.concatenate([np.broadcast_to(change, instant.shape), np.broadcast_to(-change, instant.shape)], axis=1)
+    order = np.argsort(t, axis=1, kind="stable")
+    t = np.take_along_axis(t, order, axis=1)
+    slope = np.cumsum(np.take_along_axis(slope, order, axis=1) / rise, axis=1)
+    level = np.concatenate([np.zeros((len(t), 1)), np.cumsum(slope[:, :-1] * np.diff(t, axis=1), axis=1)], axis=1)
+    step = np.abs(change).max()
+    still = np.abs(slope) < 1e-6 * step / rise
+    flat = still | np.concatenate([np.ones((len(t), 1), bool), still[:, :-1]], axis=1)
+    return t, np.where(flat, step * np.round(level / step), level)  # on the levels exactly, whatever was added up
+
+
+def _repeated(rows: FloatArray, start: float, stop: float) -> tuple[FloatArray, FloatArray]:
+    """Return a measured series, repeated over start..stop; its end joins its start over one more row's step."""
     t = rows[:, 0] - rows[0, 0]
     period = t[-1] + float(np.median(np.diff(t)))
-    times = max(math.ceil(length / period), 1)
-    found = (t[None, :] + period * np.arange(times)[:, None]).ravel()
-    return np.append(found, period * times), np.append(np.tile(rows[:, 1], times), rows[0, 1])
+    turn = np.arange(math.floor(start / period), max(math.ceil(stop / period), math.floor(start / period) + 1))
+    found = (t[None, :] + period * turn[:, None]).ravel()
+    return np.append(found, period * (turn[-1] + 1)), np.append(np.tile(rows[:, 1], turn.size), rows[0, 1])

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from lambda_core.case.case import Case
 from lambda_core.case.case_io import apply_overrides, parse_case
-from lambda_core.case.electric import Electric
 from lambda_core.domain.errors import UsageError
 from lambda_core.electric.circuit_run import Simulation, simulate
 from lambda_core.electric.contacts import contacts_of_equilibria, contacts_of_run, equilibria
-from lambda_core.results.convergence import window
+from lambda_core.electric.electrified import of_model, of_run
+from lambda_core.electric.sources import reach
+from lambda_core.results.convergence import window as averaged
 from lambda_core.system.bearing import Solver
 
 if TYPE_CHECKING:
@@ -21,10 +23,11 @@ if TYPE_CHECKING:
     from lambda_core.solver.drivers.compiled_laws import Announce
     from lambda_core.system.bearing import BearingModel
 
+Span = tuple[float, float]
 _SECTION = "electric."
 
 
-def electric_of_model(model: BearingModel, announce: Announce = None, **settings: Any) -> Simulation:
+def electric_of_model(model: BearingModel, announce: Announce = None, *, window: Span | None = None) -> Simulation:
     """Compute a case on the films of its quasi-static equilibria; the circuit is the section electric of the case.
 
     Raises
@@ -32,11 +35,9 @@ def electric_of_model(model: BearingModel, announce: Announce = None, **settings
     SolverError
         When there is no equilibrium, or the circuit cannot be solved.
     """
-    options = parse_case(model.case_toml, model.name).electric or Electric()
-    contacts = contacts_of_equilibria(equilibria(model, announce=announce), options.duration)
-    return simulate(
-        contacts, options, dataclasses.asdict(model.geometry), case=model.name, announce=announce, **settings
-    )
+    bearing = of_model(model)
+    contacts = contacts_of_equilibria(equilibria(model, announce=announce), bearing.options.duration)
+    return simulate(contacts, bearing, announce=announce, window=window)
 
 
 def case_of_run(result: Result, overrides: Iterable[str] = ()) -> Case:
@@ -56,7 +57,7 @@ def case_of_run(result: Result, overrides: Iterable[str] = ()) -> Case:
 
 
 def electric_of_run(
-    result: Result, overrides: Iterable[str] = (), announce: Announce = None, **settings: Any
+    result: Result, overrides: Iterable[str] = (), announce: Announce = None, *, window: Span | None = None
 ) -> Simulation:
     """Compute the circuit on the samples of a run, after the revolutions that its averages discard.
 
@@ -67,16 +68,20 @@ def electric_of_run(
     SolverError
         When the circuit cannot be solved.
     """
-    options = case_of_run(result, overrides).electric or Electric()
-    contacts = contacts_of_run(result, settled_from(result), options.duration)
-    geometry = {name: float(value) for name, value in result.model["geometry"].items() if name != "series"}
-    return simulate(contacts, options, geometry, case=result.case, announce=announce, **settings)
+    bearing = of_run(result, case_of_run(result, overrides).electric)
+    settled, contacts = settled_from(result), contacts_of_run(result)
+    if bearing.options.duration is not None:
+        stop = settled + bearing.options.duration + reach(bearing.options.source)
+        contacts = contacts.part(slice(0, int(np.searchsorted(contacts.time, stop, side="right"))))
+    if contacts.time[-1] <= settled:
+        raise UsageError(f"{result.path}: no samples from {settled:.4g} s on, where averages begin")
+    return simulate(contacts, bearing, settled=settled, announce=announce, window=window)
 
 
 def settled_from(result: Result) -> float:
     """Return the time from which a run counts [s]."""
     settings = Solver(**{name: float(value) for name, value in result.model["solver"].items()})
-    return float(window(settings, result.revolutions(), result.integrals()[-1]).interval.first[0])
+    return float(averaged(settings, result.revolutions(), result.integrals()[-1]).interval.first[0])
 
 
 def is_result(source: object) -> bool:

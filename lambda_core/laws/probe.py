@@ -79,6 +79,11 @@ RANGES: dict[str, Range] = {
     "W": Range(1e-9, 1e-4, log=True),
     "eps_r0": Range(1.8, 8.0),
     "contact_angle": Range(-0.9, 0.9),
+    "sigma": Range(1e-8, 1e-6, log=True),
+    "area": Range(1e-10, 1e-4, log=True),
+    "u_1": Range(1e-15, 1.0 - 1e-15),
+    "u_2": Range(1e-15, 1.0 - 1e-15),
+    "V": Range(0.1, 1000.0, log=True),
 }
 
 VECTORS = ("r", "v_rel", "omega_rel")  # arrays of three components, not of cells
@@ -123,12 +128,12 @@ def trial_context(element: str, oil: Oil = _OIL) -> Context:
 
     Nine balls of 11.906 mm on a pitch circle of 60 mm, steel, conformity 0.52, 2750 1/min.
     """
-    inner = element in ("ball_inner", "cage_inner")
+    inner = element in ("ball_inner", "cage_inner", "film_inner")
     ball_diameter, pitch_diameter = 11.906e-3, 60.0e-3
     gamma = ball_diameter / pitch_diameter
     curvature = 2.0 / ball_diameter * (1.0 + gamma / (1.0 - gamma) if inner else 1.0 - gamma / (1.0 + gamma))
     groove = 0.52 * ball_diameter
-    raceway = element in ("ball_inner", "ball_outer")
+    raceway = element in ("ball_inner", "ball_outer", "film_inner", "film_outer")
     return Context(
         element=element,
         ball_count=9,

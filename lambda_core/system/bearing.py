@@ -13,6 +13,7 @@ from typing import Literal
 
 from pydantic import BaseModel
 
+from lambda_core.case.electric import Electric
 from lambda_core.case.thermal import Thermal
 from lambda_core.domain.elements import BodyName
 from lambda_core.domain.fits import Mounting
@@ -116,6 +117,14 @@ class ChosenLaw:
 
 
 @dataclass(frozen=True)
+class ElectricModel:
+    """The electric circuit that the bearing stands in, and the laws of its films."""
+
+    options: Electric  # the section of the case
+    laws: Mapping[str, ChosenLaw]  # role -> law
+
+
+@dataclass(frozen=True)
 class Depth:
     """Modelling depth: which parts and how finely a contact is divided."""
 
@@ -187,6 +196,8 @@ class BearingModel:
         What the clearance follows from as the temperatures change.
     contradictions : tuple of str
         Where the case says two things, and which of them counts.
+    electric : ElectricModel or None
+        The circuit that a run computes beside the motion; it does not act on the motion.
     values : tuple of ResolvedValue
         Every frozen number with its origin.
     """
@@ -219,3 +230,4 @@ class BearingModel:
     thermal: Thermal | None = None
     mounting: Mounting | None = None
     contradictions: tuple[str, ...] = ()
+    electric: ElectricModel | None = None

@@ -36,6 +36,7 @@ from lambda_core.system.resolve_bodies import (
 )
 from lambda_core.system.resolve_clearance import clearance_in_operation, resolve_mounting
 from lambda_core.system.resolve_designation import resolve_designation
+from lambda_core.system.resolve_electric import resolve_electric
 from lambda_core.system.resolve_geometry import check_clearance, resolve_geometry, with_clearance
 from lambda_core.system.resolve_laws import LawResolver, ModelSource
 from lambda_core.system.resolve_materials import resolve_lubricant, resolve_material
@@ -83,6 +84,7 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingM
     _settings(case, ledger)
     guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")
     laws = LawResolver(case, registry, lubricant, guidance, ledger).resolve() if lubricant else {}
+    electric = resolve_electric(case.electric.inlined(), registry, ledger) if case.electric else None
     if bare is None or cage_row is None or oil is None:
         ledger.check(case.name)
         raise AssertionError("a part is missing and no problem says why")
@@ -122,11 +124,12 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingM
         values=tuple(ledger.values),
         assumptions=tuple(ledger.assumptions),
         case_toml=standalone_toml(written),
-        plugins=_distributions(laws),
+        plugins=_distributions({**laws, "electric": electric.laws if electric else {}}),
         markers={name: Marker(m.body, (m.x, m.y, m.z)) for name, m in case.markers.items()},
         thermal=case.thermal if case.operation.temperatures == "computed" else None,
         mounting=mounting,
         contradictions=tuple(ledger.contradictions),
+        electric=electric,
     )
 
 
@@ -269,6 +272,8 @@ def case_hash(model: BearingModel) -> str:
     silent = {"name", "title", "values", "assumptions", "contradictions", "case_toml", "plugins"}
     if model.thermal is None:
         silent |= {"thermal", "mounting"}
+    if model.electric is None:
+        silent |= {"electric"}
     data = {f.name: _plain(getattr(model, f.name)) for f in dataclasses.fields(model) if f.name not in silent}
     text = json.dumps(data, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()

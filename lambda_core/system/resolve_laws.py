@@ -13,7 +13,7 @@ from lambda_core.case.problems import problems
 from lambda_core.catalogue.protocol import LubricantRow
 from lambda_core.domain.elements import ELEMENTS
 from lambda_core.domain.errors import LambdaError, unknown_name
-from lambda_core.domain.roles import CAGE, DEFAULT_MODELS, ROLES
+from lambda_core.domain.roles import CAGE, DEFAULT_MODELS, MOTION_ROLES
 from lambda_core.laws.law import Law
 from lambda_core.system.bearing import ChosenLaw
 from lambda_core.system.ledger import Ledger, Status
@@ -53,7 +53,7 @@ class LawResolver:
         laws: dict[str, dict[str, ChosenLaw]] = {}
         for element in self._elements():
             laws[element] = {}
-            for role in (role for role in ROLES.values() if element in role.elements):
+            for role in (role for role in MOTION_ROLES.values() if element in role.elements):
                 law = self._law(element, role.name)
                 if law is not None:
                     laws[element][role.name] = law
@@ -69,11 +69,11 @@ class LawResolver:
     def _check_names(self) -> None:
         """Note roles that an element does not have, in [forces.ELEMENT] and [parameters]."""
         for role in self.case.parameters:
-            if role not in ROLES:
-                self.ledger.problem(f"parameters.{role}", unknown_name("role", role, ROLES))
+            if role not in MOTION_ROLES:
+                self.ledger.problem(f"parameters.{role}", unknown_name("role", role, MOTION_ROLES))
         for element in ELEMENTS:
             own = getattr(self.case.forces, element)
-            roles = [role.name for role in ROLES.values() if element in role.elements]
+            roles = [role.name for role in MOTION_ROLES.values() if element in role.elements]
             for role in (name for name in type(own.models).model_fields if getattr(own.models, name) is not None):
                 if role not in roles:
                     self.ledger.problem(
@@ -230,7 +230,7 @@ class LawResolver:
         """Note general parameters that no chosen model of the role knows."""
         for role, texts in self.case.parameters.items():
             for key in texts:
-                if role in ROLES and key not in self._used.get(role, set()):
+                if role in MOTION_ROLES and key not in self._used.get(role, set()):
                     chosen = self._chosen(role)
                     fields = sorted({f for model in chosen for f in model.parameters.model_fields})
                     names = ", ".join(dict.fromkeys(model.name for model in chosen))
@@ -241,7 +241,7 @@ class LawResolver:
 
     def _chosen(self, role: str) -> list[Law]:
         found = []
-        for element in (each for each in self._elements() if each in ROLES[role].elements):
+        for element in (each for each in self._elements() if each in MOTION_ROLES[role].elements):
             name, _ = self._choice(element, role)
             if name in self.registry.names(role):
                 found.append(self.registry.model(role, name))

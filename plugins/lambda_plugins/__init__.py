@@ -92,6 +92,12 @@ _LAWS: dict[str, dict[str, str]] = {
         "gap-integral": "capacitance:gap_integral",
     },
     "surface": {"none": "surface:none", "waviness": "surface:waviness", "defect": "surface:defect"},
+    "breakdown": {
+        "statistical": "breakdown:statistical",
+        "field": "breakdown:field",
+        "particles": "breakdown:particles",
+    },
+    "discharge": {"resistance": "discharge:resistance", "arc-voltage": "discharge:arc_voltage"},
 }
 
 

@@ -2,24 +2,52 @@
 
 from __future__ import annotations
 
+import json
+from functools import cache
+from typing import Any
+
 import numpy as np
 
+from lambda_core.discovery.manager import registry
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.electric import columns as L
+from lambda_core.electric.film_laws import FilmLaw, film_laws
 from lambda_core.electric.march import Circuit, Films, March, Strength
+from lambda_core.laws.probe import trial_context
+from lambda_core.system.bearing import ChosenLaw
 
-SMOOTH = Strength(30e6, 0.0, 0.0, 0.5, 10.0, 0.0, 1e-2)
-ROUGH = Strength(30e6, 0.1e-6, 0.0, 0.5, 10.0, 0.0, 1e-2)
+AREA = 2.7e-6  # 27 000 spots of 10 um [m2]
+
+
+@cache
+def _laws(breakdown: str, breaks: str, discharge: str, arcs: str) -> tuple[FilmLaw, FilmLaw]:
+    chosen = {}
+    for role, name, values in (("breakdown", breakdown, breaks), ("discharge", discharge, arcs)):
+        law = registry().model(role, name)
+        chosen[role] = ChosenLaw(law, law.parameters.model_validate(json.loads(values)), {})
+    return film_laws(chosen, (trial_context("film_inner"), trial_context("film_outer")))
+
+
+def strength(
+    breakdown: str = "statistical", discharge: str = "resistance", *, roughness: float = 0.1e-6,
+    breaks: dict[str, Any] | None = None, **arcs: Any,
+) -> Strength:  # fmt: skip
+    """Return laws of the films by name, with parameters as a case writes them."""
+    laws = _laws(breakdown, json.dumps(breaks or {}), discharge, json.dumps(arcs))
+    return Strength(*laws, roughness, 0.5)
+
+
+SMOOTH, ROUGH = strength("field"), strength()
 
 
 def steady(
     inner: float, outer: float, *, balls: int = 1, film: float = 0.0, leak: float = 0.0, stop: float = 2e-3
 ) -> Films:
-    """Return films that do not change."""
+    """Return films that do not change, of an area of 27 000 spots."""
     time = np.linspace(0.0, stop, 3)
     each = np.ones((3, balls, 2))
     capacitance = each * np.array([inner, outer])
-    return Films(time, capacitance, leak * each, film * each, each, 0.0 * each, 0.0 * each)
+    return Films(time, capacitance, leak * each, film * each, film * each, AREA * each, 0.0 * each)
 
 
 def turning(stop: float = 0.02, samples: int = 41, film: float = 0.0, leak: float = 1e-10) -> Films:
@@ -29,7 +57,7 @@ def turning(stop: float = 0.02, samples: int = 41, film: float = 0.0, leak: floa
     capacitance = 40e-12 + 25e-12 * np.cos(phase) + np.array([0.0, 5e-12])
     each = np.ones_like(capacitance)
     rolled = each * (time / 45e-6)[:, None, None]
-    return Films(time, capacitance, leak * each, film * each, 27000.0 * each, 0.0 * each, rolled)
+    return Films(time, capacitance, leak * each, film * each, film * each, AREA * each, rolled)
 
 
 def switching(

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
-from electric.networks import ROUGH, SMOOTH, residuals, steady, switching, turning
+from electric.networks import ROUGH, SMOOTH, residuals, steady, strength, switching, turning
 
 from lambda_core.case.electric import Sine
+from lambda_core.domain.errors import SolverError
 from lambda_core.electric import columns as L
 from lambda_core.electric.circuit import impedance, voltage_ratio
-from lambda_core.electric.march import Circuit, Strength, march
+from lambda_core.electric.march import Circuit, Network, march
 from lambda_core.electric.sources import corners
 
 
@@ -34,7 +36,7 @@ def test_discharge_of_the_rotor() -> None:
     Films of next to no capacitance share the voltage and break down at 10 V; two arcs of 5 Ohm in series.
     """
     circuit = Circuit(winding=50e-12, rotor=1200e-12)
-    arcs = Strength(30e6, 0.0, 0.0, 0.5, 5.0, 0.0, 1e-7)
+    arcs = strength("field", resistance="5 Ohm", least_current="0.1 uA")
     source = (np.array([0.0, 1.0]), np.array([500.0, 500.0]) * (1.0 + 1e-9))
     found = march(steady(1e-20, 1e-20, film=10.0 / 30e6), circuit, arcs, source, window=(0.0, 1.0))
     energy, charge, peak = (found.events[:, c] for c in (L.E_ENERGY, L.E_CHARGE, L.E_PEAK))
@@ -86,7 +88,7 @@ def test_leak_makes_a_high_pass() -> None:
     periods, points = 6, 4000
     stop = periods / frequency
     circuit = Circuit(winding=50e-12, rotor=1000e-12, brush=1.0 / resistance)
-    source = corners(Sine(amplitude="100 V", frequency=f"{frequency!r} Hz", points=points), 0.0, stop, 0.0)
+    source = corners(Sine(amplitude="100 V", frequency=f"{frequency!r} Hz", points=points), 0.0, stop, np.zeros_like)
     begin = (periods - 1) / frequency
     found = march(steady(400e-12, 400e-12, stop=stop), circuit, SMOOTH, source, window=(begin, stop))
     time, _, bearing, _ = np.unique(found.trace, axis=0).T
@@ -126,7 +128,7 @@ def test_balance_with_arcs(circuit: Circuit, fall: float) -> None:
     films.conductance[10:15, 3, 0] = 1.0
     films.film[10:15, 3, 0] = 0.0
     source = switching(0.02)
-    found = march(films, circuit, dataclasses.replace(ROUGH, fall=fall), source, seed=5)
+    found = march(films, circuit, strength(discharge="arc-voltage", voltage=f"{fall} V"), source, seed=5)
     assert found.events.shape[0] > 100
     assert max(map(abs, residuals(found, circuit, source))) < 1e-6
 
@@ -155,7 +157,9 @@ def test_impedance() -> None:
     omega = 2.0 * math.pi * np.array([1.0, 50.0, 1e6])
     each = [1.0 / (1e-8 + 1j * omega * c) for c in (100e-12, 50e-12)]
     expected = 1.0 / (1.0 / (each[0] + each[1]) + 1j * omega * 5e-12)
-    np.testing.assert_allclose(impedance(films, 5e-12, omega / (2.0 * math.pi))[0], expected, rtol=1e-12)
+    np.testing.assert_allclose(
+        impedance(films, Circuit(1e-12, 0.0, 5e-12), omega / (2.0 * math.pi))[0], expected, rtol=1e-12
+    )
 
 
 def test_same_seed_same_events() -> None:
@@ -167,12 +171,61 @@ def test_same_seed_same_events() -> None:
     assert first.tobytes() != other.tobytes()
 
 
-def test_events_begin_alike_however_long_the_span() -> None:
-    """What comes later does not change what was: a longer run has the same events first."""
-    circuit = CIRCUITS[1]
-    long = march(turning(film=0.55e-6), circuit, ROUGH, switching(0.02), seed=1).events
-    whole = turning(film=0.55e-6)
-    half = dataclasses.replace(whole, **{f.name: getattr(whole, f.name)[:21] for f in dataclasses.fields(whole)})
-    short = march(half, circuit, ROUGH, switching(0.02), seed=1).events
-    assert 20 < short.shape[0] < long.shape[0]
-    np.testing.assert_array_equal(short[:-2], long[: short.shape[0] - 2])
+def test_stretches_make_no_difference() -> None:
+    """However the samples are cut, events, extremes and the end are the same bits."""
+    source, films = switching(0.021), turning(film=0.55e-6)
+    for circuit in CIRCUITS[1:4:2]:
+        whole = march(films, circuit, ROUGH, source, seed=1)
+        for cuts in ([0, 1, 2, 40], [0, 13, 40], [0, *range(5, 41, 5)]):
+            network = Network(circuit, ROUGH, 9, seed=1)
+            parts = [network.advance(films.part(slice(a, b + 1)), source) for a, b in pairwise(cuts)]
+            events = np.concatenate([part.events for part in parts])
+            count = L.E_SAMPLE  # counts from the start of a stretch
+            assert events[:, :count].tobytes() == whole.events[:, :count].tobytes()
+            assert np.concatenate([part.extremes for part in parts]).tobytes() == whole.extremes.tobytes()
+            assert parts[-1].total[L.T_STORED] == whole.total[L.T_STORED]
+            assert sum(part.total[L.T_ARC] for part in parts) == pytest.approx(whole.total[L.T_ARC], rel=1e-9)
+
+
+def test_laws_that_refuse_are_named() -> None:
+    """An arc that needs more voltage than the film stood."""
+    law = strength("field", least_current="2 A")
+    source = np.array([0.0, 1e-4, 2e-4]), np.array([0.0, 0.0, 800.0])
+    with pytest.raises(SolverError, match=r"discharge/resistance.*least current needs more voltage"):
+        march(steady(100e-12, 200e-12, film=0.4e-6), Circuit(50e-12, 1000e-12), law, source)
+
+
+def test_twin_bearing() -> None:
+    """Another bearing like this one is its capacitance once more, also while it changes."""
+    films, source = turning(leak=0.0), switching(0.02)
+    twin = march(films, Circuit(50e-12, 800e-12, 5e-12, twins=1.0), SMOOTH, source)
+    each = films.capacitance[:, :, 0] * films.capacitance[:, :, 1] / films.capacitance.sum(axis=2)
+    assert np.ptp(each.sum(axis=1)) < 1e-3 * each.sum(axis=1).mean()  # nine balls pass, their sum hardly changes
+    fixed = march(films, Circuit(50e-12, 805e-12 + each.sum(axis=1).mean(), 5e-12), SMOOTH, source)
+    np.testing.assert_allclose(twin.extremes, fixed.extremes, rtol=1e-3)
+    assert max(map(abs, residuals(twin, Circuit(50e-12, 800e-12), source))) < 1e-9
+
+
+def test_cage_between_balls() -> None:
+    """Two unlike balls at a step of 1 V on the rotor: their potentials from the three charge balances, by hand."""
+    films = steady(100e-12, 50e-12, balls=2)
+    films.capacitance[:, 1] = 20e-12, 80e-12
+    circuit = Circuit(1e-6, 1e-15, 0.0, pocket=10e-12, cage_inner=2e-12, cage_outer=3e-12)
+    matrix = np.array([[160.0, 0.0, -10.0], [0.0, 110.0, -10.0], [-10.0, -10.0, 25.0]])  # balls, cage
+    first, second, cage = np.linalg.solve(matrix, [100.0, 20.0, 2.0])
+    whole = 100.0 * (1.0 - first) + 20.0 * (1.0 - second) + 2.0 * (1.0 - cage)
+    measured = impedance(films, circuit, np.array([1e5]))[0, 0]
+    assert 1e12 / (2.0 * math.pi * 1e5 * abs(measured)) == pytest.approx(whole, rel=1e-12)
+    step = np.array([0.0, 1e-4, 1.001e-4, 1.0]), np.array([0.0, 0.0, 1.0, 1.0])
+    found = march(films, circuit, SMOOTH, step, window=(0.0, 1.0))
+    assert found.trace[-1, 2] == pytest.approx(1e6 / (1e6 + 1e-3 + whole), rel=1e-12)
+    # A ramp of 1 V into a capacitance takes half of what its charge carries.
+    assert found.total[L.T_SOURCE] == pytest.approx(0.5e-12 * whole, rel=1e-3)
+
+
+def test_cage_balances_with_arcs() -> None:
+    circuit = Circuit(50e-12, 1000e-12, 5e-12, pocket=6e-12, cage_outer=10e-12)
+    films, source = turning(stop=0.005, samples=11, film=0.55e-6), switching(0.005)
+    found = march(films, circuit, ROUGH, source, seed=5)
+    assert found.events.shape[0] > 20
+    assert max(map(abs, residuals(found, circuit, source))) < 1e-6

@@ -7,10 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lambda_core import api
 from lambda_core.case.case import Case
 from lambda_core.case.case_io import load_case
 from lambda_core.case.case_writer import standalone_toml
-from lambda_core.case.electric import Inverter, Series, Step
+from lambda_core.case.electric import Inverter, Series, Sine, Step
+from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError
 from lambda_core.electric.sources import corners
 
@@ -24,7 +26,7 @@ def case_with(electric: dict[str, object], folder: Path | None = None) -> Case:
 def test_inverter_levels_and_edges() -> None:
     """Six edges of a third of the dc link per period, levels of a half and a sixth of it."""
     source = Inverter(dc_link="600 V", switching_frequency="8 kHz", rise_time="40 ns", modulation=0.5)
-    time, volts = corners(source, 0.25, 0.35, 300.0)
+    time, volts = corners(source, 0.25, 0.35, lambda t: 300.0 * t)
     assert time[0] == 0.25
     assert time[-1] >= 0.35
     assert np.all(np.diff(time) > 0.0)
@@ -42,12 +44,30 @@ def test_inverter_levels_and_edges() -> None:
 
 def test_average_follows_no_fundamental() -> None:
     """Three sines at 120 degrees: the common mode has no fundamental; its mean over many periods vanishes."""
-    time, volts = corners(Inverter(), 0.0, 0.2, 2.0 * np.pi * 25.0)
+    time, volts = corners(Inverter(), 0.0, 0.2, lambda t: 2.0 * np.pi * 25.0 * t)
     assert abs(np.trapezoid(volts, time) / 0.2) < 0.02 * 400.0
 
 
+@pytest.mark.parametrize(
+    "source",
+    [Inverter(), Sine(amplitude="10 V", frequency="3 kHz"), Series(points=["0 s, 0 V", "7 us, 5 V", "9 us, 1 V"])],
+)
+def test_stretches_have_the_same_corners(source: Inverter | Sine | Series) -> None:
+    """A span that is cut has the corners of the whole, bit for bit."""
+
+    def turned(t: FloatArray) -> FloatArray:
+        return np.asarray(300.0 * t + 40.0 * t * t)
+
+    whole = set(zip(*map(tuple, corners(source, 0.1, 0.11, turned)), strict=True))
+    for begin, end in ((0.1, 0.1023), (0.1023, 0.10231), (0.10231, 0.11)):
+        time, volts = corners(source, begin, end, turned, origin=0.1)
+        assert time[0] <= begin + 1e-12
+        assert time[-1] >= end - 1e-12
+        assert set(zip(time[1:-1], volts[1:-1], strict=True)) <= whole
+
+
 def test_step() -> None:
-    time, volts = corners(Step(amplitude="100 V", time="1 ms", rise_time="1 us"), 0.0, 0.01, 0.0)
+    time, volts = corners(Step(amplitude="100 V", time="1 ms", rise_time="1 us"), 0.0, 0.01, np.zeros_like)
     np.testing.assert_allclose(np.interp([0.5e-3, 1.0005e-3, 2e-3, 9e-3], time, volts), [0.0, 50.0, 100.0, 100.0])
 
 
@@ -56,7 +76,7 @@ def test_series_is_repeated(tmp_path: Path) -> None:
     case = case_with({"series": {"file": "shaft.csv"}}, tmp_path)
     assert case.electric is not None
     assert isinstance(case.electric.source, Series)
-    time, volts = corners(case.electric.source, 0.0, 100e-6, 0.0)
+    time, volts = corners(case.electric.source, 0.0, 100e-6, np.zeros_like)
     np.testing.assert_allclose(np.interp([5e-6, 45e-6, 85e-6, 38e-6], time, volts), [1.5, 1.5, 1.5, 0.8])
     alone = standalone_toml(case)
     assert "shaft.csv" not in alone
@@ -76,8 +96,6 @@ def test_series_is_repeated(tmp_path: Path) -> None:
         ({"inverter": {}, "step": {"amplitude": "1 V"}}, "electric", "inverter and step are both sources"),
         ({"series": {"points": ["0 s 1 V"]}}, "electric.series", "write a time and a voltage"),
         ({"grounding": {"shunt": "1 Ohm"}}, "electric.grounding", "bridges an insulation"),
-        ({"discharge": {"least_current": "1 A"}}, "electric", "least_voltage must be above 10 V"),
-        ({"breakdown": {"law": "field-strength"}}, "electric.breakdown.law", "nearest: field"),
         ({"series": {}}, "electric.series", "give either points or file"),
     ],
 )
@@ -107,4 +125,25 @@ def test_mistakes_in_a_series_are_named(text: str, words: str, tmp_path: Path) -
     (problem,) = caught.value.problems
     assert problem.where == "electric.series"
     assert "shaft.csv" in problem.message
+    assert words in problem.message
+
+
+@pytest.mark.parametrize(
+    ("changes", "where", "words"),
+    [
+        (["discharge.parameters.least_current=1 A"], "electric.breakdown.least_voltage", "must be above 10 V"),
+        (["breakdown.law=field-strength"], "electric.breakdown.law", "available: statistical, field, particles"),
+        (["discharge.law=resistence"], "electric.discharge.law", "nearest: resistance"),
+        (["breakdown.parameters.strenght=20 V/um"], "electric.breakdown.parameters.strenght", "nearest: strength"),
+        (["breakdown.parameters.strength=20"], "electric.breakdown.parameters.strength", "has no unit"),
+        (["breakdown.parameters.strength=-2 V/um"], "electric.breakdown.parameters.strength", "greater than 0 V/um"),
+        (["discharge.law=arc-voltage"], "electric.discharge.parameters.voltage", "is required"),
+    ],
+)
+def test_mistakes_in_laws_are_named(changes: list[str], where: str, words: str) -> None:
+    """By `check`, before anything is computed."""
+    with pytest.raises(CaseError) as caught:
+        api.check("6208-axial-1300", [f"electric.{change}" for change in changes])
+    (problem,) = caught.value.problems
+    assert problem.where == where
     assert words in problem.message

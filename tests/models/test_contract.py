@@ -42,6 +42,8 @@ NAMES = {
     "permittivity": {"bode", "constant"},
     "capacitance": {"schneider", "constant-factor", "gap-integral"},
     "surface": {"none", "waviness", "defect"},
+    "breakdown": {"statistical", "field", "particles"},
+    "discharge": {"resistance", "arc-voltage"},
 }
 LABELS = [f"{role}/{name}" for role in ROLES for name in sorted(NAMES[role])]
 
@@ -121,6 +123,8 @@ STATE = {
     "permittivity": (),
     "capacitance": ("C_hertz",),
     "surface": ("azimuth",),
+    "breakdown": (),
+    "discharge": (),
 }
 LAWS = [label for label in LABELS if not label.endswith("/none")]
 

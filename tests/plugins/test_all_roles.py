@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from lambda_core.domain.roles import CAGE, ROLES
+from lambda_core.domain.roles import CAGE, MOTION_ROLES
 
 from .conftest import Installation
 
 PACKAGE = Path(__file__).parent / "packages" / "all-roles"
-CHOICE = [f"models.{role}=own" for role in ROLES if role != "cage_contact"]
+CHOICE = [f"models.{role}=own" for role in MOTION_ROLES if role != "cage_contact"]
 CHOICE += [f"forces.{element}.models.cage_contact=own" for element in CAGE]
 RUN = """
 import json, sys
@@ -59,3 +59,20 @@ def test_the_torque_is_the_closed_form_and_no_built_in_law_was_imported(site: In
     beside = ("lambda_plugins.methods", "lambda_plugins.views")
     laws = [name for name in found["imported"] if not name.startswith(beside)]
     assert laws == []
+
+
+CURRENTS = """
+import json, sys
+from lambda_core import api
+
+events = api.electric("6208-axial-1300", sys.argv[1:]).events
+print(json.dumps({"voltage": abs(events.contact_voltage[0]), "peak": events.peak[0]}))
+"""
+
+
+def test_films_break_down_and_burn_by_foreign_laws(site: Installation) -> None:
+    """The first film breaks down at the 4 V of the package, and the first current is 4 V over 28 Ohm."""
+    answer = site.python(CURRENTS, "electric.breakdown.law=own", "electric.discharge.law=own", "electric.duration=2 ms")
+    assert answer.code == 0, answer.err
+    assert answer.data["voltage"] == pytest.approx(4.0, rel=1e-9)
+    assert answer.data["peak"] == pytest.approx(1.0 / 7.0, rel=1e-6)

@@ -73,23 +73,23 @@ def _channel(shared, node, ring, s, y, size):
 
 
 @helper
-def _current(voltage, sign, law):
+def channel_current(voltage, ring, state):
     """Return the current of an open channel [A]."""
-    return (voltage - sign * law[L.F_FALL]) / law[L.F_RESISTANCE]
+    return (voltage - state.sign[ring] * state.fall[ring]) / state.resistance[ring]
 
 
 @shared_helper
-def open_network(size, shared, node, law, state, g_r, g, inject):
+def open_network(size, shared, node, state, g_r, g, inject):
     """Write the conductances with the open channels, and the currents of their falls into the nodes [A]."""
     for i in range(size):
         inject[i] = 0.0
         for k in range(size):
             g[i, k] = g_r[i, k]
     for ring in range(2):
-        if state[ring, 0] == 0.0:
+        if state.burns[ring] == 0.0:
             continue
-        part = 1.0 / law[L.F_RESISTANCE]
-        fall = state[ring, 1] * law[L.F_FALL] * part
+        part = 1.0 / state.resistance[ring]
+        fall = state.sign[ring] * state.fall[ring] * part
         g[node, node] += part
         inject[node] -= fall
         if ring < shared:
@@ -109,7 +109,7 @@ def _leaky(size, g_r):
 
 
 @shared_helper
-def book(size, shared, node, law, state, decay, s, y, drive, dt, at, g_r, v, rows, total):
+def book(size, shared, node, state, decay, s, y, drive, dt, at, g_r, v, rows, total):
     """Add up heat, arc energies and charges over one step, by Gauss and Legendre's rule; `at` and `v` are workspace."""
     leaky = _leaky(size, g_r)
     for point in range(4):
@@ -128,9 +128,9 @@ def book(size, shared, node, law, state, decay, s, y, drive, dt, at, g_r, v, row
                 total[L.T_OHMIC] += weight * v[i] * flow
                 total[L.T_LEAK] += weight * flow
         for ring in range(2):
-            if state[ring, 0] != 0.0:
+            if state.burns[ring] != 0.0:
                 voltage = _channel(shared, node, ring, s, at, size)
-                current = _current(voltage, state[ring, 1], law)
+                current = channel_current(voltage, ring, state)
                 rows[ring, L.E_ENERGY] += weight * voltage * current
                 rows[ring, L.E_CHARGE] += weight * abs(current)
                 total[L.T_ARC] += weight * voltage * current
@@ -139,14 +139,14 @@ def book(size, shared, node, law, state, decay, s, y, drive, dt, at, g_r, v, row
 
 
 @shared_helper
-def _happens(size, shared, node, law, state, stand, s, y):
+def _happens(size, shared, node, state, stand, s, y):
     """Return how far the amplitudes are past the next change: > 0 past it, and which ring it is about."""
     worst, which = -1.0, 0
     for ring in range(2):
         voltage = _channel(shared, node, ring, s, y, size)
-        if state[ring, 0] != 0.0:
+        if state.burns[ring] != 0.0:
             # An arc dies where its current falls below the least one, or would turn round.
-            past = 1.0 - state[ring, 1] * _current(voltage, state[ring, 1], law) / law[L.F_QUENCH]
+            past = 1.0 - state.sign[ring] * channel_current(voltage, ring, state) / state.least[ring]
         else:
             past = abs(voltage) / stand[ring] - 1.0
         if past > worst:
@@ -155,24 +155,24 @@ def _happens(size, shared, node, law, state, stand, s, y):
 
 
 @shared_helper
-def until_change(size, shared, node, law, state, stand, decay, s, y, drive, dt, after, area):
+def until_change(size, shared, node, state, stand, decay, s, y, drive, dt, after, area):
     """Return the part of the step dt after which something changes, and the ring that it is about (-1: nothing does).
 
     A channel that has just opened carries more than the least current, so the step starts before the change.
     """
     low = 0.0
-    low_past, ring = _happens(size, shared, node, law, state, stand, s, y)
+    low_past, ring = _happens(size, shared, node, state, stand, s, y)
     if low_past >= 0.0:
         return 0.0, ring
     propagate(size, decay, y, drive, dt, after, area)
-    past, ring = _happens(size, shared, node, law, state, stand, s, after)
+    past, ring = _happens(size, shared, node, state, stand, s, after)
     if past < 0.0:
         return dt, -1
     high, high_past, side = dt, past, 0
     for _ in range(_ROOT):  # false position after the Illinois rule
         at = (low * high_past - high * low_past) / (high_past - low_past)
         propagate(size, decay, y, drive, at, after, area)
-        past, which = _happens(size, shared, node, law, state, stand, s, after)
+        past, which = _happens(size, shared, node, state, stand, s, after)
         if past >= 0.0:
             high, high_past, ring = at, past, which
             low_past *= 0.5 if side == 1 else 1.0

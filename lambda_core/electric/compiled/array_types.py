@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numba
 
+from lambda_core.domain.roles import ROLES
+from lambda_core.electric.columns import Channels, Held, Machine
 from lambda_core.laws.jit import inlined
-from lambda_core.laws.jit.machine_code import OPTIONS
+from lambda_core.laws.jit.machine_code import OPTIONS, role_signature
 
 array1 = numba.types.float64[::1]
 array2 = numba.types.float64[:, ::1]
@@ -13,6 +15,14 @@ array3 = numba.types.float64[:, :, ::1]
 iarray1 = numba.types.int64[::1]
 iarray2 = numba.types.int64[:, ::1]
 i8, f8 = numba.types.int64, numba.types.float64
+machine_t = numba.types.NamedUniTuple(f8, len(Machine._fields), Machine)
+held_t = numba.types.NamedUniTuple(array2, len(Held._fields), Held)
+channels_t = numba.types.NamedUniTuple(array1, len(Channels._fields), Channels)
+
+
+def law_of(role):
+    """Return the type of a pointer to a law of a role."""
+    return numba.types.FunctionType(role_signature(ROLES[role]))
 
 
 def helper(function):

@@ -8,7 +8,14 @@ ball make one discharge. Balls are followed one at a time: after the first the v
 from __future__ import annotations
 
 from lambda_core.electric import columns as L
-from lambda_core.electric.compiled.arc import book, open_network, reduce_network, restore_charges, until_change
+from lambda_core.electric.compiled.arc import (
+    book,
+    channel_current,
+    open_network,
+    reduce_network,
+    restore_charges,
+    until_change,
+)
 from lambda_core.electric.compiled.array_types import helper, shared_helper
 from lambda_core.electric.compiled.matrices import across_bearing
 from lambda_core.electric.compiled.modes import amplitudes, charges, modes, propagate, voltages
@@ -41,38 +48,43 @@ def record(trace, total, window, now, volt, bearing, current):
 
 
 @helper
-def _open_channel(ring, now, shared, node, v, state, rows):
-    """Let a channel conduct, in the direction that its voltage drives."""
+def _open_channel(ring, ball, now, shared, node, v, held, law, par, out, state, rows):
+    """Let a channel conduct, in the direction that its voltage drives; return the status of its law, 0: it cannot."""
     voltage = (v[ring] if ring < shared else 0.0) - v[node]
-    state[ring, 0] = 1.0
-    state[ring, 1] = 1.0 if voltage >= 0.0 else -1.0
+    status = law(abs(voltage), held.film[ball, ring], held.area[ball, ring], par[ring], out)
+    if status != 1:
+        return status
+    if not abs(voltage) > out[1] + out[0] * out[2]:
+        return 0
+    state.burns[ring] = 1.0
+    state.sign[ring] = 1.0 if voltage >= 0.0 else -1.0
+    state.resistance[ring], state.fall[ring], state.least[ring] = out[0], out[1], out[2]
     if rows[ring, L.E_CONTACT_VOLTAGE] == 0.0:
         rows[ring, L.E_TIME] = now
         rows[ring, L.E_CONTACT_VOLTAGE] = voltage
         rows[ring, L.E_BEARING_VOLTAGE] = across_bearing(shared, v)
+    return 1
 
 
 @helper
-def _quench(ring, now, shared, node, law, state, v, rows):
+def _quench(ring, now, shared, node, state, v, rows):
     """Let an arc die, and the other one with it that is in series with it and as weak."""
     for which in range(2):
-        if state[which, 0] == 0.0:
+        if state.burns[which] == 0.0:
             continue
         voltage = (v[which] if which < shared else 0.0) - v[node]
-        current = abs(voltage - state[which, 1] * law[L.F_FALL]) / law[L.F_RESISTANCE]
-        if which == ring or current < _AS_WEAK * law[L.F_QUENCH]:
-            state[which, 0] = 0.0
+        if which == ring or abs(channel_current(voltage, which, state)) < _AS_WEAK * state.least[which]:
+            state.burns[which] = 0.0
             rows[which, L.E_DURATION] = now - rows[which, L.E_TIME]
 
 
 @helper
-def _largest_current(shared, node, law, state, v, rows):
+def _largest_current(shared, node, state, v, rows):
     """Keep the peaks of the open channels' currents, and return the larger one now [A]."""
     largest = 0.0
     for ring in range(2):
-        if state[ring, 0] != 0.0:
-            voltage = (v[ring] if ring < shared else 0.0) - v[node]
-            current = abs(voltage - state[ring, 1] * law[L.F_FALL]) / law[L.F_RESISTANCE]
+        if state.burns[ring] != 0.0:
+            current = abs(channel_current((v[ring] if ring < shared else 0.0) - v[node], ring, state))
             rows[ring, L.E_PEAK] = max(rows[ring, L.E_PEAK], current)
             largest = max(largest, current)
     return largest
@@ -80,7 +92,7 @@ def _largest_current(shared, node, law, state, v, rows):
 
 @shared_helper
 def burn(
-    now, size, shared, node, law, state, stand, decay, s, y, fall, machine, source_t, source_v, place,
+    now, size, shared, node, state, stand, decay, s, y, fall, machine, source_t, source_v, place,
     g_r, v, vectors, rows, total, trace, window,
 ):  # fmt: skip
     """March with the same channels open until one opens or quenches; return the time and the ring (-1: never)."""
@@ -89,7 +101,7 @@ def burn(
     for a in range(size):
         fastest = max(fastest, decay[a])
     dt, segment = 0.0, -1
-    _largest_current(shared, node, law, state, v, rows)
+    _largest_current(shared, node, state, v, rows)
     for _ in range(_MOST_STEPS):
         slope, end = slope_at(now, source_t, source_v, place)
         if place[0] == segment:
@@ -98,21 +110,19 @@ def burn(
             dt = (_FIRST if segment < 0 else _CORNER) / fastest
             segment = place[0]
         volt = voltage_at(now, source_t, source_v, place)
-        fall[L.ROTOR] += machine[L.M_WINDING] * slope
+        fall[L.ROTOR] += machine.winding * slope
         amplitudes(size, s, fall, drive)
-        fall[L.ROTOR] -= machine[L.M_WINDING] * slope
-        part, ring = until_change(
-            size, shared, node, law, state, stand, decay, s, y, drive, min(dt, end - now), after, area
-        )
-        book(size, shared, node, law, state, decay, s, y, drive, part, after, g_r, vectors[14], rows, total)
+        fall[L.ROTOR] -= machine.winding * slope
+        part, ring = until_change(size, shared, node, state, stand, decay, s, y, drive, min(dt, end - now), after, area)
+        book(size, shared, node, state, decay, s, y, drive, part, after, g_r, vectors[14], rows, total)
         before = v[L.ROTOR]
         propagate(size, decay, y, drive, part, after, area)
         for a in range(size):
             y[a] = after[a]
         voltages(size, s, y, v)
-        total[L.T_SOURCE] += source_work(size, machine[L.M_WINDING], volt, slope, part, before, v[L.ROTOR], s, area)
+        total[L.T_SOURCE] += source_work(size, machine.winding, volt, slope, part, before, v[L.ROTOR], s, area)
         now += part
-        current = _largest_current(shared, node, law, state, v, rows)
+        current = _largest_current(shared, node, state, v, rows)
         record(trace, total, window, now, volt + slope * part, across_bearing(shared, v), current)
         if ring >= 0:
             return now, ring
@@ -121,10 +131,10 @@ def burn(
 
 @shared_helper
 def discharge(
-    now, ball, ring, n, shared, c, g, q, v, stand, law, machine, source_t, source_v, place,
+    now, ball, ring, n, shared, c, g, q, v, stand, held, law, par, out, machine, source_t, source_v, place,
     work, vectors, rows, state, total, trace, window,
 ):  # fmt: skip
-    """Follow a discharge that begins at `now` in one contact; return when it is over, < 0 where it never is.
+    """Follow a discharge that begins at `now` in one contact; return when it is over, and a status of the march.
 
     Parameters
     ----------
@@ -134,35 +144,41 @@ def discharge(
         Voltages that the two films of the ball stand [V].
     rows : float64[:, :], shape (2, N_EVENT)
         What the arcs did; the peak current is 0 for a film that held.
-    state : float64[:, :], shape (2, 2)
-        Workspace: whether a channel is open, and the sign of its current.
+    law, par, out
+        Law of the role discharge, its parameters per ring, and room for what it says.
+    state : Channels
+        Workspace.
     """
     c_r, g_r, g_o, low, b, s = work[3], work[4], work[5], work[6], work[7], work[8]
     q_r, v_r, y, decay, fall = vectors[6], vectors[7], vectors[8], vectors[11], vectors[13]
-    keep = joined(n, shared, ball, c, g)
+    # A cage couples the balls: then all of them take part.
+    keep = 1 if machine.pocket > 0.0 else joined(n, shared, ball, c, g)
     size = reduce_network(n, shared, ball, keep, c, g, q, c_r, g_r, q_r)
     node = shared + ball if keep == 1 else shared
     for i in range(size):
         v_r[i] = v[shared + ball] if keep == 0 and i == shared else v[i]
     rows[:, :] = 0.0
-    state[:, :] = 0.0
+    state.burns[:] = 0.0
     for _ in range(_MOST_CHANGES):
-        if state[ring, 0] == 0.0:
-            _open_channel(ring, now, shared, node, v_r, state, rows)
+        if state.burns[ring] == 0.0:
+            status = _open_channel(ring, ball, now, shared, node, v_r, held, law, par, out, state, rows)
+            if status != 1:
+                total[L.T_STATUS] = status
+                return now, L.ARC_STARVED if status == 0 else L.NO_ARC
         else:
-            _quench(ring, now, shared, node, law, state, v_r, rows)
-            if state[0, 0] == 0.0 and state[1, 0] == 0.0:
+            _quench(ring, now, shared, node, state, v_r, rows)
+            if state.burns[0] == 0.0 and state.burns[1] == 0.0:
                 restore_charges(n, shared, ball, keep, c, v_r, size, c_r, q, q_r)
-                return now
-        open_network(size, shared, node, law, state, g_r, g_o, fall)
+                return now, L.OK
+        open_network(size, shared, node, state, g_r, g_o, fall)
         if modes(size, c_r, g_o, low, b, s, decay) == 0:
-            return -1.0
+            return now, L.ENDLESS
         charges(size, c_r, v_r, q_r)
         amplitudes(size, s, q_r, y)
         now, ring = burn(
-            now, size, shared, node, law, state, stand, decay, s, y, fall, machine, source_t, source_v, place,
+            now, size, shared, node, state, stand, decay, s, y, fall, machine, source_t, source_v, place,
             g_r, v_r, vectors, rows, total, trace, window,
         )  # fmt: skip
         if ring < 0:
-            return -1.0
-    return -1.0
+            return now, L.ENDLESS
+    return now, L.ENDLESS

@@ -9,11 +9,15 @@ from lambda_core.electric.compiled.array_types import (
     array1,
     array2,
     array3,
+    channels_t,
     f8,
+    held_t,
     helper,
     i8,
     iarray1,
     iarray2,
+    law_of,
+    machine_t,
     shared_helper,
 )
 from lambda_core.electric.compiled.discharge import discharge, record
@@ -23,10 +27,13 @@ from lambda_core.electric.compiled.patches import threshold
 from lambda_core.electric.compiled.source import slope_at, source_work, voltage_at
 
 march_sig = i8(
-    array1, array1, array1, array3, array3, array3, array3, array3, array3, array1, array1, i8, i8, i8, f8,
-    array3, array2, array3, iarray2, array3, array2, array2, iarray1, array2, array2, array2, array1, array1,
+    i8, array1, array1, array1, array3, array3, array3, array3, array3, array3, machine_t, f8, f8,
+    law_of("breakdown"), array2, law_of("discharge"), array2, i8, i8, i8,
+    array3, array2, held_t, iarray2, array2, array1, array1, array2, channels_t, iarray1, array2, array2, array2,
+    array1, array1,
 )  # fmt: skip
-N_WORK, N_VECTORS, N_HELD = 9, 19, 7
+N_WORK, N_VECTORS = 9, 19
+_NO_PATCH = -(2**62)
 
 
 @helper
@@ -75,21 +82,21 @@ def _patch(spin, rate, elapsed):
 
 
 @shared_helper
-def first_breakdown(shared, v, v1, film, spots, particles, rolled, rate, elapsed, law, seed, known, drawn):
-    """Return the part of the step after which a film breaks down (2: none does), its ball and its ring.
+def first_breakdown(shared, v, v1, held, elapsed, roughness, least, law, par, out, seed, known, drawn):
+    """Return the part of the step after which a film breaks down (2: none does, < 0: refused), its ball and its ring.
 
     Between the ends of a step the voltages are straight lines.
     """
     best, at_ball, at_ring = 2.0, -1, -1
-    for j in range(film.shape[0]):
+    for j in range(held.film.shape[0]):
         for ring in range(2):
             end = across(shared, v1, j, ring)
-            if film[j, ring] <= 0.0 or abs(end) < law[L.F_LEAST]:
+            if held.film[j, ring] <= 0.0 or abs(end) < least:
                 continue
-            patch = _patch(rolled[j, ring], rate[j, ring], elapsed)
-            stands = threshold(
-                j, ring, patch, film[j, ring], spots[j, ring], particles[j, ring], law, seed, known, drawn
-            )
+            patch = _patch(held.rolled[j, ring], held.rate[j, ring], elapsed)
+            stands = threshold(j, ring, patch, held, roughness, least, law, par, out, seed, known, drawn)
+            if stands < 0.0:
+                return stands, j, ring
             if abs(end) < stands:
                 continue
             sign = 1.0 if end > 0.0 else -1.0
@@ -122,6 +129,17 @@ def _store(events, total, rows, ball, sample):
 
 
 @helper
+def _longest(held):
+    """Return a step in which no contact that may break down rolls over more than one patch [s]."""
+    fastest = 0.0
+    for j in range(held.film.shape[0]):
+        for ring in range(2):
+            if held.film[j, ring] > 0.0:
+                fastest = max(fastest, abs(held.rate[j, ring]))
+    return 1.0 / fastest if fastest > 0.0 else math.inf
+
+
+@helper
 def _leaks(n, g, s, out):
     """Write the current to ground through the conductances per amplitude of each mode."""
     for a in range(n):
@@ -132,28 +150,34 @@ def _leaks(n, g, s, out):
 
 
 def march(
-    source_t, source_v, t, cap, cond, film, spots, particles, rolled, machine, law, insulated, seed, substeps, longest,
-    work, vectors, held, known, drawn, rows, state, place, extremes, events, trace, window, total,
+    first, source_t, source_v, t, cap, cond, film, thinnest, area_of, rolled, machine, roughness, least,
+    break_law, break_par, arc_law, arc_par, insulated, seed, substeps,
+    work, vectors, held, known, drawn, break_out, arc_out, rows, state, place, extremes, events, trace, window,
+    total,
 ):  # fmt: skip
-    """March the network of one bearing through time; an entry point.
+    """March the network of one bearing through a stretch of time; an entry point.
 
     Parameters
     ----------
+    first : int
+        1 where the march begins, 0 where it goes on from what `vectors` and `total` hold.
     source_t, source_v : float64[:], shape (k,)
         Corners of the common-mode voltage [s], [V].
     t : float64[:], shape (n,)
         Times of the contact samples [s].
-    cap, cond, film, spots, particles, rolled : float64[:, :, :], shape (n, Z, 2)
-        Capacitance [F] and conductance [S] of the contacts, film that breaks down (0: none) [m], independent spots in
-        the contact, mean number of particles in it, patches of surface rolled over since the start.
-    machine, law : float64[:]
-        Constants (M_*, F_*).
+    cap, cond, film, thinnest, area_of, rolled : float64[:, :, :], shape (n, Z, 2)
+        Capacitance [F] and conductance [S] of the contacts, central film that may break down (0: none) and its
+        minimum [m], Hertzian area [m2], patches of surface rolled over since the start.
+    machine : Machine
+        What surrounds the films.
+    roughness, least : float
+        Composite rms roughness [m]; voltage below which nothing breaks down [V].
+    break_law, break_par, arc_law, arc_par
+        Laws of the roles breakdown and discharge, and their parameters per ring.
     insulated, seed, substeps : int
         Whether the outer ring is a node; key of the random numbers; intervals of constant capacitance per sample.
-    longest : float
-        Longest step, so that no patch is passed over [s].
-    work, vectors, held, known, drawn, rows, state, place
-        Workspace (march_arrays).
+    work, vectors, held, known, drawn, break_out, arc_out, rows, state, place
+        Workspace.
     extremes : float64[:, :], shape (n - 1, 2)
         Smallest and largest bearing voltage between samples [V].
     events, trace : float64[:, :]
@@ -164,40 +188,44 @@ def march(
     Returns
     -------
     int
-        OK, EVENTS_FULL, NOT_POSITIVE or ENDLESS.
+        OK, EVENTS_FULL, NOT_POSITIVE, ENDLESS, or of a law: NO_VOLTAGE, NO_ARC, ARC_STARVED.
     """
     shared = 2 if insulated == 1 else 1
     c, g, s = work[0], work[1], work[2]
     y, v, v1, after, area, decay = vectors[0], vectors[1], vectors[2], vectors[3], vectors[4], vectors[5]
     q, drive, stand, leaks = vectors[15], vectors[16], vectors[17], vectors[18]
-    now, n, winding = t[0], shared + cap.shape[1], machine[L.M_WINDING]
+    now, n, winding = t[0] if first == 1 else total[L.T_TIME], shared + cap.shape[1], machine.winding
+    place[0] = 0
     slope_at(now, source_t, source_v, place)
-    for i in range(n):
-        q[i], v[i] = 0.0, 0.0
-    q[L.ROTOR] = winding * voltage_at(now, source_t, source_v, place)
-    total[L.T_CHARGE_0] = q[L.ROTOR]
-    began = 0
+    if first == 1:
+        for i in range(n):
+            q[i], v[i] = 0.0, 0.0
+        q[L.ROTOR] = winding * voltage_at(now, source_t, source_v, place)
+        total[L.T_CHARGE_0] = q[L.ROTOR]
+    began = 1 - first
     for i in range(t.size - 1):
         extremes[i, 0], extremes[i, 1] = math.inf, -math.inf
         length = (t[i + 1] - t[i]) / substeps
         for ring in range(2):
             for j in range(cap.shape[1]):
-                held[6, j, ring] = (rolled[i + 1, j, ring] - rolled[i, j, ring]) / (t[i + 1] - t[i])
+                held.rate[j, ring] = (rolled[i + 1, j, ring] - rolled[i, j, ring]) / (t[i + 1] - t[i])
         for part in range(substeps):
             begin = t[i] + part * length
             stop = t[i + 1] if part == substeps - 1 else t[i] + (part + 1) * length
             if stop <= now:
                 continue  # a discharge went on beyond this interval
             middle = (part + 0.5) / substeps
-            _between(cap, i, middle, held[0])
-            _between(cond, i, middle, held[1])
-            _between(film, i, middle, held[2])
-            _closed(film, i, held[2])
-            _between(spots, i, middle, held[3])
-            _between(particles, i, middle, held[4])
-            _between(rolled, i, part / substeps, held[5])
+            _between(cap, i, middle, held.capacitance)
+            _between(cond, i, middle, held.conductance)
+            _between(film, i, middle, held.film)
+            _closed(film, i, held.film)
+            _between(thinnest, i, middle, held.thinnest)
+            _between(area_of, i, middle, held.area)
+            _between(rolled, i, part / substeps, held.rolled)
+            known[:, :] = _NO_PATCH
+            longest = _longest(held)
             before, held_at = _energy(n, q, v), v[L.ROTOR]
-            assemble(insulated, machine, held[0], held[1], c, g)
+            assemble(insulated, machine, held.capacitance, held.conductance, c, g)
             if modes(n, c, g, work[3], work[4], s, decay) == 0:
                 return L.NOT_POSITIVE
             _leaks(n, g, s, leaks)
@@ -221,9 +249,12 @@ def march(
                 propagate(n, decay, y, drive, dt, after, area)
                 voltages(n, s, after, v1)
                 best, ball, raceway = first_breakdown(
-                    shared, v, v1, held[2], held[3], held[4], held[5], held[6], now + dt - begin, law, seed, known,
-                    drawn,
+                    shared, v, v1, held, now + dt - begin, roughness, least, break_law, break_par, break_out, seed,
+                    known, drawn,
                 )  # fmt: skip
+                if best < 0.0:
+                    total[L.T_STATUS] = -best - 1.0
+                    return L.NO_VOLTAGE
                 patch_time = now + dt - begin
                 if best <= 1.0:
                     dt *= best
@@ -243,19 +274,32 @@ def march(
                 charges(n, c, v, q)
                 for ring in range(2):
                     stand[ring] = math.inf
-                    if held[2, ball, ring] > 0.0:
-                        patch = _patch(held[5, ball, ring], held[6, ball, ring], patch_time)
+                    if held.film[ball, ring] > 0.0:
+                        patch = _patch(held.rolled[ball, ring], held.rate[ball, ring], patch_time)
                         stand[ring] = threshold(
-                            ball, ring, patch, held[2, ball, ring], held[3, ball, ring], held[4, ball, ring], law,
-                            seed, known, drawn,
-                        )  # fmt: skip
+                            ball,
+                            ring,
+                            patch,
+                            held,
+                            roughness,
+                            least,
+                            break_law,
+                            break_par,
+                            break_out,
+                            seed,
+                            known,
+                            drawn,
+                        )
+                        if stand[ring] < 0.0:
+                            total[L.T_STATUS] = -stand[ring] - 1.0
+                            return L.NO_VOLTAGE
                 sample = i + (now - t[i]) / (t[i + 1] - t[i])
-                now = discharge(
-                    now, ball, raceway, n, shared, c, g, q, v, stand, law, machine, source_t, source_v, place,
-                    work, vectors, rows, state, total, trace, window,
+                now, status = discharge(
+                    now, ball, raceway, n, shared, c, g, q, v, stand, held, arc_law, arc_par, arc_out, machine,
+                    source_t, source_v, place, work, vectors, rows, state, total, trace, window,
                 )  # fmt: skip
-                if now < 0.0:
-                    return L.ENDLESS
+                if status != L.OK:
+                    return status
                 if _store(events, total, rows, ball, sample) == 0:
                     return L.EVENTS_FULL
                 amplitudes(n, s, q, y)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lambda_core.electric.columns import M_BRIDGE, M_BRUSH, M_COATING, M_RINGS, M_ROTOR, M_WINDING, RING, ROTOR
+from lambda_core.electric.columns import RING, ROTOR
 from lambda_core.electric.compiled.array_types import helper
 
 
@@ -16,13 +16,13 @@ def assemble(insulated, machine, cap, cond, c, g):
         for k in range(n):
             c[i, k] = 0.0
             g[i, k] = 0.0
-    c[ROTOR, ROTOR] = machine[M_WINDING] + machine[M_ROTOR] + machine[M_RINGS]
-    g[ROTOR, ROTOR] = machine[M_BRUSH]
+    c[ROTOR, ROTOR] = machine.winding + machine.rotor + machine.rings
+    g[ROTOR, ROTOR] = machine.brush
     if insulated == 1:
-        c[RING, RING] = machine[M_RINGS] + machine[M_COATING]
-        c[ROTOR, RING] = -machine[M_RINGS]
-        c[RING, ROTOR] = -machine[M_RINGS]
-        g[RING, RING] = machine[M_BRIDGE]
+        c[RING, RING] = machine.rings + machine.coating
+        c[ROTOR, RING] = -machine.rings
+        c[RING, ROTOR] = -machine.rings
+        g[RING, RING] = machine.bridge
     for j in range(balls):
         node = shared + j
         c[node, node] = cap[j, 0] + cap[j, 1]
@@ -34,7 +34,30 @@ def assemble(insulated, machine, cap, cond, c, g):
             g[ring, ring] += cond[j, ring]
             g[ring, node] = -cond[j, ring]
             g[node, ring] = -cond[j, ring]
+        c[ROTOR, ROTOR] += machine.twins * cap[j, 0] * cap[j, 1] / (cap[j, 0] + cap[j, 1])
+    c[ROTOR, ROTOR] += machine.twins * machine.rings
+    if machine.pocket > 0.0:
+        _cage(n, shared, machine, c)
     return n
+
+
+@helper
+def _to_cage(node, shared, machine):
+    """Return the capacitance of a node against the cage [F]."""
+    if node == ROTOR:
+        return machine.cage_inner
+    return machine.cage_outer if node < shared else machine.pocket
+
+
+@helper
+def _cage(n, shared, machine, c):
+    """Add a cage that conducts and touches nothing: its node, without charge, is eliminated (star to mesh)."""
+    whole = machine.cage_inner + machine.cage_outer + (n - shared) * machine.pocket
+    for i in range(n):
+        own = _to_cage(i, shared, machine)
+        c[i, i] += own
+        for k in range(n):
+            c[i, k] -= own * _to_cage(k, shared, machine) / whole
 
 
 @helper

@@ -2,39 +2,30 @@
 
 from __future__ import annotations
 
-import math
-
-from lambda_core.electric.columns import F_LEAST, F_PARTICLE, F_ROUGHNESS, F_STRENGTH
 from lambda_core.electric.compiled.array_types import shared_helper
-from lambda_core.electric.compiled.chance import uniform, upper_quantile
+from lambda_core.electric.compiled.chance import uniform
 
 
 @shared_helper
-def threshold(ball, ring, patch, film, spots, particles, law, seed, known, drawn):
-    """Return the voltage that the film of one contact stands while it is on a patch [V].
+def threshold(ball, ring, patch, held, roughness, least, law, par, out, seed, known, drawn):
+    """Return the voltage that the film of one contact stands while it is on a patch [V], < 0 where the law refuses.
 
-    Rough film: the N = A/l^2 independent spots of a patch have Gaussian heights around the mean film h, and the lowest
-    one decides: P(no breakdown | V) = Phi((h - V/E_b)/sigma)^N. Solved for V with one random number u per patch:
-    V = E_b (h - sigma z), 1 - Phi(z) = 1 - u^(1/N). sigma = 0 is the deterministic field E_b h. A particle of size d,
-    there with probability 1 - exp(-particles), leaves E_b (h - d). Below a least voltage nothing breaks down.
+    The law of the role breakdown gets two random numbers of the patch, keyed by seed, ball, ring and patch.
 
     Parameters
     ----------
     known : int64[:, :], shape (Z, 2)
-        Patch that `drawn` was drawn for.
-    drawn : float64[:, :, :], shape (Z, 2, 2)
-        z of the lowest spot; 1 where there is a particle.
+        Patch that `drawn` was found for; no patch where the film has changed.
+    drawn : float64[:, :], shape (Z, 2)
+        Voltages [V].
     """
     if known[ball, ring] != patch:
+        status = law(
+            held.film[ball, ring], held.thinnest[ball, ring], roughness, held.area[ball, ring],
+            uniform(seed, ball, ring, patch, 0), uniform(seed, ball, ring, patch, 1), par[ring], out,
+        )  # fmt: skip
+        if status != 1:
+            return -float(status) - 1.0
         known[ball, ring] = patch
-        drawn[ball, ring, 0] = 0.0
-        drawn[ball, ring, 1] = 0.0
-        if law[F_ROUGHNESS] > 0.0:
-            below = -math.expm1(math.log(uniform(seed, ball, ring, patch, 0)) / max(spots, 1.0))
-            drawn[ball, ring, 0] = upper_quantile(below)
-        if particles > 0.0 and uniform(seed, ball, ring, patch, 1) < -math.expm1(-particles):
-            drawn[ball, ring, 1] = 1.0
-    gap = film - law[F_ROUGHNESS] * drawn[ball, ring, 0]
-    if drawn[ball, ring, 1] > 0.0:
-        gap = min(gap, film - law[F_PARTICLE])
-    return max(law[F_STRENGTH] * gap, law[F_LEAST])
+        drawn[ball, ring] = max(out[0], least)
+    return drawn[ball, ring]

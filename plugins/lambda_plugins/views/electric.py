@@ -99,7 +99,7 @@ def impedance(run: Any, options: Options) -> ViewData:
     from lambda_core.electric.circuit import impedance as meter
 
     found = _simulation(run)
-    values = meter(found.films, found.circuit.rings, _FREQUENCIES)
+    values = meter(found.films, found.circuit, _FREQUENCIES)
     size, phase = 1e-3 * np.abs(values), np.degrees(np.angle(values))
     frequency = Axis("frequency", "Hz", log=True)
     magnitude = Series(

@@ -135,3 +135,19 @@ def surface(azimuth, contact_angle, par, out):
     out[1] = 0.0
     out[2] = 0.0
     return OK
+
+
+@law("breakdown", "own", role_api=2, reference="own work")
+def breakdown(h, h_min, sigma, area, u_1, u_2, par, out):
+    """Every film stands 4 V."""
+    out[0] = 4.0
+    return OK
+
+
+@law("discharge", "own", role_api=2, reference="own work")
+def discharge(V, h, area, par, out):
+    """Arcs of 7 Ohm times the voltage that they begin at, in volts."""
+    out[0] = 7.0 * V
+    out[1] = 0.0
+    out[2] = 1e-3
+    return OK

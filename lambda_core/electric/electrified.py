@@ -1,0 +1,117 @@
+"""What the circuit has to know of a bearing: dimensions, materials, oil, and the laws of its films."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.case.electric import Electric
+from lambda_core.laws.context import Context, Material, Oil
+from lambda_core.system.bearing import ChosenLaw, ElectricModel, Geometry
+from lambda_core.system.ledger import Ledger
+from lambda_core.system.resolve_electric import resolve_electric
+
+if TYPE_CHECKING:
+    from lambda_core.results.reader import Result
+    from lambda_core.system.bearing import BearingModel
+
+_SIDES = (("film_inner", "inner"), ("film_outer", "outer"))
+
+
+@dataclasses.dataclass(frozen=True)
+class Electrified:
+    """A bearing with its circuit.
+
+    Attributes
+    ----------
+    case : str
+        Name of the case.
+    options : Electric
+        The section of the case.
+    laws : mapping of str to ChosenLaw
+        Role to law.
+    geometry : mapping of str to float
+        By name, SI.
+    contexts : tuple of Context
+        What laws may look at, of the inner and the outer contact; lengths that change with the load are NaN.
+    roughness : float
+        Composite rms roughness [m].
+    """
+
+    case: str
+    options: Electric
+    laws: Mapping[str, ChosenLaw]
+    geometry: Mapping[str, float]
+    contexts: tuple[Context, Context]
+    roughness: float
+
+
+def electric_model(options: Electric | None, name: str) -> ElectricModel:
+    """Return a circuit with its laws; without options one of defaults.
+
+    Raises
+    ------
+    CaseError
+        With everything that is wrong with it.
+    """
+    from lambda_core.discovery.manager import registry
+
+    ledger = Ledger()
+    found = resolve_electric(options or Electric(), registry(), ledger)
+    ledger.check(name)
+    return found
+
+
+def of_model(model: BearingModel) -> Electrified:
+    """Return a resolved model with its circuit; a case without the section gets the defaults."""
+    chosen = model.electric or electric_model(None, model.name)
+    materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
+    return _electrified(model.name, chosen, model.geometry, materials, model.oil, model.roughness)
+
+
+def of_run(result: Result, options: Electric | None) -> Electrified:
+    """Return the bearing of a run with a circuit.
+
+    Raises
+    ------
+    CaseError
+        With everything that is wrong with the circuit.
+    """
+    model = result.model
+    geometry = Geometry(**model["geometry"])
+    materials = {part: Material(**model[f"{part}_material"]) for part in ("ball", "inner", "outer")}
+    oil: dict[str, Any] = {
+        name: value if name in ("name", "base_type") else float(value) for name, value in model["oil"].items()
+    }
+    chosen = electric_model(options, str(result.path))
+    return _electrified(result.case, chosen, geometry, materials, Oil(**oil), float(model["roughness"]))
+
+
+def _electrified(
+    case: str, chosen: ElectricModel, geometry: Geometry, materials: Mapping[str, Material], oil: Oil, roughness: float
+) -> Electrified:
+    plain: dict[str, Any] = {
+        name: float(value) for name, value in dataclasses.asdict(geometry).items() if name != "series"
+    }
+    inner, outer = (
+        Context(
+            element=element,
+            ball_count=geometry.ball_count,
+            ball_diameter=geometry.ball_diameter,
+            pitch_diameter=geometry.pitch_diameter,
+            bore_diameter=geometry.bore_diameter,
+            outside_diameter=geometry.outside_diameter,
+            width=geometry.width,
+            series=geometry.series,
+            speed=float("nan"),
+            mean_load=float("nan"),
+            ball=materials["ball"],
+            partner=materials[ring],
+            oil=oil,
+            groove_radius=plain[f"groove_radius_{ring}"],
+            race_diameter=plain[f"race_diameter_{ring}"],
+        )
+        for element, ring in _SIDES
+    )
+    return Electrified(case, chosen.options, chosen.laws, plain, (inner, outer), roughness)

@@ -1,0 +1,94 @@
+"""The electric circuit of a bearing with the laws of its films: which fills each role, and what is wrong with it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from lambda_core.case.problems import problems
+from lambda_core.domain.errors import LambdaError, unknown_name
+from lambda_core.domain.roles import ELECTRIC_ROLES
+from lambda_core.system.bearing import ChosenLaw, ElectricModel
+from lambda_core.system.ledger import Ledger
+
+if TYPE_CHECKING:
+    from lambda_core.case.electric import Electric
+    from lambda_core.system.resolve_laws import ModelSource
+
+
+def resolve_electric(options: Electric, registry: ModelSource, ledger: Ledger) -> ElectricModel:
+    """Return the circuit with its laws, complete unless the ledger holds problems."""
+    laws = {}
+    for role in ELECTRIC_ROLES:
+        law = _law(role, options, registry, ledger)
+        if law is not None:
+            laws[role] = law
+            ledger.record(
+                f"electric.{role}.law",
+                law.model.name,
+                "",
+                law.model.distribution or "built-in",
+                "given" if "law" in getattr(options, role).model_fields_set else "default",
+            )
+    if "discharge" in laws:
+        _arcs_can_burn(options, laws["discharge"], ledger)
+    return ElectricModel(options, laws)
+
+
+def _law(role: str, options: Electric, registry: ModelSource, ledger: Ledger) -> ChosenLaw | None:
+    section = getattr(options, role)
+    try:
+        chosen = registry.model(role, section.law)
+    except LambdaError as error:
+        ledger.problem(f"electric.{role}.law", str(error))
+        return None
+    where, texts = f"electric.{role}.parameters", dict(section.parameters)
+    foreign = [key for key in texts if key not in chosen.parameters.model_fields]
+    for key in foreign:
+        fields = list(chosen.parameters.model_fields)
+        ledger.problem(f"{where}.{key}", unknown_name(f"parameter of {role} {chosen.name}", key, fields))
+    if foreign:
+        return None
+    try:
+        parameters = chosen.parameters.model_validate(texts)
+    except ValidationError as error:
+        for problem in problems(error, chosen.parameters, texts):
+            ledger.problem(f"{where}.{problem.where}", f"{role} {chosen.name}: {problem.message}")
+        return None
+    origins = {key: "case" if key in texts else "default" for key in type(parameters).model_fields}
+    return ChosenLaw(chosen, parameters, origins)
+
+
+def _arcs_can_burn(options: Electric, law: ChosenLaw, ledger: Ledger) -> None:
+    """Refuse arcs that the least breakdown voltage cannot feed: R i + U must be below it."""
+    least = options.breakdown.least_voltage
+    out = np.zeros(3)
+    if law.model.prepare is not None or law.model.kernel(least, 1e-6, 1e-7, law.parameters, out) != 1:
+        return  # what a law makes of a contact is seen when there is one
+    needed = float(out[0] * out[2] + out[1])
+    if least <= needed:
+        ledger.problem(
+            "electric.breakdown.least_voltage",
+            f"must be above {needed:.4g} V, which the least current of an arc needs "
+            f"(voltage + resistance * least current of discharge {law.model.name})",
+        )
+
+
+def assumed(laws: Mapping[str, ChosenLaw]) -> list[str]:
+    """Return what the laws leave to defaults that are assumptions, a sentence per law."""
+    found = []
+    for role, law in laws.items():
+        written = law.parameters.model_dump(mode="json")
+        keys = [key for key, origin in law.origins.items() if origin == "default" and _is_assumed(law, key)]
+        if keys:
+            listed = ", ".join(f"{key.replace('_', ' ')} {written[key]}" for key in keys)
+            found.append(f"{role} {law.model.name}: {listed} (defaults of the law)")
+    return found
+
+
+def _is_assumed(law: ChosenLaw, key: str) -> bool:
+    extra: Mapping[str, Any] | Any = type(law.parameters).model_fields[key].json_schema_extra
+    return isinstance(extra, dict) and extra.get("status") in ("assumed", "unconfirmed")
