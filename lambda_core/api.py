@@ -34,7 +34,13 @@ if TYPE_CHECKING:
     from lambda_core.discovery.registry import Registry
     from lambda_core.discovery.survey import CheckCard, ModelCard, Verdict
     from lambda_core.domain.errors import CaseError, LambdaError, UsageError
-    from lambda_core.electric.door import check_discharges_file, electric, film_from_outside, write_discharges
+    from lambda_core.electric.door import (
+        check_discharges_file,
+        electric,
+        electric_map,
+        film_from_outside,
+        write_discharges,
+    )
     from lambda_core.report.pictures import animate, draw, report, view, view_all, view_stem, views
     from lambda_core.results.reader import Result
     from lambda_core.results.run_status import Status, process_identity, this_process
@@ -60,7 +66,7 @@ _CALLS = {
     "run.simulation": "cross_check estimate iterate quasistatic resume run warmup",
     "run.answers": "cite compare result summary",
     "thermal.temperatures": "thermal thermal_pictures warm_up",
-    "electric.door": "check_discharges_file electric film_from_outside write_discharges",
+    "electric.door": "check_discharges_file electric electric_map film_from_outside write_discharges",
     "batch.study_files": "init_study study_examples",
     "batch.study_runs": "study_check study_resume study_run study_schema study_status study_table",
     "report.pictures": "animate draw report view view_all view_stem views",

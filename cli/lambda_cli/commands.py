@@ -46,6 +46,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "resume": ("lambda_cli.resume:resume", "Go on with an interrupted run."),
     "quasistatic": ("lambda_cli.quasistatic:quasistatic", "Equilibrium of a case without running it."),
     "thermal": ("lambda_cli.thermal:thermal", "Temperatures of a bearing by its own losses."),
+    "electric-map": ("lambda_cli.electric:risk_map", "Discharges over speed and temperature."),
     "electric-film": ("lambda_cli.electric:film", "Film thickness from a measured capacitance of the bearing."),
     "electric": ("lambda_cli.electric:electric", "Bearing voltage, discharges, impedance in an electric machine."),
     "show": ("lambda_cli.show:show", "Show the summary of a result."),

@@ -69,3 +69,46 @@ def film(
             case, measured, changes or (), frequency=frequency, uncertainty=uncertainty, announce=speaker.say
         )
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
+
+
+def risk_map(
+    case: CaseArgument,
+    changes: SetOption = None,
+    speed: Annotated[
+        str | None, typer.Option("--speed", metavar="FROM,TO", help='Of the inner ring, "500 rpm, 10000 rpm".')
+    ] = None,
+    temperature: Annotated[
+        str, typer.Option("--temperature", metavar="FROM,TO", help="Of oil and parts.")
+    ] = "20 degC, 110 degC",
+    points: Annotated[str, typer.Option("--points", metavar="NxM", help="Speeds times temperatures.")] = "20x10",
+    out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Every number, as .csv.")] = None,
+    draw: Annotated[
+        Path | None, typer.Option("--draw", metavar="DIR", help="Also write pictures (svg and png) into this folder.")
+    ] = None,
+    force: ForceOption = False,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Discharges over speed and temperature, on quasi-static films.
+
+    The circuit is the section electric of the case. Speeds are even in logarithm; without --speed they go from a tenth
+    to twice the speed of the case.
+    """
+    from lambda_core import api
+
+    with talk(progress, quiet) as speaker:
+        found = api.electric_map(
+            case,
+            changes or (),
+            speed=speed,
+            temperature=temperature,
+            points=points,
+            out=out,
+            overwrite=force,
+            announce=speaker.say,
+        )
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
+    if draw is not None:
+        for path in api.draw(found.picture(), draw, found.case):
+            typer.echo(str(path), err=True)

@@ -11,6 +11,9 @@ if TYPE_CHECKING:
 
     from lambda_core.electric.current_limits import Limit
     from lambda_core.electric.outcome import Outcome
+    from lambda_core.electric.risk_map import RiskMap
+
+_METAL = 0.05  # share of contacts and time from which on a point of a map is called metal
 
 
 def outcome_text(found: Outcome) -> str:
@@ -74,3 +77,32 @@ def _worst(ring: str, shares: Sequence[float]) -> str:
     width = 360.0 / len(shares)
     at = shares.index(most) * width
     return f"{ring} {100 * most:.0f} % at {at:.0f}..{at + width:.0f} deg"
+
+
+def map_text(found: RiskMap) -> str:
+    """Return the discharges per second over speed and temperature, a row per speed."""
+    rates = found.grid("discharges_per_s")
+    metal = found.grid("metal_share")
+    columns = found.temperatures_degC
+    rows = [f"{'1/min':>9}" + "".join(f"{f'{value:.4g} C':>7}" for value in columns)]
+    for speed, row, touching in zip(found.speeds_rpm, rates, metal, strict=True):
+        rows.append(f"{speed:9.5g}" + "".join(f"{_rate(*cell):>7}" for cell in zip(row, touching, strict=True)))
+    return "\n".join(
+        [
+            line("source", found.source),
+            line("map", f"{len(found.points)} points", f"{found.simulated_s:g} s each", f"{found.wall_s:.3g} s in all"),
+            "",
+            "discharges through the bearing per second (metal: asperities short it; -: no equilibrium)",
+            *rows,
+            "",
+            *(line("assumed" if i == 0 else "", text) for i, text in enumerate(found.assumptions)),
+        ]
+    )
+
+
+def _rate(value: float, metal: float) -> str:
+    if value != value:
+        return "-"
+    if metal > _METAL and value == 0.0:
+        return "metal"
+    return f"{value:.3g}" if value < 1000.0 else f"{1e-3 * value:.3g}k"

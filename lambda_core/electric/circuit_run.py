@@ -11,6 +11,7 @@ import numpy as np
 
 from lambda_core.case.electric import Electric
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import UsageError
 from lambda_core.electric.circuit import circuit_of
 from lambda_core.electric.contacts import Contacts, films
 from lambda_core.electric.film_laws import FilmLaw, film_laws
@@ -129,7 +130,9 @@ def simulate(
     started, spent = time.perf_counter(), 0.0
     if settled is not None:
         last = marched(contacts.time, reach(options.source)) + 1
-        first = min(int(np.searchsorted(contacts.time, settled)), last - 2)
+        first = int(np.searchsorted(contacts.time, settled))
+        if last - first < 2:
+            raise UsageError(f"{contacts.origin}: too short: nothing is left from {settled:.4g} s on")
         if first > 0:
             network.advance(electric.part(slice(0, first + 1)), source)
         spent = float(electric.time[first] - begin)
@@ -145,4 +148,4 @@ def simulate(
 
 def marched(time: FloatArray, margin: float) -> int:
     """Return the number of the last sample that a run's circuit is marched to: `margin` [s] before the newest one."""
-    return max(int(np.searchsorted(time, time[-1] - margin, side="right")) - 1, 1)
+    return int(np.searchsorted(time, time[-1] - margin, side="right")) - 1

@@ -64,7 +64,7 @@ N_TOTAL = 16
     E_CHARGE,  # through this arc [C]
     E_PEAK,  # largest current [A]
     E_DURATION,  # from the breakdown to the end of this arc [s]
-    E_SAMPLE,  # where the contact was then: samples since the first, with a fraction
+    E_SAMPLE,  # number of the interval of samples that it began in
 ) = range(11)
 N_EVENT = 11
 # One row per moment of the record, `trace[...]`.

@@ -100,10 +100,14 @@ class Contacts:
 
     def turned(self, times: FloatArray) -> FloatArray:
         """Return the angle of the inner ring against the outer at times [s], straight between and beyond samples."""
-        angle = self.inner_angle - self.outer_angle
-        i = np.clip(np.searchsorted(self.time, times, side="right") - 1, 0, self.time.size - 2)
-        slope = (angle[i + 1] - angle[i]) / (self.time[i + 1] - self.time[i])
-        return np.asarray(angle[i] + slope * (times - self.time[i]))
+        return turned(self.time, self.inner_angle - self.outer_angle, times)
+
+
+def turned(known: FloatArray, angle: FloatArray, times: FloatArray) -> FloatArray:
+    """Return an angle at times, straight between the known ones and beyond them."""
+    i = np.clip(np.searchsorted(known, times, side="right") - 1, 0, known.size - 2)
+    slope = (angle[i + 1] - angle[i]) / (known[i + 1] - known[i])
+    return np.asarray(angle[i] + slope * (times - known[i]))
 
 
 _CHANNELS = {
@@ -117,6 +121,7 @@ _CHANNELS = {
     "hertz": "capacitance_hertz",
     "capacitance": "capacitance",
 }
+CHANNELS = ("time", "body_spin_angle", "ball_azimuth", *_CHANNELS.values())  # that the circuit reads of a run
 
 
 def contacts_of_samples(samples: Mapping[str, FloatArray], roughness: float, origin: str) -> Contacts:
@@ -141,8 +146,7 @@ def contacts_of_run(result: Result) -> Contacts:
     UsageError
         When there are not three samples.
     """
-    names = ("time", "body_spin_angle", "ball_azimuth", *_CHANNELS.values())
-    samples = {name: result[name] for name in names}
+    samples = {name: result[name] for name in CHANNELS}
     if samples["time"].size < 3:
         raise UsageError(f"{result.path}: fewer than three samples")
     return contacts_of_samples(samples, float(result.model["roughness"]), f"the run {result.path.name}")

@@ -11,39 +11,26 @@ import numpy as np
 
 from lambda_core.domain.errors import UsageError
 from lambda_core.electric.circuit import bearing_capacitance
+from lambda_core.results.circuit_rows import DISCHARGES
 
 if TYPE_CHECKING:
     from lambda_core.electric.circuit_run import Simulation
 
-# Column -> unit and meaning; the order is that of the rows.
-COLUMNS: dict[str, tuple[str, str]] = {
-    "time": ("s", "of the breakdown"),
-    "ball": ("", "from 1"),
-    "ring": ("", "0 inner, 1 outer"),
-    "discharge": ("", "number of the discharge; both films of a ball may belong to one"),
-    "angle": ("rad", "place on the raceway, turning with the ring, from +y towards +z"),
-    "contact_voltage": ("V", "across the film at the breakdown, ring less ball"),
-    "bearing_voltage": ("V", "inner less outer ring at the breakdown"),
-    "energy": ("J", "heat in this film"),
-    "charge": ("C", "through this film"),
-    "peak": ("A", "largest current"),
-    "duration": ("s", "until the arc died"),
-    "film": ("m", "central film thickness"),
-    "film_parameter": ("", "Lambda"),
-    "area": ("m2", "Hertzian area"),
-}
+_UNITS = {channel.name: channel.unit for channel in DISCHARGES}
 
 
-def check_target(path: Path, overwrite: bool) -> None:
+def check_target(
+    path: Path, overwrite: bool, what: str = "the table of discharges", endings: tuple[str, ...] = (".csv", ".h5")
+) -> None:
     """Say before the work what would stop the writing at its end.
 
     Raises
     ------
     UsageError
-        When the ending is neither .csv nor .h5, the file exists, or its folder does not.
+        When the ending is none of `endings`, the file exists, or its folder does not.
     """
-    if path.suffix not in (".csv", ".h5"):
-        raise UsageError(f'"{path}": the table of discharges is written as .csv or .h5')
+    if path.suffix not in endings:
+        raise UsageError(f'"{path}": {what} is written as {" or ".join(endings)}')
     if path.exists() and not overwrite:
         raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
     if not path.absolute().parent.is_dir():
@@ -66,8 +53,8 @@ def _write_csv(simulation: Simulation, path: Path) -> None:
     events = simulation.events
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow([f"{name} [{unit}]" if unit else name for name, (unit, _) in COLUMNS.items()])
-        writer.writerows(zip(*(getattr(events, name).tolist() for name in COLUMNS), strict=True))
+        writer.writerow([f"{name} [{unit}]" if unit else name for name, unit in _UNITS.items()])
+        writer.writerows(zip(*(getattr(events, name).tolist() for name in _UNITS), strict=True))
 
 
 def _write_hdf5(simulation: Simulation, path: Path) -> None:
@@ -76,9 +63,9 @@ def _write_hdf5(simulation: Simulation, path: Path) -> None:
         file.attrs["title"], file.attrs["case"] = "bearing currents", simulation.case
         file["outcome_json"] = simulation.outcome.model_dump_json()
         group = file.create_group("events")
-        for name, (unit, meaning) in COLUMNS.items():
-            group[name] = getattr(simulation.events, name)
-            group[name].attrs["units"], group[name].attrs["long_name"] = unit, meaning
+        for channel in DISCHARGES:
+            group[channel.name] = getattr(simulation.events, channel.name)
+            group[channel.name].attrs["units"], group[channel.name].attrs["long_name"] = channel.unit, channel.meaning
         series = {
             "time": (films.time, "s", "time of the samples"),
             "bearing_capacitance": (

@@ -85,8 +85,9 @@ def events_of(march: March, contacts: Contacts) -> Events:
     """Return the discharges of a march with the state of the contacts that it went through."""
     table = march.events
     ball, ring = table[:, L.E_BALL].astype(np.int64), table[:, L.E_RACEWAY].astype(np.int64)
-    low = np.clip(table[:, L.E_SAMPLE].astype(np.int64), 0, contacts.time.size - 2)
-    share = table[:, L.E_SAMPLE] - low
+    low = table[:, L.E_SAMPLE].astype(np.int64)
+    begin, end = contacts.time[low], contacts.time[low + 1]
+    share = (table[:, L.E_TIME] - begin) / (end - begin)
 
     def at(values: FloatArray, *index: IntArray) -> FloatArray:
         return np.asarray((1.0 - share) * values[(low, *index)] + share * values[(low + 1, *index)])

@@ -18,6 +18,7 @@ import numpy as np
 
 from lambda_core.domain.channels import DIMENSIONS, Channel
 from lambda_core.results.averages import INTEGRALS
+from lambda_core.results.circuit_rows import CIRCUIT, CIRCUIT_GROUP, DISCHARGES, DISCHARGES_GROUP
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.run_status import Rows
 from lambda_core.system.bearing import BearingModel
@@ -65,6 +66,9 @@ def create(file: h5py.File, provenance: Provenance, channels: Sequence[Channel])
     revolutions = file.create_group(REVOLUTIONS_GROUP)
     number = Channel("revolution", (), "-", "whole cage revolutions completed")
     _series(revolutions, (number, *INTEGRALS), "revolution")
+    if model.electric is not None:
+        _series(file.create_group(CIRCUIT_GROUP), CIRCUIT, "time")
+        _series(file.create_group(DISCHARGES_GROUP), DISCHARGES, "time")
     _inputs(file.create_group(INPUTS_GROUP), provenance)
     file.create_dataset(SLOTS, (2, 0), np.uint8, maxshape=(2, None), chunks=(1, _SLOT_CHUNK)).attrs["long_name"] = (
         "checkpoints, written in turn; bytes with a checksum"
@@ -136,8 +140,13 @@ def read_table(group: h5py.Group) -> list[dict[str, str]]:
 
 def _rows_of(name: str, rows: Rows) -> int:
     """Return how many rows of a growing dataset (path in the file) count."""
-    by_group = {INTEGRALS_GROUP: rows.records, REVOLUTIONS_GROUP: rows.revolutions}
-    return by_group.get(name.split("/")[0], rows.samples)
+    by_group = {
+        INTEGRALS_GROUP: rows.records,
+        REVOLUTIONS_GROUP: rows.revolutions,
+        CIRCUIT_GROUP: rows.circuit,
+        DISCHARGES_GROUP: rows.discharges,
+    }
+    return by_group.get(name.rpartition("/")[0], rows.samples)
 
 
 def grows(item: object) -> bool:

@@ -21,6 +21,7 @@ from lambda_core.domain.printable import printable
 from lambda_core.results import checkpoint
 from lambda_core.results import file_format as layout
 from lambda_core.results.averages import INTEGRALS
+from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP
 from lambda_core.results.hdf5 import open_for_reading, reason
 from lambda_core.results.integrity import check_model, heaps_are_whole
 from lambda_core.results.run_status import Status
@@ -132,6 +133,25 @@ class Result:
         """Return the newest whole checkpoint, None when there is none."""
         with self._open() as file:
             return checkpoint.latest(slot.tobytes() for slot in file[layout.SLOTS][()])
+
+    def circuit(self) -> dict[str, NDArray[np.float64]]:
+        """Return what the run wrote of its electric circuit, column -> values; empty where it has none.
+
+        Time of the sample [s], ``bearing_capacitance`` [F], ``bearing_voltage_least`` and ``bearing_voltage_largest``
+        since the sample before [V].
+        """
+        return self._circuit_table(CIRCUIT_GROUP, "circuit")
+
+    def discharges(self) -> dict[str, NDArray[np.float64]]:
+        """Return every film that broke down in the run, column -> values, SI; empty where it has no circuit."""
+        return self._circuit_table(DISCHARGES_GROUP, "discharges")
+
+    def _circuit_table(self, group: str, kind: str) -> dict[str, NDArray[np.float64]]:
+        with self._open() as file:
+            if group not in file:
+                return {}
+            count = getattr(self._status(file).rows, kind)
+            return {name: data[:count] for name, data in file[group].items()}
 
     # -- where it comes from --
 

@@ -14,11 +14,16 @@ from lambda_core.domain.printable import printable
 
 @dataclass(frozen=True)
 class Rows:
-    """How many rows of the growing datasets count: samples, running integrals, boundaries of cage revolutions."""
+    """How many rows of the growing datasets count.
+
+    Samples, running integrals, boundaries of cage revolutions; of an electric circuit its own samples and discharges.
+    """
 
     samples: int = 0
     records: int = 0
     revolutions: int = 0
+    circuit: int = 0
+    discharges: int = 0
 
 
 State = Literal["running", "finished", "stopped", "interrupted", "failed"]

@@ -22,6 +22,7 @@ from lambda_core.results import file_format as layout
 from lambda_core.results import hdf5
 from lambda_core.results.averages import INTEGRALS, spans
 from lambda_core.results.checkpoint import Checkpoint
+from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP, CircuitRows
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.run_status import Rows, Status
 
@@ -59,13 +60,17 @@ class ResultWriter:
                 ("samples", "/"),
                 ("records", layout.INTEGRALS_GROUP),
                 ("revolutions", layout.REVOLUTIONS_GROUP),
+                ("circuit", CIRCUIT_GROUP),
+                ("discharges", DISCHARGES_GROUP),
             )
+            if group in file
         }
         # What one more chunk of everything that grows together takes on disk.
         self._chunk = {kind: sum(map(layout.chunk_bytes, items.values())) for kind, items in self._growing.items()}
         self._samples: list[Mapping[str, NDArray[np.float64]]] = []
         self._records: list[FloatArray] = []
         self._revolutions: list[FloatArray] = []
+        self._circuit: dict[str, list[Mapping[str, FloatArray]]] = {"circuit": [], "discharges": []}
         with self._guard():
             file.swmr_mode = True
         self._put_status(status)
@@ -115,6 +120,12 @@ class ResultWriter:
         self._records.append(record)
         self._revolutions.extend(revolutions)
 
+    def add_circuit(self, rows: CircuitRows) -> None:
+        """Take what the electric circuit did."""
+        for kind, table in (("circuit", rows.circuit), ("discharges", rows.discharges)):
+            if len(table["time"]):
+                self._circuit[kind].append(table)
+
     def pending(self) -> int:
         """Return how many samples wait in memory."""
         return sum(len(samples["time"]) for samples in self._samples)
@@ -135,6 +146,7 @@ class ResultWriter:
         with self._guard():
             self._append_samples()
             self._append_records()
+            self._append_circuit()
             self._file.flush()
         self._put_status(status)
 
@@ -191,6 +203,15 @@ class ResultWriter:
             self._written = replace(self._written, **{kind: start + len(rows)})
             rows.clear()
 
+    def _append_circuit(self) -> None:
+        for kind, tables in self._circuit.items():
+            start = getattr(self._written, kind)
+            count = sum(len(table["time"]) for table in tables)
+            for name, data in self._growing[kind].items() if tables else ():
+                _append(data, start, np.concatenate([table[name] for table in tables]))
+            self._written = replace(self._written, **{kind: start + count})
+            tables.clear()
+
     def _put_status(self, status: Status) -> None:
         with self._guard():
             self._status = replace(status, rows=self._written)
@@ -200,11 +221,12 @@ class ResultWriter:
     def _growth(self) -> int:
         """Return the bytes of the chunks that the waiting rows will open."""
         waiting = {"samples": self.pending(), "records": len(self._records), "revolutions": len(self._revolutions)}
+        waiting |= {kind: sum(len(table["time"]) for table in tables) for kind, tables in self._circuit.items()}
         total = 0
         for kind, count in waiting.items():
             start = getattr(self._written, kind)
             opened = math.ceil((start + count) / layout.ROWS) - math.ceil(start / layout.ROWS)
-            total += opened * self._chunk[kind]
+            total += opened * self._chunk.get(kind, 0)
         return total
 
     def _reserve(self, growth: int) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
@@ -20,6 +21,9 @@ from lambda_core.solver.code_files import physics_sources
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.system.bearing import BearingModel
+
+if TYPE_CHECKING:
+    from lambda_core.electric.live import Live
 
 Announce = Callable[[str], None]
 
@@ -45,8 +49,9 @@ def launch(
         Called with the progress of the run; with a sentence before what takes a while.
     """
     path = destination(model, out, force)
-    engine, provenance = _engine(model, announce)
-    return run(engine, provenance, path, force=force, report=report)
+    live = _live(model, announce)
+    engine, provenance = _engine(model, announce, live)
+    return run(engine, provenance, path, force=force, report=report, live=live)
 
 
 def relaunch(
@@ -63,12 +68,13 @@ def relaunch(
     changed = differences(result.model, model_data(model))
     if changed:
         raise ResultError(f"{path} cannot go on: the case now resolves to other values: {_some(changed)}")
-    engine, provenance = _engine(model, announce)
+    live = _live(model, announce)
+    engine, provenance = _engine(model, announce, live)
     keys = result.kernel_keys
     other = sorted(name for name, key in provenance.kernel_keys.items() if keys.get(name) != key)
     if other:
         raise ResultError(f"{path} cannot go on: the code has changed since: {_some(other)}")
-    return resume(engine, provenance, path, report=report)
+    return resume(engine, provenance, path, report=report, live=live)
 
 
 def destination(model: BearingModel, out: Path | None, force: bool) -> Path:
@@ -93,14 +99,24 @@ def destination(model: BearingModel, out: Path | None, force: bool) -> Path:
     return path
 
 
-def _engine(model: BearingModel, announce: Announce | None) -> tuple[BearingEngine, Provenance]:
+def _live(model: BearingModel, announce: Announce | None) -> Live | None:
+    """Return the electric circuit beside the motion, where the case has one."""
+    if model.electric is None:
+        return None
+    from lambda_core.electric.live import Live
+
+    return Live(model, announce)
+
+
+def _engine(model: BearingModel, announce: Announce | None, live: Live | None) -> tuple[BearingEngine, Provenance]:
     start = solve(model, announce=announce)
     if announce is not None:
         announce(_start_line(quasistatic_of(start)))
     engine = BearingEngine(model, announce, start)
     core = sources_key(*physics_sources())
     rating = rating_of(start, registry().methods)
-    return engine, Provenance(model, {**engine.kernel_keys, "core": core}, rating)
+    keys = live.keys() if live is not None else {}
+    return engine, Provenance(model, {**engine.kernel_keys, **keys, "core": core}, rating)
 
 
 def _start_line(start: QuasiStatic) -> str:

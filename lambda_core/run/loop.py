@@ -13,6 +13,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -33,13 +34,22 @@ from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION, Advance, E
 from lambda_core.system.bearing import BearingModel, Solver
 from lambda_core.system.time_functions import peak
 
+if TYPE_CHECKING:
+    from lambda_core.electric.live import Live
+
 RECORDS_PER_REVOLUTION = 40
 _FLUSH_AFTER = 1.0  # wall time [s]
 _REPORT_AFTER = 0.1  # wall time [s]
 
 
 def run(
-    engine: Engine, provenance: Provenance, path: Path, *, force: bool = False, report: Report | None = None
+    engine: Engine,
+    provenance: Provenance,
+    path: Path,
+    *,
+    force: bool = False,
+    report: Report | None = None,
+    live: Live | None = None,
 ) -> Result:
     """Simulate from the start until the end, into a new result file.
 
@@ -53,6 +63,8 @@ def run(
         Where the result goes; must not exist unless `force` is set.
     report : callable, optional
         Called with a :class:`Progress` some ten times a second.
+    live : Live, optional
+        The electric circuit beside the motion.
 
     Returns
     -------
@@ -67,16 +79,20 @@ def run(
         When the disk takes no more; the file keeps what there is.
     """
     writer = ResultWriter.create(path, provenance, engine.channels, Status(process=this_process()), force=force)
-    return _begin(engine, provenance, writer, report)
+    return _begin(engine, provenance, writer, report, live)
 
 
-def _begin(engine: Engine, provenance: Provenance, writer: ResultWriter, report: Report | None) -> Result:
+def _begin(
+    engine: Engine, provenance: Provenance, writer: ResultWriter, report: Report | None, live: Live | None
+) -> Result:
     start = row(engine.time, engine.integrals())
     writer.add_record(start, [start])
-    return _Session(engine, provenance.model, writer, [start], start, Position(0, Rows(), 0.0), report).drive()
+    return _Session(engine, provenance.model, writer, [start], start, Position(0, Rows(), 0.0), report, live).drive()
 
 
-def resume(engine: Engine, provenance: Provenance, path: Path, *, report: Report | None = None) -> Result:
+def resume(
+    engine: Engine, provenance: Provenance, path: Path, *, report: Report | None = None, live: Live | None = None
+) -> Result:
     """Continue a run that was killed, stopped or finished, from its last checkpoint.
 
     Parameters and errors as for :func:`run`; `engine` is new and its model's `solver` says
@@ -97,7 +113,11 @@ def resume(engine: Engine, provenance: Provenance, path: Path, *, report: Report
     checkpoint = result.checkpoint()
     if checkpoint is None:  # killed before the first one: the beginning is as good
         return _begin(
-            engine, provenance, ResultWriter.continued(path, engine.channels, Status(process=this_process())), report
+            engine,
+            provenance,
+            ResultWriter.continued(path, engine.channels, Status(process=this_process())),
+            report,
+            live,
         )
     position = checkpoint.position
     engine.restore(checkpoint.state)
@@ -106,8 +126,10 @@ def resume(engine: Engine, provenance: Provenance, path: Path, *, report: Report
     if status.state == "finished" and not _left_to_do(provenance.model.solver, engine.time, known, start):
         raise UsageError(f"{path} is finished: nothing is left to do; a longer --duration continues it")
     status = replace(status, state="running", message="", rows=position.rows, process=this_process())
+    if live is not None:
+        live.catch_up(result, position.rows)
     writer = ResultWriter.continued(path, engine.channels, status)
-    session = _Session(engine, provenance.model, writer, known, start, position, report)
+    session = _Session(engine, provenance.model, writer, known, start, position, report, live)
     # Convergence is looked at where a revolution ends: a run that was killed right behind that has nothing left to do.
     if len(records) > 1 and known[-1][0] > records[-2][0]:
         session.judge()
@@ -153,7 +175,9 @@ class _Session:
         last: FloatArray,
         position: Position,
         report: Report | None,
+        live: Live | None,
     ) -> None:
+        self._live = live
         self._engine = engine
         self._solver = model.solver
         self._writer = writer
@@ -268,7 +292,9 @@ class _Session:
         self._flush("running", "")
         status = self._status("running", "")
         written, tail = self._writer.written(), self._off_grid
-        rows = Rows(written.samples, written.records - tail.records, written.revolutions - tail.revolutions)
+        rows = replace(
+            written, records=written.records - tail.records, revolutions=written.revolutions - tail.revolutions
+        )
         self._sequence += 1
         position = Position(self._sequence, rows, status.wall, status.statistics)
         self._writer.save(Checkpoint(position, self._engine.state()))
@@ -281,6 +307,8 @@ class _Session:
             self._loads = tuple(samples["load"][-1, :, RINGS.index("inner")].tolist())
             self._epicyclic = self._without_slip(samples["load"], samples["contact_angle"])
         self._writer.add_samples(samples)
+        if self._live is not None:
+            self._writer.add_circuit(self._live.take(samples))
 
     def _without_slip(self, load: FloatArray, angle: FloatArray) -> float:
         """Return cage speed over inner ring speed without slip; contact angles are weighted by load."""

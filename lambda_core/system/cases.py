@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.domain.errors import UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from lambda_core.case.case import Case
     from lambda_core.case.draft import Draft
@@ -185,3 +185,23 @@ def catalogue() -> Catalogue:
     from lambda_core.discovery.manager import registry
 
     return registry().catalogue()
+
+
+def case_of(source: str | Path | Mapping[str, Any] | Case) -> Case:
+    """Return the case of whatever a function of this package takes as one.
+
+    Raises
+    ------
+    UsageError, CaseError
+        When there is no such case, or it has mistakes.
+    """
+    from collections.abc import Mapping
+
+    from lambda_core.case.case import Case
+    from lambda_core.case.case_io import validate_case
+
+    if isinstance(source, Case):
+        return source
+    if isinstance(source, Mapping):
+        return validate_case(source, str(source.get("name", "case")))
+    return case(source)

@@ -26,7 +26,7 @@ from lambda_core.discovery.manager import registry
 from lambda_core.domain import fits
 from lambda_core.domain.elements import BODIES, ELEMENTS
 from lambda_core.domain.errors import CaseError
-from lambda_core.domain.roles import ROLES
+from lambda_core.domain.roles import MOTION_ROLES
 from lambda_core.domain.tolerances import Limits
 from lambda_core.laws.law import Law
 from lambda_core.system.bearing import BearingModel, ChosenLaw, TimeFunction
@@ -198,7 +198,7 @@ def test_cage_that_cannot_be_or_cannot_act() -> None:
 
 
 def test_sections_name_every_role_and_element() -> None:
-    assert list(Models.model_fields) == list(ROLES)
+    assert list(Models.model_fields) == list(MOTION_ROLES)
     assert list(Forces.model_fields) == list(ELEMENTS)
     assert list(Bodies.model_fields) == list(BODIES)
 

@@ -28,6 +28,8 @@ def growing(path: Path) -> Series:
     """Return everything that a run appends to."""
     result = api.result(path)
     found = {channel.name: result[channel.name] for channel in result.channels}
+    for kind, table in (("circuit", result.circuit()), ("discharges", result.discharges())):
+        found |= {f"{kind}/{name}": values for name, values in table.items()}
     return found | {"integrals": result.integrals(), "revolutions": result.revolutions()}
 
 

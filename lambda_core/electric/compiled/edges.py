@@ -293,14 +293,13 @@ def march(
                         if stand[ring] < 0.0:
                             total[L.T_STATUS] = -stand[ring] - 1.0
                             return L.NO_VOLTAGE
-                sample = i + (now - t[i]) / (t[i + 1] - t[i])
                 now, status = discharge(
                     now, ball, raceway, n, shared, c, g, q, v, stand, held, arc_law, arc_par, arc_out, machine,
                     source_t, source_v, place, work, vectors, rows, state, total, trace, window,
                 )  # fmt: skip
                 if status != L.OK:
                     return status
-                if _store(events, total, rows, ball, sample) == 0:
+                if _store(events, total, rows, ball, float(i)) == 0:
                     return L.EVENTS_FULL
                 amplitudes(n, s, q, y)
                 voltages(n, s, y, v)

@@ -1,0 +1,43 @@
+"""What a run writes of its electric circuit: voltages between samples, and every film that breaks down."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import Channel
+
+CIRCUIT_GROUP = "electric/circuit"
+DISCHARGES_GROUP = "electric/discharges"
+
+CIRCUIT: tuple[Channel, ...] = (
+    Channel("time", (), "s", "time of the sample"),
+    Channel("bearing_capacitance", (), "F", "balls in parallel, the films of a ball in series"),
+    Channel("bearing_voltage_least", (), "V", "smallest since the sample before, inner less outer ring"),
+    Channel("bearing_voltage_largest", (), "V", "largest since the sample before; NaN where one discharge spans it"),
+)
+DISCHARGES: tuple[Channel, ...] = (
+    Channel("time", (), "s", "of the breakdown"),
+    Channel("ball", (), "", "from 1"),
+    Channel("ring", (), "", "0 inner, 1 outer"),
+    Channel("discharge", (), "", "number of the discharge; both films of a ball may belong to one"),
+    Channel("angle", (), "rad", "place on the raceway, turning with the ring, from +y towards +z"),
+    Channel("contact_voltage", (), "V", "across the film at the breakdown, ring less ball"),
+    Channel("bearing_voltage", (), "V", "inner less outer ring at the breakdown"),
+    Channel("energy", (), "J", "heat in this film"),
+    Channel("charge", (), "C", "through this film"),
+    Channel("peak", (), "A", "largest current"),
+    Channel("duration", (), "s", "until the arc died"),
+    Channel("film", (), "m", "central film thickness"),
+    Channel("film_parameter", (), "", "Lambda"),
+    Channel("area", (), "m2", "Hertzian area"),
+)
+
+
+@dataclass(frozen=True)
+class CircuitRows:
+    """A stretch of both tables, column -> values."""
+
+    circuit: Mapping[str, FloatArray]
+    discharges: Mapping[str, FloatArray]

@@ -1,0 +1,87 @@
+"""The circuit of a run beside its motion: written while it runs, the same bits however it is cut."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+
+from lambda_core import api
+from lambda_core.domain.errors import UsageError
+from lambda_core.electric.contacts import CHANNELS
+from lambda_core.electric.live import Live
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from lambda_core.results.reader import Result
+
+CASE = "6208-axial-1300"
+CHANGES = ["loads.axial=0 N", "loads.radial=2 kN", "electric.seed=3"]
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Result:
+    path = tmp_path_factory.mktemp("live") / "run.h5"
+    return api.run(CASE, [*CHANGES, "solver.duration=0.115 s"], out=path)
+
+
+def test_what_was_written_is_what_is_found_afterwards(run: Result) -> None:
+    """Bit for bit, from where averages begin."""
+    written, found = run.discharges(), api.electric(run.path)
+    assert found.events.time.size > 100
+    begin = found.films.time[0]
+    assert begin > 0.0
+    for name, values in written.items():
+        again = getattr(found.events, name).astype(np.float64)
+        assert values[written["time"] >= begin].tobytes() == again.tobytes(), name
+    circuit = run.circuit()
+    inside = circuit["time"] > begin
+    assert circuit["bearing_voltage_least"][inside].tobytes() == found.march.extremes[:, 0].tobytes()
+    assert circuit["bearing_capacitance"].min() > 80e-12
+
+
+@pytest.mark.parametrize("size", [1, 7, 60])
+def test_samples_may_come_in_any_pieces(run: Result, size: int) -> None:
+    """One by one, or by the dozen: the tables are those of the run, which flushed by the clock."""
+    live = Live(api.check(CASE, CHANGES))
+    samples = {name: run[name] for name in CHANNELS}
+    parts = [
+        live.take({name: values[i : i + size] for name, values in samples.items()})
+        for i in range(0, samples["time"].size, size)
+    ]
+    for kind, whole in (("circuit", run.circuit()), ("discharges", run.discharges())):
+        for name, values in whole.items():
+            assert np.concatenate([getattr(part, kind)[name] for part in parts]).tobytes() == values.tobytes(), name
+
+
+def test_a_longer_run_goes_on_with_its_circuit(run: Result, tmp_path: Path) -> None:
+    """Stopped after a third, continued: the same file as the run in one go."""
+    path = tmp_path / "short.h5"
+    api.run(CASE, [*CHANGES, "solver.duration=0.03 s"], out=path)
+    assert 0 < api.result(path).discharges()["time"].size < run.discharges()["time"].size
+    longer = api.resume(path, ["solver.duration=0.115 s"])
+    for one, other in ((longer.circuit(), run.circuit()), (longer.discharges(), run.discharges())):
+        for name, values in other.items():
+            assert one[name].tobytes() == values.tobytes(), name
+    with pytest.raises(UsageError, match=r"other values: electric\.options\.seed"):
+        _resume_with_another_seed(path)
+
+
+def _resume_with_another_seed(path: Path) -> None:
+    from lambda_core.run.launch import relaunch
+
+    relaunch(path, api.check(CASE, [*CHANGES[:2], "electric.seed=4", "solver.duration=0.2 s"]))
+
+
+def test_no_circuit_no_tables(combined_run: Result) -> None:
+    assert combined_run.circuit() == combined_run.discharges() == {}
+
+
+def test_motion_is_not_touched(run: Result, tmp_path: Path) -> None:
+    """The same run without a circuit has the same samples."""
+    plain = api.run(CASE, [*CHANGES[:2], "solver.duration=0.02 s"], out=tmp_path / "plain.h5")
+    for name in ("load", "film_central", "body_position"):
+        values = plain[name]
+        assert values.tobytes() == run[name][: len(values)].tobytes(), name
