@@ -15,6 +15,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import page_examples as examples
 import reference_errors as errors
+from gallery import gallery
 from reference_api import api_page
 from reference_case import case_page
 from reference_cli import cli_page
@@ -32,6 +33,7 @@ PAGES: dict[str, Callable[[], str]] = {
 }
 # page -> mark -> lines between <!-- mark:begin --> and <!-- mark:end -->
 PARTS: dict[str, dict[str, Callable[[], str]]] = {
+    "gallery.md": {"gallery": gallery},
     "kernels.md": {"roles": roles_markdown},
     "errors.md": {
         "codes": lambda: "\n".join(errors.exit_codes()),
