@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import CaseArgument, ForceOption, JsonOption, SetOption
+from lambda_cli.options import CaseArgument, ForceOption, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import columns
 from lambda_core.domain.wrapping import wrapped
 
@@ -43,7 +43,9 @@ def init(
     typer.echo(f"wrote {target}; next: lambda-bearing check {target}", err=True)
 
 
-def check(case: CaseArgument, changes: SetOption = None, as_json: JsonOption = False) -> None:
+def check(
+    case: CaseArgument, changes: SetOption = None, as_json: JsonOption = False, units: UnitsOption = Units.SI
+) -> None:
     """Say what a case is, what it assumes, and everything that is wrong with it."""
     from lambda_core import api
 
@@ -58,7 +60,7 @@ def check(case: CaseArgument, changes: SetOption = None, as_json: JsonOption = F
     if as_json:
         typer.echo(json.dumps(report.model_dump(mode="json"), indent=2, allow_nan=False))
         return
-    typer.echo("\n".join(wrapped(report.text().splitlines(), columns())))
+    typer.echo("\n".join(wrapped(units.system.sentence(report.text()).splitlines(), columns())))
 
 
 def schema(out: FileOption = None) -> None:

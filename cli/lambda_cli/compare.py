@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import CaseArgument, JsonOption, SetOption
+from lambda_cli.options import CaseArgument, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 
 
@@ -24,6 +24,7 @@ def compare(
         float | None, typer.Option("--contamination", metavar="E_C", min=0.0, max=1.0, help="e_C of ISO 281, 0 to 1.")
     ] = None,
     as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
@@ -38,4 +39,4 @@ def compare(
         found = api.compare(
             case, changes or (), methods=method or (), result=result, contamination=contamination, announce=speaker.say
         )
-    typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))

@@ -2,9 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from enum import StrEnum
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from lambda_core.domain.unit_systems import UnitSystem
+
+
+class Units(StrEnum):
+    """In which units numbers are printed."""
+
+    SI = "si"
+    US = "us"
+
+    @property
+    def system(self) -> UnitSystem:
+        """The units themselves."""
+        from lambda_core.domain.unit_systems import unit_system
+
+        return unit_system(self.value)
+
 
 CaseArgument = Annotated[str, typer.Argument(metavar="CASE", help="Case file (TOML) or name of a built-in case.")]
 SetOption = Annotated[
@@ -12,4 +31,13 @@ SetOption = Annotated[
     typer.Option("--set", metavar="PATH=VALUE", help='Change an option, for example --set loads.radial="20 kN".'),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of text.")]
+UnitsOption = Annotated[
+    Units,
+    typer.Option(
+        "--units",
+        envvar="LAMBDA_BEARING_UNITS",
+        show_envvar=False,
+        help="Units of what is printed; LAMBDA_BEARING_UNITS=us sets them for good. Files and --json stay in SI.",
+    ),
+]
 ForceOption = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from lambda_cli.options import CaseArgument, JsonOption, SetOption
+from lambda_cli.options import CaseArgument, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
 
 
@@ -12,6 +12,7 @@ def quasistatic(
     case: CaseArgument,
     changes: SetOption = None,
     as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
@@ -20,4 +21,4 @@ def quasistatic(
 
     with talk(progress, quiet) as speaker:
         found = api.quasistatic(case, changes or (), announce=speaker.say)
-    typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns()))
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import JsonOption
+from lambda_cli.options import JsonOption, Units, UnitsOption
 from lambda_cli.run import DurationOption, WallOption, finish, limits
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 
@@ -17,6 +17,7 @@ def resume(
     duration: DurationOption = None,
     max_wall: WallOption = None,
     as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
@@ -30,6 +31,6 @@ def resume(
 
     with talk(progress, quiet) as speaker:
         for line in api.result(file).headline.splitlines():
-            speaker.say(line)
+            speaker.say(units.system.sentence(line))
         result = api.resume(file, limits(duration, max_wall), progress=speaker.update, announce=speaker.say)
-    finish(result, as_json)
+    finish(result, as_json, units)

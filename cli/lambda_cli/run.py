@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from lambda_cli.options import CaseArgument, JsonOption, SetOption
+from lambda_cli.options import CaseArgument, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
 
 if TYPE_CHECKING:
@@ -33,6 +33,7 @@ def run(
     duration: DurationOption = None,
     max_wall: WallOption = None,
     as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
@@ -48,9 +49,9 @@ def run(
     model = api.check(case, [*(changes or ()), *limits(duration, max_wall)])
     with talk(progress, quiet) as speaker:
         for line in api.describe(model).headline:
-            speaker.say(line)
+            speaker.say(units.system.sentence(line))
         result = api.run(model, out=out, force=force, progress=speaker.update, announce=speaker.say)
-    finish(result, as_json)
+    finish(result, as_json, units)
 
 
 def limits(duration: str | None, max_wall: str | None) -> list[str]:
@@ -59,12 +60,12 @@ def limits(duration: str | None, max_wall: str | None) -> list[str]:
     return [f"{path}={value}" for path, value in found.items() if value is not None]
 
 
-def finish(result: Result, as_json: bool) -> None:
+def finish(result: Result, as_json: bool, units: Units) -> None:
     """Print the summary and end with the exit code that its state calls for."""
     from lambda_core.domain.errors import PartialResultError
 
     summary = result.summary()
-    typer.echo(summary.model_dump_json(indent=2) if as_json else summary.text(columns()))
+    typer.echo(summary.model_dump_json(indent=2) if as_json else summary.text(columns(), units.system))
     if summary.state == "interrupted":
         typer.echo(f"interrupted; go on with: lambda-bearing resume {result.path}", err=True)
         raise typer.Exit(130)

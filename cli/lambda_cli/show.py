@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import JsonOption
+from lambda_cli.options import JsonOption, Units, UnitsOption
 from lambda_cli.talk import columns
 from lambda_core.domain.wrapping import wrapped
 
@@ -17,6 +17,7 @@ def show(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="Result file, also of a run that is still going on.")],
     as_json: JsonOption = False,
     assumptions: Annotated[bool, typer.Option("--assumptions", help="List what was assumed.")] = False,
+    units: UnitsOption = Units.SI,
 ) -> None:
     """Show the summary of a result: finished, still growing, or left behind by a killed run."""
     from lambda_core import api
@@ -24,11 +25,15 @@ def show(
     result = api.result(file)
     if assumptions:
         lines = list(result.assumptions)
-        typer.echo(json.dumps({"interface": 1, "assumptions": lines}, indent=2) if as_json else "\n".join(lines))
+        typer.echo(
+            json.dumps({"interface": 1, "assumptions": lines}, indent=2)
+            if as_json
+            else "\n".join(map(units.system.sentence, lines))
+        )
         return
     summary = result.summary()
     if as_json:
         typer.echo(summary.model_dump_json(indent=2))
         return
-    lines = [*summary.headline.splitlines(), *summary.text(columns()).splitlines()]
+    lines = [*units.system.sentence(summary.headline).splitlines(), *summary.text(columns(), units.system).splitlines()]
     typer.echo("\n".join(wrapped(lines, columns())))

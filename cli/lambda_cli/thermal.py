@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import JsonOption, SetOption
+from lambda_cli.options import JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 
 TransientOption = Annotated[
@@ -26,6 +26,7 @@ def thermal(
         Path | None, typer.Option("--draw", metavar="DIR", help="Also write pictures (svg and png) into this folder.")
     ] = None,
     as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
@@ -47,7 +48,7 @@ def thermal(
             course = api.warm_up(source, _seconds(transient), changes or (), announce=speaker.say)
             views, shown = api.thermal_pictures(course), course.model_dump_json(indent=2) if as_json else course.text()
             reason = course.reason
-    typer.echo(shown)
+    typer.echo(shown if as_json else units.system.sentence(shown))
     if draw is not None:
         for view in views:
             for path in api.draw(view, draw, api.view_stem([source])):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from lambda_cli.options import JsonOption
+from lambda_cli.options import JsonOption, Units, UnitsOption
 
 if TYPE_CHECKING:
     from lambda_core.views.chart import ViewData
@@ -31,6 +31,7 @@ def view(
     ] = None,
     show_list: Annotated[bool, typer.Option("--list", help="List the views and their options.")] = False,
     as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
 ) -> None:
     """Draw one view, or every one that there is to see.
 
@@ -48,9 +49,11 @@ def view(
         plain = [one.as_dict() for one in data]
         typer.echo(json.dumps(plain[0] if name else {"version": 1, "views": plain}, indent=2, allow_nan=False))
         return
+    from lambda_core.views.other_units import in_units
+
     stem = api.view_stem(sources)
     for one in data:
-        for path in api.draw(one, out, stem, formats or ("svg", "png")):
+        for path in api.draw(in_units(one, units.system), out, stem, formats or ("svg", "png")):
             typer.echo(str(path))
 
 

@@ -12,7 +12,7 @@ from lambda_core.case.cards import FieldCard, field_card
 from lambda_core.case.case import Case
 from lambda_core.domain.elements import ELEMENTS
 from lambda_core.domain.roles import DEFAULT_MODELS, MOTION_ROLES
-from lambda_core.domain.units import UNITS
+from lambda_core.domain.units import CUSTOMARY, UNITS
 
 _DOFS = (motion.Translation, motion.Tilt, motion.Spin, motion.InnerSpin)
 # Tables that stand in several places are described once, under one name for all of these places.
@@ -174,12 +174,14 @@ def _time_functions() -> list[str]:
 
 def _units() -> list[str]:
     rows = [
-        [quantity.replace("_", " "), ", ".join(md.code(unit) for unit in units)] for quantity, units in UNITS.items()
+        [quantity.replace("_", " "), *(", ".join(map(md.code, some)) for some in (units, CUSTOMARY.get(quantity, ())))]
+        for quantity, units in UNITS.items()
     ]
     return [
         "## Units",
         "",
-        "The first of each list is the one that the program writes.",
+        "The first of each list is the one that the program writes. Customary units are read wherever a value is "
+        "written: in files, in `--set`, in the builder; `--units us` shows numbers in them.",
         "",
-        *md.table(("quantity", "units"), rows),
+        *md.table(("quantity", "units", "customary units"), rows),
     ]

@@ -10,7 +10,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from lambda_core.domain.units import UNITS, from_si, misread, parse
+from lambda_core.domain.units import UNITS, from_si, misread, parse, units_of
 
 DIGITS = 10  # significant digits of computed values: equal in every process, and read back the same
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
@@ -90,7 +90,7 @@ def _mistake(text: str) -> str:
 def _known_unit(unit: str, quantity: str) -> str:
     """Return the spelling of a unit that the table of units has."""
     one = parse(f"1 {unit}", quantity)
-    return next(name for name in UNITS[quantity] if parse(f"1 {name}", quantity) == one)
+    return next(name for name in units_of(quantity) if parse(f"1 {name}", quantity) == one)
 
 
 def written(value: Value) -> str:

@@ -68,6 +68,32 @@ UNITS: dict[str, dict[str, float]] = {
     "number_density": {"1/mm3": 1e9, "1/m3": 1.0},
 }
 
+# Units of the international yard and pound (1959, exact), and of the horse power of 550 ft lbf/s.
+INCH, FOOT, POUND = 0.0254, 0.3048, 0.45359237
+POUND_FORCE = 4.4482216152605  # POUND times 9.80665 m/s2
+PSI = 6894.757293168361  # POUND_FORCE/INCH^2
+HORSEPOWER = 745.6998715822702  # 550 FOOT POUND_FORCE
+# quantity -> {unit: factor to SI}: read wherever a value is written, never written by the program itself.
+CUSTOMARY: dict[str, dict[str, float]] = {
+    "length": {"in": INCH, "ft": FOOT},
+    "small_length": {"in": INCH, "uin": 2.54e-8},
+    "force": {"lbf": POUND_FORCE},
+    "moment": {"lbf in": 0.1129848290276167, "lbf ft": 1.3558179483314004},
+    "pressure": {"psi": PSI, "ksi": 6894757.293168361},
+    "modulus": {"psi": PSI, "ksi": 6894757.293168361},
+    "velocity": {"ft/s": FOOT, "in/s": INCH},
+    "acceleration": {"ft/s2": FOOT},
+    "temperature": {"degF": 5.0 / 9.0},
+    "mass": {"lb": POUND},
+    "stiffness": {"lbf/in": 175.12683524647636},
+    "viscosity": {"cP": 1e-3},
+    "power": {"hp": HORSEPOWER},
+    "area": {"in2": 6.4516e-4},
+    "volume": {"in3": 1.6387064e-5},
+    "volume_flow": {"gal/min": 6.30901964e-5},
+}
+_FAHRENHEIT = Decimal("459.67")  # between the zeros of the Fahrenheit scale and of thermodynamic temperature
+
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _VALUE = re.compile(rf"^\s*({_NUMBER})\s*(.*?)\s*$")
 _COMMA = re.compile(r"^\s*([+-]?\d+),(\d+)\s*(.*?)\s*$")
@@ -77,12 +103,18 @@ _GROUPED = re.compile(
 )
 
 
+_ALSO_WRITTEN = {
+    "deg C": "degC", "C": "degC", "deg F": "degF", "min-1": "1/min", "Nm": "N m", "Nmm": "N mm", "inch": "in",
+    "lbf-in": "lbf in", "in lbf": "lbf in", "lbf-ft": "lbf ft", "ft lbf": "lbf ft", "lbs": "lb",
+}  # fmt: skip
+
+
 @lru_cache(maxsize=256)
 def _spelling(unit: str) -> str:
     """Fold the spellings people use for one unit (micro sign, dots, superscripts, spaces)."""
     table = str.maketrans({"µ": "u", "μ": "u", "·": " ", "*": " ", "²": "2", "³": "3", "°": "deg"})
     folded = re.sub(r"\s+", " ", unit.translate(table)).strip().replace("^", "")
-    return {"deg C": "degC", "C": "degC", "min-1": "1/min", "Nm": "N m", "Nmm": "N mm"}.get(folded, folded)
+    return _ALSO_WRITTEN.get(folded, folded)
 
 
 def misread(text: str, unit: str = "") -> str:
@@ -126,7 +158,7 @@ def parse(text: object, quantity: str) -> float:
     ValueError
         With a sentence that says what to write.
     """
-    units = UNITS[quantity]
+    units = units_of(quantity)
     first = next(iter(units))
     if isinstance(text, bool) or not isinstance(text, int | float | str):
         raise ValueError(f'expected a {quantity} with its unit, for example "1 {first}"')
@@ -153,13 +185,21 @@ def parse(text: object, quantity: str) -> float:
 
 
 @cache
+def units_of(quantity: str) -> dict[str, float]:
+    """Return every unit that a value may be written in, those of :data:`UNITS` first, with its factor to SI."""
+    return UNITS[quantity] | CUSTOMARY.get(quantity, {})
+
+
+@cache
 def _factor(quantity: str, unit: str) -> Decimal:
-    return Decimal(repr(UNITS[quantity][unit]))
+    return Decimal(repr(units_of(quantity)[unit]))
 
 
 def _to_si(number: str, quantity: str, unit: str) -> float:
     """Convert the digits of a number; Decimal arithmetic rounds once: "0.1 um" is 1e-07, not 9.999999999999999e-08."""
     try:
+        if quantity == "temperature" and unit == "degF":
+            return float((Decimal(number) + _FAHRENHEIT) * 5 / 9)
         exact = Decimal(number) * _factor(quantity, unit)
         return float(exact + _ZERO_CELSIUS if quantity == "temperature" and unit == "degC" else exact)
     except ArithmeticError:
@@ -172,6 +212,8 @@ def from_si(value: float, quantity: str, unit: str | None = None) -> float:
     exact = Decimal(repr(float(value)))
     if quantity == "temperature" and unit == "degC":
         return float(exact - _ZERO_CELSIUS)
+    if quantity == "temperature" and unit == "degF":
+        return float(exact * 9 / 5 - _FAHRENHEIT)
     return float(exact / _factor(quantity, unit))
 
 

@@ -10,6 +10,7 @@ from pydantic import Field
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, RINGS
 from lambda_core.domain.loading import CARRYING, Ring, largest_contact, loaded_balls
+from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.averages import finite
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
 from lambda_core.results.record import INTERFACE, Record
@@ -59,11 +60,11 @@ class QuasiStatic(Record):
     iterations: int
     assumptions: list[str]
 
-    def text(self, width: int | None = None) -> str:
-        """Return the lines for people, none longer than `width` where one is given."""
+    def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
+        """Return the lines for people in some units, none longer than `width` where one is given."""
         from lambda_core.results.text import quasistatic_text
 
-        return quasistatic_text(self, width)
+        return quasistatic_text(self, width, units)
 
 
 def quasistatic_of(found: Equilibrium) -> QuasiStatic:

@@ -15,6 +15,7 @@ from lambda_core.domain.channels import RINGS, SHORTED
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.kinematics import epicyclic_ratio
 from lambda_core.domain.loading import CARRYING, Ring, largest_contact, loaded_balls
+from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.averages import Interval, finite
 from lambda_core.results.convergence import shortfalls, window
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, tolerance_warning, warnings, worst
@@ -102,11 +103,11 @@ class Summary(Record):
     equilibrium: Equilibrium
     assumptions: list[str]
 
-    def text(self, width: int | None = None) -> str:
-        """Return the lines for people, none longer than `width` where one is given."""
+    def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
+        """Return the lines for people in some units, none longer than `width` where one is given."""
         from lambda_core.results.text import summary_text
 
-        return summary_text(self, width)
+        return summary_text(self, width, units)
 
 
 def summarise(result: Result) -> Summary:

@@ -7,7 +7,8 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from lambda_core.domain.number_text import NONE, interval, number, plus_minus
+from lambda_core.domain.number_text import NONE, interval, number
+from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
 
 if TYPE_CHECKING:
@@ -22,42 +23,44 @@ _WIDTH = 100  # of sentences where no width is given
 _LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
 
 
-def summary_text(summary: Summary, width: int | None = None) -> str:
+def summary_text(summary: Summary, width: int | None = None, units: UnitSystem = SI) -> str:
     """Return what one run says, a line per subject: the answer first, then where it may be wrong, then the rest.
 
     Parameters
     ----------
     width : int, optional
         Longer lines go on below; without it lines are as long as they are.
+    units : UnitSystem
+        In which numbers are shown.
     """
     verdict = "converged" if summary.converged else "NOT CONVERGED"
     window = (
         f"(95 %, {summary.revolutions_averaged} cage revolutions)" if summary.revolutions_averaged else "(whole run)"
     )
-    mean = plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm)
+    mean = units.plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm, "N mm")
     lines = [
-        line("friction torque", f"{mean} N mm", window, verdict),
-        *breakdown_lines(summary.friction_breakdown_Nmm),
-        line("power loss", f"{number(summary.power_loss_W, _digits(summary.power_loss_W))} W"),
-        *rating_lines(summary.rating),
+        line("friction torque", mean, window, verdict),
+        *breakdown_lines(summary.friction_breakdown_Nmm, units),
+        line("power loss", units.text(summary.power_loss_W, "W", _digits(summary.power_loss_W))),
+        *rating_lines(summary.rating, units),
         line(
             "film",
-            f"minimum {number(summary.min_film_um, 2)} um",
-            f"central {interval(summary.film_um, 2)} um",
+            f"minimum {units.text(summary.min_film_um, 'um', 2)}",
+            f"central {units.interval(summary.film_um, 'um', 2)}",
             f"Lambda {interval(summary.film_parameter, 1)} (central)",
         ),
-        *warning_lines(summary.warnings, width),
-        line("input torque", f"{number(summary.input_torque_Nmm)} N mm"),
+        *warning_lines([units.sentence(warning) for warning in summary.warnings], width),
+        line("input torque", units.text(summary.input_torque_Nmm, "N mm")),
         line("cage speed", f"{number(summary.cage_speed_ratio, 4)} of inner ring", _slip(summary)),
-        line("inner ring", f"x {_at(summary, 0)}  y {_at(summary, 1)}  z {_at(summary, 2)} um (mean)", _tilt(summary)),
-        line("pressure", f"p_max {number(summary.max_pressure_GPa, 2)} GPa"),
+        line("inner ring", f"{_place(summary.inner_ring_displacement_um, units)} (mean)", _tilt(summary)),
+        line("pressure", f"p_max {units.text(summary.max_pressure_GPa, 'GPa', 2)}"),
         line(
             "capacitance",
             f"contacts {interval(summary.contact_capacitance_pF, 0)} pF",
             f"bearing {number(summary.bearing_capacitance_nF, 3)} nF",
         ),
         *([line("", summary.capacitance_note)] if summary.capacitance_note else []),
-        line("shoulders", *map(_margin, summary.shoulders)),
+        line("shoulders", *(_margin(edge, units) for edge in summary.shoulders)),
         line("energy residual", f"{_small(summary.energy_residual)} of input"),
         line("wall time", *_wall(summary)),
         *assumption_lines(summary.assumptions, summary.file),
@@ -67,16 +70,16 @@ def summary_text(summary: Summary, width: int | None = None) -> str:
     return "\n".join(wrapped(lines, width))
 
 
-def rating_lines(rating: Rating | None) -> list[str]:
+def rating_lines(rating: Rating | None, units: UnitSystem = SI) -> list[str]:
     """Return what standards and catalogues say beside the run; their numbers are those of the case at its start."""
     if rating is None:
         return []
     makers = (("SKF", rating.skf_torque_Nmm), ("Schaeffler", rating.schaeffler_torque_Nmm))
     lives = ((rating.reference_life_h, "ISO/TS 16281"), (rating.basic_life_h, "ISO 281"))
-    says = [f"{maker} {number(torque, 0)}" for maker, torque in makers if torque is not None]
+    says = [f"{maker} {units.number(torque, 'N mm', 0)}" for maker, torque in makers if torque is not None]
     rated = [f"{hours(life)} ({standard})" for life, standard in lives if life is not None]
     return [
-        *([line("catalogues", f"{'   '.join(says)} N mm")] if says else []),
+        *([line("catalogues", f"{'   '.join(says)} {units.unit('N mm')}")] if says else []),
         *([line("rating life", *rated)] if rated else []),
         line(
             "safety",
@@ -96,33 +99,36 @@ def _digits(value: float | None) -> int:
     return 1 if not value else min(3, max(0, 2 - math.floor(math.log10(abs(value)))))
 
 
-def quasistatic_text(found: QuasiStatic, width: int | None = None) -> str:
+def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSystem = SI) -> str:
     """Return what an equilibrium says, a line per subject and a table of contacts; `width` as above."""
-    x, y, z = found.inner_ring_displacement_um
     tilt_y, tilt_z = found.inner_ring_tilt_mrad
-    table = [f"{'ball':>6}{'azimuth':>10}{'ring':>8}{'load N':>10}{'angle deg':>11}{'film um':>10}{'C pF':>9}"]
+    load, film = (f"{name} {units.unit(unit)}" for name, unit in (("load", "N"), ("film", "um")))
+    table = [f"{'ball':>6}{'azimuth':>10}{'ring':>8}{load:>10}{'angle deg':>11}{film:>10}{'C pF':>9}"]
     for contact in found.contacts:
         table.append(
-            f"{contact.ball:>6}{contact.azimuth_deg:>10.1f}{contact.ring:>8}{contact.load_N:>10.1f}"
-            f"{contact.contact_angle_deg:>11.2f}{number(contact.film_um, 3):>10}{number(contact.capacitance_pF, 1):>9}"
+            f"{contact.ball:>6}{contact.azimuth_deg:>10.1f}{contact.ring:>8}"
+            f"{units.value(contact.load_N, 'N'):>10.1f}{contact.contact_angle_deg:>11.2f}"
+            f"{units.number(contact.film_um, 'um', 3):>10}{number(contact.capacitance_pF, 1):>9}"
         )
     lines = [
-        found.headline,
+        units.sentence(found.headline),
         line(
             "equilibrium",
             f"{found.loaded_balls} balls loaded",
-            f"Q_max {number(found.max_load_N, 0)} N ({found.max_load_ring} ring)",
-            f"p_max {number(found.max_pressure_GPa, 3)} GPa",
+            f"Q_max {units.text(found.max_load_N, 'N', 0)} ({found.max_load_ring} ring)",
+            f"p_max {units.text(found.max_pressure_GPa, 'GPa', 3)}",
         ),
-        line("inner ring", f"x {x:.2f}  y {y:.2f}  z {z:.2f} um", f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad"),
-        line("friction torque", f"{number(found.friction_torque_Nmm)} N mm", "(without cage)"),
-        *breakdown_lines(found.friction_breakdown_Nmm),
+        line(
+            "inner ring", _place(found.inner_ring_displacement_um, units), f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad"
+        ),
+        line("friction torque", units.text(found.friction_torque_Nmm, "N mm"), "(without cage)"),
+        *breakdown_lines(found.friction_breakdown_Nmm, units),
         line("ball orbit", f"{number(found.orbit_speed_ratio, 4)} of inner ring"),
-        line("film", f"{interval(found.film_um, 2)} um", f"Lambda {interval(found.film_parameter, 1)}"),
-        line("shoulders", *map(_margin, found.shoulders)),
+        line("film", units.interval(found.film_um, "um", 2), f"Lambda {interval(found.film_parameter, 1)}"),
+        line("shoulders", *(_margin(edge, units) for edge in found.shoulders)),
         *([line("capacitance", found.capacitance_note)] if found.capacitance_note else []),
         *table,
-        *warning_lines(found.warnings, width),
+        *warning_lines([units.sentence(warning) for warning in found.warnings], width),
         *assumption_lines(found.assumptions),
     ]
     return "\n".join(wrapped(lines, width))
@@ -133,14 +139,15 @@ def line(head: str, *parts: str) -> str:
     return f"{head:<{HEAD}}{'   '.join(part for part in parts if part)}".rstrip()
 
 
-def breakdown_lines(parts: Mapping[str, float | None]) -> list[str]:
+def breakdown_lines(parts: Mapping[str, float | None], units: UnitSystem = SI) -> list[str]:
     """Return the parts of the friction torque: one line per ring, one for the rest [N mm]."""
-    width = max((len(number(value)) for value in parts.values()), default=1)
+    shown = {name: units.number(value, "N mm") for name, value in parts.items()}
+    width = max(map(len, shown.values()), default=1)
     rings = [
-        f"  {ring:<6}" + "".join(f"  {name} {number(parts[f'{name}_{ring}']):>{width}}" for name in _PER_RING)
+        f"  {ring:<6}" + "".join(f"  {name} {shown[f'{name}_{ring}']:>{width}}" for name in _PER_RING)
         for ring in ("inner", "outer")
     ]
-    return [*rings, f"  {'':<6}" + "".join(f"  {name} {number(parts[name])}" for name in _REST)]
+    return [*rings, f"  {'':<6}" + "".join(f"  {name} {shown[name]}" for name in _REST)]
 
 
 def warning_lines(warnings: Sequence[str], width: int | None = None) -> list[str]:
@@ -153,9 +160,9 @@ def warning_lines(warnings: Sequence[str], width: int | None = None) -> list[str
     ]
 
 
-def _margin(edge: Shoulder) -> str:
+def _margin(edge: Shoulder, units: UnitSystem) -> str:
     where = "clear of" if edge.margin_um >= 0.0 else "OVER"
-    return f"{edge.ring} {number(abs(edge.margin_um), 0)} um {where} the edge"
+    return f"{edge.ring} {units.text(abs(edge.margin_um), 'um', 0)} {where} the edge"
 
 
 def assumption_lines(assumptions: Sequence[str], file: str = "") -> list[str]:
@@ -170,8 +177,10 @@ def _small(value: float | None) -> str:
     return NONE if value is None else f"{value:.1e}"
 
 
-def _at(summary: Summary, axis: int) -> str:
-    return number(summary.inner_ring_displacement_um[axis], 2)
+def _place(position: Sequence[float | None], units: UnitSystem) -> str:
+    """Write a displacement [um] along x, y and z."""
+    axes = (f"{axis} {units.number(value, 'um', 2)}" for axis, value in zip("xyz", position, strict=True))
+    return f"{'  '.join(axes)} {units.unit('um')}"
 
 
 def _tilt(summary: Summary) -> str:

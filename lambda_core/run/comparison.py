@@ -10,6 +10,7 @@ from pydantic import Field
 
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.averages import finite
 from lambda_core.results.provenance import differences, model_data
 from lambda_core.results.record import INTERFACE, Record
@@ -68,14 +69,14 @@ class Comparison(Record):
                     return number.value
         return None
 
-    def text(self) -> str:
+    def text(self, units: UnitSystem = SI) -> str:
         """Return the tables for people: one per group, a row per quantity, a column per method."""
-        lines = [self.headline]
+        lines = [units.sentence(self.headline)]
         for group in GROUP_UNITS:
-            lines += _group_lines(group, self.methods)
+            lines += _group_lines(group, self.methods, units)
         for method in self.methods:
             notes = [method.reason] if method.reason else method.assumptions
-            lines += [f"{method.name}: {note}" for note in notes]
+            lines += [f"{method.name}: {units.sentence(note)}" for note in notes]
         return "\n".join(lines)
 
 
@@ -153,10 +154,18 @@ def _simulated(summary: Summary, model: BearingModel) -> ComparedMethod:
     )
 
 
-def _group_lines(group: str, methods: Sequence[ComparedMethod]) -> list[str]:
+def _group_lines(group: str, methods: Sequence[ComparedMethod], units: UnitSystem) -> list[str]:
     """Return the table of one group; nothing when no method has a number of it."""
     columns = [
-        (method.name, {(n.name, n.unit): n.value for n in method.numbers if n.group == group}) for method in methods
+        (
+            method.name,
+            {
+                (n.name, units.unit(n.unit)): None if n.value is None else units.value(n.value, n.unit)
+                for n in method.numbers
+                if n.group == group
+            },
+        )
+        for method in methods
     ]
     columns = [(name, numbers) for name, numbers in columns if numbers]
     if not columns:
