@@ -33,7 +33,7 @@ class CvodeRun:
         Output times [s].
     states : float64[:, :], shape (n, size)
         State vectors (layout in lambda_core.solver.layout).
-    integrals : float64[:, :], shape (n, NI)
+    integrals : float64[:, :], shape (n, powers)
         Running integrals from the first time on, integrated along with the states.
     evaluations, jacobians : int
         Calls of the right-hand side and of the Jacobian.
@@ -90,17 +90,18 @@ def integrate(
         # Nothing depends on the integrals, and Newton's method needs no slopes of theirs to find them.
         return 0 if handle.jacobian(t, y, out) == 1 else 1
 
+    powers = L.power_count(assembly.bundle)
     solver = CVODE(
         right_hand_side,
         method="BDF",
         rtol=0.0,  # errors are controlled on absolute scales, as in our integrator
-        atol=tolerance * np.concatenate([assembly.scale, np.full(L.NI, _ENERGY)]),
+        atol=tolerance * np.concatenate([assembly.scale, np.full(powers, _ENERGY)]),
         max_order=max_order,
         max_step=assembly.model.solver.max_step,
         max_num_steps=_STEPS,
         **({} if own_jacobian else {"jacfn": jacobian}),
     )
-    found = solver.solve(times, np.concatenate([initial_state(equilibrium), np.zeros(L.NI)]))
+    found = solver.solve(times, np.concatenate([initial_state(equilibrium), np.zeros(powers)]))
     if not found.success:
         fault = assembly.bundle.scratch[0].fault.role >= 0
         reason = fault_sentence(assembly, float(found.t[-1])) if fault else found.message

@@ -18,6 +18,7 @@ from numba import types
 
 from lambda_core.domain.roles import ROLES
 from lambda_core.laws.jit import inlined
+from lambda_core.laws.jit.function_tables import TABLE, reader
 from lambda_core.laws.jit.machine_code import OPTIONS, role_signature
 from lambda_core.solver import records as R
 
@@ -52,12 +53,11 @@ RacewayLaws: Any = namedtuple("RacewayLaws", R.RACEWAY_ROLES)  # type: ignore[mi
 
 
 class Laws(NamedTuple):
-    """All kernels of the model."""
+    """All kernels of the model: tables of their addresses, read with raceway_laws, guide_law and drag_law."""
 
-    raceways: Any  # tuple of RacewayLaws
-    pocket: Any  # ball in pocket, or ball with ball
-    lands: Any  # tuple
-    drag: Any
+    raceways: Any  # int64 (sets of laws, roles of a raceway contact)
+    guides: Any  # int64 (laws, 1): of pockets, of balls with each other, of lands
+    drag: Any  # int64 (laws, 1)
 
 
 class Losses(NamedTuple):
@@ -71,11 +71,15 @@ class Losses(NamedTuple):
     damping: Any
 
 
-# Shape of the powers and of their running integrals: Losses of two raceways, then records.RUNNING.
+# Powers, and their running integrals: Losses of every raceway, then records.RUNNING, which begins with losses too.
 MECHANISMS = len(Losses._fields)
-NI = MECHANISMS * 2 + R.floats_of(R.RUNNING)
-NL = MECHANISMS * 2 + 4
 RUNNING_SIZE = R.floats_of(R.RUNNING)
+BESIDE_LOSSES = RUNNING_SIZE - 4  # powers at the end that are no losses
+
+
+def power_count(bundle: Bundle) -> int:
+    """Return how many powers the raceways of a bundle have."""
+    return MECHANISMS * int(bundle.raceways.size) + RUNNING_SIZE
 
 
 class Grid(NamedTuple):
@@ -121,15 +125,10 @@ def _law_t(role: str) -> Any:
 
 
 raceway_laws_t = types.NamedTuple([_law_t(role) for role in R.RACEWAY_ROLES], RacewayLaws)
-laws_t = types.NamedTuple(
-    [
-        types.UniTuple(raceway_laws_t, 2),
-        _law_t("cage_contact"),
-        types.UniTuple(_law_t("cage_contact"), 2),
-        _law_t("fluid_drag"),
-    ],
-    Laws,
-)
+raceway_laws = reader(raceway_laws_t)
+guide_law = reader(_law_t("cage_contact"))
+drag_law = reader(_law_t("fluid_drag"))
+laws_t = types.NamedUniTuple(TABLE, len(Laws._fields), Laws)
 # One contact: (raceway, kinematics, laws, par, system, grid, cells, scratch, contact, wrench) -> status
 wrench_sig = i8(
     record_t(R.RACEWAY), record_t(R.KINEMATICS), raceway_laws_t, array1, record_t(R.SYSTEM), array2, array2,

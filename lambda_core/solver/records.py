@@ -170,6 +170,8 @@ ROW = record(
     ("pocket_circle", f8),  # radius of the pockets' circle [m]
     ("drag_on", i8),
     ("oil", OIL),
+    ("guide_law", i8),  # row of Laws.guides
+    ("drag_law", i8),  # row of Laws.drag
     ("pocket", i8, (2,)),  # where the parameters of its laws begin and end
     ("drag", i8, (2,)),
 )
@@ -177,7 +179,7 @@ RACEWAY_ROLES = tuple(name for name, role in ROLES.items() if role.elements == R
 RACEWAY = record(
     ("number", i8),  # its row in the table of raceways
     ("body", i8),  # that carries it
-    ("laws", i8),  # its place in Laws.raceways
+    ("laws", i8),  # row of Laws.raceways
     ("side", f8),  # +1 where balls lie inside the raceway (outer ring), -1 where outside [-]
     ("groove_circle", f8),  # radius of the circle of groove centres [m]
     ("groove_radius", f8),  # [m]
@@ -195,7 +197,8 @@ RACEWAY = record(
 LAND = record(
     ("cage", i8),  # body
     ("ring", i8),  # body that guides it
-    ("number", i8),  # of the pair of stations: its law in Laws.lands, its row in results
+    ("number", i8),  # of the pair of stations: its row in results
+    ("law", i8),  # row of Laws.guides
     ("offset", f8),  # of the station from both bodies' centres, along the axis [m]
     ("viscosity", f8),  # of the oil [Pa s]
     ("parameters", i8, (2,)),

@@ -20,10 +20,12 @@ from lambda_core.solver.layout import (
     cells_of,
     f8,
     grid_of,
+    guide_law,
     helper,
     i8,
     losses_of,
     part,
+    raceway_laws,
 )
 from lambda_core.solver.motion.energy import stored_energy
 from lambda_core.solver.motion.force_elements import add_contact, clear_forces
@@ -44,7 +46,7 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
     Adds its forces to those of ball and ring and its losses to `rates`, as the right-hand side does.
     """
     scratch, system = bundle.scratch[0], bundle.system[0]
-    laws = bundle.laws.raceways[raceway.laws]
+    laws = raceway_laws(bundle.laws.raceways, raceway.laws)
     ring, kin, contact = bundle.bodies_now[raceway.body], scratch.kinematics[0], scratch.contact[0]
     values[:] = 0.0
     sample = values.view(CONTACT_SAMPLE)[0]
@@ -84,7 +86,8 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
 def _pocket_forces(balls, row, bundle, pockets):
     """Write the forces of the pockets of a row on its balls."""
     scratch, cage, on_cage = bundle.scratch[0], bundle.bodies_now[row.cage], bundle.body_wrenches[row.cage]
-    g, out, law, par = scratch.guide, scratch.out[:], bundle.laws.pocket, part(bundle.par, row.pocket)
+    g, out = scratch.guide, scratch.out[:]
+    law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
     for j in range(row.first_ball, row.first_ball + row.balls):
         pocket_state(balls[j], cage, j, row, g)
         if guide_force(law, par, g, row.oil.viscosity, out, scratch.fault, -1) != 1:
@@ -103,7 +106,7 @@ def _land_forces(bundle, forces):
     g, out = scratch.guide, scratch.out[:]
     for i in range(bundle.lands.size):
         land = bundle.lands[i]
-        law, par = bundle.laws.lands[land.number], part(bundle.par, land.parameters)
+        law, par = guide_law(bundle.laws.guides, land.law), part(bundle.par, land.parameters)
         land_state(bundle.bodies_now[land.cage], bundle.bodies_now[land.ring], land.offset, g)
         if guide_force(law, par, g, land.viscosity, out, scratch.fault, land.number) != 1:
             return 0
@@ -173,11 +176,11 @@ def observe(times, states, bundle, evaluate, shorted, contacts, pockets, lands, 
         Force of the cage on each ball, axes x, r, t [N].
     lands : float64[:, :, :], shape (n, 2, 3)
         Force of each ring's land on the cage, inertial [N].
-    extra : float64[:, :], shape (n, NI + 2)
+    extra : float64[:, :], shape (n, powers + 2)
         A records.TOTALS; the rest is a workspace.
     shared : float64[:, :], shape (n, 12 bodies)
         The whole shared state.
-    rates : float64[:, :], shape (n, NI)
+    rates : float64[:, :], shape (n, powers)
         Losses [W] and the rates of the other running integrals.
     dydt : float64[:], shape (9 Z + n_active,)
         Workspace.

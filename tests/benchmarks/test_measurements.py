@@ -28,7 +28,7 @@ def start() -> Equilibrium:
 def test_the_handle_computes_what_the_solver_computes() -> None:
     assembly, y = start().assembly, initial_state(start())
     expected, got = np.zeros(y.size), np.zeros(y.size)
-    assert core().evaluate(0.0, y, assembly.bundle, expected, np.zeros(L.NI), 0) == 1
+    assert core().evaluate(0.0, y, assembly.bundle, expected, np.zeros(L.power_count(assembly.bundle)), 0) == 1
     assert Handle(assembly).slope(0.0, y, got) == 1
     np.testing.assert_array_equal(got, expected)
 

@@ -22,6 +22,7 @@ from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.entry import core
 from lambda_core.solver.integrator import memory as M
 from lambda_core.solver.integrator.arrow import make_factors
+from lambda_core.solver.integrator.blocks import Blocks
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame
@@ -105,10 +106,11 @@ class Machine:
         return State(balls, shared)
 
     def evaluate(self, y: FloatArray, t: float = 0.0, want: int = 1) -> Evaluation:
-        dydt, rates, bundle = np.full(y.size, np.nan), np.zeros(L.NI), self.assembly.bundle
+        bundle = self.assembly.bundle
+        dydt, rates = np.full(y.size, np.nan), np.zeros(L.power_count(bundle))
         ok = core().evaluate(t, y, bundle, dydt, rates, want)
         assert ok == 1, fault_sentence(self.assembly)
-        losses = dict(zip(LOSSES, rates[: L.NL].tolist(), strict=True))
+        losses = dict(zip(LOSSES, rates[: -L.BESIDE_LOSSES].tolist(), strict=True))
         bodies, balls = (w.view(np.float64).reshape(-1, 6).copy() for w in (bundle.body_wrenches, bundle.ball_wrenches))
         powers = running(rates)
         return Evaluation(dydt, losses, float(powers["input"]), float(powers["drive"]), balls, bodies)
@@ -173,19 +175,26 @@ class Motion:
 
 def integrate(m: Machine, y: FloatArray, duration: float, tolerance: float, samples: int = 100) -> Motion:
     """Integrate from any state, sampled at equal intervals from 0 on."""
-    mem = M.make_memory(y, m.assembly.scale, tolerance, m.assembly.bundle, samples + 8)
+    a = m.assembly
+    return integrate_tables(a.bundle, a.blocks, a.scale, y, duration, tolerance, samples)
+
+
+def integrate_tables(
+    bundle: L.Bundle, blocks: Blocks, scale: FloatArray, y: FloatArray, duration: float, tolerance: float, samples: int
+) -> Motion:
+    """Integrate what the tables of a bundle describe."""
+    mem = M.make_memory(y, scale, tolerance, bundle, samples + 8)
     interval = duration / samples
     control = mem.control
     control["step"], control["shortest_step"], control["longest_step"] = 1e-9, 1e-16, interval
     control["sample_interval"] = interval
     mem.count["stale"] = 1
-    compiled, factors = core(), make_factors(m.count, m.active.size)
+    compiled, factors = core(), make_factors(int(bundle.system[0]["balls"]), bundle.active.size)
     while control["time"][0] < duration:
         status = compiled.advance(
-            compiled.evaluate_pointer, compiled.jacobian_pointer, duration, 10_000, m.assembly.bundle,
-            m.assembly.blocks, factors, mem,
-        )  # fmt: skip
-        assert status in (Status.OK, Status.UNFINISHED), (Status(status), control["time"], fault_sentence(m.assembly))
+            compiled.evaluate_pointer, compiled.jacobian_pointer, duration, 10_000, bundle, blocks, factors, mem
+        )
+        assert status in (Status.OK, Status.UNFINISHED), (Status(status), control["time"])
     n = int(mem.count["samples_waiting"][0])
     return Motion(mem.sample_t[:n].copy(), mem.sample_y[:n].copy(), int(mem.count["steps"][0]))
 

@@ -30,13 +30,16 @@ def law(element, role):
     return flat_kernel(model.laws[element][role].model)
 
 def raceway_laws(element):
-    return L.RacewayLaws(*(law(element, role) for role in L.RacewayLaws._fields))
+    return L.RacewayLaws(*(law(element, role) for role in R.RACEWAY_ROLES))
 
 laws = L.Laws(
     (raceway_laws("ball_inner"), raceway_laws("ball_outer")),
-    law("ball_cage" if model.depth.cage else "ball_ball", "cage_contact"),
-    (law("cage_inner", "cage_contact"), law("cage_outer", "cage_contact")),
-    law("fluid_drag", "fluid_drag"),
+    [
+        law("ball_cage" if model.depth.cage else "ball_ball", "cage_contact"),
+        law("cage_inner", "cage_contact"),
+        law("cage_outer", "cage_contact"),
+    ],
+    [law("fluid_drag", "fluid_drag")],
 )
 kinds = {
     "system": R.SYSTEM, "bodies": R.BODY, "rows": R.ROW, "raceways": R.RACEWAY, "lands": R.LAND, "terms": R.TERM,
@@ -51,7 +54,7 @@ arrays["shared_rates"] = arrays["body_rates"].view(np.float64)
 bundle = L.Bundle(laws=laws, wrench=raceway.raceway_wrench, tangent=None, **arrays)
 rows, powers = [], []
 for y in given["states"]:
-    dydt, rates = np.zeros(y.size), np.zeros(L.NI)
+    dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))
     assert forces.evaluate(float(given["time"]), y, bundle, dydt, rates, 1) == 1
     rows.append(dydt)
     powers.append(rates)

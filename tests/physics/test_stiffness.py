@@ -36,7 +36,7 @@ def load_at(found: Equilibrium, displacement: FloatArray) -> FloatArray:
     _continue(core(), assembly, state, friction=False)
     bundle = assembly.bundle
     bundle.system[0]["friction_on"], bundle.system[0]["guides_on"] = 0, 0
-    assert core().evaluate(0.0, state, bundle, np.zeros(state.size), np.zeros(L.NI), 1) == 1
+    assert core().evaluate(0.0, state, bundle, np.zeros(state.size), np.zeros(L.power_count(bundle)), 1) == 1
     felt: FloatArray = np.delete(bundle.body_wrenches.view(np.float64)[:6], 3)
     return -felt
 

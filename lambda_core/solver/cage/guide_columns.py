@@ -12,7 +12,7 @@ from lambda_core.solver.cage.guides import (
     pocket_apply,
     pocket_state,
 )
-from lambda_core.solver.layout import NB, NS, helper, part
+from lambda_core.solver.layout import NB, NS, guide_law, helper, part
 from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
 from lambda_core.solver.records import BALL, BODY_STATE
 from lambda_core.solver.vec import clear, clear_each
@@ -28,7 +28,7 @@ def pocket_columns(ball, j, row, bundle, bl):
     """Add the pocket of ball j; a pocket without force is skipped."""
     scratch, viscosity, b, fm = bundle.scratch[0], row.oil.viscosity, row.cage, bl.wrenches
     cage, g, out, fault = bundle.bodies_now[b], scratch.guide, scratch.out[:], scratch.fault
-    law, par = bundle.laws.pocket, part(bundle.par, row.pocket)
+    law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
     near_ball, near_cage = bl.ball.view(BALL), bl.body.view(BODY_STATE)
     pocket_state(ball, cage, j, row, g)
     if guide_force(law, par, g, viscosity, out, fault, -1) != 1:
@@ -66,7 +66,7 @@ def neighbour_columns(ball, other, row, bundle, bl):
     """Add the ball-ball contact to the first ball's own block; the pair's coupling is left to the iteration."""
     scratch, viscosity, fm = bundle.scratch[0], row.oil.viscosity, bl.wrenches
     g, out, fault = scratch.guide, scratch.out[:], scratch.fault
-    law, par = bundle.laws.pocket, part(bundle.par, row.pocket)
+    law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
     near_ball = bl.ball.view(BALL)
     neighbour_state(ball, other, g)
     if guide_force(law, par, g, viscosity, out, fault, -1) != 1:
@@ -94,7 +94,7 @@ def _land_columns(land, bundle, bl):
     scratch, viscosity, fm = bundle.scratch[0], land.viscosity, bl.wrenches
     cage, ring = bundle.bodies_now[land.cage], bundle.bodies_now[land.ring]
     g, out, fault = scratch.guide, scratch.out[:], scratch.fault
-    law, par = bundle.laws.lands[land.number], part(bundle.par, land.parameters)
+    law, par = guide_law(bundle.laws.guides, land.law), part(bundle.par, land.parameters)
     near_cage, near_ring = bl.body.view(BODY_STATE), bl.body2.view(BODY_STATE)
     land_state(cage, ring, land.offset, g)
     if guide_force(law, par, g, viscosity, out, fault, land.number) != 1:

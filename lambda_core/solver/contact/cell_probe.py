@@ -5,7 +5,7 @@ from __future__ import annotations
 from lambda_core.solver import records as R
 from lambda_core.solver.contact.contact_kinematics import contact_kinematics, surface_lift
 from lambda_core.solver.contact.dissipation import raceway_losses
-from lambda_core.solver.layout import array1, bundle_t, cells_of, grid_of, i8, losses_of, table_t
+from lambda_core.solver.layout import array1, bundle_t, cells_of, grid_of, i8, losses_of, raceway_laws, table_t
 
 probe_sig = i8(table_t(R.BALL), table_t(R.BODY_STATE), i8, bundle_t, array1)
 
@@ -20,7 +20,7 @@ def probe(balls, rings, k, bundle, losses):
         Row of the table of raceways.
     bundle : Bundle
         Cells, kinematics and scalars are left in bundle.cells[0] and bundle.scratch.
-    losses : float64[:], shape (NL,)
+    losses : float64[:], shape (6 raceways,)
         Power dissipated by mechanism is added here [W].
 
     Returns
@@ -33,7 +33,7 @@ def probe(balls, rings, k, bundle, losses):
     surface_lift(ball, ring, raceway, bundle, kin)
     if not contact_kinematics(ball, ring, raceway, kin) > 0.0:
         return -1
-    laws = bundle.laws.raceways[raceway.laws]
+    laws = raceway_laws(bundle.laws.raceways, raceway.laws)
     ok = bundle.wrench(
         raceway, kin, laws, bundle.par, system, bundle.grid, bundle.cells[0], scratch, contact, scratch.wrench[0]
     )

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from lambda_core.solver.faults import SURFACE, report
-from lambda_core.solver.layout import helper, part
+from lambda_core.solver.layout import helper, part, raceway_laws
 from lambda_core.solver.vec import (
     add,
     combine,
@@ -75,7 +75,7 @@ def surface_lift(ball, ring, raceway, bundle, kin):
     angle = math.atan2(raceway.side * axial, raceway.side * radial)
     out, par = scratch.surface[:], part(bundle.par, raceway.parameters.surface)
     out[:] = np.nan
-    status = bundle.laws.raceways[raceway.laws].surface(azimuth, angle, par, out)
+    status = raceway_laws(bundle.laws.raceways, raceway.laws).surface(azimuth, angle, par, out)
     if status != 1 or not abs(out[0]) + abs(out[1]) + abs(out[2]) < np.inf:
         report(scratch.fault, SURFACE, status, raceway.number, azimuth, angle, 0.0, 0.0)
         kin.lift = np.nan

@@ -6,7 +6,7 @@ import numpy as np
 
 from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, surface_lift
 from lambda_core.solver.contact.tangent import wrench_at
-from lambda_core.solver.layout import NB, NS, STHETA, helper
+from lambda_core.solver.layout import NB, NS, STHETA, helper, raceway_laws
 from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
 from lambda_core.solver.records import BALL, BODY_STATE
 from lambda_core.solver.vec import clear
@@ -84,7 +84,7 @@ def raceway_columns(ball, j, row, bundle, bl):
         if not delta < np.inf:
             scratch.fault.ball = j
             return 0
-        laws = bundle.laws.raceways[raceway.laws]
+        laws = raceway_laws(bundle.laws.raceways, raceway.laws)
         ok = bundle.tangent(
             raceway, kin, laws, bundle.par, bundle.system[0], bundle.grid, bundle.cells, scratch, bl.slope[0]
         )

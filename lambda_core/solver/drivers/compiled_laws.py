@@ -12,6 +12,7 @@ import numpy as np
 from lambda_core.domain.errors import SolverError
 from lambda_core.laws.check import check_choice
 from lambda_core.laws.context import Oil
+from lambda_core.laws.jit.function_tables import addresses
 from lambda_core.laws.kernels import compile_kernel
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, oil_of
@@ -46,7 +47,7 @@ class Kernels:
         return {f"{e}/{r}/{self._laws[e][r].model.name}": k.key for (e, r), k in sorted(self.compiled.items())}
 
     def pointers(self) -> L.Laws:
-        """Return pointers to the laws in the solver's order."""
+        """Return the addresses of the laws in the solver's order: one set per raceway; pocket, inner and outer land."""
 
         def law(element: str, role: str) -> Any:
             return self.compiled[element, role].pointer
@@ -54,9 +55,11 @@ class Kernels:
         def raceway(element: str) -> L.RacewayLaws:
             return L.RacewayLaws(*(law(element, role) for role in RACEWAY_ROLES))
 
-        pocket, land_inner, land_outer = (law(element, "cage_contact") for element in self._guides)
-        drag = law("fluid_drag", "fluid_drag")
-        return L.Laws(tuple(raceway(element) for element in RACEWAYS), pocket, (land_inner, land_outer), drag)
+        return L.Laws(
+            addresses([raceway(element) for element in RACEWAYS]),
+            addresses([[law(element, "cage_contact")] for element in self._guides]),
+            addresses([[law("fluid_drag", "fluid_drag")]]),
+        )
 
 
 def check_laws(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> None:

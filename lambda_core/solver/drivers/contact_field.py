@@ -119,7 +119,7 @@ def contact_field(
     raceway: Any = bundle.raceways[index]
     grid = unit_grid(strips, rows)
     cells, scratch = np.zeros((2, L.CELL_ROWS, grid.shape[1])), np.zeros_like(bundle.scratch)
-    losses = np.zeros(L.NL)
+    losses = np.zeros(L.MECHANISMS * bundle.raceways.size)
     scratch[0].fault.role = -1
     finer = bundle._replace(grid=grid, cells=cells, scratch=scratch)
     probed = compile_host(probe.probe, probe.probe_sig, compiled_sources()).dispatcher

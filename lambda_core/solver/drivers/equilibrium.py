@@ -266,18 +266,19 @@ def _no_equilibrium(report: StaticReport, *, friction: bool) -> str:
 
 def _contacts(compiled: Core, assembly: Assembly, state: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return contact channels (Z, 2, 16) and losses (16,) [W] at a state."""
-    z, bundle = assembly.model.geometry.ball_count, assembly.bundle
-    contacts, rates = np.zeros((1, z, 2, 16)), np.zeros((1, L.NI))
+    z, bundle, powers = assembly.model.geometry.ball_count, assembly.bundle, L.power_count(assembly.bundle)
+    contacts, rates = np.zeros((1, z, 2, 16)), np.zeros((1, powers))
     system = bundle.system[0]
     system["guides_on"] = 0
     ok = compiled.observe(
         np.zeros(1), state.reshape(1, -1), bundle, compiled.evaluate_pointer, SHORTED, contacts, np.zeros((1, z, 3)),
-        np.zeros((1, 2, 3)), np.zeros((1, L.NI + 2)), np.zeros((1, bundle.shared.size)), rates, np.zeros(assembly.size),
+        np.zeros((1, 2, 3)), np.zeros((1, powers + 2)), np.zeros((1, bundle.shared.size)), rates,
+        np.zeros(assembly.size),
     )  # fmt: skip
     system["guides_on"] = 1
     if ok != 1:
         raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(assembly)}")
-    return contacts[0], rates[0, : L.NL].copy()
+    return contacts[0], rates[0, : -L.BESIDE_LOSSES].copy()
 
 
 def _frame_of(contacts: FloatArray, before: ContactFrame) -> ContactFrame:

@@ -32,14 +32,14 @@ class Scratch(NamedTuple):
     @classmethod
     def of(cls, n: int, assembly: Assembly) -> Scratch:
         """Allocate for `n` samples."""
-        z = assembly.model.geometry.ball_count
+        z, powers = assembly.model.geometry.ball_count, L.power_count(assembly.bundle)
         shapes = (
-            (n, z, 2, 16),
+            (n, z, int(assembly.bundle.rows["raceways"].max()), 16),
             (n, z, 3),
             (n, 2, 3),
-            (n, L.NI + 2),
+            (n, powers + 2),
             (n, assembly.bundle.shared.size),
-            (n, L.NI),
+            (n, powers),
             (assembly.size,),
         )
         return cls(*(np.zeros(shape) for shape in shapes))
@@ -91,7 +91,7 @@ def channels_of(
         "land_force": lands,
         "bearing_capacitance": totals["capacitance"].copy(),
         "input_torque": totals["torque"].copy(),
-        "loss": rates[:, : L.NL].copy(),
+        "loss": rates[:, : -L.BESIDE_LOSSES].copy(),
         "input_power": running(rates)["input"].copy(),
         "stored_energy": totals["stored_energy"].copy(),
     }

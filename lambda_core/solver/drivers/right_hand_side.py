@@ -154,7 +154,7 @@ class Handle:
             factors,
             self._state,
             self._slope,
-            np.zeros(L.NI),
+            np.zeros(L.power_count(assembly.bundle)),
         )
 
     def slope(self, t: float, y: FloatArray, out: FloatArray) -> int:
@@ -162,7 +162,7 @@ class Handle:
         return int(_compiled(_slope)(t, _frozen(y), out, self._handle))
 
     def slope_and_rates(self, t: float, y: FloatArray, out: FloatArray) -> int:
-        """Write dy/dt and the rates of the running integrals (layout.NI), shape (n + NI,), as `slope` does.
+        """Write dy/dt and, behind it, the rates of the running integrals, as `slope` does.
 
         `y` may have the running integrals behind the states; nothing depends on them.
         """
@@ -173,8 +173,8 @@ class Handle:
         return int(_compiled(_dense)(t, _frozen(y), out, self._handle))
 
     def rates(self, times: FloatArray, states: FloatArray) -> FloatArray:
-        """Return the rates of the running integrals, shape (times, layout.NI) [W, rad/s, m]."""
-        out = np.zeros((times.size, L.NI))
+        """Return the rates of the running integrals, shape (times, powers) [W, rad/s, m]."""
+        out = np.zeros((times.size, L.power_count(self.assembly.bundle)))
         if _compiled(_rates)(times, np.ascontiguousarray(states), out, self._handle) != 1:
             raise RuntimeError("a kernel refused a state that an integrator had accepted")
         return out

@@ -71,7 +71,7 @@ def _forces_slope(assembly: Assembly, state: FloatArray) -> None:
     compiled, bundle = core(), assembly.bundle
     system = bundle.system[0]
     system["friction_on"], system["guides_on"] = 0, 0
-    rates = np.zeros(L.NI)
+    rates = np.zeros(L.power_count(bundle))
     ok = compiled.evaluate(0.0, state, bundle, np.zeros(state.size), rates, 0)
     if ok != 1 or compiled.jacobian(0.0, state, bundle, assembly.blocks) != 1:
         raise SolverError(f"the stiffness matrix failed: {fault_sentence(assembly)}")

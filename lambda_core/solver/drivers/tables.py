@@ -57,7 +57,7 @@ class _Parameters:
 
 
 def running(powers: FloatArray) -> Any:
-    """Return what stands behind the raceways' losses by name: powers or integrals (..., NI) -> records.RUNNING."""
+    """Return what stands behind the raceways' losses by name: powers or integrals (..., n) -> records.RUNNING."""
     return powers[..., -L.RUNNING_SIZE :].view(R.RUNNING)[..., 0]
 
 
@@ -147,5 +147,5 @@ def _lands(model: BearingModel, oil: Oil, parameters: _Parameters) -> Any:
             continue
         for side in (-1, 1):
             offset = side * (0.5 * model.cage.width)
-            stations.append((CAGE, (INNER, OUTER)[number], number, offset, oil.viscosity, span))
+            stations.append((CAGE, (INNER, OUTER)[number], number, 1 + number, offset, oil.viscosity, span))
     return np.array(stations, R.LAND)

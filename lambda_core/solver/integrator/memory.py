@@ -15,7 +15,6 @@ from lambda_core.solver.layout import (
     BVX,
     BX,
     NB,
-    NI,
     NS,
     SVX,
     SWY,
@@ -26,6 +25,7 @@ from lambda_core.solver.layout import (
     f8,
     i8,
     iarray1,
+    power_count,
 )
 from lambda_core.solver.records import BALL, BODY_STATE
 
@@ -85,9 +85,9 @@ class Memory(NamedTuple):
     y2: Any  # (n,) two steps before
     shared: Any  # (3 NS,) the whole shared state at `control.time`
     shared1: Any  # (3 NS,) and one step before
-    integrals: Any  # (NI,)
-    integrals1: Any  # (NI,) one step before
-    rates: Any  # (NI,) rates of the integrals at the step in hand
+    integrals: Any  # (powers,)
+    integrals1: Any  # (powers,) one step before
+    rates: Any  # (powers,) rates of the integrals at the step in hand
     weight: Any  # (n,) 1 / (tolerance * scale)
     inertia: Any  # (n,) mass or moment of inertia of a speed, 0 for a position [kg, kg m2]
     place: Any  # int64 (n,): state that is the position of a speed along which contacts press, or -1
@@ -115,7 +115,7 @@ memory_t = types.NamedTuple([_TYPES.get(name, array1) for name in Memory._fields
 
 def make_memory(y0: np.ndarray, scale: np.ndarray, tolerance: float, bundle: Any, capacity: int = 256) -> Memory:
     """Allocate for the initial state y0 and absolute scales, both (n,), of the bearing in `bundle`."""
-    n = y0.size
+    n, powers = y0.size, power_count(bundle)
     arrays: dict[str, np.ndarray] = {name: np.zeros(n) for name in Memory._fields}
     inertia = inertias(bundle)
     control = np.zeros(1, dtype=CONTROL)
@@ -126,9 +126,9 @@ def make_memory(y0: np.ndarray, scale: np.ndarray, tolerance: float, bundle: Any
         y=y0.copy(),
         shared=np.zeros(bundle.shared.size),
         shared1=np.zeros(bundle.shared.size),
-        integrals=np.zeros(NI),
-        integrals1=np.zeros(NI),
-        rates=np.zeros(NI),
+        integrals=np.zeros(powers),
+        integrals1=np.zeros(powers),
+        rates=np.zeros(powers),
         weight=1.0 / (tolerance * scale),
         inertia=inertia,
         place=places(bundle),

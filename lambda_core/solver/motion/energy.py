@@ -11,7 +11,7 @@ from lambda_core.solver.cage.guides import (
     pocket_state,
 )
 from lambda_core.solver.contact.contact_kinematics import axis_x, contact_kinematics, surface_lift
-from lambda_core.solver.layout import NB, helper, part
+from lambda_core.solver.layout import NB, guide_law, helper, part, raceway_laws
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.records import BALL
 from lambda_core.solver.vec import length
@@ -24,7 +24,8 @@ def _contact_energy(raceway, delta, bundle):
     With delta u^2 for the penetration, eight points are exact for a power law of exponent 3/2.
     """
     out = bundle.scratch[0].out[:]
-    law, par = bundle.laws.raceways[raceway.laws].normal_contact, part(bundle.par, raceway.parameters.normal_contact)
+    law = raceway_laws(bundle.laws.raceways, raceway.laws).normal_contact
+    par = part(bundle.par, raceway.parameters.normal_contact)
     total = 0.0
     for i in range(GAUSS_NODES.size):
         u = GAUSS_NODES[i]
@@ -62,8 +63,8 @@ def _guide_energy(balls, j, row, bundle):
     else:
         neighbour_state(ball, balls[row.first_ball + (j - row.first_ball + 1) % row.balls], g)
         start = max(1.0, 2.0 * row.ball_radius / length(g.place))
-    par = part(bundle.par, row.pocket)
-    return guide_energy(bundle.laws.pocket, par, g, row.oil.viscosity, scratch.out[:], scratch.at_rest, start)
+    law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
+    return guide_energy(law, par, g, row.oil.viscosity, scratch.out[:], scratch.at_rest, start)
 
 
 @helper
@@ -85,7 +86,7 @@ def _body_energy(body, now):
 def _land_energy(land, bundle):
     """Return the elastic energy of one station of a land [J]."""
     scratch = bundle.scratch[0]
-    law, par = bundle.laws.lands[land.number], part(bundle.par, land.parameters)
+    law, par = guide_law(bundle.laws.guides, land.law), part(bundle.par, land.parameters)
     land_state(bundle.bodies_now[land.cage], bundle.bodies_now[land.ring], land.offset, scratch.guide)
     return guide_energy(law, par, scratch.guide, land.viscosity, scratch.out[:], scratch.at_rest, 0.0)
 

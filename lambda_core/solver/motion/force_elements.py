@@ -20,7 +20,7 @@ from lambda_core.solver.cage.guides import (
 from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, surface_lift
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.faults import FLUID_DRAG, report
-from lambda_core.solver.layout import cells_of, grid_of, helper, part
+from lambda_core.solver.layout import cells_of, drag_law, grid_of, guide_law, helper, part, raceway_laws
 from lambda_core.solver.vec import clear, increase
 
 _SPIN_FLOOR = 1e-3  # [rad/s] below which a ball's churning moment fades out
@@ -60,7 +60,7 @@ def raceway_forces(ball, j, row, bundle, losses, want):
         if not delta < np.inf:
             scratch.fault.ball = j
             return 0
-        laws = bundle.laws.raceways[raceway.laws]
+        laws = raceway_laws(bundle.laws.raceways, raceway.laws)
         ok = bundle.wrench(
             raceway, kin, laws, bundle.par, system, bundle.grid, bundle.cells[0], scratch, contact, scratch.wrench[0]
         )
@@ -81,7 +81,8 @@ def drag_force(ball, row, bundle, on_ball):
     w = math.sqrt(ball.spin[0] ** 2 + ball.spin[1] ** 2 + ball.spin[2] ** 2)
     nu = oil.viscosity / oil.density
     out[:2] = np.nan
-    status = bundle.laws.drag(ball.velocity[2], w, ball.azimuth, nu, oil.density, part(bundle.par, row.drag), out)
+    law, par = drag_law(bundle.laws.drag, row.drag_law), part(bundle.par, row.drag)
+    status = law(ball.velocity[2], w, ball.azimuth, nu, oil.density, par, out)
     force, moment = out[0], out[1]
     if status != 1 or not abs(force) + abs(moment) < np.inf:
         report(scratch.fault, FLUID_DRAG, status, -1, ball.velocity[2], w, ball.azimuth, nu)
@@ -100,7 +101,7 @@ def cage_forces(balls, row, bundle, running, want):
     scratch, viscosity = bundle.scratch[0], row.oil.viscosity
     g, out, fault, at_rest = scratch.guide, scratch.out[:], scratch.fault, scratch.at_rest
     cage, on_cage = bundle.bodies_now[row.cage], bundle.body_wrenches[row.cage]
-    law, par = bundle.laws.pocket, part(bundle.par, row.pocket)
+    law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
     for i in range(row.balls):
         j, k = row.first_ball + i, row.first_ball + (i + 1) % row.balls
         ball, other = balls[j], balls[k]
@@ -130,7 +131,7 @@ def land_forces(bundle, running, want):
     for i in range(bundle.lands.size):
         land = bundle.lands[i]
         cage, ring = bundle.bodies_now[land.cage], bundle.bodies_now[land.ring]
-        law, par = bundle.laws.lands[land.number], part(bundle.par, land.parameters)
+        law, par = guide_law(bundle.laws.guides, land.law), part(bundle.par, land.parameters)
         land_state(cage, ring, land.offset, g)
         if guide_force(law, par, g, land.viscosity, out, fault, land.number) != 1:
             return 0

@@ -82,7 +82,7 @@ def evaluate(t, y, bundle, dydt, rates, want):
     t : float
         Time [s].
     y, dydt : float64[:], shape (9 Z + n_active,)
-    rates : float64[:], shape (NI,)
+    rates : float64[:], shape (powers,)
         Losses of the raceways by mechanism (layout.Losses) [W], then records.RUNNING.
     want : int
         0, 1; or 2: as 1, and the raceways' share of the forces (bundle.ball_wrenches, bundle.body_wrenches) and of

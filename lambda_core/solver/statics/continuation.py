@@ -19,7 +19,7 @@ from lambda_core.solver.contact.contact_kinematics import contact_kinematics
 from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve, factors_t
 from lambda_core.solver.integrator.blocks import blocks_t
 from lambda_core.solver.integrator.memory import evaluate_t, jacobian_t
-from lambda_core.solver.layout import BR, BVT, NB, NI, array1, bundle_t, helper, i8, iarray1
+from lambda_core.solver.layout import BR, BVT, MECHANISMS, NB, RUNNING_SIZE, array1, bundle_t, helper, i8, iarray1
 from lambda_core.solver.records import BALL
 from lambda_core.solver.statics.pseudo_transient import mask, residual
 from lambda_core.solver.status import Status
@@ -199,7 +199,8 @@ def solve_static(evaluate, jacobian, bundle, bl, fa, y, weight, last, trust, hel
     """
     system, scratch, report = bundle.system[0], bundle.scratch[0], reports[0]
     n = y.size
-    dydt, f, step, trial, rates = (np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(NI))
+    dydt, f, step, trial = np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n)
+    rates = np.zeros(MECHANISMS * bundle.raceways.size + RUNNING_SIZE)
     new, share = np.zeros(n), np.zeros(system.balls)
     if evaluate(0.0, y, bundle, dydt, rates, 0) != Status.OK:
         return Status.REFUSED
