@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import subprocess
 import sys
@@ -71,6 +72,17 @@ def test_no_formula_of_the_theory_is_left_in_plain_text() -> None:
                 fenced = not fenced
             elif not fenced:
                 assert not re.match(r" {4}(?!\$\$)\S", line), f"{place}: a formula in plain text: {line}"
+
+
+def test_the_search_finds_options_by_path_and_by_word(site: Path) -> None:
+    entries = json.loads((site / "search" / "search_index.json").read_text(encoding="utf-8"))["docs"]
+
+    def pages(word: str) -> set[str]:
+        return {entry["location"].partition("#")[0] for entry in entries if word in entry["text"].split()}
+
+    for word in ("tilt_y", "tilt", "bodies.inner_ring.tilt_y", "clearance_pick", "pick"):
+        assert "reference/case.html" in pages(word), word
+    assert "errors.html" in pages("converged")
 
 
 def test_images_exist_and_are_drawings(site: Path) -> None:
