@@ -63,8 +63,8 @@ def _of_cases(entries: Entries) -> list[str]:
     return [
         "; ".join(f"{end} {count}" for end, count in ends.most_common()),
         f"each of at least one cage revolution or its own wall limit of {cases.WALL:g} s; the longest had its file "
-        f"open for {max(opened, default=0.0):.1f} s ({cases.WALL + cases.OVER:g} s are allowed; time in which it waited "
-        "for a processor that others had is not counted)",
+        f"open for {max(opened, default=0.0):.1f} s ({cases.WALL + cases.OVER:g} s are allowed; time in which it "
+        "waited for a processor that others had is not counted)",
         f"energy residual at most {cases.ENERGY:g} in {len(residuals) - over} of {len(residuals)} results, named among "
         f"the reasons in the other {over}",
         f"usable: {_share(sensible)} of those physically sensible, {_share(slow)} of those slower than 10 rpm",
@@ -90,10 +90,16 @@ def _of_kills(entries: Entries) -> list[str]:
     return [f"killed with a file open: {met} of {len(entries)}"]
 
 
+def _of_soak(entries: Entries) -> list[str]:
+    growth = max(float(entry["growth_MiB_per_s"]) for entry in entries)
+    return [f"memory grows by {growth:.3f} MiB per simulated second after the first quarter"]
+
+
 _NOTES: dict[str, Callable[[Entries], list[str]]] = {
     "cases": _of_cases,
     "hostile": _of_hostile,
     "kills": _of_kills,
+    "soak": _of_soak,
 }
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tests.attacks import cases, damage, disks, guests, hostile, stores, sweeps
+from tests.attacks import cases, damage, disks, guests, hostile, soak, stores, sweeps, visitors
 from tests.attacks.damage import line
 from tests.attacks.record import Record
 from tests.attacks.trial import Outcome, attempt
@@ -46,6 +46,8 @@ PARTS = {
         Part("catalogues", "the catalogue's cache and a catalogue of one's own damaged", 200, stores.damaged_catalogue),
         Part("plugins", "packages of laws, methods and views with faults", 200, guests.plugin),
         Part("studies", "studies killed and gone on with, or run by two processes", 20, sweeps.study),
+        Part("served", "bursts of 20 hostile requests to the served builder", 50, visitors.visit),
+        Part("soak", "a run of 60 simulated seconds, its memory watched", 1, soak.soak),
         Part("races", "two runs on one output", 20, damage.race),
     )
 }

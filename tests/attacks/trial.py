@@ -152,8 +152,11 @@ class Trial:
             _live(arguments, folder, environment or {}, before, fresh)
         self._handle = os.pidfd_open(self.process)
 
-    def wait(self, limit_s: float) -> Outcome:
-        """Wait until it ends, or end it when `limit_s` are over, waiting not counted [s]; the latter is a hang."""
+    def wait(self, limit_s: float, look: Callable[[], None] | None = None) -> Outcome:
+        """Wait until it ends, or end it when `limit_s` are over, waiting not counted [s]; the latter is a hang.
+
+        `look` is called now and then while it runs.
+        """
         ended, greedy, waited = "", False, 0.0
         while True:
             over = bool(select.select([self._handle], [], [], 0.0 if ended else _GLANCE)[0])
@@ -162,6 +165,8 @@ class Trial:
                 self._seen = wall - waited
             if over or ended:
                 break
+            if look is not None:
+                look()
             greedy = greedy or _resident(self.process) > 2 * MEMORY
             if greedy or wall - waited > limit_s:
                 ended = "greedy" if greedy else "hang"
