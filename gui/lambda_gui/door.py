@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import logging
 import re
 import secrets
 from collections.abc import Awaitable, Callable
@@ -53,6 +54,10 @@ class LockedServer(Server):  # type: ignore[misc, unused-ignore]
         self._names = names
         self._announce = announce
         self._sockets = 0
+
+    def initialize_logging(self) -> None:
+        """Say nothing of requests: their paths hold the secret, and what strangers send would fill the terminal."""
+        logging.getLogger("aiohttp").setLevel(logging.CRITICAL)
 
     async def _make_app(self) -> web.Application:
         @web.middleware
