@@ -13,14 +13,28 @@ from lambda_cli.options import ForceOption
 def report(
     source: Annotated[Path, typer.Argument(metavar="RESULT|STUDY", help="Result file, or the folder of a study.")],
     out: Annotated[
-        Path | None, typer.Option("--out", metavar="FILE", help="The page; default: name of the source with .html.")
+        Path | None,
+        typer.Option("--out", metavar="FILE", help="Page, .html or .pdf; default: name of the source with .html."),
+    ] = None,
+    project: Annotated[str, typer.Option("--project", metavar="TEXT", help="Project, for the head of the page.")] = "",
+    author: Annotated[str, typer.Option("--author", metavar="TEXT", help="Who writes it, for the head.")] = "",
+    appendices: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--appendix",
+            metavar="NAME",
+            help="What follows the first page: tables, views, trust, inputs, assumptions, laws, references, origin, "
+            "or none; may be repeated; default: all.",
+        ),
     ] = None,
     force: ForceOption = False,
 ) -> None:
     """Write a report: results, views, convergence, inputs with sources, assumptions, references.
 
-    One HTML file without anything from outside; print it, or save it as PDF, from any browser.
+    One HTML file without anything from outside, or a PDF (--out x.pdf) where a browser or WeasyPrint is installed.
     """
     from lambda_core import api
 
-    typer.echo(str(api.report(source, out, overwrite=force)))
+    parts = None if not appendices else [name for name in appendices if name != "none"]
+    written = api.report(source, out, overwrite=force, project=project, author=author, appendices=parts)
+    typer.echo(str(written))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -64,10 +64,15 @@ def cards(registry: Registry, subject: Subject | None = None) -> list[ViewCard]:
     ]
 
 
-def every(registry: Registry, subject: Any, kind: Subject) -> Iterator[tuple[View, ViewData | NotApplicable]]:
-    """Yield every view that is offered for a subject with its data, or with the reason why it shows nothing."""
+def every(
+    registry: Registry, subject: Any, kind: Subject, without: Container[str] = ()
+) -> Iterator[tuple[View, ViewData | NotApplicable]]:
+    """Yield every view that is offered for a subject with its data, or with the reason why it shows nothing.
+
+    Those named by `without` are left out.
+    """
     for view in registry.views.values():
-        if view.subject != kind:
+        if view.subject != kind or view.name in without:
             continue
         try:
             with blamed(f'the view "{view.name}" ({view.distribution})'):

@@ -49,6 +49,34 @@ class Picture:
     reason: str = ""
 
 
+# Name of an appendix -> what it is called; the tables have no heading of their own.
+_CHAPTERS = (
+    ("views", "Views"),
+    ("trust", "Convergence and energy"),
+    ("inputs", "Inputs"),
+    ("assumptions", "Assumptions"),
+    ("laws", "Laws"),
+    ("references", "References"),
+    ("origin", "Origin"),
+)
+APPENDICES = ("tables", *(name for name, _ in _CHAPTERS))
+
+
+@dataclass(frozen=True)
+class Cover:
+    """What the person who reports says: project, author, day, and which appendices follow the first page."""
+
+    project: str = ""
+    author: str = ""
+    date: str = ""
+    appendices: tuple[str, ...] = APPENDICES
+
+    @property
+    def line(self) -> str:
+        """One line for the head of the page, "" where nothing was said."""
+        return "   ".join(filter(None, (self.project, self.author, self.date)))
+
+
 @dataclass(frozen=True)
 class Inputs:
     """What a run or a study starts from, ready to print."""
@@ -61,12 +89,15 @@ class Inputs:
     origin: tuple[tuple[str, str], ...]  # versions, plugins, hashes
 
 
-def run_report(registry: Registry, result: Result) -> str:
+_NO_COVER = Cover()
+
+
+def run_report(registry: Registry, result: Result, cover: Cover = _NO_COVER) -> str:
     """Return the page about one run."""
     from lambda_core.results.citation import citation
 
     summary = result.summary()
-    pictures = _pictures(registry, result, "result")
+    pictures = _pictures(registry, result, "result", cover)
     versions = [(name, version) for name, version in result.versions.items()]
     keys = [(f"code of {name}", key[:16]) for name, key in sorted(result.kernel_keys.items())]
     inputs = Inputs(
@@ -79,6 +110,7 @@ def run_report(registry: Registry, result: Result) -> str:
     )
     return _render(
         kind="run",
+        cover=cover,
         title=result.title,
         headline=result.headline.splitlines(),
         subtitle=f"{summary.case}   {result.path.name}   {result.created}",
@@ -96,7 +128,9 @@ def run_report(registry: Registry, result: Result) -> str:
     )
 
 
-def study_report(registry: Registry, table: StudyTable, status: Any, inputs: Inputs, definition: str) -> str:
+def study_report(
+    registry: Registry, table: StudyTable, status: Any, inputs: Inputs, definition: str, cover: Cover = _NO_COVER
+) -> str:
     """Return the page about one study.
 
     Parameters
@@ -120,6 +154,7 @@ def study_report(registry: Registry, table: StudyTable, status: Any, inputs: Inp
         tables.insert(0, Table(f"best point ({status.message})", ("", "value", "unit"), rows))
     return _render(
         kind="study",
+        cover=cover,
         title=table.title,
         headline=[f"{table.mode}, {table.design}: {', '.join(c.name for c in table.parameters)}"],
         subtitle=table.name,
@@ -130,7 +165,7 @@ def study_report(registry: Registry, table: StudyTable, status: Any, inputs: Inp
         sketch=None,
         figures=figures,
         tables=tuple(tables),
-        pictures=_pictures(registry, table, "study"),
+        pictures=_pictures(registry, table, "study", cover),
         trust=[],
         trust_tables=(),
         inputs=inputs,
@@ -181,7 +216,12 @@ def _render(**context: Any) -> str:
         lstrip_blocks=True,
     )
     environment.filters["breakable"] = _breakable
-    return environment.get_template(TEMPLATE).render({"definition": "", **context})
+    context |= {
+        "definition": context.get("definition", ""),
+        "parts": context["cover"].appendices,
+        "chapters": _CHAPTERS,
+    }
+    return environment.get_template(TEMPLATE).render(context)
 
 
 def _breakable(path: str) -> Any:
@@ -191,9 +231,14 @@ def _breakable(path: str) -> Any:
     return Markup(re.sub(r"([._])", r"\1<wbr>", escape(path)))
 
 
-def _pictures(registry: Registry, subject: Any, kind: Any) -> list[Picture]:
+def _pictures(registry: Registry, subject: Any, kind: Any, cover: Cover) -> list[Picture]:
+    """Draw the views that the page shows; where pictures are no part of it only the one on its first page."""
+    left_out = {
+        *(_TRUST if "trust" not in cover.appendices else ()),
+        *(v for v in registry.views if "views" not in cover.appendices and v not in (*_TRUST, _SKETCH)),
+    }
     found = []
-    for view, data in every(registry, subject, kind):
+    for view, data in every(registry, subject, kind, without=left_out):
         if isinstance(data, NotApplicable):
             found.append(Picture(view.name, "", str(data)))
         else:

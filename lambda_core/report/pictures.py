@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.batch.study_runs import study_status
-from lambda_core.domain.errors import LambdaError, UsageError
+from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
 from lambda_core.run.answers import result
 from lambda_core.system.checking import resolve
 
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from lambda_core.report.gallery import ViewCard
+    from lambda_core.report.page import Cover
     from lambda_core.views.chart import ViewData
     from lambda_core.views.view import Subject
 
@@ -201,17 +202,31 @@ def animate(
     return write_animation(registry(), scene, path, fps, progress)
 
 
-def report(source: str | PathLike[str], out: str | Path | None = None, *, overwrite: bool = False) -> Path:
-    """Write one self-contained, printable HTML page about a run or a study.
+def report(
+    source: str | PathLike[str],
+    out: str | Path | None = None,
+    *,
+    overwrite: bool = False,
+    project: str = "",
+    author: str = "",
+    appendices: Sequence[str] | None = None,
+) -> Path:
+    """Write one self-contained page about a run or a study, as HTML or PDF.
 
     Parameters
     ----------
     source : path-like
         A result or its file, or the folder of a study.
     out : path-like, optional
-        Default: the name of the source with ``.html`` in the working directory.
+        File whose ending says the format: ``.html``, or ``.pdf`` where a browser or WeasyPrint is installed; default:
+        the name of the source with ``.html`` in the working directory.
     overwrite : bool
         Replace a page that stands there.
+    project, author : str
+        What the head of the page says, beside the day.
+    appendices : sequence of str, optional
+        What follows the first page: ``tables``, ``views``, ``trust``, ``inputs``, ``assumptions``, ``laws``,
+        ``references``, ``origin``; default: all of it.
 
     Returns
     -------
@@ -221,13 +236,19 @@ def report(source: str | PathLike[str], out: str | Path | None = None, *, overwr
     Raises
     ------
     UsageError
-        When the source is neither, or the page exists or cannot be written.
+        When the source is neither, an appendix is unknown, nothing can print a PDF, or the page exists or cannot be
+        written.
     """
     from lambda_core.discovery.manager import registry
     from lambda_core.report.page import case_inputs, run_report, study_report, write_page
+    from lambda_core.report.pdf import check_printer, write_pdf
 
     path = Path(out) if out is not None else Path(f"{view_stem([source])}.html")
+    cover = _cover(project, author, appendices)
     _refuse_existing(path, overwrite)
+    is_pdf = path.suffix.lower() == ".pdf"
+    if is_pdf:
+        check_printer()
     subject, kind = subject_of(source)
     if kind == "study":
         from lambda_core.batch.studies import files
@@ -235,10 +256,23 @@ def report(source: str | PathLike[str], out: str | Path | None = None, *, overwr
 
         definition, case_toml = files(Path(source))
         inputs = case_inputs(resolve(parse_case(case_toml, str(source))))
-        text = study_report(registry(), subject, study_status(Path(source)), inputs, definition)
+        text = study_report(registry(), subject, study_status(Path(source)), inputs, definition, cover)
     else:
-        text = run_report(registry(), subject)
-    return write_page(text, path)
+        text = run_report(registry(), subject, cover)
+    return write_pdf(text, path) if is_pdf else write_page(text, path)
+
+
+def _cover(project: str, author: str, appendices: Sequence[str] | None) -> Cover:
+    """Return what stands on the page beside the results; the day only where somebody signs."""
+    from datetime import date
+
+    from lambda_core.report.page import APPENDICES, Cover
+
+    chosen = tuple(APPENDICES if appendices is None else appendices)
+    for name in chosen:
+        if name not in APPENDICES:
+            raise UsageError(unknown_name("appendix", name, APPENDICES))
+    return Cover(project, author, date.today().isoformat() if project or author else "", chosen)
 
 
 def _refuse_existing(path: Path, overwrite: bool) -> None:

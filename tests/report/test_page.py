@@ -14,6 +14,8 @@ from lambda_core import api
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.number_text import plus_minus
+from lambda_core.report import pdf
+from lambda_core.report.page import APPENDICES
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
@@ -105,6 +107,39 @@ def test_exactly_the_laws_used_are_cited(page: Page, radial_run: Result) -> None
     used = {row["model"] for row in radial_run.laws}
     assert "newtonian" not in used
     assert "newtonian" not in page.text
+
+
+def test_the_head_and_the_appendices_are_chosen(radial_run: Result, tmp_path: Path) -> None:
+    path = api.report(
+        radial_run, tmp_path / "short.html", project="Fan", author="E. Engineer", appendices=["assumptions"]
+    )
+    short = Page(path.read_text(encoding="utf-8"))
+    assert "Fan E. Engineer 20" in short.text
+    assert short.tags.count("svg") == 1  # the one on the first page
+    chapters = {f"#{name}" for name in ("results", *APPENDICES)}
+    assert chapters.intersection(short.addresses) == {"#results", "#assumptions"}
+    assert radial_run.assumptions[0].split()[0] in short.text
+    assert "References" not in short.words
+    with pytest.raises(UsageError, match='"view" is not a known appendix; nearest: views'):
+        api.report(radial_run, tmp_path / "x.html", appendices=["view"])
+
+
+def test_without_a_printer_a_pdf_is_refused_before_the_work(
+    radial_run: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pdf, "_browser", lambda: None)
+    monkeypatch.setattr(pdf, "find_spec", lambda name: None)
+    with pytest.raises(UsageError, match=r"needs a browser \(chromium, .*weasyprint.*neither is here"):
+        api.report(radial_run, tmp_path / "x.pdf")
+    assert not (tmp_path / "x.pdf").exists()
+
+
+@pytest.mark.skipif(pdf._browser() is None, reason="needs a browser on PATH")
+def test_a_browser_prints_the_page(radial_run: Result, tmp_path: Path) -> None:
+    path = api.report(radial_run, tmp_path / "page.pdf", project="Fan", appendices=[])
+    assert path.read_bytes().startswith(b"%PDF-")
+    assert b"/Type /Page" in path.read_bytes()
+    assert sorted(tmp_path.iterdir()) == [path]
 
 
 def test_a_page_is_not_overwritten_unasked(radial_run: Result, tmp_path: Path) -> None:
