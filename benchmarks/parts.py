@@ -15,7 +15,7 @@ from benchmarks.tables import Cell, Section, Table
 from benchmarks.timing import Effort, per_call
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.run.loop import RECORDS_PER_REVOLUTION
+from lambda_core.run.record_times import RECORDS_PER_REVOLUTION
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve

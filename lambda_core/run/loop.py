@@ -30,14 +30,13 @@ from lambda_core.results.reader import Result, ResultError
 from lambda_core.results.run_status import Rows, State, Status, this_process
 from lambda_core.results.writer import ResultWriter
 from lambda_core.run.progress import Progress, Report, StopRequest, stop_request
-from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION, Advance, Engine
+from lambda_core.run.record_times import RECORDS_PER_REVOLUTION, next_multiple, record_interval
+from lambda_core.solver.drivers.engine import Advance, Engine
 from lambda_core.system.bearing import BearingModel, Solver
-from lambda_core.system.time_functions import peak
 
 if TYPE_CHECKING:
     from lambda_core.electric.live import Live
 
-RECORDS_PER_REVOLUTION = 40
 _FLUSH_AFTER = 1.0  # wall time [s]
 _REPORT_AFTER = 0.1  # wall time [s]
 
@@ -147,22 +146,6 @@ def _converged(solver: Solver, known: list[FloatArray], last: FloatArray) -> boo
     return not shortfalls(solver, chosen, Interval(known[0], last).energy_residual())
 
 
-def record_interval(engine: Engine, model: BearingModel) -> float:
-    """Return the simulated time between records [s]: 1/40 of a nominal cage revolution.
-
-    The engine's default of SAMPLES_PER_REVOLUTION says how long that is; with an
-    interval of one's own, the inner ring's planned speed and D_w/d_m do.
-    """
-    if model.output.interval == 0.0:
-        return engine.sample_interval * SAMPLES_PER_REVOLUTION / RECORDS_PER_REVOLUTION
-    speed = peak(model.inner_ring.dofs["spin"].motion)
-    if speed == 0.0:
-        return engine.sample_interval
-    geometry = model.geometry
-    cage = 0.5 * (1.0 - geometry.ball_diameter / geometry.pitch_diameter) * speed
-    return 2.0 * math.pi / cage / RECORDS_PER_REVOLUTION
-
-
 class _Session:
     """One stretch of a run, from a start or a checkpoint to an end."""
 
@@ -212,7 +195,9 @@ class _Session:
             raise
         except BaseException as error:
             state = "interrupted" if isinstance(error, KeyboardInterrupt) else "failed"
-            self._finish(state, _words(error), save=False)  # the engine may stand in the middle of a step
+            self._finish(
+                state, str(error) or type(error).__name__, save=False
+            )  # the engine may stand in the middle of a step
             raise
         if state == "failed":
             raise SolverError(
@@ -372,15 +357,3 @@ class _Session:
             return self._end / per_turn, self._end
         wanted = revolutions_wanted(self._solver, self._window)
         return float(wanted), max(min(wanted * per_turn, self._end), now)
-
-
-def next_multiple(now: float, interval: float) -> float:
-    """Return the first multiple of `interval` after `now`, whatever the rounding."""
-    number = math.floor(now / interval) + 1
-    while number * interval <= now:
-        number += 1
-    return number * interval
-
-
-def _words(error: BaseException) -> str:
-    return str(error) or type(error).__name__

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import SolverError, UsageError, unknown_name
-from lambda_core.run.loop import next_multiple
+from lambda_core.run.record_times import next_multiple
 from lambda_core.solver.drivers.dynamics import BearingEngine
 
 if TYPE_CHECKING:

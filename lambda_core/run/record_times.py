@@ -1,0 +1,35 @@
+"""When a run keeps a record of its integrals: on a grid of times that depends on nothing but the case."""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION, Engine
+from lambda_core.system.bearing import BearingModel
+from lambda_core.system.time_functions import peak
+
+RECORDS_PER_REVOLUTION = 40
+
+
+def record_interval(engine: Engine, model: BearingModel) -> float:
+    """Return the simulated time between records [s]: 1/40 of a nominal cage revolution.
+
+    The engine's default of SAMPLES_PER_REVOLUTION says how long that is; with an
+    interval of one's own, the inner ring's planned speed and D_w/d_m do.
+    """
+    if model.output.interval == 0.0:
+        return engine.sample_interval * SAMPLES_PER_REVOLUTION / RECORDS_PER_REVOLUTION
+    speed = peak(model.inner_ring.dofs["spin"].motion)
+    if speed == 0.0:
+        return engine.sample_interval
+    geometry = model.geometry
+    cage = 0.5 * (1.0 - geometry.ball_diameter / geometry.pitch_diameter) * speed
+    return 2.0 * math.pi / cage / RECORDS_PER_REVOLUTION
+
+
+def next_multiple(now: float, interval: float) -> float:
+    """Return the first multiple of `interval` after `now`, whatever the rounding."""
+    number = math.floor(now / interval) + 1
+    while number * interval <= now:
+        number += 1
+    return number * interval
