@@ -13,7 +13,7 @@ from lambda_core import api
 _LAW_CHANCE = 0.25  # of a role to have another law than its default
 # Roles whose laws need data that an oil has or has not, or belong to parts that the case may not have.
 _LEFT = ("rheology", "surface", "permittivity", "cage_contact")
-_TURNS = 1.2  # cage revolutions of a simulated case by its planned speed, so that there is at least one
+_TURNS = 1.3  # cage revolutions of a simulated case by its planned speed, so that there is at least one
 _CAGE_SHARE = 0.4  # cage speed over that of the inner ring, about
 _TO_THE_END = 0.25  # share of the cases that run until they have converged
 
