@@ -22,9 +22,9 @@ def carter(stuck: float) -> float:
     q = mu p_0/b [sqrt(b^2 - x^2) - sqrt(c^2 - (x + b - c)^2)], the second root in the stuck strip alone, integrated
     over the contact (Johnson, Contact Mechanics, eq. 8.15 and Fig. 8.4).
     """
-    x, weights = np.polynomial.legendre.leggauss(4000)
+    x = np.linspace(-1.0, 1.0, 200_001)
     inside = np.maximum(stuck**2 - (x + 1.0 - stuck) ** 2, 0.0)
-    return float(weights @ (np.sqrt(1.0 - x**2) - np.sqrt(inside))) / (0.5 * math.pi)
+    return float(np.trapezoid(np.sqrt(1.0 - x**2) - np.sqrt(inside), x)) / (0.5 * math.pi)
 
 
 @pytest.mark.parametrize("stuck", [0.95, 0.8, 0.5, 0.2, 0.0])
