@@ -9,7 +9,8 @@ and labels.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -175,7 +176,22 @@ def size(source: h5py.File, rows: Rows) -> int:
     return total + total // 100
 
 
-def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool) -> None:
+Stop = Callable[[], bool]
+PACKING = 0.5  # time of this process for packing a result that was asked to end [s]
+
+
+def never() -> bool:
+    """Do not stop."""
+    return False
+
+
+def soon() -> Stop:
+    """Stop after a while: packing takes long after a long run, and is not for whoever waits for the end."""
+    until = time.process_time() + PACKING
+    return lambda: time.process_time() > until
+
+
+def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool, stop: Stop = never) -> None:
     """Copy a result with the first `rows` rows of its growing datasets.
 
     Parameters
@@ -186,6 +202,13 @@ def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool) -> No
         How many to copy.
     compress : bool
         Compress (gzip and shuffle, which every HDF5 reader knows) and trim chunks to the data.
+    stop : callable
+        Asked between chunks.
+
+    Raises
+    ------
+    InterruptedError
+        When `stop` says so.
     """
     target.attrs.update(source.attrs)
     scales: list[str] = []
@@ -196,7 +219,7 @@ def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool) -> No
             group = target.require_group(name)
             group.attrs.update(item.attrs)
             return
-        _copy_dataset(name, item, target, rows, compress)
+        _copy_dataset(name, item, target, rows, compress, stop)
         if item.is_scale:
             scales.append(name)
         else:
@@ -211,7 +234,7 @@ def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool) -> No
                 target[name].dims[axis].attach_scale(target[scale])
 
 
-def _copy_dataset(name: str, item: h5py.Dataset, target: h5py.File, rows: Rows, compress: bool) -> None:
+def _copy_dataset(name: str, item: h5py.Dataset, target: h5py.File, rows: Rows, compress: bool, stop: Stop) -> None:
     if not grows(item):
         options = {"maxshape": item.maxshape, "chunks": item.chunks} if item.chunks else {}
         data = target.create_dataset(name, data=item[()], dtype=item.dtype, **options)
@@ -222,8 +245,10 @@ def _copy_dataset(name: str, item: h5py.Dataset, target: h5py.File, rows: Rows, 
         packing = {"compression": "gzip", "compression_opts": 4, "shuffle": True} if compress else {}
         data = target.create_dataset(name, shape, item.dtype, maxshape=item.maxshape, chunks=chunk, **packing)
         for start in range(0, count, ROWS):
-            stop = min(start + ROWS, count)
-            data[start:stop] = item[start:stop]
+            if stop():
+                raise InterruptedError("asked to stop")
+            end = min(start + ROWS, count)
+            data[start:end] = item[start:end]
     for key in ("units", "long_name"):
         if key in item.attrs:
             data.attrs[key] = item.attrs[key]

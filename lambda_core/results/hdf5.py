@@ -63,13 +63,13 @@ def trim(path: Path, size: int) -> None:
         os.truncate(path, size)
 
 
-def copy(path: Path, rows: Rows, *, compress: bool) -> Path:
-    """Copy a result with the first `rows` rows beside itself; return where.
+def copy(path: Path, rows: Rows, *, compress: bool, stop: layout.Stop = layout.never) -> Path:
+    """Copy a result with the first `rows` rows beside itself; return where. `stop` is asked on the way.
 
     Raises
     ------
     UsageError
-        When the copy cannot be written.
+        When the copy cannot be written, or `stop` said so.
     """
     made = beside(path)
     try:
@@ -77,11 +77,14 @@ def copy(path: Path, rows: Rows, *, compress: bool) -> Path:
             # SWMR needs the newest file format; for keeping, the oldest one is read by most programs.
             with h5py.File(made, "w", libver="earliest" if compress else "latest") as target:
                 reserve(target, layout.size(source, rows))
-                layout.copy(source, target, rows, compress)
+                layout.copy(source, target, rows, compress, stop)
                 target.flush()
                 size = target.id.get_filesize()
             trim(made, size)
         return made
+    except KeyboardInterrupt:
+        made.unlink(missing_ok=True)
+        raise
     except Exception as error:  # a garbled file misleads h5py into errors of every kind
         made.unlink(missing_ok=True)
         raise UsageError(f"cannot write a copy of {path} beside it: {reason(error)}") from None

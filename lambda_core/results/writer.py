@@ -48,7 +48,7 @@ class ResultWriter:
     """
 
     def __init__(self, file: h5py.File, path: Path, channels: Sequence[Channel], status: Status) -> None:
-        self.path = path
+        self.path, self.closed = path, False
         self._file = file
         self._identity = _identity(Path(file.filename))
         self._channels = tuple(channels)
@@ -161,8 +161,9 @@ class ResultWriter:
             slots[checkpoint.position.sequence % 2, : data.size] = data
             self._file.flush()
 
-    def close(self, *, compress: bool) -> None:
-        """Close the file; `compress` it where the disk has room for that."""
+    def close(self, *, compress: bool, stop: layout.Stop = layout.never) -> None:
+        """Close the file; `compress` it where the disk has room for that, and nobody asks to `stop` on the way."""
+        self.closed = True
         with self._guard():
             size = self._file.id.get_filesize()
             self._file.close()
@@ -170,12 +171,14 @@ class ResultWriter:
             raise PartialResultError(
                 f"{self.path} was deleted, renamed or replaced during the run: its result no longer stands there"
             )
-        if compress:
-            try:
-                os.replace(hdf5.copy(self.path, self._written, compress=True), self.path)
-            except UsageError:
-                # No room for a second copy or no right to make one: the result is complete as it is.
-                hdf5.trim(self.path, size)
+        if not compress:
+            hdf5.trim(self.path, size)
+            return
+        try:
+            os.replace(hdf5.copy(self.path, self._written, compress=True, stop=stop), self.path)
+        except UsageError:
+            # No room for a second copy, no right or no time to make one: the result is complete as it is.
+            hdf5.trim(self.path, size)
 
     def _append_samples(self) -> None:
         if not self._samples:

@@ -25,6 +25,7 @@ from lambda_core.results import hdf5
 from lambda_core.results.averages import COLUMNS, Interval, boundaries, finite, row
 from lambda_core.results.checkpoint import Checkpoint, Position
 from lambda_core.results.convergence import Window, revolutions_wanted, shortfalls, window
+from lambda_core.results.file_format import never, soon
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.reader import Result, ResultError
 from lambda_core.results.run_status import Rows, State, Status, this_process
@@ -190,14 +191,14 @@ class _Session:
             self._save()
             with stop_request() as stop:
                 state, message = self._loop(stop)
-            self._finish(state, message, save=state != "failed")
+                asked = bool(stop)
+                self._finish(state, message, save=state != "failed", stop=lambda: not asked and bool(stop))
         except PartialResultError:
             raise
         except BaseException as error:
-            state = "interrupted" if isinstance(error, KeyboardInterrupt) else "failed"
-            self._finish(
-                state, str(error) or type(error).__name__, save=False
-            )  # the engine may stand in the middle of a step
+            if not self._writer.closed:
+                state = "interrupted" if isinstance(error, KeyboardInterrupt) else "failed"
+                self._finish(state, str(error) or type(error).__name__, save=False)  # maybe in the middle of a step
             raise
         if state == "failed":
             raise SolverError(
@@ -306,11 +307,11 @@ class _Session:
         self._writer.flush(self._status(state, message))
         self._flushed = time.perf_counter()
 
-    def _finish(self, state: State, message: str, *, save: bool = True) -> None:
+    def _finish(self, state: State, message: str, *, save: bool = True, stop: Callable[[], bool] = never) -> None:
         if save:
             self._save()
         self._flush(state, message)
-        self._writer.close(compress=True)
+        self._writer.close(compress=True, stop=stop if state == "finished" else soon())
         if self._report is not None and save:
             self._report(self._progress())
 

@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 
@@ -16,6 +17,7 @@ from lambda_core import api
 from lambda_core.discovery.apart import check_apart
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import CaseError
+from lambda_core.results import file_format
 
 CASE = "6208-axial-700"
 # One record of this takes minutes: 1/40 of a cage turn of 100 s.
@@ -113,3 +115,33 @@ def test_a4_a_law_that_never_returns_does_not_keep_the_others_from_being_checked
     assert found["cubic"].ok
     assert found["none"].ok
     assert "did not come to an end within 20 s" in found["endless"].faults[0]
+
+
+def test_c1_packing_a_long_result_is_not_for_whoever_waits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Asked to stop while it closes, a finished run keeps its result as it is, complete and not packed."""
+    plain = file_format._copy_dataset
+
+    def asked(name: str, item: object, target: object, rows: object, compress: bool, stop: Callable[[], bool]) -> None:
+        if compress and name == "load":
+            signal.raise_signal(signal.SIGINT)
+        plain(name, item, target, rows, compress, stop)
+
+    monkeypatch.setattr(file_format, "_copy_dataset", asked)
+    path = tmp_path / "r.h5"
+    result = api.run(CASE, ["solver.duration=1 ms"], out=path)
+    assert result.status().state == "finished"
+    assert len(result["load"]) == len(result["time"]) > 0
+    assert [file.name for file in tmp_path.iterdir()] == ["r.h5"]
+    with h5py.File(path) as file:
+        assert file["load"].compression is None
+
+
+def test_c2_4_what_was_stopped_is_packed_for_half_a_second_at_most(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(file_format, "PACKING", 0.0)
+    path = tmp_path / "r.h5"
+    assert api.run(CASE, [*SLOW, "solver.max_wall=0.05 s"], out=path).status().state == "stopped"
+    with h5py.File(path) as file:
+        assert file["load"].compression is None
+    assert len(api.result(path)["load"]) > 0
