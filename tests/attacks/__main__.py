@@ -21,7 +21,9 @@ DEFAULT_FOLDER = Path("attacks")
 def main() -> int:
     """Run the parts asked for; returns 1 when any trial failed."""
     parser = argparse.ArgumentParser(prog="python -m tests.attacks", description=__doc__)
-    parser.add_argument("parts", nargs="*", metavar="PART", help=f"default all: {', '.join(parts.PARTS)}")
+    parser.add_argument(
+        "parts", nargs="*", metavar="PART[:COUNT]", help=f"and how many trials; default all: {', '.join(parts.PARTS)}"
+    )
     parser.add_argument("--seed", type=int, default=1, help="of every random number")
     parser.add_argument("--count", type=int, help="trials per part; default: those of a full campaign")
     parser.add_argument("--minutes", type=float, default=1e6, help="wall time after which no new trial begins")
@@ -32,9 +34,10 @@ def main() -> int:
     parser.add_argument("--folder", type=Path, default=DEFAULT_FOLDER, help="where outcomes and failures are kept")
     parser.add_argument("--write", action="store_true", help="write the figures into docs/reliability.md")
     options = parser.parse_args()
-    if unknown := [name for name in options.parts if name not in parts.PARTS]:
+    asked = dict(name.partition(":")[::2] for name in options.parts)
+    if unknown := [name for name in asked if name not in parts.PARTS]:
         parser.error(f"no part {unknown[0]!r}; there are {', '.join(parts.PARTS)}")
-    names = options.parts or list(parts.PARTS)
+    names = list(asked or parts.PARTS)
     folder = options.folder.resolve()
     if options.workers > 1 and len(names) > 1:
         _side_by_side(names, options)
@@ -45,7 +48,8 @@ def main() -> int:
         for name in names:
             part = parts.PARTS[name]
             first, step = options.share
-            numbers = range(first - 1, part.count if options.count is None else options.count, step)
+            count = int(asked.get(name) or options.count or part.count)
+            numbers = range(first - 1, count, step)
             parts.run(part, options.seed, numbers, folder, deadline)
     text = page.figures({name: Record(folder, name) for name in names})
     print(text)
@@ -72,7 +76,7 @@ def _side_by_side(names: list[str], options: argparse.Namespace) -> None:
     running: list[subprocess.Popen[bytes]] = []
     while waiting or running:
         while waiting and len(running) < options.workers:
-            command = [sys.executable, "-P", "-m", "tests.attacks", waiting.pop(0), "--seed", str(options.seed)]
+            command = [sys.executable, "-m", "tests.attacks", waiting.pop(0), "--seed", str(options.seed)]
             command += ["--folder", str(options.folder), "--minutes", str(options.minutes)]
             command += [] if options.count is None else ["--count", str(options.count)]
             running.append(subprocess.Popen(command, stdout=subprocess.DEVNULL))

@@ -112,7 +112,7 @@ def plugin(seed: int, number: int, folder: Path) -> Said:
     path = os.pathsep.join([str(folder / "site"), *filter(None, [os.environ.get("PYTHONPATH")])])
     outcome = attempt(arguments, folder, _LIMIT, {"PYTHONPATH": path}, _seen(folder / "site"))
     innocent = arguments == ("quasistatic", CASE, "--json")
-    if innocent and outcome.good:
+    if innocent and outcome.good and not (outcome.verdict == "refused" and name in outcome.said):
         before = made_once(folder, "said", lambda place: attempt(arguments, place, _LIMIT))
         if outcome.verdict != "fine" or (folder / "stdout").read_bytes() != (before / "stdout").read_bytes():
             outcome = outcome.but("different", "a case that has nothing to do with the plugin ends otherwise")

@@ -1,0 +1,34 @@
+"""A short part of the attacks, the same in every run; the long campaign: ``python -m tests.attacks``."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.attacks.page import ROOT
+from tests.attacks.trial import GOOD
+
+_PARTS = ("hostile:10", "cases:3", "kills:2", "corruption:5", "catalogues:3", "plugins:4", "races:1")
+_SEED = "20"  # by which the three cases are quick ones
+
+
+@pytest.mark.timeout(900)  # where nothing is compiled yet
+def test_a_short_campaign_finds_nothing(tmp_path: Path, own_folders: Path) -> None:
+    command = [sys.executable, "-m", "tests.attacks", *_PARTS, "--seed", _SEED, "--folder", str(tmp_path)]
+    done = subprocess.run(command, cwd=ROOT, env=os.environ, capture_output=True, text=True, check=False)
+    failed = [
+        f"{file.stem} {entry['number']}: {entry['verdict']}: {entry['said']}"
+        for file in tmp_path.glob("*.jsonl")
+        for entry in map(json.loads, file.read_text(encoding="utf-8").splitlines())
+        if entry["verdict"] not in GOOD
+    ]
+    assert not failed, "\n".join(failed)
+    assert done.returncode == 0, done.stderr
+    for part in _PARTS:
+        name, _, count = part.partition(":")
+        assert len((tmp_path / f"{name}.jsonl").read_text(encoding="utf-8").splitlines()) == int(count)
