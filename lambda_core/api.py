@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from lambda_core.results.run_status import Status, process_identity, this_process
     from lambda_core.results.summary import Summary
     from lambda_core.run.answers import cite, compare, result, summary
+    from lambda_core.run.duty_cycle import duty
     from lambda_core.run.estimate import Estimate
     from lambda_core.run.progress import Progress
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
@@ -64,6 +65,7 @@ _CALLS = {
     "system.cases": "builtin_cases case catalogue draft init_case save schema",
     "system.checking": "check describe problems resolve",
     "run.simulation": "cross_check estimate iterate quasistatic resume run warmup",
+    "run.duty_cycle": "duty",
     "run.answers": "cite compare result summary",
     "thermal.temperatures": "thermal thermal_pictures warm_up",
     "electric.door": "check_discharges_file electric electric_map film_from_outside write_discharges",

@@ -53,6 +53,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "view": ("lambda_cli.view:view", "Draw a view of one or more results."),
     "animate": ("lambda_cli.animate:animate", "Show a run in motion: GIF, MP4 or glTF."),
     "compare": ("lambda_cli.compare:compare", "Put comparison methods beside the simulation."),
+    "duty": ("lambda_cli.duty:duty", "Rating life and losses over a duty cycle."),
     "cross-check": ("lambda_cli.cross_check:cross_check", "Integrate a case with SUNDIALS CVODE as well, and compare."),
     "study": ("lambda_cli.study:app", "Many runs: sweeps, samples, maps."),
     "report": ("lambda_cli.report:report", "Write a report of results."),

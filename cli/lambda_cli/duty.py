@@ -1,0 +1,31 @@
+"""The command duty: life and losses over the phases of a duty cycle."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lambda_cli.options import JsonOption, Units, UnitsOption
+from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+
+
+def duty(
+    file: Annotated[
+        Path, typer.Argument(metavar="CYCLE", help="Duty cycle (TOML): a case, and phases with time and changes.")
+    ],
+    as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Add up rating life and losses over the phases of a duty cycle.
+
+    Each phase at its quasi-static equilibrium; lives by ISO 281 and ISO/TS 16281, damages added (Palmgren, Miner).
+    """
+    from lambda_core import api
+
+    with talk(progress, quiet) as speaker:
+        found = api.duty(file, announce=speaker.say)
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))

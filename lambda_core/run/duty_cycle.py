@@ -1,0 +1,271 @@
+"""Life and losses over a duty cycle: the equilibrium of each phase, added up.
+
+The damage of the phases adds (Palmgren 1924, Z. VDI 68, 339; Miner 1945, J. Appl. Mech. 12, A159): a bearing that
+would live L_i under phase i alone lives T/sum(t_i/L_i) under all of them, T = sum(t_i). All phases load the same place
+of the raceways; where the load wanders the bearing lives longer.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from pydantic import Field, ValidationError
+
+from lambda_core.case.case import NAME_PATTERN, Case
+from lambda_core.case.case_io import apply_overrides, load_case, syntax_problem
+from lambda_core.case.option import Section, option
+from lambda_core.case.problems import problems
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.errors import CaseError, Problem, SolverError, UsageError
+from lambda_core.domain.files import read_text
+from lambda_core.domain.number_text import number
+from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.domain.units import Time
+from lambda_core.results.averages import finite
+from lambda_core.results.rating import Rating
+from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.text import hours
+from lambda_core.run.engineering import rating_of
+from lambda_core.system.operating_limits import operating_warnings
+from lambda_core.thermal.temperatures import ready_model
+
+_MOST_PHASES = 1000
+_EXPONENT = 3.0  # of ball bearings: L = (C/P)^3
+
+
+class Phase(Section):
+    """One part of a duty cycle."""
+
+    name: str = option(description="what it is, for people", min_length=1)
+    time: Time = option(description="how long it lasts in one cycle", gt=0.0)
+    changes: dict[str, bool | int | float | str] = option({}, "what differs from the case: option and value")
+
+
+class Cycle(Section):
+    """A duty cycle: a case, and the phases that it goes through."""
+
+    name: str = option(description="short name", pattern=NAME_PATTERN)
+    case: str = option(description="case file, relative to this one, or built-in case", min_length=1)
+    phases: list[Phase] = option(description="one after the other", min_length=1, max_length=_MOST_PHASES)
+
+
+class PhaseResult(Record):
+    """What one phase is on its own; null where a standard does not answer, or nothing turns."""
+
+    name: str
+    share: float = Field(description="of the time")
+    speed_rpm: float = Field(description="of the rings against each other")
+    equivalent_load_N: float | None = Field(description="P of ISO 281")
+    basic_life_h: float | None = Field(description="L_10h of ISO 281, if the phase went on for ever")
+    reference_life_h: float | None = Field(description="L_10rh of ISO/TS 16281, if the phase went on for ever")
+    damage: float | None = Field(description="share of the damage by ISO/TS 16281")
+    friction_torque_Nmm: float | None = Field(description="quasi-static, without cage")
+    power_loss_W: float
+    warnings: list[str]
+
+
+class DutyCycle(Record):
+    """A duty cycle added up; a life is null where a phase has none."""
+
+    interface: int = INTERFACE
+    name: str
+    case: str
+    cycle_h: float = Field(description="duration of one cycle")
+    phases: list[PhaseResult]
+    basic_life_h: float | None = Field(description="L_10h of ISO 281, damages added")
+    reference_life_h: float | None = Field(description="L_10rh of ISO/TS 16281, damages added")
+    mean_load_N: float | None = Field(description="constant P of equal basic rating life at the mean speed")
+    mean_speed_rpm: float
+    mean_power_loss_W: float
+    assumptions: list[str]
+
+    def text(self, units: UnitSystem = SI) -> str:
+        """Return a table for people: a row per phase, then the sum."""
+        force, torque = units.unit("N"), units.unit("N mm")
+        head = (
+            "phase", "time %", "rpm", f"P {force}", "L10h", "L10rh", "damage %", f"torque {torque}",
+            f"loss {units.unit('W')}",
+        )  # fmt: skip
+        rows = [head, *(_row(phase, units) for phase in self.phases), _sum_row(self, units)]
+        widths = [max(len(row[i]) for row in rows) for i in range(len(head))]
+        lines = [f"{self.name}: a cycle of {number(self.cycle_h, 2)} h of {self.case}", ""]
+        lines += ["  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]) for row in rows]
+        warned = [f"{phase.name}: {units.sentence(text)}" for phase in self.phases for text in phase.warnings]
+        lines += ["", *(f"WARNING  {text}" for text in warned), *(f"assumed  {text}" for text in self.assumptions)]
+        return "\n".join(lines)
+
+
+_ADDED = (
+    "damages of the phases add (Palmgren, Miner); all load the same place of the raceways",
+    "every phase at its quasi-static equilibrium: no cage, nothing of what lies between two phases",
+)
+
+
+def duty(source: str | Path | Mapping[str, Any], *, announce: Callable[[str], None] | None = None) -> DutyCycle:
+    """Solve every phase of a duty cycle and add up life and losses.
+
+    Parameters
+    ----------
+    source : path-like or mapping
+        File of the duty cycle (TOML), or its tables.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    DutyCycle
+        Each phase, and the sum: life by ISO 281 and ISO/TS 16281, mean load, mean loss.
+
+    Raises
+    ------
+    UsageError
+        When the file does not exist.
+    CaseError, SolverError
+        With a sentence about the cycle, or about a phase that is named.
+    """
+    cycle, case = _read(source)
+    whole = sum(phase.time for phase in cycle.phases)
+    alone = [_solved(phase, case, phase.time / whole, announce) for phase in cycle.phases]
+    lives = {kind: _added(alone, kind) for kind in ("basic_life_h", "reference_life_h")}
+    total = lives["reference_life_h"]
+    phases = [phase.model_copy(update={"damage": _damage(phase, total)}) for phase in alone]
+    mean_speed = sum(phase.share * phase.speed_rpm for phase in phases)
+    return DutyCycle(
+        name=cycle.name,
+        case=case.name,
+        cycle_h=whole / 3600.0,
+        phases=phases,
+        basic_life_h=finite(lives["basic_life_h"]),
+        reference_life_h=finite(total),
+        mean_load_N=_mean_load(phases, mean_speed),
+        mean_speed_rpm=mean_speed,
+        mean_power_loss_W=sum(phase.share * phase.power_loss_W for phase in phases),
+        assumptions=list(_ADDED),
+    )
+
+
+def _read(source: str | Path | Mapping[str, Any]) -> tuple[Cycle, Case]:
+    """Return the cycle and its case; every mistake of the file at once."""
+    if isinstance(source, Mapping):
+        name, data, folder = "duty cycle", dict(source), Path()
+    else:
+        path = Path(source)
+        name, folder = path.name, path.parent
+        data = _tables(path)
+    try:
+        cycle = Cycle.model_validate(data)
+    except ValidationError as error:
+        raise CaseError(name, problems(error, Cycle, data)) from None
+    beside = folder / cycle.case
+    return cycle, load_case(beside if beside.is_file() else cycle.case)
+
+
+def _tables(path: Path) -> dict[str, Any]:
+    if not path.is_file():
+        raise UsageError(f'"{path}" is no file: a duty cycle is a TOML file with a case and its phases')
+    try:
+        text = read_text(path)
+        return tomllib.loads(text)
+    except UnicodeDecodeError:
+        raise CaseError(path.name, [Problem("", "is not a text file in UTF-8")]) from None
+    except tomllib.TOMLDecodeError as error:
+        raise CaseError(path.name, [syntax_problem(str(error), text)]) from None
+    except RecursionError:
+        raise CaseError(path.name, [Problem("", "is nested too deeply")]) from None
+
+
+def _solved(phase: Phase, case: Case, share: float, announce: Callable[[str], None] | None) -> PhaseResult:
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    where = f'phase "{phase.name}"'
+    changes = [f"{path}={_written(value)}" for path, value in phase.changes.items()]
+    try:
+        changed = apply_overrides(case, changes)
+        if changed.operation.speed == 0.0 and changed.solver.duration is None:  # a run would need to know when to end
+            changed = changed.with_(solver={"duration": "1 s"})
+        model = ready_model(changed, announce=announce)
+        found = solve(model, announce=announce)
+    except CaseError as error:
+        raise CaseError(f"{where} of {case.name}", error.problems) from None
+    except SolverError as error:
+        raise SolverError(f"{where}: {error}") from None
+    rating: Rating = rating_of(found, registry().methods)
+    loss, speed = float(sum(found.losses)), found.relative_speed
+    turns = speed > 0.0
+    return PhaseResult(
+        name=phase.name,
+        share=share,
+        speed_rpm=speed * 30.0 / math.pi,
+        equivalent_load_N=rating.equivalent_load_N,
+        basic_life_h=rating.basic_life_h if turns else None,
+        reference_life_h=rating.reference_life_h if turns else None,
+        damage=None,
+        friction_torque_Nmm=1e3 * loss / speed if turns else None,
+        power_loss_W=loss if turns else 0.0,
+        warnings=operating_warnings(model),
+    )
+
+
+def _written(value: bool | int | float | str) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _added(phases: Sequence[PhaseResult], kind: str) -> float:
+    """Return the life of all phases together [h]; NaN where one that turns has none, infinite where nothing turns."""
+    damage = 0.0
+    for phase in phases:
+        if phase.speed_rpm > 0.0:
+            life = getattr(phase, kind)
+            damage += math.nan if life is None else phase.share / life
+    return math.inf if damage == 0.0 else 1.0 / damage
+
+
+def _damage(phase: PhaseResult, total: float) -> float | None:
+    if phase.speed_rpm == 0.0:
+        return 0.0
+    return finite(phase.share * total / phase.reference_life_h) if phase.reference_life_h else None
+
+
+def _mean_load(phases: Sequence[PhaseResult], mean_speed: float) -> float | None:
+    """Return P_m = (sum P_i^3 n_i t_i / sum n_i t_i)^(1/3) (SKF, Rolling bearings, 17000 EN, 2018: mean load)."""
+    turning = [phase for phase in phases if phase.speed_rpm > 0.0]
+    if not turning or any(phase.equivalent_load_N is None for phase in turning):
+        return None
+    weighted = sum((phase.equivalent_load_N or 0.0) ** _EXPONENT * phase.speed_rpm * phase.share for phase in turning)
+    return float((weighted / mean_speed) ** (1.0 / _EXPONENT))
+
+
+def _life(life: float | None) -> str:
+    return "-" if life is None else hours(life).removesuffix(" h")
+
+
+def _row(phase: PhaseResult, units: UnitSystem) -> tuple[str, ...]:
+    return (
+        phase.name,
+        number(100.0 * phase.share),
+        number(phase.speed_rpm, 0),
+        units.number(phase.equivalent_load_N, "N", 0),
+        _life(phase.basic_life_h),
+        _life(phase.reference_life_h),
+        number(None if phase.damage is None else 100.0 * phase.damage),
+        units.number(phase.friction_torque_Nmm, "N mm"),
+        units.number(phase.power_loss_W, "W"),
+    )
+
+
+def _sum_row(found: DutyCycle, units: UnitSystem) -> tuple[str, ...]:
+    return (
+        "together",
+        "100.0",
+        number(found.mean_speed_rpm, 0),
+        units.number(found.mean_load_N, "N", 0),
+        _life(found.basic_life_h),
+        _life(found.reference_life_h),
+        "",
+        "",
+        units.number(found.mean_power_loss_W, "W"),
+    )
