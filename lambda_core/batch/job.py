@@ -205,7 +205,8 @@ def _dynamic(model: BearingModel, path: Path, names: tuple[str, ...]) -> tuple[S
 
 
 def _run(model: BearingModel, path: Path) -> Result:
-    from lambda_core.results.reader import Result, ResultError
+    from lambda_core.results.opening import ResultError
+    from lambda_core.results.reader import Result
     from lambda_core.run.launch import launch, relaunch
 
     path.parent.mkdir(parents=True, exist_ok=True)

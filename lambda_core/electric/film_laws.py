@@ -52,7 +52,7 @@ def film_laws(
     for role in ("breakdown", "discharge"):
         chosen = laws[role]
         kernel = compile_kernel(chosen.model, announce)
-        par = np.ascontiguousarray(np.stack([prepare(chosen, context) for context in contexts]))
-        check_choice(chosen.model, par[0], kernel)
-        found.append(FilmLaw(chosen.model, kernel, par))
+        parameters = np.ascontiguousarray(np.stack([prepare(chosen, context) for context in contexts]))
+        check_choice(chosen.model, parameters[0], kernel)
+        found.append(FilmLaw(chosen.model, kernel, parameters))
     return found[0], found[1]

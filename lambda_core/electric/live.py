@@ -110,7 +110,7 @@ class Live:
         ResultError
             When the circuit does not come to where it was.
         """
-        from lambda_core.results.reader import ResultError
+        from lambda_core.results.opening import ResultError
 
         found = self.take({name: result[name][: rows.samples] for name in CHANNELS})
         if (len(found.circuit["time"]), len(found.discharges["time"])) != (rows.circuit, rows.discharges):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -16,14 +15,21 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import Channel
-from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
+from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.printable import printable
 from lambda_core.results import checkpoint
 from lambda_core.results import file_format as layout
-from lambda_core.results.averages import INTEGRALS
 from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP
-from lambda_core.results.hdf5 import open_for_reading, reason
 from lambda_core.results.integrity import check_model, heaps_are_whole
+from lambda_core.results.opening import (
+    ResultError,
+    channels_of,
+    check_alone,
+    integral_table,
+    labels_of,
+    opened,
+    resolved_value,
+)
 from lambda_core.results.run_status import Status
 from lambda_core.system.bearing import ResolvedValue
 
@@ -32,10 +38,6 @@ if TYPE_CHECKING:
     from lambda_core.results.summary import Summary
 
 _BLOCK = 4096  # rows read at a time where a whole channel need not be in memory
-
-
-class ResultError(UsageError):
-    """A file is not a result, or is damaged."""
 
 
 class Result:
@@ -64,16 +66,16 @@ class Result:
 
     def __init__(self, path: str | PathLike[str]) -> None:
         self.path = Path(path)
-        with self._open() as file:
+        with opened(self.path) as file:
             if not heaps_are_whole(self.path):
                 raise ResultError(f"{self.path} is damaged: its texts cannot be read")
-            _stands_alone(file)
+            check_alone(file)
             self.title, self.headline, self.case, self.created = (
                 printable(str(file.attrs[name])) for name in ("title", "headline", "case", "created")
             )
-            self._channels = {channel.name: channel for channel in _channels(file)}
+            self._channels = {channel.name: channel for channel in channels_of(file)}
             dims = dict.fromkeys(dim for channel in self._channels.values() for dim in channel.dims)
-            self._labels = {dim: _labels(file[dim]) for dim in dims}
+            self._labels = {dim: labels_of(file[dim]) for dim in dims}
         self.status()
 
     # -- what the run wrote --
@@ -86,14 +88,14 @@ class Result:
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """Return one channel, first axis time, SI."""
         self._known(name)
-        with self._open() as file:
+        with opened(self.path) as file:
             return np.asarray(file[name][: self._status(file).rows.samples])
 
     def blocks(self, names: Sequence[str], start: float = 0.0) -> Iterator[dict[str, NDArray[np.float64]]]:
         """Yield several channels in blocks of rows, from time `start` [s]: for results larger than memory."""
         for name in names:
             self._known(name)
-        with self._open() as file:
+        with opened(self.path) as file:
             rows = self._status(file).rows.samples
             first = int(np.searchsorted(file["time"][:rows], start))
             for begin in range(first, rows, _BLOCK):
@@ -104,7 +106,7 @@ class Result:
         """Return several channels at one instant; negative rows count from the end."""
         for name in names:
             self._known(name)
-        with self._open() as file:
+        with opened(self.path) as file:
             at = range(self._status(file).rows.samples)[row]
             return {name: np.asarray(file[name][at]) for name in names}
 
@@ -116,22 +118,22 @@ class Result:
 
     def status(self) -> Status:
         """Return what the run has reached."""
-        with self._open() as file:
+        with opened(self.path) as file:
             return self._status(file)
 
     def integrals(self) -> FloatArray:
         """Return the running integrals, shape (records, len(averages.COLUMNS)), SI."""
-        with self._open() as file:
-            return _table(file[layout.INTEGRALS_GROUP], self._status(file).rows.records)
+        with opened(self.path) as file:
+            return integral_table(file[layout.INTEGRALS_GROUP], self._status(file).rows.records)
 
     def revolutions(self) -> FloatArray:
         """Return the running integrals at whole cage revolutions, the first row is t = 0."""
-        with self._open() as file:
-            return _table(file[layout.REVOLUTIONS_GROUP], self._status(file).rows.revolutions)
+        with opened(self.path) as file:
+            return integral_table(file[layout.REVOLUTIONS_GROUP], self._status(file).rows.revolutions)
 
     def checkpoint(self) -> checkpoint.Checkpoint | None:
         """Return the newest whole checkpoint, None when there is none."""
-        with self._open() as file:
+        with opened(self.path) as file:
             return checkpoint.latest(slot.tobytes() for slot in file[layout.SLOTS][()])
 
     def circuit(self) -> dict[str, NDArray[np.float64]]:
@@ -147,7 +149,7 @@ class Result:
         return self._circuit_table(DISCHARGES_GROUP, "discharges")
 
     def _circuit_table(self, group: str, kind: str) -> dict[str, NDArray[np.float64]]:
-        with self._open() as file:
+        with opened(self.path) as file:
             if group not in file:
                 return {}
             count = getattr(self._status(file).rows, kind)
@@ -158,7 +160,7 @@ class Result:
     @cached_property
     def model(self) -> dict[str, Any]:
         """The resolved model as plain data, SI (geometry, materials, oil, bodies, laws, solver)."""
-        with self._open() as file:
+        with opened(self.path) as file:
             found: dict[str, Any] = json.loads(printable(str(file[layout.INPUTS_GROUP]["model_json"].asstr()[()])))
             check_model(found)
         return found
@@ -171,7 +173,7 @@ class Result:
     @cached_property
     def values(self) -> tuple[ResolvedValue, ...]:
         """Every resolved value with source and grade."""
-        return tuple(_resolved(row) for row in self._input_table("values"))
+        return tuple(resolved_value(row) for row in self._input_table("values"))
 
     @cached_property
     def laws(self) -> list[dict[str, str]]:
@@ -198,14 +200,14 @@ class Result:
         """Life, safety and catalogue friction at the start; None in results of earlier versions."""
         from lambda_core.results.rating import Rating
 
-        with self._open() as file:
+        with opened(self.path) as file:
             text = file[layout.INPUTS_GROUP].get("rating_json")
             return Rating.model_validate_json(text.asstr()[()]) if text is not None else None
 
     @cached_property
     def case_warnings(self) -> tuple[str, ...]:
         """Where the case leaves what bearing, oil and laws are made for, one sentence each."""
-        with self._open() as file:
+        with opened(self.path) as file:
             lines = file[layout.INPUTS_GROUP].get("warnings")  # results of earlier versions have none
             return tuple(lines.asstr()[()]) if lines is not None else ()
 
@@ -293,7 +295,7 @@ class Result:
         except ImportError:
             raise UsageError('xarray comes with the extra "data": pip install "lambda-bearing[data]"') from None
 
-        with self._open() as file:
+        with opened(self.path) as file:
             rows = self._status(file).rows.samples
             data = {
                 channel.name: (
@@ -332,78 +334,14 @@ class Result:
         return Status.from_bytes(bytes(file[layout.STATUS][()]))
 
     def _text(self, name: str) -> str:
-        with self._open() as file:
+        with opened(self.path) as file:
             return printable(str(file[layout.INPUTS_GROUP][name].asstr()[()]))
 
     def _lines(self, name: str) -> tuple[str, ...]:
-        with self._open() as file:
+        with opened(self.path) as file:
             return tuple(printable(line) for line in file[layout.INPUTS_GROUP][name].asstr()[()])
 
     def _input_table(self, name: str) -> list[dict[str, str]]:
-        with self._open() as file:
+        with opened(self.path) as file:
             rows = layout.read_table(file[layout.INPUTS_GROUP][name])
         return [{key: printable(text) for key, text in row.items()} for row in rows]
-
-    @contextmanager
-    def _open(self) -> Iterator[h5py.File]:
-        if not self.path.is_file():
-            what = "is a folder, not a result file" if self.path.is_dir() else "does not exist"
-            raise ResultError(f"{self.path} {what}")
-        try:
-            file = open_for_reading(self.path)
-        except OSError as error:
-            if not h5py.is_hdf5(self.path):
-                raise ResultError(f"{self.path} is not a result file (not HDF5)") from None
-            raise ResultError(f"{self.path} cannot be read: {reason(error)}") from None
-        with file:
-            version = file.attrs.get(layout.LAYOUT_ATTRIBUTE)
-            if version is None:
-                raise ResultError(f"{self.path} is an HDF5 file, but not a result of lambda-bearing")
-            if version != layout.LAYOUT:
-                raise ResultError(
-                    f"{self.path} has layout {version}; this program reads layout {layout.LAYOUT}: "
-                    "use the version that wrote it"
-                )
-            try:
-                yield file
-            except LambdaError:
-                raise
-            except Exception as error:  # a garbled file misleads h5py into errors of every kind
-                raise ResultError(f"{self.path} is damaged: {reason(error)}") from None
-
-
-def _stands_alone(file: h5py.File) -> None:
-    """Refuse a file that points at others: a stranger's would show what stands in mine; a run writes none."""
-
-    def elsewhere(name: str, link: Any) -> str | None:  # HDF5 passes on what is returned, not what is raised
-        item = file[name] if isinstance(link, h5py.HardLink) else None
-        away = item is None or (isinstance(item, h5py.Dataset) and (item.external or item.is_virtual))
-        return name if away else None
-
-    if name := file.visititems_links(elsewhere):
-        raise ResultError(f"{file.filename} is no result of a run: {printable(name)} stands somewhere else")
-
-
-def _channels(file: h5py.File) -> Iterator[Channel]:
-    """Yield the channels of a file: everything in its root that grows."""
-    for name, item in file.items():
-        if layout.grows(item):
-            dims = tuple(Path(dim[0].name).name for dim in item.dims if len(dim))
-            yield Channel(name, tuple(d for d in dims if d != "time"), item.attrs["units"], item.attrs["long_name"])
-
-
-def _labels(data: h5py.Dataset) -> tuple[int, ...] | tuple[str, ...]:
-    if h5py.check_string_dtype(data.dtype):
-        return tuple(data.asstr()[()])
-    return tuple(int(number) for number in data[()])
-
-
-def _table(group: h5py.Group, rows: int) -> FloatArray:
-    return np.concatenate([group[channel.name][:rows].reshape(rows, -1) for channel in INTEGRALS], axis=1)
-
-
-def _resolved(row: dict[str, str]) -> ResolvedValue:
-    fields: dict[str, Any] = dict(row)
-    if fields.pop("type") == "number":
-        fields["value"] = float(fields["value"])
-    return ResolvedValue(**fields)

@@ -11,9 +11,10 @@ from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_target
 from lambda_core.laws.kernels import sources_key
+from lambda_core.results.opening import ResultError
 from lambda_core.results.provenance import Provenance, differences, model_data
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
-from lambda_core.results.reader import Result, ResultError
+from lambda_core.results.reader import Result
 from lambda_core.run.engineering import rating_of
 from lambda_core.run.loop import resume, run
 from lambda_core.run.progress import Report

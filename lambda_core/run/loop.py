@@ -26,8 +26,9 @@ from lambda_core.results.averages import COLUMNS, Interval, boundaries, finite, 
 from lambda_core.results.checkpoint import Checkpoint, Position
 from lambda_core.results.convergence import Window, revolutions_wanted, shortfalls, window
 from lambda_core.results.file_format import never, soon
+from lambda_core.results.opening import ResultError
 from lambda_core.results.provenance import Provenance
-from lambda_core.results.reader import Result, ResultError
+from lambda_core.results.reader import Result
 from lambda_core.results.run_status import Rows, State, Status, this_process
 from lambda_core.results.writer import ResultWriter
 from lambda_core.run.progress import Progress, Report, StopRequest, stop_request

@@ -21,7 +21,8 @@ from fake_engine import FAKE_RUN, FakeEngine, MakeProvenance, Truth
 from lambda_core.domain.errors import UsageError
 from lambda_core.results import file_format as layout
 from lambda_core.results.checkpoint import Checkpoint, Position, latest
-from lambda_core.results.reader import Result, ResultError
+from lambda_core.results.opening import ResultError
+from lambda_core.results.reader import Result
 from lambda_core.results.run_status import Rows
 from lambda_core.run.loop import resume, run
 

@@ -13,8 +13,9 @@ from fake_engine import FakeEngine, MakeProvenance, Truth
 
 from lambda_core.domain.channels import CHANNELS, LOSSES
 from lambda_core.domain.errors import UsageError
+from lambda_core.results.opening import ResultError
 from lambda_core.results.provenance import Provenance
-from lambda_core.results.reader import Result, ResultError
+from lambda_core.results.reader import Result
 from lambda_core.run.loop import run
 from lambda_core.run.progress import Progress
 from lambda_core.system.bearing import BearingModel

@@ -13,7 +13,7 @@ from lambda_cli.main import main
 
 from lambda_core import api
 from lambda_core.results import file_format as layout
-from lambda_core.results.reader import ResultError
+from lambda_core.results.opening import ResultError
 
 SIGNATURE = b"GCOL\x01\x00\x00\x00"
 

@@ -18,7 +18,8 @@ from lambda_core import api
 from lambda_core.domain.errors import CaseError, PartialResultError, UsageError
 from lambda_core.domain.files import check_target, read_bytes
 from lambda_core.domain.printable import cell_text, from_cell, printable
-from lambda_core.results.reader import Result, ResultError
+from lambda_core.results.opening import ResultError
+from lambda_core.results.reader import Result
 
 CASE = "6208-axial-1300"
 LONG = ["solver.duration=1 s"]  # long enough for progress to be told before the end

@@ -1,0 +1,92 @@
+"""Opening a result file: what it must be, and its pieces as what they mean."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import Channel
+from lambda_core.domain.errors import LambdaError, UsageError
+from lambda_core.domain.printable import printable
+from lambda_core.results import file_format as layout
+from lambda_core.results.averages import INTEGRALS
+from lambda_core.results.hdf5 import open_for_reading, reason
+from lambda_core.system.bearing import ResolvedValue
+
+
+class ResultError(UsageError):
+    """A file is not a result, or is damaged."""
+
+
+@contextmanager
+def opened(path: Path) -> Iterator[h5py.File]:
+    """Open a result of this layout; what is wrong with it, whenever it shows, is a ResultError."""
+    if not path.is_file():
+        what = "is a folder, not a result file" if path.is_dir() else "does not exist"
+        raise ResultError(f"{path} {what}")
+    try:
+        file = open_for_reading(path)
+    except OSError as error:
+        if not h5py.is_hdf5(path):
+            raise ResultError(f"{path} is not a result file (not HDF5)") from None
+        raise ResultError(f"{path} cannot be read: {reason(error)}") from None
+    with file:
+        version = file.attrs.get(layout.LAYOUT_ATTRIBUTE)
+        if version is None:
+            raise ResultError(f"{path} is an HDF5 file, but not a result of lambda-bearing")
+        if version != layout.LAYOUT:
+            raise ResultError(
+                f"{path} has layout {version}; this program reads layout {layout.LAYOUT}: use the version that wrote it"
+            )
+        try:
+            yield file
+        except LambdaError:
+            raise
+        except Exception as error:  # a garbled file misleads h5py into errors of every kind
+            raise ResultError(f"{path} is damaged: {reason(error)}") from None
+
+
+def check_alone(file: h5py.File) -> None:
+    """Refuse a file that points at others: a stranger's would show what stands in mine; a run writes none."""
+
+    def elsewhere(name: str, link: Any) -> str | None:  # HDF5 passes on what is returned, not what is raised
+        item = file[name] if isinstance(link, h5py.HardLink) else None
+        away = item is None or (isinstance(item, h5py.Dataset) and (item.external or item.is_virtual))
+        return name if away else None
+
+    if name := file.visititems_links(elsewhere):
+        raise ResultError(f"{file.filename} is no result of a run: {printable(name)} stands somewhere else")
+
+
+def channels_of(file: h5py.File) -> Iterator[Channel]:
+    """Yield the channels of a file: everything in its root that grows."""
+    for name, item in file.items():
+        if layout.grows(item):
+            dims = tuple(Path(dim[0].name).name for dim in item.dims if len(dim))
+            yield Channel(name, tuple(d for d in dims if d != "time"), item.attrs["units"], item.attrs["long_name"])
+
+
+def labels_of(data: h5py.Dataset) -> tuple[int, ...] | tuple[str, ...]:
+    """Return the labels of a dimension."""
+    if h5py.check_string_dtype(data.dtype):
+        return tuple(data.asstr()[()])
+    return tuple(int(number) for number in data[()])
+
+
+def integral_table(group: h5py.Group, rows: int) -> FloatArray:
+    """Return the running integrals in the order of INTEGRALS, shape (rows, n)."""
+    return np.concatenate([group[channel.name][:rows].reshape(rows, -1) for channel in INTEGRALS], axis=1)
+
+
+def resolved_value(row: dict[str, str]) -> ResolvedValue:
+    """Return a value of the case with its origin from a row of the file's table."""
+    fields: dict[str, Any] = dict(row)
+    if fields.pop("type") == "number":
+        fields["value"] = float(fields["value"])
+    return ResolvedValue(**fields)
