@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.results.averages import Estimate, Interval, estimate, torque_by_revolution
@@ -96,3 +99,9 @@ def revolutions_wanted(solver: Solver, chosen: Window) -> int:
         share = chosen.torque.half_width / mean / TORQUE_TOLERANCE
         average = max(average, math.ceil(chosen.revolutions * share * share))
     return max(DISCARDED_AT_LEAST, math.ceil(solver.discard_revolutions)) + average
+
+
+def is_converged(solver: Solver, known: Sequence[FloatArray], last: FloatArray) -> bool:
+    """Tell whether nothing is short of what the solver's options want, from the integrals kept and the last ones."""
+    chosen = window(solver, np.stack(known), last)
+    return not shortfalls(solver, chosen, Interval(known[0], last).energy_residual())

@@ -24,7 +24,7 @@ from lambda_core.domain.kinematics import epicyclic_ratio
 from lambda_core.results import hdf5
 from lambda_core.results.averages import COLUMNS, Interval, boundaries, finite, row
 from lambda_core.results.checkpoint import Checkpoint, Position
-from lambda_core.results.convergence import Window, revolutions_wanted, shortfalls, window
+from lambda_core.results.convergence import Window, is_converged, revolutions_wanted, window
 from lambda_core.results.file_format import never, soon
 from lambda_core.results.opening import ResultError
 from lambda_core.results.provenance import Provenance
@@ -140,12 +140,7 @@ def resume(
 def _left_to_do(solver: Solver, now: float, known: list[FloatArray], last: FloatArray) -> bool:
     if solver.duration > 0.0:
         return now < solver.duration
-    return now < solver.max_duration and not _converged(solver, known, last)
-
-
-def _converged(solver: Solver, known: list[FloatArray], last: FloatArray) -> bool:
-    chosen = window(solver, np.stack(known), last)
-    return not shortfalls(solver, chosen, Interval(known[0], last).energy_residual())
+    return now < solver.max_duration and not is_converged(solver, known, last)
 
 
 class _Session:
@@ -209,7 +204,7 @@ class _Session:
 
     def judge(self) -> None:
         """Look whether the run has converged."""
-        self._converged = _converged(self._solver, self._known, self._last)
+        self._converged = is_converged(self._solver, self._known, self._last)
 
     def _loop(self, stop: StopRequest) -> tuple[State, str]:
         def pause() -> bool:  # a checkpoint between two records is as good as one behind them
@@ -253,7 +248,7 @@ class _Session:
         self._known.extend(crossed)
         if crossed or not self._window.revolutions:
             self._window = window(self._solver, np.stack(self._known), record)
-            self._converged = bool(crossed) and _converged(self._solver, self._known, record)
+            self._converged = bool(crossed) and is_converged(self._solver, self._known, record)
         # An end between two records is none of the grid's: a longer run would not have stopped here.
         self._off_grid = Rows(0, 1, len(crossed)) if self._engine.time < target else Rows()
 
