@@ -7,8 +7,10 @@ role interface is switched off as a whole and kept as a named fault; the rest wo
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import os
+import sys
 from collections.abc import Hashable, Iterable, Sequence
 from functools import lru_cache
 from types import ModuleType
@@ -102,7 +104,8 @@ def _did_you_mean(name: str, known: Iterable[str]) -> str:
 def _add(manager: pluggy.PluginManager, source: Source, collection: Collection) -> str:
     """Load one plugin and take what it registers; return why not, or nothing."""
     try:
-        plugin = source.load()
+        with contextlib.redirect_stdout(sys.stderr):  # stdout is for data
+            plugin = source.load()
     except PluginError as error:
         return str(error)
     except (Exception, SystemExit) as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
     from lambda_core.report.gallery import ViewCard
     from lambda_core.report.page import Cover
+    from lambda_core.results.reader import Result
     from lambda_core.views.chart import ViewData
     from lambda_core.views.view import Subject
 
@@ -282,6 +284,8 @@ def _refuse_existing(path: Path, overwrite: bool) -> None:
     folder = path.absolute().parent
     if not folder.is_dir():
         raise UsageError(f"cannot write {path}: the folder {folder} does not exist")
+    if not os.access(folder, os.W_OK):
+        raise UsageError(f"cannot write {path}: the folder {folder} takes no files")
 
 
 def subject_of(source: str | PathLike[str] | Sequence[str | PathLike[str]]) -> tuple[Any, Subject]:
@@ -290,14 +294,21 @@ def subject_of(source: str | PathLike[str] | Sequence[str | PathLike[str]]) -> t
     from lambda_core.results.reader import Result
 
     if isinstance(source, Result):
-        return source, "result"
+        return _begun(source), "result"
     if not isinstance(source, str | PathLike):
         if len(source) != 1:
-            return [one if isinstance(one, Result) else result(one) for one in source], "results"
+            return [_begun(one if isinstance(one, Result) else result(one)) for one in source], "results"
         source = source[0]
         if isinstance(source, Result):
-            return source, "result"
+            return _begun(source), "result"
     path = Path(source)
     if is_study(path):
         return table(path), "study"
-    return result(path), "result"
+    return _begun(result(path)), "result"
+
+
+def _begun(found: Result) -> Result:
+    """Return a result that there is something to see of; UsageError before the first sample."""
+    if not found.status().rows.samples:
+        raise UsageError(f"{found.path} holds no samples yet")
+    return found

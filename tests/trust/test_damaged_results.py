@@ -74,3 +74,13 @@ def test_c4_bytes_that_are_no_text_are_written_out(file: Path, capsys: pytest.Ca
         stream.attrs.create("title", b"bear\xfbing", dtype=h5py.string_dtype())
     assert main(["show", str(file), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["title"] == "bear\\udcfbing"
+
+
+def test_a_result_without_samples_is_named_by_views(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with h5py.File(file, "r+") as stream:
+        status = json.loads(bytes(stream[layout.STATUS][()]))
+        status["rows"]["samples"] = 0
+        stream[layout.STATUS][()] = json.dumps(status).encode()
+    for arguments in (["view", str(file), "film"], ["show", str(file)]):
+        assert main(arguments) == 2
+        assert "holds no samples yet" in capsys.readouterr().err

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import pytest
 
-from lambda_core.discovery.manager import registry
+from lambda_core.discovery.manager import discover, registry
 from lambda_core.discovery.shown import data_of
+from lambda_core.domain.installed import Source
 from lambda_core.domain.plugin_errors import PluginError, blamed
 from lambda_core.laws.jit.reach import UnreachableError, reach
 from lambda_core.views.method import Method, MethodTable, NotApplicable, evaluate_methods
@@ -73,3 +74,15 @@ def test_a4_a_kernel_that_prints_is_refused() -> None:
 
     with pytest.raises(UnreachableError, match="prints: a kernel is a function of its arguments only"):
         reach(kernel)
+
+
+def test_a4_words_at_import_do_not_go_where_data_goes(capsys: pytest.CaptureFixture[str]) -> None:
+    def load() -> ModuleType:
+        print("words at import")
+        return ModuleType("guest")
+
+    source = Source("guest", "1.0", "main", load)
+    discover([source])
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert "words at import" in said.err
