@@ -21,7 +21,7 @@ def test_killed_before_its_last_word(
     whole = loop.run(FakeEngine(), provenance(**solver), tmp_path / "whole.h5")
     path = tmp_path / "killed.h5"
 
-    def killed(session: Any, state: str, message: str, *, save: bool = True) -> None:
+    def killed(session: Any, state: str, message: str, **_: Any) -> None:
         session._save()
         session._writer._file.close()
         (tmp_path / ".killed.h5.999999999").touch()  # the copy that such a process may have begun
