@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from lambda_core.run.estimate import Estimate
     from lambda_core.run.progress import Progress
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
+    from lambda_core.run.speed_curve import stribeck, stribeck_picture
     from lambda_core.system.bearing import BearingModel, Geometry
     from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, save, schema
     from lambda_core.system.checking import check, describe, problems, resolve
@@ -67,6 +68,7 @@ _CALLS = {
     "run.simulation": "cross_check estimate iterate quasistatic resume run warmup",
     "run.duty_cycle": "duty",
     "run.answers": "cite compare result summary",
+    "run.speed_curve": "stribeck stribeck_picture",
     "thermal.temperatures": "thermal thermal_pictures warm_up",
     "electric.door": "check_discharges_file electric electric_map film_from_outside write_discharges",
     "batch.study_files": "init_study study_examples",

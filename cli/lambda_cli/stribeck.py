@@ -1,0 +1,57 @@
+"""The command stribeck: friction torque over speed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lambda_cli.options import CaseArgument, JsonOption, SetOption
+from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+
+SpeedsOption = Annotated[
+    list[str] | None,
+    typer.Option("--speed", metavar="SPEED", help='A speed, for example "10 rpm"; may be given again.'),
+]
+
+
+def stribeck(
+    case: CaseArgument,
+    changes: SetOption = None,
+    speeds: SpeedsOption = None,
+    points: Annotated[int, typer.Option("--points", min=2, max=200, help="Speeds, where none is given.")] = 16,
+    draw: Annotated[
+        Path | None,
+        typer.Option("--draw", metavar="DIR", help="Also write the picture (svg and png) into this folder."),
+    ] = None,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Friction torque of a case over speed, its parts, and SKF's catalogue model beside it.
+
+    Quasi-static and without cage; from 1 1/min to n d_m = 500 000 mm/min unless speeds are given.
+    """
+    from lambda_core import api
+
+    chosen = [_rpm(text) for text in speeds or ()]
+    with talk(progress, quiet) as speaker:
+        found = api.stribeck(case, changes or (), speeds_rpm=chosen, points=points, announce=speaker.say)
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
+    if draw is not None:
+        for path in api.draw(api.stribeck_picture(found), draw, api.view_stem([str(case)])):
+            typer.echo(str(path), err=True)
+
+
+def _rpm(text: str) -> float:
+    """Read a speed with its unit [1/min]."""
+    import math
+
+    from lambda_core.domain.errors import UsageError
+    from lambda_core.domain.units import parse
+
+    try:
+        return parse(text, "rotational_speed") * 30.0 / math.pi
+    except ValueError as error:
+        raise UsageError(f"--speed {error}") from None

@@ -1,0 +1,189 @@
+"""The Stribeck curve of a bearing: friction torque over speed with its parts, SKF's catalogue model beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.domain.channels import LOSSES
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.loading import CARRYING
+from lambda_core.results.record import INTERFACE, Record
+from lambda_core.thermal.temperatures import ready_model
+from lambda_core.views.chart import Axis, Mark, Panel, Series, ViewData
+
+if TYPE_CHECKING:
+    from lambda_core.case.case import Case
+
+_RPM = np.pi / 30.0
+# Mechanisms of losses under the names that the picture shows.
+_PARTS = {
+    "sliding": "sliding of the film",
+    "spin": "sliding of the film",
+    "boundary": "sliding on asperities",
+    "rolling": "rolling of the film",
+    "hysteresis": "hysteresis",
+    "drag": "drag",
+}
+# Positions of the balls over half a pitch and their weights: the other half mirrors it under a radial load.
+_PHASES = {0.0: 0.25, 0.25: 0.5, 0.5: 0.25}
+_LOOKS = {"sliding of the film": 1, "sliding on asperities": 2, "rolling of the film": 3, "hysteresis": 4, "drag": 5}
+SLOWEST = 1.0  # [1/min]
+FASTEST_FACTOR = 5e5  # n d_m, the usual limit of the catalogues [mm/min]
+
+
+class SpeedCurve(Record):
+    """Friction torque over speed, quasi-static, without cage."""
+
+    interface: int = INTERFACE
+    case: str
+    title: str
+    speeds_rpm: list[float]
+    torque_Nmm: list[float]
+    parts_Nmm: dict[str, list[float]] = Field(description="what the torque is made of")
+    skf_Nmm: list[float | None] = Field(description="SKF's catalogue model with drag; null where it does not apply")
+    film_parameter: list[float] = Field(description="smallest Lambda under load")
+    note: str
+
+    def text(self) -> str:
+        """Return a table for people."""
+        names = list(self.parts_Nmm)
+        head = ("1/min", "torque", *names, "SKF", "Lambda")
+        rows = [
+            (f"{n:.4g}", f"{self.torque_Nmm[i]:.1f}", *(f"{self.parts_Nmm[name][i]:.1f}" for name in names),
+             "-" if self.skf_Nmm[i] is None else f"{self.skf_Nmm[i]:.1f}", f"{self.film_parameter[i]:.2f}")
+            for i, n in enumerate(self.speeds_rpm)
+        ]  # fmt: skip
+        widths = [max(len(row[i]) for row in (head, *rows)) for i in range(len(head))]
+        lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in (head, *rows)]
+        return "\n".join([self.title, "friction torque over speed [N mm]", *lines, self.note])
+
+
+def stribeck(
+    source: str | Path | Mapping[str, Any] | Case,
+    overrides: Iterable[str] = (),
+    *,
+    speeds_rpm: Sequence[float] = (),
+    points: int = 16,
+    announce: Callable[[str], None] | None = None,
+) -> SpeedCurve:
+    """Return the Stribeck curve of a case: its friction torque over the speed of the inner ring.
+
+    Parameters
+    ----------
+    source, overrides
+        As for :func:`check`; the case's own speed counts for nothing.
+    speeds_rpm : sequence of float
+        Speeds [1/min]; from 1 1/min to n d_m = 500 000 mm/min, evenly by their logarithm, when empty.
+    points : int
+        Number of these speeds.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    SpeedCurve
+        Parts of the torque, SKF's model beside it; quasi-static, the mean over positions of the balls, without cage.
+
+    Raises
+    ------
+    UsageError
+        For speeds that are not above zero, or fewer than two of them.
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium at a speed.
+    """
+    from lambda_core.solver.drivers.compiled_laws import Kernels
+
+    given, changes = list(speeds_rpm), tuple(overrides)
+    if any(not speed > 0.0 for speed in given):
+        raise UsageError("speeds of a Stribeck curve are above zero: the axis is logarithmic")
+    if (len(given) or points) < 2:
+        raise UsageError("a Stribeck curve takes two speeds or more")
+    model = ready_model(source, _at(changes, given[0] if given else SLOWEST), announce)
+    if not given:
+        mean_diameter = 500.0 * (model.geometry.bore_diameter + model.geometry.outside_diameter)
+        given = np.geomspace(SLOWEST, FASTEST_FACTOR / mean_diameter, points).tolist()
+    kernels = Kernels(model)
+    found = [_point(ready_model(source, _at(changes, speed)), kernels) for speed in given]
+    names = dict.fromkeys(_PARTS.values())
+    return SpeedCurve(
+        case=model.name,
+        title=model.title,
+        speeds_rpm=given,
+        torque_Nmm=[sum(parts.values()) for parts, _, _ in found],
+        parts_Nmm={name: [parts[name] for parts, _, _ in found] for name in names},
+        skf_Nmm=[skf for _, skf, _ in found],
+        film_parameter=[film for _, _, film in found],
+        note="quasi-static, mean over the positions of the balls, without cage",
+    )
+
+
+def _at(changes: tuple[str, ...], speed: float) -> tuple[str, ...]:
+    return (*changes, f"operation.speed={speed!r} rpm")
+
+
+def _point(model: Any, kernels: Any) -> tuple[dict[str, float], float | None, float]:
+    """Return parts [N mm], SKF's torque [N mm] and the smallest Lambda at one speed."""
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    parts = dict.fromkeys(_PARTS.values(), 0.0)
+    film = np.inf
+    for phase, weight in _PHASES.items():
+        found = solve(model, kernels, phase=phase)
+        torque = 1e3 * found.losses / found.relative_speed
+        for name, value in zip(LOSSES, torque.tolist(), strict=True):
+            mechanism = name.split("_")[0]
+            if mechanism in _PARTS:
+                parts[_PARTS[mechanism]] += weight * value
+        film = min(film, _smallest_film(found))
+    return parts, _skf(found), film
+
+
+def _smallest_film(found: Any) -> float:
+    from lambda_core.solver.sampling import CONTACT_CHANNELS
+
+    load, film = (found.contacts[:, :, CONTACT_CHANNELS.index(name)] for name in ("load", "film_parameter"))
+    return float(film[load > CARRYING * load.max()].min())
+
+
+def _skf(found: Any) -> float | None:
+    """Return SKF's torque, None where the model is not installed or does not apply."""
+    from lambda_core.discovery.manager import registry
+    from lambda_core.run.engineering import rating_of
+
+    return rating_of(
+        found, {name: method for name, method in registry().methods.items() if name == "skf"}
+    ).skf_torque_Nmm
+
+
+def stribeck_picture(found: SpeedCurve) -> ViewData:
+    """Return the curve for :func:`draw`: torque with its parts over a logarithmic speed, SKF's points, Lambda below.
+
+    Parameters
+    ----------
+    found : SpeedCurve
+        From :func:`stribeck`.
+
+    Returns
+    -------
+    ViewData
+        Two panels.
+    """
+    speed = np.array(found.speeds_rpm)
+    parts = tuple(
+        Series(name, speed, np.array(values), "line", group=_LOOKS[name]) for name, values in found.parts_Nmm.items()
+    )
+    skf = np.array([np.nan if value is None else value for value in found.skf_Nmm])
+    total = Series("total", speed, np.array(found.torque_Nmm), "line", "total")
+    catalogue = (Series("SKF", speed, skf, "points", "reference"),) if np.isfinite(skf).any() else ()
+    axis = Axis("speed", "1/min", log=True)
+    film = Series("smallest under load", speed, np.array(found.film_parameter), "line", "inner")
+    panels = (
+        Panel("friction torque", axis, Axis("friction torque", "N mm", low=0.0), (total, *parts, *catalogue)),
+        Panel("film parameter", axis, Axis("Lambda", log=True), (film,), (Mark("full film", 3.0),)),
+    )
+    return ViewData("stribeck", "Friction torque over speed", found.title, panels, 1, (found.note,))

@@ -1,0 +1,72 @@
+"""The command stribeck: torque over speed with its parts, SKF's model beside it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lambda_cli.main import main
+
+from lambda_core import api
+
+CASE = "6319-cp10-500"
+CHANGES = (
+    "bearing.designation=6316",
+    "bearing.maker=SKF",
+    "loads.radial=13.24 kN",
+    "lubricant.name=mineral-vg68",
+    "lubricant.temperature=60 degC",
+    "lubricant.oil_level=-0.1 m",
+    "models.boundary_friction=micro-slip",
+    "models.asperity_load=spikes-olver",
+)
+
+
+def test_a_curve_falls_in_mixed_lubrication_and_rises_with_the_film() -> None:
+    found = api.stribeck(CASE, CHANGES, speeds_rpm=[1.0, 10.0, 50.0, 3000.0])
+    torque = found.torque_Nmm
+    assert torque[0] > torque[1] > torque[2] < torque[3]
+    assert np.allclose(torque, np.sum(list(found.parts_Nmm.values()), axis=0), rtol=1e-12)
+    asperities = found.parts_Nmm["sliding on asperities"]
+    assert sorted(asperities, reverse=True) == asperities
+    assert sorted(found.film_parameter) == found.film_parameter
+    # SKF, Rolling bearings (2018): mu_bl G_sl alone at 1 1/min.
+    assert found.skf_Nmm[0] == pytest.approx(727.0, rel=0.01)
+
+
+def test_speeds_reach_from_the_slowest_to_the_usual_limit() -> None:
+    found = api.stribeck(CASE, CHANGES, points=3)
+    assert found.speeds_rpm[0] == pytest.approx(1.0)
+    assert found.speeds_rpm[-1] * 125.0 == pytest.approx(5e5)  # d_m of a 6316 in mm
+
+
+def test_the_picture_has_a_logarithmic_speed() -> None:
+    picture = api.stribeck_picture(api.stribeck(CASE, CHANGES, speeds_rpm=[10.0, 1000.0]))
+    assert all(panel.x.log for panel in picture.panels)
+    names = {series.name for series in picture.panels[0].series}
+    assert {"total", "SKF", "hysteresis", "drag", "sliding on asperities"} <= names
+
+
+def test_the_command_prints_and_draws(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["stribeck", CASE, "--speed", "10 rpm", "--speed", "1000 rpm", "--quiet", "--json", "--draw", str(tmp_path)]
+    assert main(words) == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert printed["speeds_rpm"] == pytest.approx([10.0, 1000.0])
+    assert {path.suffix for path in tmp_path.iterdir()} == {".svg", ".png"}
+    assert main(["stribeck", CASE, "--points", "2", "--quiet"]) == 0
+    assert "Lambda" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--speed", "0 rpm", "--speed", "1 rpm"], "above zero"),
+        (["--speed", "5 rpm"], "two speeds or more"),
+        (["--speed", "5 furlong"], "--speed"),
+    ],
+)
+def test_mistakes_are_named(words: list[str], said: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["stribeck", CASE, *words, "--quiet"]) == 2
+    assert said in capsys.readouterr().err
