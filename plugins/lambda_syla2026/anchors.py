@@ -35,8 +35,6 @@ STRIBECK_SPEEDS = (1.0, 10.0, 50.0, 111.0, 300.0, 1000.0)  # [1/min]
 STRIBECK_BAR = 300.0  # [1/min] up to which the bar holds
 SETS = ("anchored", "blind")
 _SEED = 16
-_LAWS = ("models.", "parameters.", "surface.")
-_NOT_HERE = ("rheology", "cage_contact", "fluid_drag")
 
 
 class Spread(Record):
@@ -110,9 +108,8 @@ class _Row:
 
 
 def laws_of(parameters: str) -> tuple[str, ...]:
-    """Return laws and constants of a set, without what belongs to the 6319, its oil, its cage and its bath."""
-    chosen = P.changes(P.anchored() if parameters == "anchored" else None)
-    return tuple(c for c in chosen if c.startswith(_LAWS) and not any(name in c for name in _NOT_HERE))
+    """Return laws and constants of a set."""
+    return P.laws(P.anchored() if parameters == "anchored" else None)
 
 
 def anchors(workshop: Workshop, *, quick: bool = False) -> Anchors:

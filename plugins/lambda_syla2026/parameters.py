@@ -73,6 +73,16 @@ def _entry(
     return Entry(path, value, source, tuple(range), alternatives=tuple(alternatives), **rest)
 
 
+def laws(replaced: Mapping[str, str | None] | None = None) -> tuple[str, ...]:
+    """Return laws and constants of the set for any bearing: without the 6319, its oil, its cage and its bath."""
+    return tuple(
+        change
+        for change in changes(replaced)
+        if change.startswith(("models.", "parameters.", "surface."))
+        and not any(role in change for role in ("rheology", "cage_contact"))
+    )
+
+
 @cache
 def anchored_set() -> tuple[tuple[str, str | None, str], ...]:
     """Return path, value and source of what the anchored set has in place of the blind one; None leaves it out."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lambda_core.report.key_tables import Table
+from lambda_syla2026.anchored_table import UNUSED, AnchoredTable
 from lambda_syla2026.calibration import TAU_GRID, Calibration
 from lambda_syla2026.fig5 import Fig5
 from lambda_syla2026.fig7 import STATED, Fig7
@@ -46,6 +47,45 @@ def table4_tables(found: Table4) -> tuple[Table, ...]:
         _fits_by_law(found),
         _effects(found),
         Table("mean error over the temperature of the oil", ("degC", "%"), hot),
+        *_anchored(found.anchored),
+    )
+
+
+def _anchored(found: AnchoredTable) -> tuple[Table, ...]:
+    """The anchored set: temperatures, band and parts; what its temperatures stand on; calibrations."""
+    points = tuple(
+        (p.label, f"{heat:.1f}", f"{low:.0f} to {high:.0f}", number(difference, 2),
+         *(f"{value:.0f}" for value in parts.values()))
+        for p, heat, low, high, difference, parts in zip(
+            POINTS, found.temperatures_degC, found.low_Nmm, found.high_Nmm, found.friction_difference_pct,
+            found.parts_Nmm, strict=True)
+    )  # fmt: skip
+    residuals = tuple((r.temperatures, *(number(r.pct[name]) for name in UNUSED)) for r in found.residuals)
+    fits = tuple(
+        (c.fitted_on, _tau(c), _free(c.free_tau_e_MPa), number(c.fitted_row_pct), number(c.predicted_row_pct),
+         number(c.six_points_pct))
+        for c in found.calibrations
+    )  # fmt: skip
+    own = tuple((name, number(value)) for name, value in found.lambda_row_pct.items())
+    return (
+        Table(
+            "the anchored runs: oil temperature from the printed SKF row, 90 % band, dynamic against quasi-static, "
+            "parts [N mm]",
+            ("", "degC", "band", "friction %", *found.parts_Nmm[0]),
+            points,
+        ),
+        Table(
+            "rows that the temperatures were not taken from, over the blind torque without drag: scatter about a plane "
+            "in ln n and ln F [%]",
+            ("temperatures", *UNUSED),
+            residuals,
+        ),
+        Table(
+            "anchored, tau_e alone fitted; errors [%], quasi-static plus what the runs add",
+            ("fitted on", "tau_e MPa", "free fit MPa", "own row", "predicted row", "six points"),
+            fits,
+        ),
+        Table("mean deviation from LaMBDA's printed row, without drag as there [%]", ("set", "%"), own),
     )
 
 
