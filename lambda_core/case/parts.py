@@ -55,7 +55,9 @@ class Fits(Section):
     shaft: str | None = option(None, 'ISO 286 tolerance of the shaft ("k5") or a diametral interference ("12 um")')
     housing: str | None = option(None, 'ISO 286 tolerance of the housing ("H7") or a diametral interference ("0 um")')
     shaft_bore: Length = option("0 mm", "bore of a hollow shaft", ge=0.0)
-    housing_outside_diameter: Length | None = option(None, "outside diameter of the housing; absent: rigid", gt=0.0)
+    housing_outside_diameter: Length | None = option(
+        None, "outside diameter of the housing; absent: endless steel around it", gt=0.0
+    )
 
     @field_validator("shaft", "housing")
     @classmethod

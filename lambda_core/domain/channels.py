@@ -9,7 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 RINGS = ("inner", "outer")
-SHORTED = 0.01  # asperities that carry more than this share of the load short the contact electrically
+# Below this film parameter metal touches metal and shorts the contact: asperities carry more than 1 % of the load there
+# (Zhou and Hoeprich 1991 with the constants of the raceways of Wingertszahn et al. 2023), whatever law friction uses.
+SHORTED = 2.03
 # Dissipators; each is non-negative on its own. Per ring where the name says so.
 LOSSES = (
     "sliding_inner",  # fluid shear along the mean slip of the contact

@@ -262,9 +262,8 @@ def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64]
         return ""
     both = bool(shorted.all(axis=1).any())
     return (
-        f"{np.count_nonzero(shorted)} of {np.count_nonzero(loaded)} loaded contacts shorted: asperities carry more "
-        f"than {100.0 * SHORTED:g} % of their load"
-        + (", some balls' at both rings: the bearing is no capacitor" if both else "")
+        f"{np.count_nonzero(shorted)} of {np.count_nonzero(loaded)} loaded contacts shorted: film parameter below "
+        f"{SHORTED:g}, metal touches" + (", some balls' at both rings: the bearing is no capacitor" if both else "")
     )
 
 

@@ -169,7 +169,7 @@ def observe(times, states, bundle, evaluate, shorted, contacts, pockets, lands, 
     evaluate : pointer
         The right-hand side.
     shorted : float
-        Asperity share above which a contact counts as touching metal; below zero the stored energy alone is written.
+        Film parameter below which a contact counts as touching metal; below zero the stored energy alone is written.
     contacts : float64[:, :, :, :], shape (n, Z, 2, 16)
         CONTACT_CHANNELS, records.CONTACT_SAMPLE.
     pockets : float64[:, :, :], shape (n, Z, 3)

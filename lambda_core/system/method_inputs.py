@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import DOFS
 from lambda_core.domain.errors import SolverError
 from lambda_core.laws.context import Oil
 from lambda_core.laws.law import Law
@@ -19,11 +20,32 @@ from lambda_core.views.method import EquilibriumState, MethodInputs
 
 def carried_load(state: EquilibriumState) -> tuple[float, float]:
     """Radial and axial load [N] that the balls carry at the inner ring: the sum of their contact forces."""
+    axial, horizontal, vertical = _carried(state)
+    return math.hypot(horizontal, vertical), abs(axial)
+
+
+def _carried(state: EquilibriumState) -> tuple[float, float, float]:
+    """Return the sum of the contact forces along x, y and z [N]."""
     axial = sum(contact.load_inner * math.sin(contact.angle_inner) for contact in state.contacts)
     inward = [(contact.load_inner * math.cos(contact.angle_inner), contact.azimuth) for contact in state.contacts]
     horizontal = sum(force * math.cos(azimuth) for force, azimuth in inward)
     vertical = sum(force * math.sin(azimuth) for force, azimuth in inward)
-    return math.hypot(horizontal, vertical), abs(axial)
+    return axial, horizontal, vertical
+
+
+def bearing_load(model: BearingModel, state: EquilibriumState) -> tuple[float, float]:
+    """Radial and axial load of the bearing [N]: what is applied where the ring is free, what it carries where held.
+
+    Along a free axis without support that is force and weight, exactly; contact forces alone leave out the friction
+    and the gyroscopic moments of the balls, which hold a part of it.
+    """
+    body, carried = model.inner_ring, _carried(state)
+    load = []
+    for axis, force in enumerate(body.force):
+        dof = body.dofs[DOFS[axis]]
+        free = dof.mode == "free" and dof.stiffness == 0.0
+        load.append(initial(force) + body.mass * model.gravity[axis] if free else carried[axis])
+    return math.hypot(load[1], load[2]), abs(load[0])
 
 
 def permittivity_over_pressure(
@@ -74,14 +96,14 @@ def method_inputs(
     oil : Oil
         The model's oil with viscosity, density, alpha_p and beta filled in by the chosen rheology.
     state : EquilibriumState, optional
-        The quasi-static solution. With it the loads are those that the balls carry, weight and prescribed motion
+        The quasi-static solution. With it the loads are those of :func:`bearing_load`, weight and prescribed motion
         included; without it those applied to the inner ring at the start.
     permittivity : callable, optional
         Relative permittivity of the oil over pressure [Pa] at the bulk temperature.
     contamination : float, optional
         e_C of ISO 281.
     """
-    radial, axial = carried_load(state) if state is not None else _applied_load(model.inner_ring)
+    radial, axial = bearing_load(model, state) if state is not None else _applied_load(model.inner_ring)
     geometry = model.geometry
     known = {value.path: value.value for value in model.values if isinstance(value.value, float)}
     drag = model.laws.get("fluid_drag", {}).get("fluid_drag")

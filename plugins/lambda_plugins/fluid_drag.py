@@ -33,7 +33,7 @@ class SharedLoss(Parameters):
     drag_share: float = parameter(
         0.8,
         "share of the loss that acts as a drag force on the orbit; the rest churns against the spin",
-        source="powers of a free sphere in oil (Clift et al. 1978, Sawatzki 1970): 0.74 to 0.88 of them are drag in a "
+        source="powers of a free sphere in oil (Clift et al. 1978, Sawatzki 1970): 0.82 to 0.92 of them are drag in a "
         "6319 at 500 to 3000 1/min",
         status="assumed",
         published_range=(0.7, 0.9),

@@ -56,10 +56,12 @@ def mean_immersion(bath: OilBath) -> float:
 def kinematic_speeds(context: Context, speed: float) -> tuple[float, float]:
     """Return (orbital speed of the ball's centre [m/s], spin of the ball [rad/s]) at `speed` [rad/s].
 
-    Pure rolling with the outer ring at rest and no contact angle: cage at (1 - gamma)/2 of the inner ring's speed, ball
-    at d_m/(2 D_w) (1 - gamma^2) of it, gamma = D_w/d_m (Harris and Kotzalas 2006, eq. 10.12 and 10.14).
+    Pure rolling with the outer ring at rest and no contact angle: cage at (1 - gamma)/2 of the inner ring's speed,
+    gamma = D_w/d_m (Harris and Kotzalas 2006, eq. 10.12). The spin is that against the oil at rest, (1 - gamma)/(2
+    gamma) of the ring's speed: the ball rolls on the outer ring; against the cage it is 1 + gamma times as fast (eq.
+    10.14).
     """
     gamma = context.ball_diameter / context.pitch_diameter
     orbit = 0.5 * (1.0 - gamma) * speed
-    spin = 0.5 * speed * (1.0 - gamma * gamma) / gamma
+    spin = 0.5 * speed * (1.0 - gamma) / gamma
     return 0.5 * context.pitch_diameter * orbit, spin

@@ -94,7 +94,7 @@ class MicroSlip(Parameters):
         le=1.0,
     )
     v_rest: Annotated[float, Quantity("velocity")] = parameter(
-        "0.001 mm/s", "slip of full friction in a contact that does not roll", status="numerical", gt=0.0
+        "0.01 mm/s", "slip of full friction in a contact that does not roll", status="numerical", gt=0.0
     )
 
 

@@ -33,7 +33,7 @@ def flooded_6319() -> Context:
     )
 
 
-def torque(name: str, rpm: float, **parameters: float) -> float:
+def torque(name: str, rpm: float, **parameters: float | str) -> float:
     """Loss of all balls at kinematic speeds over the speed [N mm]."""
     context, speed = flooded_6319(), rpm * math.pi / 30.0
     v, omega = kinematic_speeds(context, speed)
@@ -46,7 +46,7 @@ def torque(name: str, rpm: float, **parameters: float) -> float:
 def test_skf_drag_of_the_6319(rpm: float, expected: float) -> None:
     """V_M 4.5e-5, K_ball = 3.1 x 295/105 x 1e-12, d_m 147.5 mm; by hand."""
     source = "SKF 2008; Syla et al. 2026, eq. 40"
-    Published(expected, source, "digits", rel=1e-3).check(torque("skf-catalogue", rpm, v_m=4.5e-5))
+    Published(expected, source, "digits", rel=1e-3).check(torque("skf-catalogue", rpm, v_m=4.5e-5, edition="2008"))
 
 
 @pytest.mark.parametrize(("rpm", "expected"), [(500.0, 512.6), (1500.0, 1066.1), (3000.0, 1692.4)])
@@ -105,18 +105,22 @@ def test_moment_of_a_spinning_sphere(Re: float, C_M: float) -> None:
 
 
 def test_share_of_drag_is_that_of_a_free_sphere() -> None:
-    """Default drag_share 0.8: ratio of both powers of a free sphere at the speeds of a 6319, 500 to 3000 1/min."""
+    """Default drag_share 0.8, a little below: powers of a free sphere at the speeds of a 6319, 500 to 3000 1/min."""
     for rpm in (500.0, 1500.0, 3000.0):
         v, omega = kinematic_speeds(flooded_6319(), rpm * math.pi / 30.0)
         force, moment = sphere(v, omega, NU)
-        Published(0.81, "Clift et al. 1978 and Sawatzki 1970", "0.74 to 0.88 over the speeds", abs=0.075).check(
+        Published(0.87, "Clift et al. 1978 and Sawatzki 1970", "0.82 to 0.92 over the speeds", abs=0.055).check(
             force * v / (force * v + moment * omega)
         )
 
 
 def test_kinematic_speeds_of_the_6319() -> None:
-    """Harris and Kotzalas 2006, eq. 10.12 and 10.14: cage 0.3983, ball 2.3566 of the inner ring's speed."""
+    """Harris and Kotzalas 2006, eq. 10.12 and 10.14: cage 0.3983, ball 2.3566 of the ring's speed against the cage.
+
+    Against the oil, which is at rest, the ball turns slower by the cage's own speed: it rolls on the outer ring.
+    """
     context = flooded_6319()
     v, omega = kinematic_speeds(context, 1.0)
     assert v / (0.5 * context.pitch_diameter) == pytest.approx(0.39831, rel=1e-4)
-    assert omega == pytest.approx(2.35664, rel=1e-4)
+    assert omega == pytest.approx(2.35664 - 0.39831, rel=1e-4)
+    assert omega * 0.5 * context.ball_diameter == pytest.approx(v, rel=1e-12)

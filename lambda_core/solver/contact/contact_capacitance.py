@@ -59,7 +59,8 @@ def contact_capacitance(raceway, kin, laws, bundle, shorted, sample):
     if status != 1 or not abs(out[0]) < np.inf:
         return report(scratch.fault, CAPACITANCE, status, ring, hertz, h, a, b)
     sample.capacitance_hertz = hertz
-    sample.capacitance = np.inf if contact.asperity_share > shorted else out[0]
+    touches = contact.film_parameter < shorted and contact.asperity_share > 0.0
+    sample.capacitance = np.inf if touches else out[0]
     return 1
 
 

@@ -40,11 +40,12 @@ def _translate(body, now, wrench, inputs, gravity, rate):
     for i in range(3):
         v = now.velocity[i]
         load = inputs.force[i].value + mass * gravity[i]
+        swing = 0.0
         if i == 1:
-            load += whirl * math.cos(now.angle)
+            swing = whirl * math.cos(now.angle)
         elif i == 2:
-            load += whirl * math.sin(now.angle)
-        force = wrench.force[i] + load - body.stiffness[i] * now.position[i] - body.damping[i] * v
+            swing = whirl * math.sin(now.angle)
+        force = swing + wrench.force[i] + load - body.stiffness[i] * now.position[i] - body.damping[i] * v
         support += body.damping[i] * v * v
         power += load * v
         if body.mode[i] == FREE:
@@ -68,6 +69,10 @@ def _turn_across(moment, w, inertia, mode, motion):
 def _rotate(body, now, wrench, inputs, rate):
     """Write the angular accelerations of a body; returns external, drive's and support power [W].
 
+    What the unbalance force U sigma^2 gives the motion of the axis it takes from the spin: the moment -U sigma (n . v),
+    n from the axis to the centre of mass. Of the rotor's own -U (t . a) that leaves out U d(t . v)/dt, a swing without
+    mean (Gasch, Nordmann and Pfuetzner, Rotordynamik, 2002, chapter 2).
+
     Support springs have the potential (k_y a_z^2 + k_z a_y^2)/2 of the tilt (phi_y, phi_z) = (-a_z, a_y); their
     dampers act across the axis (c_y, c_z) and about it (c_s).
     """
@@ -86,7 +91,8 @@ def _rotate(body, now, wrench, inputs, rate):
     support = dy * wy + dz * wz + resist * sigma
     power = lx * (wx + sigma * ax) + ly * (wy + sigma * ay) + lz * (wz + sigma * az)
     about = mx * ax + my * ay + mz * az
-    along, drive = about - resist, 0.0
+    outward = now.velocity[1] * math.cos(now.angle) + now.velocity[2] * math.sin(now.angle)
+    along, drive = about - resist - body.unbalance * sigma * outward, 0.0
     if body.mode[5] == FREE:
         rate.spin = along / ip
     else:
