@@ -28,6 +28,7 @@ NAMES = {
     "parallel": "several processes at once",
     "peer": "Exudyn's ball bearing",
     "catalogue": "search in the catalogue while one types",
+    "currents": "what the electric circuit adds to a simulated second; a risk map",
     "thermal": "an hour of warm-up; losses at printed reference speeds over the heat of ISO 15312",
 }
 

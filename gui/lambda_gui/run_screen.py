@@ -188,4 +188,8 @@ def _state(run: Run, width: int) -> Text:
     text.append(f"\n{run.message}\n{run.result.name}", style="dim")
     if last is not None and last.energy_residual is not None:
         text.append(f"   energy residual {last.energy_residual:.1e} of input", style="dim")
+    if last is not None and last.bearing_voltage_V is not None:
+        low, high = last.bearing_voltage_V
+        rate = last.films_broken_per_s or 0.0
+        text.append(f"\nbearing {low:.1f} .. {high:.1f} V   {rate:.4g} films break per second")
     return text

@@ -15,6 +15,18 @@ if TYPE_CHECKING:
 _LABEL = 16
 
 
+def _currents(summary: Summary) -> Sequence[tuple[str, str, str]]:
+    """Return bearing voltage and discharges of a run with a circuit."""
+    found = summary.currents
+    if found is None:
+        return ()
+    return (
+        ("bearing voltage", interval(found.bearing_voltage_V, 1), "V"),
+        ("discharges", f"{found.discharges_per_s:.4g}", "1/s"),
+        ("in arcs", f"{found.arc_power_mW:.3g}", "mW"),
+    )
+
+
 def summary_view(summary: Summary, colours: Mapping[str, str]) -> Text:
     """Return what a run found: friction, kinematics, films, capacitance, how far it can be trusted."""
     text = Text()
@@ -50,6 +62,7 @@ def summary_view(summary: Summary, colours: Mapping[str, str]) -> Text:
         ("Lambda", interval(summary.film_parameter, 1), ""),
         ("C of contacts", interval(summary.contact_capacitance_pF, 0), "pF"),
         ("C of bearing", number(summary.bearing_capacitance_nF, 3), "nF"),
+        *_currents(summary),
         ("energy residual", "-" if summary.energy_residual is None else f"{summary.energy_residual:.1e}", "of input"),
         ("wall time", f"{summary.wall_s:.2f}", f"s for {summary.simulated_s:.4g} s"),
     )

@@ -59,6 +59,7 @@ class Live:
         self._waiting: Contacts | None = None  # from the last sample that was marched to
         self._known: FloatArray = np.zeros((2, 0))  # times and angles of the rotor from the start, for the source
         self._rolled: FloatArray | None = None
+        self._range, self._broken = np.array([np.inf, -np.inf]), 0
 
     def keys(self) -> dict[str, str]:
         """Return names and hashes of the code that the circuit runs through."""
@@ -66,6 +67,17 @@ class Live:
 
         found = {f"electric/{law.law.role}/{law.law.name}": law.kernel.key for law in self._laws}
         return {**found, "electric": sources_key(Path(edges.__file__).parent)}
+
+    @property
+    def voltage(self) -> tuple[float, float] | None:
+        """Smallest and largest voltage of the bearing so far [V]."""
+        low, high = self._range
+        return (float(low), float(high)) if low <= high else None
+
+    @property
+    def rate(self) -> float | None:
+        """Films that broke down per second so far."""
+        return self._broken / self._network.time if self._network.time > 0.0 else None
 
     def take(self, samples: Mapping[str, FloatArray]) -> CircuitRows:
         """Take samples, channel -> array; return what the circuit has done since it was last asked.
@@ -96,6 +108,10 @@ class Live:
         march = self._network.advance(parts, source)
         events = events_of(march, part)
         self._rolled, self._waiting = parts.rolled[-1], waiting.part(slice(last, None))
+        self._broken += events.time.size
+        low, high = march.extremes.T
+        least, largest = self._range
+        self._range = np.array([np.fmin.reduce(low, initial=least), np.fmax.reduce(high, initial=largest)])
         circuit = (part.time[1:], bearing_capacitance(parts)[1:], *march.extremes.T)
         return CircuitRows(
             {channel.name: values for channel, values in zip(CIRCUIT, circuit, strict=True)},

@@ -6,6 +6,8 @@ import csv
 import re
 import time
 from collections.abc import Callable, Sequence
+from contextlib import closing
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +15,8 @@ import numpy as np
 from pydantic import Field
 
 from lambda_core.case.case_io import apply_overrides
-from lambda_core.domain.errors import LambdaError, SolverError, UsageError
+from lambda_core.discovery.manager import registry
+from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.units import parse, show
 from lambda_core.electric.circuit_run import simulate
 from lambda_core.electric.contacts import contacts_of_equilibria, equilibria
@@ -25,6 +28,7 @@ from lambda_core.views.chart import Field as Mesh
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
+    from lambda_core.system.bearing import BearingModel
 
 PHASES = 3  # equilibria per ball pitch
 MOST_POINTS = 10000
@@ -208,17 +212,15 @@ def risk_map(
     points: list[RiskPoint] = []
     started = told = time.perf_counter()
     last = None
-    first = at_point(case, speeds[0], temperatures[0])
-    kernels = Kernels(check(first), announce)
-    for speed in speeds:
-        for temperature in temperatures:
+    with closing(registry().catalogue()) as catalogue:
+        kernels = Kernels(check(at_point(case, speeds[0], temperatures[0]), catalogue=catalogue), announce)
+        for speed, temperature in product(speeds, temperatures):
+            model = check(at_point(case, speed, temperature), catalogue=catalogue)
             try:
-                found = _simulation(at_point(case, speed, temperature), kernels, announce)
+                found = _simulation(model, kernels, announce)
                 points.append(_point(speed, temperature, found.outcome, found.contacts))
                 last = found.outcome
-            except LambdaError as error:
-                if not isinstance(error, SolverError):
-                    raise
+            except SolverError as error:
                 points.append(_empty(speed, temperature, str(error)))
             now = time.perf_counter()
             if announce is not None and now - told > _TOLD_AFTER:
@@ -255,8 +257,7 @@ def at_point(case: Case, speed: float, temperature: float) -> Case:
     return apply_overrides(case, changes)
 
 
-def _simulation(case: Case, kernels: Any, announce: Any) -> Any:
-    model = check(case)
+def _simulation(model: BearingModel, kernels: Any, announce: Any) -> Any:
     bearing = of_model(model)
     contacts = contacts_of_equilibria(equilibria(model, PHASES, announce, kernels), bearing.options.duration)
     return simulate(contacts, bearing, announce=announce)

@@ -79,6 +79,27 @@ def run_figures(summary: Any) -> Table:
     return Table("averages of the run", ("", "value", "unit"), rows)
 
 
+def currents(summary: Any) -> tuple[Table, ...]:
+    """Return what the circuit of a run did; nothing where the case has none."""
+    found = summary.currents
+    if found is None:
+        return ()
+    rows = [
+        ("bearing voltage, smallest and largest", "..".join(rounded(v) for v in found.bearing_voltage_V), "V"),
+        ("capacitance", "..".join(rounded(v, 4) for v in found.bearing_capacitance_pF), "pF"),
+        ("discharges through the bearing", rounded(found.discharges_per_s), "1/s"),
+        ("discharges through one film", rounded(found.partial_discharges_per_s), "1/s"),
+    ]
+    for name, values, unit in (
+        ("voltage of discharges", found.breakdown_voltage_V, "V"),
+        ("peak current", found.peak_current_A, "A"),
+    ):
+        if values is not None:
+            rows.append((f"{name} (10, 50, 90 %)", ", ".join(rounded(v) for v in values), unit))
+    rows.append(("heat in arcs", rounded(found.arc_power_mW), "mW"))
+    return (Table("bearing currents", ("", "value", "unit"), tuple(rows)),)
+
+
 def _life(life: float | None) -> str:
     return "–" if life is None else hours(life)
 

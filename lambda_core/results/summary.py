@@ -18,6 +18,7 @@ from lambda_core.domain.loading import CARRYING, Ring, largest_contact, loaded_b
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.averages import Interval, finite
 from lambda_core.results.convergence import shortfalls, window
+from lambda_core.results.currents import Currents, currents_of
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, tolerance_warning, warnings, worst
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
@@ -88,6 +89,7 @@ class Summary(Record):
     contact_capacitance_pF: list[float] = Field(description="smallest and largest under load at the end state")
     bearing_capacitance_nF: float | None = Field(description="at the end state")
     capacitance_note: str = Field(description="which contacts asperities short, where they do", default="")
+    currents: Currents | None = Field(description="of a case with a circuit; null without one", default=None)
     rating: Rating | None = Field(description="life, safety and catalogue friction of the case at its start")
     shoulders: list[Shoulder] = Field(description="how near contacts came to the shoulders, the worst on each ring")
     warnings: list[str] = Field(description="where case or run left what bearing, oil and laws are made for")
@@ -158,6 +160,7 @@ def summarise(result: Result) -> Summary:
         contact_capacitance_pF=span(1e12 * end["capacitance"][carrying]),
         bearing_capacitance_nF=finite(1e9 * float(end["bearing_capacitance"])),
         capacitance_note=capacitance_note(end["load"], end["capacitance"]),
+        currents=currents_of(result, float(chosen.interval.first[0])),
         rating=result.rating,
         shoulders=edges,
         warnings=[

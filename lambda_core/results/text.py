@@ -12,6 +12,7 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
 
 if TYPE_CHECKING:
+    from lambda_core.results.currents import Currents
     from lambda_core.results.limits import Shoulder
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.results.rating import Rating
@@ -60,6 +61,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
             f"bearing {number(summary.bearing_capacitance_nF, 3)} nF",
         ),
         *([line("", summary.capacitance_note)] if summary.capacitance_note else []),
+        *_currents(summary.currents),
         line("shoulders", *(_margin(edge, units) for edge in summary.shoulders)),
         line("energy residual", f"{_small(summary.energy_residual)} of input"),
         line("wall time", *_wall(summary)),
@@ -68,6 +70,21 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *(line("not converged" if index == 0 else "", reason) for index, reason in enumerate(summary.reasons)),
     ]
     return "\n".join(wrapped(lines, width))
+
+
+def _currents(found: Currents | None) -> list[str]:
+    """Return what the circuit did, where there is one."""
+    if found is None:
+        return []
+    low, high = found.bearing_voltage_V
+    volts, amperes = found.breakdown_voltage_V, found.peak_current_A
+    lines = [
+        line("bearing voltage", f"{low:.1f} .. {high:.1f} V", f"{found.discharges_per_s:.4g} discharges per second")
+    ]
+    if volts and amperes:
+        arcs = f"{found.arc_power_mW:.3g} mW in arcs"
+        lines.append(line("  discharges", f"at {volts[1]:.3g} V", f"{amperes[1]:.3g} A", arcs))
+    return lines
 
 
 def rating_lines(rating: Rating | None, units: UnitSystem = SI) -> list[str]:

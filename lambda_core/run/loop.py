@@ -344,6 +344,8 @@ class _Session:
             inner_loads_N=self._loads,
             wall_s=status.wall,
             left_s=finite(max(left, 0.0)),
+            bearing_voltage_V=self._live.voltage if self._live is not None else None,
+            films_broken_per_s=self._live.rate if self._live is not None else None,
         )
 
     def _expected(self, turns: float) -> tuple[float, float]:

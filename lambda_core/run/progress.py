@@ -32,6 +32,8 @@ class Progress(BaseModel):
     inner_loads_N: tuple[float, ...]  # of each ball on the inner ring at the last sample
     wall_s: float
     left_s: float | None
+    bearing_voltage_V: tuple[float, float] | None = None  # smallest and largest so far, of a case with a circuit
+    films_broken_per_s: float | None = None  # so far
 
     def __str__(self) -> str:
         """Say where the run stands in one line; the fields say more."""

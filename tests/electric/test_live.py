@@ -85,3 +85,20 @@ def test_motion_is_not_touched(run: Result, tmp_path: Path) -> None:
     for name in ("load", "film_central", "body_position"):
         values = plain[name]
         assert values.tobytes() == run[name][: len(values)].tobytes(), name
+
+
+def test_summary_counts_what_was_written(run: Result) -> None:
+    """The same discharges and voltages as the command electric finds."""
+    found, outcome = run.summary(), api.electric(run.path).outcome
+    assert found.currents is not None
+    assert found.currents.discharges_per_s == pytest.approx(outcome.discharges_per_s, rel=1e-12)
+    assert found.currents.bearing_voltage_V == pytest.approx(outcome.bearing_voltage_V, rel=1e-12)
+    assert found.currents.breakdown_voltage_V == pytest.approx(outcome.breakdown_voltage_V, rel=1e-12)
+    assert found.currents.peak_current_A == pytest.approx(outcome.peak_current_A, rel=1e-12)
+    assert "discharges per second" in found.text()
+
+
+def test_report_has_a_section(run: Result, tmp_path: Path) -> None:
+    page = api.report(run.path, tmp_path / "r.html").read_text()
+    assert "bearing currents" in page
+    assert "discharges through the bearing" in page

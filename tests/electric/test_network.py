@@ -10,10 +10,12 @@ import numpy as np
 import pytest
 from electric.networks import ROUGH, SMOOTH, residuals, steady, strength, switching, turning
 
-from lambda_core.case.electric import Sine
+from lambda_core import api
+from lambda_core.case.electric import Electric, Sine
 from lambda_core.domain.errors import SolverError
 from lambda_core.electric import columns as L
-from lambda_core.electric.circuit import impedance, voltage_ratio
+from lambda_core.electric.circuit import bearing_capacitance, circuit_of, impedance, voltage_ratio
+from lambda_core.electric.contacts import ball_capacitance, contacts_of_equilibria, equilibria, films
 from lambda_core.electric.march import Circuit, Network, march
 from lambda_core.electric.sources import corners
 
@@ -229,3 +231,28 @@ def test_cage_balances_with_arcs() -> None:
     found = march(films, circuit, ROUGH, source, seed=5)
     assert found.events.shape[0] > 20
     assert max(map(abs, residuals(found, circuit, source))) < 1e-6
+
+
+def test_balls_that_insulate() -> None:
+    """A circle of contact spreads its flux with 4 eps_0 eps_r a; a ball of endless permittivity conducts."""
+    contacts = contacts_of_equilibria(equilibria(api.check("6208-axial-1300"), 1), 1e-3)
+    wide = np.maximum(contacts.semi_a, contacts.semi_b)
+    circles = dataclasses.replace(contacts, semi_a=wide, semi_b=wide)
+    found = ball_capacitance(circles, 8.0)
+    np.testing.assert_allclose(found, 4.0 * 8.8541878128e-12 * 8.0 * wide, rtol=1e-12)
+    steel = films(contacts, Electric())
+    endless = films(contacts, Electric(film={"ball_permittivity": 1e12}))
+    ceramic = films(contacts, Electric(film={"ball_permittivity": 8.0}))
+    np.testing.assert_allclose(endless.capacitance, steel.capacitance, rtol=1e-6)
+    assert ceramic.film.max() == ceramic.conductance.max() == 0.0
+    through = ball_capacitance(contacts, 8.0)
+    expected = 1.0 / (1.0 / steel.capacitance + 1.0 / through)
+    np.testing.assert_allclose(ceramic.capacitance, expected, rtol=1e-12)
+    assert bearing_capacitance(ceramic)[0] < 0.02 * bearing_capacitance(steel)[0]
+
+
+def test_seals_stand_beside_the_rings() -> None:
+    geometry = {"shoulder_diameter_inner": 0.05, "shoulder_diameter_outer": 0.07, "width": 0.018}
+    bare = circuit_of(Electric(), geometry).rings
+    assert bare == pytest.approx(2.0 * math.pi * 8.8541878128e-12 * 0.018 / math.log(1.4), rel=1e-12)
+    assert circuit_of(Electric(film={"seals": "6 pF"}), geometry).rings == pytest.approx(bare + 6e-12, rel=1e-12)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from lambda_core import api
 from lambda_core.case.electric import Electric
 from lambda_core.electric.breakdown import breakdown_voltage
+from lambda_core.electric.circuit_run import simulate
 from lambda_core.electric.contacts import contacts_of_equilibria, equilibria, films
+from lambda_core.electric.electrified import of_model
 
 RADIAL = ["loads.axial=0 N"]
 
@@ -37,20 +41,50 @@ def test_regression_6208(changes: list[str], capacitance: float, share: float) -
     assert series[unloaded].sum() / series.sum() == pytest.approx(share, abs=2e-3)
 
 
-def test_first_breakdown_order_of_size() -> None:
-    """First breakdown voltages of a run-in deep groove ball bearing: 1.5 to 6 V peak at 2000 and 7000 1/min.
+# Peak voltages of the first breakdown, F_r/F_a 1800/900, 1800/300, 600/900 N, two bearings each [V].
+PUBLISHED = {7000: (5.0, 6.0, 2.5, 3.0, 2.0, 2.5), 2000: (3.0, 4.5, 3.0, 3.5, 1.5, 2.0)}
 
-    Lubricants 2024, 12(1), 1, table A1, second-hand: the type of the bearing and its oil are not known here. This is a
-    6208 with the built-in case's oil, so only the order of size can be looked at. Median of the law for one ball under
-    the largest load, two films in series, with a film of 0.5 um as the loads and speeds suggest: within a factor 1.5
-    of the median of the published voltages, 3 V, only because the film was chosen; with the films of the 6208 itself
-    (0.9 um and more) the law gives far more. It is recorded, not claimed as agreement.
+
+def first_breakdown(speed: int) -> float:
+    """Return the median over seeds of the first breakdown of a 6205 under 1800/900 N on a slow ramp [V]."""
+    case = api.case("6208-axial-1300").with_(
+        bearing={"designation": "6205", "maker": "SKF", "geometry": None, "clearance": None},
+        loads={"radial": "1800 N", "axial": "900 N"},
+        operation={"speed": f"{speed} rpm"},
+        electric={
+            "step": {"amplitude": "60 V", "rise_time": "20 ms"},
+            "machine": {"winding_rotor": "1000 nF", "other_bearings": "0 pF"},
+        },
+    )
+    model = api.check(case)
+    contacts, bearing = contacts_of_equilibria(equilibria(model, 1), 0.02), of_model(model)
+    found = []
+    for seed in range(15):
+        options = bearing.options.model_copy(update={"seed": seed})
+        events = simulate(contacts, dataclasses.replace(bearing, options=options)).events
+        found.append(abs(float(events.bearing_voltage[0])))
+    return float(np.median(found))
+
+
+def test_first_breakdown() -> None:
+    """First breakdown voltages of run-in deep groove ball bearings: not met, and by how much.
+
+    Lubricants 2024, 12(1), 1, table A1, second-hand: type, oil and temperature could not be read. The Hertzian areas
+    printed there (5.0 to 5.7 mm2) are near those of a 6205 (4.6 to 6.5 mm2 here, both raceways), so this is a 6205
+    with the oil of the built-in case at 40 degC and every default of the law; nothing is fitted. The law gives 1.3 V at
+    2000 1/min (published median 3.0 V) and 21 V at 7000 1/min (2.75 V): the published voltages hardly depend on speed,
+    the computed film of 0.43 and 0.79 um at one temperature does. A median within a factor 1.5 is not reached.
     """
-    published = np.array([5.0, 6.0, 3.0, 4.5, 2.5, 3.0, 3.0, 3.5, 2.0, 2.5, 1.5, 2.0])
+    slow, fast = first_breakdown(2000), first_breakdown(7000)
+    assert slow == pytest.approx(1.3, rel=0.25)
+    assert fast == pytest.approx(21.2, rel=0.1)
+    assert slow < min(PUBLISHED[2000])
+    assert fast > max(PUBLISHED[7000])
+    assert np.median(PUBLISHED[2000]) / slow == pytest.approx(2.3, rel=0.25)
+    assert fast / np.median(PUBLISHED[7000]) == pytest.approx(7.7, rel=0.15)
+
+
+def test_film_that_the_published_voltages_stand_for() -> None:
+    """Turned round: the mean film whose lowest spot stands 3 V is 0.5 um, between those computed at the two speeds."""
     one = float(breakdown_voltage(0.5, 0.5e-6, 0.1e-6, 30e6, 5.5e-6 / 2 / 1e-10))
-    assert one / np.median(published) == pytest.approx(1.0, abs=0.5)
-    found = equilibria(api.check("6208-axial-1300"), 1)
-    own = contacts_of_equilibria(found, 0.01)
-    assert own.film.min() > 0.6e-6
-    thick = float(breakdown_voltage(0.5, float(own.film.min()), own.roughness, 30e6, 2.7e4))
-    assert thick / np.median(published) > 1.5
+    assert one == pytest.approx(2.9, rel=0.05)

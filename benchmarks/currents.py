@@ -1,0 +1,53 @@
+"""Bearing currents: what the circuit adds to a simulated second, a risk map, and how well its books balance."""
+
+from __future__ import annotations
+
+from benchmarks.tables import Section, Table, Target
+from benchmarks.timing import Effort, best, now
+from lambda_core import api
+from lambda_core.electric.circuit_run import simulate
+from lambda_core.electric.contacts import contacts_of_equilibria, equilibria
+from lambda_core.electric.electrified import of_model
+
+CASE = "6208-axial-1300"  # 2750 1/min
+RADIAL = ("loads.axial=0 N", "loads.radial=2 kN")
+# 10 kHz inverter with 800 V, as by default: many discharges; with 400 V: none.
+LINKS = (("800 V", "with discharges"), ("400 V", "without"))
+
+
+def one_second(link: str, repeats: int) -> tuple[float, float, float, float]:
+    """Return wall time of a simulated second [s], discharges in it, residuals of energy and charge."""
+    model = api.check(CASE, [*RADIAL, "electric.duration=1 s", f"electric.inverter.dc_link={link}"])
+    contacts, bearing = contacts_of_equilibria(equilibria(model), 1.0), of_model(model)
+    found = simulate(contacts, bearing)  # what a process loads once is not the circuit's
+    seconds = best(lambda: simulate(contacts, bearing), repeats)
+    outcome = found.outcome
+    return seconds, outcome.discharges, abs(outcome.energy_residual), abs(outcome.charge_residual)
+
+
+def map_seconds(points: str) -> float:
+    """Return wall time of a map over speed and temperature on one core [s]."""
+    started = now()
+    api.electric_map(CASE, RADIAL, points=points)
+    return now() - started
+
+
+def measure(effort: Effort) -> Section:
+    """Time a second of a 6208 on a 10 kHz inverter, and a map of 200 points."""
+    rows = [(f"dc link {link}, {words}", *one_second(link, effort.repeats)) for link, words in LINKS]
+    table = Table(
+        "One simulated second of a 6208 at 2750 1/min, 2 kN radial, on a 10 kHz inverter",
+        ("circuit", "s", "discharges", "energy residual", "charge residual"),
+        tuple(rows),
+        ("Quasi-static films at twelve positions of the balls; the time is that of the circuit alone.",),
+    )
+    points = "5x4" if effort.quick else "20x10"
+    seconds = map_seconds(points)
+    chart = Table("Risk map", ("points", "s"), ((points, seconds),), ("One process; each point resolves its case.",))
+    targets = [
+        Target("circuit per simulated second", "s", max(row[1] for row in rows), 0.3),
+        Target("energy residual with arcs", "", rows[0][3], 1e-6),
+        Target("energy residual without arcs", "", rows[1][3], 1e-9),
+        Target("map of 200 points", "s", seconds * (10.0 if effort.quick else 1.0), 60.0),
+    ]
+    return Section("currents", (table, chart), tuple(targets))

@@ -1,0 +1,61 @@
+"""Bearing currents of a run in its summary: from what the run wrote of its circuit."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.results.record import Record
+
+if TYPE_CHECKING:
+    from lambda_core.results.reader import Result
+
+
+class Currents(Record):
+    """Voltages and discharges from where averages begin; spans are 10, 50 and 90 %."""
+
+    seconds: float = Field(description="that are counted [s]")
+    bearing_voltage_V: list[float] = Field(description="smallest and largest, inner less outer ring")
+    bearing_capacitance_pF: list[float] = Field(description="smallest and largest")
+    discharges_per_s: float = Field(description="through both films of a ball: the rotor's charge flows")
+    partial_discharges_per_s: float = Field(description="through one film of a ball: only the ball's charge flows")
+    breakdown_voltage_V: list[float] | None = Field(description="of the bearing at discharges")
+    peak_current_A: list[float] | None = Field(description="of discharges")
+    arc_power_mW: float = Field(description="heat of all arcs over the time")
+
+
+def currents_of(result: Result, start: float) -> Currents | None:
+    """Return what a run wrote of its circuit from a time on [s]; None where it has none, or nothing yet."""
+    circuit, events = result.circuit(), result.discharges()
+    later = circuit["time"][circuit["time"] >= start] if circuit else np.zeros(0)
+    if later.size < 2:
+        return None
+    begin = float(later[0]) if start > 0.0 else 0.0  # a sample; the first one of a run is not in the table
+    inside = circuit["time"] > begin
+    seconds = float(later[-1] - begin)
+    counted = {name: values[events["time"] >= begin] for name, values in events.items()}
+    numbers, each = np.unique(counted["discharge"], return_inverse=True)
+    through = np.bincount(each, minlength=numbers.size) > 1
+    voltage, peak = np.zeros(numbers.size), np.zeros(numbers.size)
+    np.maximum.at(voltage, each, np.abs(counted["bearing_voltage"]))
+    np.maximum.at(peak, each, counted["peak"])
+    least, largest, farad = (
+        circuit[name][inside] for name in ("bearing_voltage_least", "bearing_voltage_largest", "bearing_capacitance")
+    )
+    return Currents(
+        seconds=seconds,
+        bearing_voltage_V=[float(np.nanmin(least)), float(np.nanmax(largest))],
+        bearing_capacitance_pF=[1e12 * float(farad.min()), 1e12 * float(farad.max())],
+        discharges_per_s=float(through.sum()) / seconds,
+        partial_discharges_per_s=float((~through).sum()) / seconds,
+        breakdown_voltage_V=_spread(voltage[through]),
+        peak_current_A=_spread(peak[through]),
+        arc_power_mW=1e3 * float(counted["energy"].sum()) / seconds,
+    )
+
+
+def _spread(values: FloatArray) -> list[float] | None:
+    return [float(value) for value in np.quantile(values, (0.1, 0.5, 0.9))] if values.size else None
