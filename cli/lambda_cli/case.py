@@ -31,6 +31,15 @@ def init(
             "--bearing", metavar="DESIGNATION", help='Start from a bearing of the catalogue: "SKF 6208-2RS1/C3".'
         ),
     ] = None,
+    machine: Annotated[
+        str | None,
+        typer.Option(
+            "--machine",
+            metavar="MACHINE",
+            help="Start from what is usual in an electric-motor, gearbox-shaft, spindle, pump or wheel; with --bearing "
+            "for a bearing of yours.",
+        ),
+    ] = None,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE", help="File to write; default: NAME.toml.")
     ] = None,
@@ -39,7 +48,7 @@ def init(
     """Write a commented case file to start from."""
     from lambda_core import api
 
-    target = api.init_case(name, start, out, overwrite=force, bearing=bearing)
+    target = api.init_case(name, start, out, overwrite=force, bearing=bearing, machine=machine)
     typer.echo(f"wrote {target}; next: lambda-bearing check {target}", err=True)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.errors import UsageError
+from lambda_core.domain.errors import UsageError, unknown_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -82,6 +82,7 @@ def init_case(
     overwrite: bool = False,
     *,
     bearing: str | None = None,
+    machine: str | None = None,
 ) -> Path:
     """Write a commented case called `name` that starts from another, or from a bearing of the catalogue.
 
@@ -97,6 +98,9 @@ def init_case(
         Replace a file that stands there.
     bearing : str, optional
         Instead of `start`: a bearing of the catalogue, "6319", "SKF 6208" or "SKF 6208-2RS1/C3".
+    machine : str, optional
+        Instead of `start`: a machine with what is usual there, ``electric-motor``, ``gearbox-shaft``, ``spindle``,
+        ``pump`` or ``wheel``; with its own bearing where none is given.
 
     Returns
     -------
@@ -118,16 +122,21 @@ def init_case(
     from lambda_core.case.case_writer import new_case, write_new
 
     target = Path(path) if path is not None else Path(f"{name}.toml")
-    if bearing is None:
+    if bearing is None and machine is None:
         return new_case(name, start or "6319-cp10-1500", target, overwrite)
     if start is not None:
-        raise UsageError("a new case starts from a case or from a bearing, not from both")
+        other = "a bearing" if machine is None else "a machine"
+        raise UsageError(f"a new case starts from a case or from {other}, not from both")
     from lambda_core.case.case_io import parse_case
     from lambda_core.catalogue.designation import designated
     from lambda_core.system.fresh_case import fresh_case
+    from lambda_core.system.machine_templates import GENERAL, MACHINES
 
+    if machine is not None and machine not in MACHINES:
+        raise UsageError(unknown_name("machine", machine, MACHINES))
+    kind = GENERAL if machine is None else MACHINES[machine]
     with closing(catalogue()) as opened:
-        text = fresh_case(name, *designated(opened, bearing))
+        text = fresh_case(name, *designated(opened, bearing or kind.bearing), kind)
     return write_new(parse_case(text, f"case {name}"), text, target, overwrite)
 
 

@@ -13,9 +13,12 @@ from typing import Any
 import pytest
 from lambda_cli import commands, main
 
+from lambda_core import api
 from lambda_core.case.builtin import builtin_cases
 from lambda_core.case.case_io import load_case
 from lambda_core.domain.errors import PartialResultError, SolverError
+from lambda_core.system.machine_templates import MACHINES
+from lambda_core.system.operating_limits import operating_warnings
 
 HEAVY = ("numba", "h5py", "sqlalchemy", "matplotlib", "scipy", "textual", "xarray")
 Call = Callable[..., tuple[int, str, str]]
@@ -79,7 +82,7 @@ def test_help_is_broken_into_lines_by_the_terminal_and_loses_no_word() -> None:
 
 def test_a_case_and_a_study_are_told_apart(call: Call, tmp_path: Path) -> None:
     root = Path(__file__).parents[2]
-    study = root / "examples" / "studies" / "friction-map.toml"
+    study = root / "lambda_core" / "batch" / "examples" / "friction-map.toml"
     code, _, err = call("check", str(study))
     assert code == 3
     assert err.splitlines()[1:] == ["  is a study, not a case: lambda-bearing study run friction-map.toml"]
@@ -167,6 +170,8 @@ def test_set_changes_the_case(call: Call) -> None:
         (("init", "x", "--bearing", "6208"), 3, "several makers, choose one: NSK, SKF"),
         (("init", "x", "--bearing", "XX 6208"), 3, '"XX" is not a maker of 6208'),
         (("init", "x", "--bearing", "SKF 6208", "--from", "6319-cp10-1500"), 2, "not from both"),
+        (("init", "x", "--machine", "pump", "--from", "6319-cp10-1500"), 2, "from a machine, not from both"),
+        (("init", "x", "--machine", "pmp"), 2, '"pmp" is not a known machine; nearest: pump'),
         (("check", "6319-cp10-1500", "--set", "bearing.designation=6391"), 3, 'bearing.designation    "6391" is not'),
         (("check", "6319-cp10-1500", "--set", "bearing.maker=XX"), 3, 'bearing.maker          "XX" is not a maker'),
     ],
@@ -195,6 +200,22 @@ def test_init_writes_a_commented_case_that_checks(call: Call, tmp_path: Path, mo
     assert (code, "exists" in err) == (2, True)
     assert call("init", "drive-end", "--force")[0] == 0
     assert call("init", "other", "--out", "sub/x.toml")[0] == 2
+
+
+@pytest.mark.parametrize("machine", sorted(MACHINES))
+def test_init_starts_from_a_machine(call: Call, machine: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every start is a case without an error or a warning, with a bearing of its own or of ours."""
+    monkeypatch.chdir(tmp_path)
+    assert call("init", "one", "--machine", machine)[0] == 0
+    model = api.check("one.toml")
+    assert operating_warnings(model) == []
+    assert model.geometry.clearance > 0.0
+    assert call("init", "two", "--machine", machine, "--bearing", "SKF 6206-2Z/C4")[0] == 0
+    text = Path("two.toml").read_text()
+    assert 'designation = "6206-2Z/C4"' in text
+    assert '# clearance = "C4"' in text
+    assert "of C = " in text
+    api.check("two.toml")
 
 
 @pytest.mark.parametrize("bearing", ["SKF 6208", "6208 skf"])

@@ -273,7 +273,7 @@ def test_a_map_of_500_points_within_30_seconds_on_two_cores(tmp_path: Path) -> N
 
     On a machine with more to do than it has cores, the processor time of all processes stands for the wall time.
     """
-    path = Path(__file__).parents[2] / "examples" / "studies" / "friction-map.toml"
+    path = Path(__file__).parents[2] / "lambda_core" / "batch" / "examples" / "friction-map.toml"
     api.study_check(path)  # compiled beforehand, as by `lambda-bearing warmup`
     begin, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
     command = [sys.executable, "-m", "lambda_cli", "study", "run", str(path), "--quiet", "--workers", "2"]

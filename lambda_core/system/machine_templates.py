@@ -1,0 +1,100 @@
+"""Machines that a new case can start from: what is usual there for oil, load, speed, clearance and seats.
+
+These are starting points to be changed, with their reasons as comments in the file. Seats and clearance follow the
+tables of SKF, Rolling bearings, PUB BU/P1 17000 EN (2018): seat tolerances for standard conditions, clearance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+_TILT = """\
+[bodies.inner_ring]
+tilt_y = "locked"         # a shaft on two bearings hardly tilts; "free" where nothing else holds it,
+tilt_z = "locked"         # or { stiffness = "20 N m/mrad" } of the shaft
+"""
+_SEATS = """
+[bearing.fits]            # take clearance away; leave the section out where the mounted clearance is known
+shaft = "{shaft}"
+housing = "{housing}"
+
+[bearing.temperatures]    # the shaft's side is the warmer one
+inner_ring = "{inner} degC"
+outer_ring = "{outer} degC"
+"""
+_HUB = """
+[bodies.outer_ring]
+spin = { mode = "prescribed", motion = "800 rpm" }  # the hub turns, the axle stands still
+"""
+
+
+@dataclass(frozen=True)
+class Machine:
+    """One kind of machine.
+
+    Attributes
+    ----------
+    words : str
+        What it is, for people; "" for any.
+    bearing : str
+        Where no other bearing is asked for.
+    oil, temperature : str
+        Lubricant of the catalogue and its temperature [degC]; of a grease the base oil.
+    load : float
+        Radial load over the dynamic rating C.
+    thrust : float
+        Axial over radial load.
+    speed : float
+        Of the inner ring [rpm]; at most half the limiting speed of the bearing is written.
+    clearance : str
+        Class where the designation has none.
+    tail : str
+        Sections behind the operation.
+    """
+
+    words: str
+    bearing: str
+    oil: str
+    temperature: int
+    load: float
+    thrust: float
+    speed: float
+    clearance: str
+    tail: str
+    about: tuple[str, str, str] = ("", "", "")  # comments on oil, load and speed
+
+
+GENERAL = Machine(
+    "", "SKF 6208", "FVA3A", 60, 0.1, 0.0, 1500.0, "CN", _TILT,
+    (
+        "lambda-bearing db search --lubricants", "acts downwards on the inner ring",
+        "inner ring; the outer ring stands still",
+    ),
+)  # fmt: skip
+MACHINES: dict[str, Machine] = {
+    "electric-motor": Machine(
+        "drive end of an electric motor, grease", "SKF 6308", "mineral-vg100", 70, 0.05, 0.1, 3000.0, "C3",
+        _TILT + _SEATS.format(shaft="k5", housing="H7", inner=75, outer=65),
+        ("base oil of the grease", "rotor and belt or coupling", "two poles at 50 Hz"),
+    ),
+    "gearbox-shaft": Machine(
+        "shaft of a gearbox, oil bath", "SKF 6208", "mineral-vg220", 80, 0.1, 0.25, 1500.0, "C3",
+        _TILT + _SEATS.format(shaft="k5", housing="H7", inner=85, outer=78),
+        ("gear oil", "from the teeth", "input shaft"),
+    ),
+    "spindle": Machine(
+        "spindle, light and fast, oil mist", "SKF 6008", "mineral-vg32", 45, 0.02, 0.5, 9000.0, "C2",
+        _TILT,
+        ("thin: speed makes the film", "cutting force", "finishing"),
+    ),
+    "pump": Machine(
+        "centrifugal pump, oil sump", "SKF 6306", "mineral-vg46", 65, 0.06, 0.4, 2950.0, "C3",
+        _TILT + _SEATS.format(shaft="k5", housing="H7", inner=70, outer=62),
+        ("circulating oil", "from the impeller", "two poles at 50 Hz, with slip"),
+    ),
+    "wheel": Machine(
+        "wheel or roller on a standing axle, grease", "SKF 6206", "mineral-vg150", 40, 0.12, 0.1, 0.0, "CN",
+        _TILT + _HUB,
+        ("base oil of the grease", "share of the vehicle's weight", "the axle stands still; see the outer ring"),
+    ),
+}  # fmt: skip
