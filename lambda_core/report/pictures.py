@@ -285,7 +285,7 @@ def _refuse_existing(path: Path, overwrite: bool) -> None:
     if not folder.is_dir():
         raise UsageError(f"cannot write {path}: the folder {folder} does not exist")
     if not os.access(folder, os.W_OK):
-        raise UsageError(f"cannot write {path}: the folder {folder} takes no files")
+        raise UsageError(f"cannot write {path}: the folder {folder} is not writable")
 
 
 def subject_of(source: str | PathLike[str] | Sequence[str | PathLike[str]]) -> tuple[Any, Subject]:
