@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import ctypes
 import glob
 import os
 import re
@@ -14,6 +16,7 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.results import file_format as layout
 from lambda_core.results.run_status import Rows, exists
 
+_LOOKS = 24  # pauses of 1 ns and twice as long each time: 17 ms in all, a writer takes less
 METADATA = 1 << 20  # more than HDF5 needs for indexes and headers at a time [byte]
 
 
@@ -22,7 +25,23 @@ def open_for_reading(path: Path) -> h5py.File:
     try:
         return h5py.File(path, "r")
     except OSError:
-        return h5py.File(path, "r", swmr=True)
+        access = h5py.h5p.create(h5py.h5p.FILE_ACCESS)
+        access.set_libver_bounds(h5py.h5f.LIBVER_EARLIEST, h5py.h5f.LIBVER_LATEST)
+        _look_again(access, _LOOKS)
+        flags = h5py.h5f.ACC_RDONLY | h5py.h5f.ACC_SWMR_READ
+        return h5py.File(h5py.h5f.open(os.fsencode(path), flags, fapl=access))
+
+
+def _look_again(access: h5py.h5p.PropFAID, times: int) -> None:
+    """Limit how often HDF5 reads what another process may just be writing.
+
+    Its own hundred times, with a pause that doubles, take longer than anybody lives when the place is damaged. h5py
+    has no call for it, so the library behind h5py is asked; where it cannot be, as on Windows, the hundred stay.
+    """
+    with contextlib.suppress(OSError, AttributeError):
+        ask = ctypes.CDLL(h5py.h5p.__file__).H5Pset_metadata_read_attempts
+        ask.argtypes = [ctypes.c_int64, ctypes.c_uint]
+        ask(access.id, times)
 
 
 def reserve(file: h5py.File, growth: int) -> None:
@@ -92,10 +111,13 @@ def copy(path: Path, rows: Rows, *, compress: bool, stop: layout.Stop = layout.n
 
 def reason(error: Exception) -> str:
     """Return the system's words for what went wrong ("No space left on device")."""
+    while isinstance(error, SystemError) and isinstance(error.__cause__, Exception):
+        error = error.__cause__  # what h5py meant to raise
     code = error.errno if isinstance(error, OSError) else None
     found = re.search(r"errno = (\d+)", str(error))
     if found:
         code = int(found[1])
     if code:
         return os.strerror(code)
-    return str(error).splitlines()[0] if str(error) else type(error).__name__
+    text = str(error.args[0] if isinstance(error, KeyError) and error.args else error)  # whose str has quotes
+    return text.splitlines()[0] if text else type(error).__name__

@@ -37,14 +37,15 @@ def opened(path: Path) -> Iterator[h5py.File]:
             raise ResultError(f"{path} is not a result file (not HDF5)") from None
         raise ResultError(f"{path} cannot be read: {reason(error)}") from None
     with file:
-        version = file.attrs.get(layout.LAYOUT_ATTRIBUTE)
-        if version is None:
-            raise ResultError(f"{path} is an HDF5 file, but not a result of lambda-bearing")
-        if version != layout.LAYOUT:
-            raise ResultError(
-                f"{path} has layout {version}; this program reads layout {layout.LAYOUT}: use the version that wrote it"
-            )
         try:
+            version = file.attrs.get(layout.LAYOUT_ATTRIBUTE)
+            if version is None:
+                raise ResultError(f"{path} is an HDF5 file, but not a result of lambda-bearing")
+            if version != layout.LAYOUT:
+                raise ResultError(
+                    f"{path} has layout {version}; this program reads layout {layout.LAYOUT}: "
+                    "use the version that wrote it"
+                )
             yield file
         except LambdaError:
             raise

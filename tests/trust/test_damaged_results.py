@@ -84,3 +84,24 @@ def test_a_result_without_samples_is_named_by_views(file: Path, capsys: pytest.C
     for arguments in (["view", str(file), "film"], ["show", str(file)]):
         assert main(arguments) == 2
         assert "holds no samples yet" in capsys.readouterr().err
+
+
+def test_a_damaged_place_of_an_open_file_is_not_read_for_ever(
+    file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A killed run leaves a file that is read as one being written: HDF5 would try again, for longer each time."""
+    killed = tmp_path / "killed.h5"
+    with h5py.File(file, "r") as source, h5py.File(killed, "w", libver="latest") as target:
+        for name in source:
+            source.copy(name, target)
+        target.attrs.update(source.attrs)
+    stream = h5py.File(killed, "r+", libver="latest")
+    stream.swmr_mode = True
+    data = bytearray(killed.read_bytes())  # as it stands while it is open
+    stream.close()
+    headers = [place for place in range(len(data)) if data.startswith(b"OHDR", place)]
+    for place in headers:
+        data[place + 12] ^= 0xFF
+    killed.write_bytes(data)
+    assert main(["show", str(killed)]) == 2
+    assert "is damaged" in capsys.readouterr().err
