@@ -24,7 +24,7 @@ def open_for_reading(path: Path) -> h5py.File:
     """Open a result that is finished, being written, or left behind by a killed process."""
     try:
         return h5py.File(path, "r")
-    except OSError:
+    except (OSError, RuntimeError):
         access = h5py.h5p.create(h5py.h5p.FILE_ACCESS)
         access.set_libver_bounds(h5py.h5f.LIBVER_EARLIEST, h5py.h5f.LIBVER_LATEST)
         _look_again(access, _LOOKS)

@@ -32,7 +32,7 @@ def opened(path: Path) -> Iterator[h5py.File]:
         raise ResultError(f"{path} {what}")
     try:
         file = open_for_reading(path)
-    except OSError as error:
+    except (OSError, RuntimeError, KeyError) as error:
         if not h5py.is_hdf5(path):
             raise ResultError(f"{path} is not a result file (not HDF5)") from None
         raise ResultError(f"{path} cannot be read: {reason(error)}") from None

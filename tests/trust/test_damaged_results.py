@@ -13,6 +13,7 @@ from lambda_cli.main import main
 
 from lambda_core import api
 from lambda_core.results import file_format as layout
+from lambda_core.results import hdf5
 from lambda_core.results.opening import ResultError
 
 SIGNATURE = b"GCOL\x01\x00\x00\x00"
@@ -105,3 +106,17 @@ def test_a_damaged_place_of_an_open_file_is_not_read_for_ever(
     killed.write_bytes(data)
     assert main(["show", str(killed)]) == 2
     assert "is damaged" in capsys.readouterr().err
+
+
+def test_a_damaged_root_is_named(
+    file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """HDF5 has errors of several kinds for a header that cannot be read."""
+
+    def refuse(*_: object, **__: object) -> None:
+        raise RuntimeError("Can't deserialize object header prefix (bad object header chunk size)")
+
+    monkeypatch.setattr(hdf5.h5py, "File", refuse)
+    monkeypatch.setattr(hdf5.h5py.h5f, "open", refuse)
+    assert main(["show", str(file)]) == 2
+    assert "bad object header chunk size" in capsys.readouterr().err
