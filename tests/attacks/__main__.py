@@ -32,6 +32,7 @@ def main() -> int:
         "--share", type=_share, default=(1, 1), metavar="K/N", help="every N-th trial, from the K-th on"
     )
     parser.add_argument("--folder", type=Path, default=DEFAULT_FOLDER, help="where outcomes and failures are kept")
+    parser.add_argument("--again", action="store_true", help="do trials again that failed, after a mend")
     parser.add_argument("--write", action="store_true", help="write the figures into docs/reliability.md")
     options = parser.parse_args()
     asked = dict(name.partition(":")[::2] for name in options.parts)
@@ -39,6 +40,9 @@ def main() -> int:
         parser.error(f"no part {unknown[0]!r}; there are {', '.join(parts.PARTS)}")
     names = list(asked or parts.PARTS)
     folder = options.folder.resolve()
+    if options.again:
+        for name in names:
+            Record(folder, name).forget_failed()
     if options.workers > 1 and len(names) > 1:
         _side_by_side(names, options)
     else:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from tests.attacks.trial import Outcome
+from tests.attacks.trial import GOOD, Outcome
 
 
 class Record:
@@ -43,14 +43,20 @@ class Record:
         """Return the numbers of the trials that are recorded."""
         return {int(entry["number"]) for entry in self.entries()}
 
+    def forget_failed(self) -> None:
+        """Forget the trials that failed, so that they are done again; their files stay until then."""
+        kept = [entry for entry in self.entries() if entry["verdict"] in GOOD]
+        if self._file.is_file():
+            self._file.write_text("".join(json.dumps(entry) + "\n" for entry in kept), encoding="utf-8")
+
     def add(self, number: int, outcome: Outcome, command: str, evidence: Path | None = None, **more: Any) -> None:
         """Record a trial; the files of one that failed are kept, with the command that repeats it."""
         entry = {"number": number, "command": command, **outcome.data(), **more}
+        kept = self._failures / f"{self.part}-{number}"
+        shutil.rmtree(kept, ignore_errors=True)
         if outcome.good:
             entry["said"] = outcome.said[-300:]
         elif evidence is not None:
-            kept = self._failures / f"{self.part}-{number}"
-            shutil.rmtree(kept, ignore_errors=True)
             shutil.copytree(evidence, kept, symlinks=True)
             (kept / "command").write_text(command + "\n", encoding="utf-8")
         with self._file.open("a", encoding="utf-8") as file:
