@@ -1,4 +1,4 @@
-"""The program from its wheel on every Python of this machine: ``python tests/smoke.py [3.12 ...]``.
+"""The program from its wheel on every Python of this machine: ``python tests/smoke.py [--others | 3.12 ...]``.
 
 Needs nothing but Python. For each version that is found: a new environment, the wheel with the tested versions of its
 dependencies, a short run, a check of laws, a quasi-static solution, the builder's first picture.
@@ -18,6 +18,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 VERSIONS = ("3.11", "3.12", "3.13", "3.14")
 REQUIRED = VERSIONS[:3]  # on a newer one the tested versions of the dependencies may not install
+OTHERS = "--others"  # than the Python that runs this
 CASE = "6208-axial-1300"
 INSTALL, COMMAND = 900.0, 1200.0  # [s] at most on a busy machine, the second with compiling; alone it is a tenth
 PAINT = f"""
@@ -106,8 +107,15 @@ def build(python: str, folder: Path) -> Path:
 
 def main(wanted: list[str]) -> int:
     """Try every Python; the exit code is 0 when all of them work."""
-    found = {version: path for version, path in interpreters().items() if not wanted or version in wanted}
-    print(f"== smoke: found {', '.join(f'{version} ({path})' for version, path in found.items()) or 'no Python'}")
+    all_ = interpreters()
+    print(f"== smoke: found {', '.join(f'{version} ({path})' for version, path in all_.items()) or 'no Python'}")
+    if wanted == [OTHERS]:
+        own = ".".join(map(str, sys.version_info[:2]))
+        print(f"== smoke: {own} runs the whole suite, with tests of the wheel")
+        wanted = [version for version in all_ if version != own]
+        if not wanted:
+            return 0
+    found = {version: path for version, path in all_.items() if not wanted or version in wanted}
     failed = not found
     with tempfile.TemporaryDirectory(prefix="lambda-bearing-smoke-") as name:
         wheel = build(next(iter(found.values()), sys.executable), Path(name))

@@ -1,0 +1,26 @@
+"""Rows C2.4, D1 and D11: Ctrl+C is answered within a second in every state."""
+
+from __future__ import annotations
+
+import signal
+from pathlib import Path
+
+import pytest
+from trust.answering import STATES, measure
+
+INTERRUPTED = 130
+
+
+@pytest.mark.clock
+@pytest.mark.parametrize("state", [state.name for state in STATES])
+def test_c2_4_ctrl_c_is_answered_within_a_second(state: str, tmp_path: Path) -> None:
+    (found,) = measure(tmp_path, (state,), signal.SIGINT).values()
+    assert found.code == INTERRUPTED, found.said
+    assert found.wall < 1.0
+
+
+def test_d11_a_bearing_at_rest_stops_when_asked(tmp_path: Path) -> None:
+    """Standstill under axial load takes thousands of seconds a simulated second: in the time of the processor."""
+    (found,) = measure(tmp_path, ("standstill",), signal.SIGTERM).values()
+    assert found.code == INTERRUPTED, found.said
+    assert found.processor < 2.0
