@@ -53,10 +53,10 @@ STATES = (
     State("6016 from 500 rpm to rest in 7 ms", ("run", CASE, *STOP, "--out", "r.h5"), 0.3, "r.h5"),
     State("standstill under axial load", ("run", CASE, "--set", "operation.speed=0 rpm", "--set",
                                           "solver.duration=1 s", "--out", "r.h5"), 0.3, "r.h5"),
-    State("a study of runs", ("study", "run", "s.toml", "--workers", "1"), 0.3, "turns/runs/*.h5"),
+    State("a study of runs", ("study", "run", "s.toml", "--workers", "1"), 0.02, "turns/runs/*.h5"),
     State("drawing", ("view", "whole.h5", "--format", "png"), 2.0),
     State("a report", ("report", "whole.h5"), 2.0),
-    State("reproducing", ("reproduce", "table4", "--quick"), 1.2),
+    State("reproducing", ("reproduce", "table4", "--quick"), 0.02, "reproduction/**/*.h5"),
 )  # fmt: skip
 
 
