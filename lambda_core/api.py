@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from lambda_core.results.reader import Result
     from lambda_core.results.run_status import Status, process_identity, this_process
     from lambda_core.results.summary import Summary
-    from lambda_core.run.answers import cite, compare, result, summary
+    from lambda_core.run.answers import cite, compare, result, side_by_side, summary
     from lambda_core.run.duty_cycle import duty
     from lambda_core.run.estimate import Estimate
     from lambda_core.run.progress import Progress
@@ -67,7 +67,7 @@ _CALLS = {
     "system.checking": "check describe problems resolve",
     "run.simulation": "cross_check estimate iterate quasistatic resume run warmup",
     "run.duty_cycle": "duty",
-    "run.answers": "cite compare result summary",
+    "run.answers": "cite compare result side_by_side summary",
     "run.speed_curve": "stribeck stribeck_picture",
     "thermal.temperatures": "thermal thermal_pictures warm_up",
     "electric.door": "check_discharges_file electric electric_map film_from_outside write_discharges",

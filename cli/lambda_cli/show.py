@@ -14,15 +14,27 @@ from lambda_core.domain.wrapping import wrapped
 
 
 def show(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Result file, also of a run that is still going on.")],
+    files: Annotated[
+        list[Path],
+        typer.Argument(metavar="FILE...", help="Result file, also of a run that still goes on; or several of them."),
+    ],
     as_json: JsonOption = False,
     assumptions: Annotated[bool, typer.Option("--assumptions", help="List what was assumed.")] = False,
     units: UnitsOption = Units.SI,
 ) -> None:
-    """Show the summary of a result: finished, still growing, or left behind by a killed run."""
+    """Show the summary of a result: finished, still growing, or left behind by a killed run.
+
+    With several results: what their cases say differently, and their key numbers side by side.
+    """
     from lambda_core import api
 
-    result = api.result(file)
+    if len(files) > 1 and not assumptions:
+        found = api.side_by_side(files)
+        typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))
+        return
+    if len(files) > 1:
+        raise api.UsageError("--assumptions are those of one result")
+    result = api.result(files[0])
     if assumptions:
         lines = list(result.assumptions)
         typer.echo(

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from lambda_core.case.case import Case
     from lambda_core.results.citation import Citation
     from lambda_core.results.reader import Result
+    from lambda_core.results.side_by_side import SideBySide
     from lambda_core.results.summary import Summary
     from lambda_core.run.comparison import Comparison
     from lambda_core.system.bearing import BearingModel
@@ -41,6 +42,29 @@ def result(path: str | PathLike[str]) -> Result:
     from lambda_core.results.reader import Result
 
     return Result(path)
+
+
+def side_by_side(paths: Sequence[str | PathLike[str]]) -> SideBySide:
+    """Put several results beside each other: what their cases say differently, and the numbers that follow.
+
+    Parameters
+    ----------
+    paths : sequence of path-like
+        Two or more results or their files.
+
+    Returns
+    -------
+    SideBySide
+        Differing options as written, key numbers with units.
+
+    Raises
+    ------
+    UsageError
+        For fewer than two, or a file that is no result or holds no samples yet.
+    """
+    from lambda_core.results.side_by_side import side_by_side as put
+
+    return put([result(path) for path in paths])
 
 
 def summary(path: str | PathLike[str]) -> Summary:

@@ -7,17 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from lambda_core.plugins import Axis, NotApplicable, Options, Panel, RunData, Series, View, ViewData
+from lambda_core.results.side_by_side import differing_inputs, run_names
 from lambda_plugins.views.azimuth import AZIMUTH
 from lambda_plugins.views.common import BINS, averaging, of_ring, profile
 from lambda_plugins.views.friction import PER_RING, REST
 
 _MOST = 12
-
-
-def _names(runs: Sequence[RunData]) -> tuple[str, ...]:
-    """Return a short name for each run: its case, or its file where cases repeat."""
-    cases = [run.case for run in runs]
-    return tuple(cases) if len(set(cases)) == len(cases) else tuple(run.path.stem for run in runs)
+_TOLD = 8  # differing inputs, at most
 
 
 def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
@@ -26,7 +22,7 @@ def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
         raise NotApplicable("a comparison needs at least two results")
     if len(runs) > _MOST:
         raise NotApplicable(f"{len(runs)} results are too many to compare: at most {_MOST}; a study shows more")
-    names = _names(runs)
+    names = run_names(runs)
     summaries = [run.summary() for run in runs]
     places = np.arange(len(runs), dtype=float)
     which = Axis("", categories=names)
@@ -56,6 +52,10 @@ def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
     )
     open_ends = [name for name, s in zip(names, summaries, strict=True) if not s.converged]
     notes = ["means over whole cage revolutions of each run"]
+    inputs = differing_inputs(runs)
+    notes += [f"{row.option}: {', '.join('-' if v is None else v for v in row.values)}" for row in inputs[:_TOLD]]
+    if len(inputs) > _TOLD:
+        notes.append(f"and {len(inputs) - _TOLD} more inputs differ: lambda-bearing show with these results lists them")
     if open_ends:
         notes.append(f"not converged: {', '.join(open_ends)}")
     return ViewData("comparison", "Comparison of results", ", ".join(names), panels, 2, tuple(notes))

@@ -1,0 +1,150 @@
+"""Several results beside each other: what their cases say differently, and the numbers that follow."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from pydantic import Field
+
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.number_text import NONE, number
+from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.results.record import INTERFACE, Record
+
+if TYPE_CHECKING:
+    from lambda_core.results.reader import Result
+
+_SILENT = ("name", "description", "assumptions")  # of a case: they decide nothing
+_LARGE = 1e4  # numbers above are rounded to three digits
+_WIDEST = 28  # of a column of values
+
+
+class Differing(Record):
+    """One option that the cases do not share."""
+
+    option: str
+    values: list[str | None] = Field(description="as written, null where it is left open; in the order of the results")
+
+
+class Number(Record):
+    """One number of every result."""
+
+    name: str
+    unit: str
+    values: list[float | None]
+
+
+class SideBySide(Record):
+    """Several results: differing inputs, key numbers."""
+
+    interface: int = INTERFACE
+    files: list[str]
+    names: list[str] = Field(description="of the cases, or of the files where cases repeat")
+    inputs: list[Differing]
+    numbers: list[Number]
+
+    def text(self, units: UnitSystem = SI) -> str:
+        """Return two tables for people, a column per result."""
+        rows = [("", *self.names)]
+        rows += [
+            (row.option, *("-" if value is None else _cut(units.sentence(value)) for value in row.values))
+            for row in self.inputs
+        ]
+        if not self.inputs:
+            rows.append(("the same inputs", *[""] * len(self.names)))
+        rows.append(("", *[""] * len(self.names)))
+        for row in self.numbers:
+            unit = units.unit(row.unit)
+            values = (NONE if v is None else _short(units.value(v, row.unit)) for v in row.values)
+            rows.append((f"{row.name} [{unit}]" if unit else row.name, *values))
+        first = max(len(row[0]) for row in rows)
+        widths = [max(len(row[i]) for row in rows) for i in range(1, len(rows[0]))]
+        return "\n".join(
+            "  ".join([row[0].ljust(first), *(cell.rjust(w) for cell, w in zip(row[1:], widths, strict=True))]).rstrip()
+            for row in rows
+        )
+
+
+def run_names(runs: Sequence[Any]) -> tuple[str, ...]:
+    """Return a short name for each run: its case, or its file where cases repeat."""
+    cases = [run.case for run in runs]
+    return tuple(cases) if len(set(cases)) == len(cases) else tuple(run.path.stem for run in runs)
+
+
+def differing_inputs(runs: Sequence[Any]) -> list[Differing]:
+    """Return the options at which the cases of several runs differ, as they are written.
+
+    Parameters
+    ----------
+    runs : sequence of Result
+        Two or more.
+
+    Returns
+    -------
+    list of Differing
+        In the order of the first case.
+    """
+    cases = [dict(_leaves("", tomllib.loads(run.case_toml))) for run in runs]
+    options = dict.fromkeys(option for case in cases for option in case if option not in _SILENT)
+    found = [Differing(option=option, values=[case.get(option) for case in cases]) for option in options]
+    return [row for row in found if len(set(row.values)) > 1]
+
+
+def side_by_side(runs: Sequence[Result]) -> SideBySide:
+    """Put several results beside each other.
+
+    Raises
+    ------
+    UsageError
+        For fewer than two.
+    """
+    if len(runs) < 2:
+        raise UsageError("name at least two results to put beside each other")
+    summaries = [run.summary() for run in runs]
+    numbers = [
+        Number(name=name, unit=unit, values=[getattr(summary, field) for summary in summaries])
+        for name, unit, field in _NUMBERS
+    ]
+    numbers += [
+        Number(name=name, unit=unit, values=[getattr(summary.rating, field, None) for summary in summaries])
+        for name, unit, field in _RATED
+    ]
+    files = [str(run.path) for run in runs]
+    return SideBySide(files=files, names=list(run_names(runs)), inputs=differing_inputs(runs), numbers=numbers)
+
+
+_NUMBERS = (
+    ("friction torque", "N mm", "friction_torque_Nmm"),
+    ("its confidence (95 %)", "N mm", "friction_torque_ci_Nmm"),
+    ("power loss", "W", "power_loss_W"),
+    ("smallest minimum film", "um", "min_film_um"),
+    ("largest pressure", "GPa", "max_pressure_GPa"),
+    ("cage over kinematic speed", "", "cage_speed_over_epicyclic"),
+    ("capacitance of the bearing", "nF", "bearing_capacitance_nF"),
+)
+_RATED = (
+    ("rating life ISO/TS 16281", "h", "reference_life_h"),
+    ("rating life ISO 281", "h", "basic_life_h"),
+    ("static safety C0/P0", "", "static_safety"),
+    ("viscosity ratio kappa", "", "viscosity_ratio"),
+    ("friction torque, SKF", "N mm", "skf_torque_Nmm"),
+    ("friction torque, Schaeffler", "N mm", "schaeffler_torque_Nmm"),
+)
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= _WIDEST else f"{text[: _WIDEST - 3]}..."
+
+
+def _short(value: float) -> str:
+    return f"{value:.4g}" if abs(value) < _LARGE else number(float(f"{value:.3g}"), 0)
+
+
+def _leaves(path: str, value: Any) -> Iterator[tuple[str, str]]:
+    if isinstance(value, Mapping):
+        for key, item in value.items():
+            yield from _leaves(f"{path}.{key}" if path else key, item)
+    else:
+        yield path, value if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else str(value)
