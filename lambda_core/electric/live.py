@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.roles import FILMS
 from lambda_core.electric.circuit import bearing_capacitance, circuit_of
 from lambda_core.electric.circuit_run import marched, strength_of
 from lambda_core.electric.contacts import CHANNELS, Contacts, contacts_of_samples, films, turned
@@ -65,7 +66,7 @@ class Live:
         """Return names and hashes of the code that the circuit runs through."""
         from lambda_core.electric.compiled import edges
 
-        found = {f"electric/{law.law.role}/{law.law.name}": law.kernel.key for law in self._laws}
+        found = {f"{film}/{law.law.role}/{law.law.name}": law.kernel.key for law in self._laws for film in FILMS}
         return {**found, "electric": sources_key(Path(edges.__file__).parent)}
 
     @property

@@ -14,6 +14,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from lambda_core import __version__
+from lambda_core.domain.roles import FILMS
 from lambda_core.laws.law import Law
 from lambda_core.results.rating import Rating
 from lambda_core.system.bearing import BearingModel
@@ -42,7 +43,9 @@ class Provenance:
         return found
 
     def laws(self) -> list[dict[str, str]]:
-        """Return one row per force element and role: the model that filled it and its parameters."""
+        """Return one row per force element, or film of the circuit, and role: the model and its parameters."""
+        circuit = self.model.electric
+        films = dict.fromkeys(FILMS, circuit.laws) if circuit is not None else {}
         return [
             {
                 "element": element,
@@ -55,7 +58,7 @@ class Provenance:
                 "origins": json.dumps(dict(law.origins)),
                 "kernel_key": self.kernel_keys.get(f"{element}/{role}/{law.model.name}", ""),
             }
-            for element, roles in self.model.laws.items()
+            for element, roles in {**self.model.laws, **films}.items()
             for role, law in roles.items()
         ]
 

@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 from electric.networks import AREA, ROUGH, SMOOTH, steady, strength
+from electric.rough_film import breakdown_probability, breakdown_voltage
 from lambda_plugins.normal_tail import upper_quantile
 from scipy.special import ndtri
 
 from lambda_core.electric import columns as L
-from lambda_core.electric.breakdown import breakdown_probability, breakdown_voltage
 from lambda_core.electric.march import Circuit, march
 
 CIRCUIT = Circuit(50e-12, 1000e-12)

@@ -102,3 +102,10 @@ def test_report_has_a_section(run: Result, tmp_path: Path) -> None:
     page = api.report(run.path, tmp_path / "r.html").read_text()
     assert "bearing currents" in page
     assert "discharges through the bearing" in page
+
+
+def test_laws_of_the_films_are_cited(run: Result) -> None:
+    laws = {row["role"]: row for row in run.laws if row["element"] == "film_inner"}
+    assert laws["breakdown"]["model"] == "statistical"
+    assert laws["breakdown"]["kernel_key"] == run.kernel_keys["film_inner/breakdown/statistical"]
+    assert any("Jackson" in law.reference for law in api.cite(run.path).laws)

@@ -6,10 +6,10 @@ import dataclasses
 
 import numpy as np
 import pytest
+from electric.rough_film import breakdown_voltage
 
 from lambda_core import api
 from lambda_core.case.electric import Electric
-from lambda_core.electric.breakdown import breakdown_voltage
 from lambda_core.electric.circuit_run import simulate
 from lambda_core.electric.contacts import contacts_of_equilibria, equilibria, films
 from lambda_core.electric.electrified import of_model

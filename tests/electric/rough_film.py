@@ -1,4 +1,4 @@
-"""The statistics of breakdown of a rough film in closed form, for what needs no march through time."""
+"""The statistics of breakdown of a rough film in closed form, by scipy: what the law of the program is held against."""
 
 from __future__ import annotations
 
