@@ -7,6 +7,7 @@ command that reads a damaged file. A damaged file may be refused or called damag
 from __future__ import annotations
 
 import math
+import os
 import random
 import shlex
 import shutil
@@ -49,8 +50,8 @@ def line(arguments: tuple[str, ...] | list[str]) -> str:
 
 
 def made_once(folder: Path, name: str, make: Callable[[Path], object]) -> Path:
-    """Return a folder beside those of the trials of a part, made once per campaign."""
-    place = folder.parent / f"{_part(folder)}.{name}"
+    """Return a folder beside those of the trials of a part, made once by each process: the program may have changed."""
+    place = folder.parent / f"{_part(folder)}.{os.getpid()}.{name}"
     if not (place / "done").is_file():
         shutil.rmtree(place, ignore_errors=True)
         place.mkdir(parents=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import time
@@ -72,3 +73,5 @@ def run(part: Part, seed: int, numbers: Iterable[int], folder: Path, deadline: f
         outcome, command, more = part.trial(seed, number, place)
         record.add(number, outcome, command, place, seed=seed, commit=commit, **more)
         shutil.rmtree(place, ignore_errors=True)
+    for made in (folder / "work").glob(f"{part.name}.{os.getpid()}.*"):
+        shutil.rmtree(made, ignore_errors=True)
