@@ -178,13 +178,13 @@ def _csv(table: StudyTable) -> None:
     rows = table.rows()
     writer = csv.writer(sys.stdout, lineterminator="\n")
     names = ["point", *units, "state", "reason", "file"]
-    writer.writerow([f"{name} [{units[name]}]" if units.get(name) else name for name in names])
+    writer.writerow([printable(f"{name} [{units[name]}]" if units.get(name) else name) for name in names])
     for row in rows:
         writer.writerow([_written(row[name]) for name in names])
 
 
 def _written(value: object) -> object:
-    return "" if value is None else cell_text(value) if isinstance(value, str) else value
+    return "" if value is None else cell_text(printable(value)) if isinstance(value, str) else value
 
 
 def _finite(row: dict[str, Any]) -> dict[str, Any]:
@@ -201,7 +201,7 @@ def _print(table: StudyTable) -> None:
     shown = Table(box=None, pad_edge=False, header_style="bold")
     shown.add_column("point", justify="right")
     for column in columns:
-        text = column.label + (f"\n[{column.unit}]" if column.unit else "")
+        text = printable(column.label) + (f"\n[{column.unit}]" if column.unit else "")
         shown.add_column(text.replace("[", "\\["), justify="right", max_width=14)
     shown.add_column("state")
     for index, row in enumerate(table.rows()):
@@ -213,4 +213,4 @@ def _print(table: StudyTable) -> None:
 def _cell(value: float | str | None) -> str:
     if value is None:
         return "-"
-    return value if isinstance(value, str) else f"{value:.5g}"
+    return printable(value) if isinstance(value, str) else f"{value:.5g}"

@@ -35,7 +35,7 @@ def test_ci_runs_the_second_command() -> None:
     assert lines.count(second) == 1
 
 
-def test_ci_tries_the_pythons_that_are_promised() -> None:
+def test_c2_5_ci_tries_the_pythons_that_are_promised() -> None:
     from smoke import REQUIRED
 
     assert "python3 tests/smoke.py --others || smoke=$?" in (ROOT / ".ci" / "run").read_text(encoding="utf-8")

@@ -136,7 +136,7 @@ def test_damaged_files_are_compiled_anew(package: Package) -> None:
 
 
 @pytest.mark.parametrize("place", [0.1, 0.5, 0.9, 1.0])
-def test_flipped_bytes_in_compiled_code_are_compiled_anew_and_mended(package: Package, place: float) -> None:
+def test_c3_flipped_bytes_in_compiled_code_are_compiled_anew_and_mended(package: Package, place: float) -> None:
     package.ask()
     for path in (package.root / "cache").rglob("*.nbc"):
         data = bytearray(path.read_bytes())
@@ -161,7 +161,7 @@ def test_code_that_nobody_used_for_months_is_dropped(package: Package) -> None:
     assert new != old
 
 
-def test_a_read_only_cache_does_not_stop_anything(package: Package) -> None:
+def test_c3_a_read_only_cache_does_not_stop_anything(package: Package) -> None:
     (package.root / "cache").write_text("a file where a folder should be")
     temporary = package.root / "temporary"
     temporary.mkdir()

@@ -185,6 +185,12 @@ def test_c4_deep_documents_are_refused(text: str, tmp_path: Path) -> None:
         api.check(path)
 
 
+def test_c4_deep_changes_on_the_command_line_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    for change in ("loads.radial=" + "[" * 5000, "a" + ".a" * 5000 + "=1"):
+        assert main(["check", CASE, "--set", change]) == 3
+        assert "has a bug" not in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("arguments", [["check", "x" * 5000], ["run", CASE, "--out", "y" * 5000 + ".h5"],
                                        ["db", "search", "6208", "--limit", "99999999999999999999"]])  # fmt: skip
 def test_c4_long_names_and_numbers_are_refused(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:

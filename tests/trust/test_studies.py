@@ -96,3 +96,16 @@ def test_c4_an_infinite_response_is_shown(study: Path, capsys: pytest.CaptureFix
         if not isinstance(data, api.LambdaError):
             json.dumps(data.as_dict(), allow_nan=False)
             api.draw(data, tmp_path, name, ["png"])
+
+
+def test_c4_escapes_of_a_strangers_study_do_not_reach_the_terminal(
+    study: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with closing(Manifest(study, write=True)) as manifest:
+        manifest.write_meta("title", "harmless\x1b]0;owned\x07")
+        manifest.keep([Outcome(0, "failed", "because\x1b[2J", "", {}, "", 0.0)])
+    for command in (["status"], ["show"], ["show", "--csv"], ["status", "--json"]):
+        main(["study", command[0], str(study), *command[1:]])
+        said = capsys.readouterr()
+        assert "\x1b]0" not in said.out + said.err, command
+        assert "\x1b[2J" not in said.out + said.err, command
