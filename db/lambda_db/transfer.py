@@ -199,12 +199,16 @@ def export_rows(catalogue: SqlCatalogue, path: Path, tables: list[str], *, mine:
     ------
     UsageError
         For an unknown table, several tables into one CSV file, or a file that cannot be written.
+    CatalogueError
+        When the user's own rows are asked for and cannot be read.
     """
     for table in tables:
         if table not in SEED_TABLES:
             raise UsageError(unknown_name("catalogue table", table, SEED_TABLES))
     if path.suffix:
         check_target(path)
+    if mine and not catalogue.has_user_rows and user_database().exists() and user_database().stat().st_size:
+        raise CatalogueError(str(user_database()), [Problem("", "cannot be read: nothing is exported")])
     content = {table: rows_of(catalogue, table, mine=mine) for table in tables}
     try:
         if path.suffix == ".toml":

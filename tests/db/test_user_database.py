@@ -15,7 +15,7 @@ import pytest
 from lambda_db import user
 from lambda_db.catalogue import SqlCatalogue, open_catalogue
 from lambda_db.paths import user_database
-from lambda_db.transfer import add_row
+from lambda_db.transfer import add_row, export_rows
 
 from lambda_core.domain.errors import CatalogueError
 
@@ -177,6 +177,8 @@ def test_c3_flipped_bytes_are_named_and_leave_the_core_working(
     assert "move it away and import your rows again" in said
     with pytest.raises(CatalogueError, match=r"the file is damaged .*move it away"):
         add_row(again, "bearing", ROW | {"designation": "X9"})
+    with pytest.raises(CatalogueError, match="nothing is exported"):
+        export_rows(again, path.with_name("mine.toml"), ["bearing"], mine=True)
     again.close()
 
 
