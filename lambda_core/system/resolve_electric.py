@@ -10,7 +10,8 @@ from pydantic import ValidationError
 
 from lambda_core.case.problems import problems
 from lambda_core.domain.errors import LambdaError, unknown_name
-from lambda_core.domain.roles import ELECTRIC_ROLES
+from lambda_core.domain.roles import ELECTRIC_ROLES, ROLES
+from lambda_core.laws.calls import plain_call
 from lambda_core.system.bearing import ChosenLaw, ElectricModel
 from lambda_core.system.ledger import Ledger
 
@@ -65,9 +66,12 @@ def _law(role: str, options: Electric, registry: ModelSource, ledger: Ledger) ->
 def _arcs_can_burn(options: Electric, law: ChosenLaw, ledger: Ledger) -> None:
     """Refuse arcs that the least breakdown voltage cannot feed: R i + U must be below it."""
     least = options.breakdown.least_voltage
-    out = np.zeros(3)
-    if law.model.prepare is not None or law.model.kernel(least, 1e-6, 1e-7, law.parameters, out) != 1:
-        return  # what a law makes of a contact is seen when there is one
+    if law.model.prepare is not None:
+        return  # what it makes of a bearing is seen when there is one
+    found = plain_call(law.model.kernel, ROLES["discharge"], [least, 1e-6, 1e-7, law.parameters, np.zeros(3)])
+    if found.status != 1:
+        return
+    out = found.outputs[0]
     needed = float(out[0] * out[2] + out[1])
     if least <= needed:
         ledger.problem(
