@@ -17,7 +17,7 @@ import numpy as np
 
 from lambda_core import api
 from lambda_core.domain.channels import LOSSES
-from lambda_core.domain.roles import ROLES
+from lambda_core.domain.roles import MOTION_ROLES
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import solve
 
@@ -231,7 +231,7 @@ def _shift(value: float, unit: str, digits: int = 1) -> str:
 
 def section(exchange: Exchange) -> list[str]:
     """Run every law of a role and return its part of the page."""
-    summary = ROLES[exchange.role].summary
+    summary = MOTION_ROLES[exchange.role].summary
     lines = [f"## {exchange.role}", "", f"{summary[:1].upper()}{summary[1:]}."]
     lines += [exchange.why] if exchange.why else []
     lines += ["", f"| law | {' | '.join(COLUMNS)} |", f"|---|{'---|' * len(COLUMNS)}"]
@@ -271,7 +271,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     unknown = sorted(set(options.roles) - {exchange.role for exchange in EXCHANGES})
     if unknown:
-        parser.error(f"there is no role {', '.join(unknown)}; roles: {', '.join(ROLES)}")
+        parser.error(f"there is no role {', '.join(unknown)}; roles: {', '.join(MOTION_ROLES)}")
     if options.write:
         PAGE.write_text(page(), encoding="utf-8")
     elif options.roles:

@@ -100,7 +100,7 @@ class Particles(Rough):
     "particles",
     Particles,
     role_api=2,
-    reference=f"{_ONSET}; particles by Poisson statistics, own work",
+    reference=f"{_ONSET}; Poisson statistics of particles",
     validity="as statistical; particles of one size, independent of each other",
 )
 def particles(

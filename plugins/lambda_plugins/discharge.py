@@ -23,8 +23,8 @@ class Channel(Parameters):
     "resistance",
     Channel,
     role_api=2,
-    reference="Ohm's law; resistances of arcs in bearings are not known within a factor of some",
-    validity="charge and energy hardly depend on the resistance, the largest current does",
+    reference="Ohm's law",
+    validity="resistances of arcs are hardly known; charge and energy depend little on them, the largest current does",
 )
 def resistance(V: float, h: float, area: float, par: Channel, out: FloatArray) -> int:
     """A channel of constant resistance: the film's charge runs out with R C."""
@@ -45,7 +45,7 @@ class Arc(Channel):
     "arc-voltage",
     Arc,
     role_api=2,
-    reference="constant arc voltage in series with a resistance, the usual model of a short arc",
+    reference="constant arc voltage beside Ohm's law",
     validity="arcs that burn longer than they take to form",
 )
 def arc_voltage(V: float, h: float, area: float, par: Arc, out: FloatArray) -> int:

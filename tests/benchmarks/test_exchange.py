@@ -10,7 +10,7 @@ from benchmarks.exchange import EXCHANGES, PAGE, main, overrides, quasistatic_to
 from lambda_core import api
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.installed import OWN
-from lambda_core.domain.roles import ROLES
+from lambda_core.domain.roles import MOTION_ROLES
 
 
 def of_role(role: str) -> list[str]:
@@ -18,7 +18,7 @@ def of_role(role: str) -> list[str]:
 
 
 def test_every_built_in_law_of_every_role_is_exchanged() -> None:
-    assert [exchange.role for exchange in EXCHANGES] == list(ROLES)
+    assert [exchange.role for exchange in EXCHANGES] == list(MOTION_ROLES)
     for exchange in EXCHANGES:
         assert sorted(law.name for law in exchange.laws) == sorted(of_role(exchange.role))
 

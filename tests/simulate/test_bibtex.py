@@ -27,6 +27,9 @@ WITHOUT_YEAR = {
     "Coulomb's law with a smooth start",
     "Schaeffler, Rolling bearings (catalogue)",
     "geometry of a circle on an edge",
+    "Ohm's law",
+    "constant arc voltage beside Ohm's law",
+    "Poisson statistics of particles",
 }
 
 OF_1977 = {
