@@ -7,6 +7,8 @@ a parent that ends it when its time is over.
 
 from __future__ import annotations
 
+import contextlib
+import ctypes
 import gc
 import importlib
 import json
@@ -25,6 +27,7 @@ from pathlib import Path
 NAMES = {0: "fine", 2: "usage", 3: "refused", 4: "unsolved", 5: "partial"}
 GOOD = frozenset(NAMES.values())
 MEMORY = 1 << 30  # [byte] of resident memory that a trial may take, what it shares with its parent included
+_END_WITH_PARENT = 1  # PR_SET_PDEATHSIG
 _GLANCE = 0.02  # [s] between two looks at a child that runs
 _TOLD = 4000  # characters of the end of stderr that are kept
 _READ = 1 << 20  # [byte] of stderr that are judged
@@ -236,6 +239,8 @@ def _live(
     code = 70
     try:
         os.setsid()
+        with contextlib.suppress(OSError, AttributeError):  # Linux: a campaign that is ended takes its trials with it
+            ctypes.CDLL(None).prctl(_END_WITH_PARENT, signal.SIGKILL)
         os.chdir(folder)
         os.environ.update(environment)
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
