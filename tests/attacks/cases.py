@@ -77,10 +77,10 @@ def _judge(outcome: Outcome, made: dict[str, Any], found: dict[str, Any], turns:
     if outcome.verdict in ("refused", "usage"):
         reason = _reason_that_holds(made)
         return (outcome, f"refused: {reason}") if reason else (outcome.but("unfounded", "no reason found"), "failed")
-    if outcome.verdict == "unsolved":
-        return outcome, "without a solution"
     if outcome.open_s > WALL + OVER:
         return outcome.but("late", f"{outcome.open_s:.1f} s with its file open, {WALL:g} s were allowed"), "failed"
+    if outcome.verdict == "unsolved":
+        return outcome, "without a solution"
     residual, torque = found.get("energy_residual"), found.get("friction_torque_Nmm")
     reasons = " ".join(found.get("reasons", ()))
     if residual is None or (abs(residual) > ENERGY and "energy residual" not in reasons):

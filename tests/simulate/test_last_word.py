@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ from fake_engine import FakeEngine, MakeProvenance
 
 from lambda_core.results.reader import Result
 from lambda_core.run import loop
+from lambda_core.solver.drivers.engine import Advance
 
 TURN = FakeEngine().turn
 
@@ -39,3 +41,17 @@ def test_killed_before_its_last_word(
     for channel in whole.channels:
         assert resumed[channel.name].tobytes() == whole[channel.name].tobytes()
     assert {file.name for file in tmp_path.iterdir()} == {"whole.h5", "killed.h5"}
+
+
+def test_a_limit_that_is_met_before_the_first_step_is_no_failure(provenance: MakeProvenance, tmp_path: Path) -> None:
+    class Slow(FakeEngine):
+        """Its first step takes longer than the limit of wall time, and is not through when it is asked to pause."""
+
+        def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
+            while pause is not None and not pause():
+                pass
+            return Advance(True, "")
+
+    result = loop.run(Slow(), provenance(max_wall=0.05), tmp_path / "r.h5")
+    assert result.status().state == "stopped"
+    assert "the limit of wall time was reached at t = 0 s" in result.status().message
