@@ -69,6 +69,7 @@ def channels_of(file: h5py.File) -> Iterator[Channel]:
     """Yield the channels of a file: everything in its root that grows."""
     for name, item in file.items():
         if layout.grows(item):
+            item.id.get_num_chunks()  # a damaged index raises here; read through, it would fill the memory
             dims = tuple(Path(dim[0].name).name for dim in item.dims if len(dim))
             yield Channel(name, tuple(d for d in dims if d != "time"), item.attrs["units"], item.attrs["long_name"])
 
