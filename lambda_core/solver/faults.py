@@ -13,6 +13,7 @@ ROLES = (*RACEWAY_ROLES, "cage_contact", "fluid_drag")
     RHEOLOGY,
     FILM_THICKNESS,
     THERMAL_CORRECTION,
+    SUPPLY,
     CONTACT_TEMPERATURE,
     TRACTION,
     ROLLING_RESISTANCE,
@@ -22,7 +23,6 @@ ROLES = (*RACEWAY_ROLES, "cage_contact", "fluid_drag")
     PERMITTIVITY,
     CAPACITANCE,
     SURFACE,
-    SUPPLY,
     CAGE_CONTACT,
     FLUID_DRAG,
 ) = range(len(ROLES))

@@ -15,7 +15,7 @@ FOLDER = Path(__file__).parent
 CONTACT, LUBRICANT, FRICTION = "test_models_contact", "test_models_lubricant", "test_models_friction"
 LOSSES, CAPACITANCE, SURFACE = "test_models_losses", "test_models_capacitance", "test_models_surface"
 CLOSED, MIXED = "test_models_closed_form", "test_models_mixed_friction"
-SUPPLY = "test_models_supply"
+SUPPLY, FILMS = "test_models_supply", "test_models_films"
 BLOW, NOTHING = (CLOSED, "test_a_blow_against_a_guide_lasts_half_a_period"), (CLOSED, "test_none_is_nothing")
 
 # role/name of every law: (module, test) that calls it.
@@ -72,6 +72,11 @@ CHECKED: dict[str, tuple[str, str]] = {
     "surface/none": NOTHING,
     "surface/waviness": (SURFACE, "test_waves_as_many_as_balls_move_the_ring_along_its_axis"),
     "surface/defect": (SURFACE, "test_a_ball_drops_into_a_gap_as_far_as_a_circle_on_two_edges"),
+    "breakdown/field": (FILMS, "test_field_of_a_smooth_film"),
+    "breakdown/statistical": (FILMS, "test_statistics_of_the_lowest_spot"),
+    "breakdown/particles": (FILMS, "test_particles_bridge_the_film_as_often_as_poisson_says"),
+    "discharge/resistance": (FILMS, "test_arcs_after_ohm"),
+    "discharge/arc-voltage": (FILMS, "test_arcs_after_ohm"),
 }
 
 

@@ -10,6 +10,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.laws.law import Law
+from lambda_core.solver import faults
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.contact_field import contact_field
 from lambda_core.solver.drivers.equilibrium import solve
@@ -99,6 +100,13 @@ def test_a_surface_that_refuses_is_named() -> None:
         m.evaluate(m.vector(m.at_rest()))
     for words in ("surface/unmapped (scans 1.2)", "the scan ends here", "inner"):
         assert words in str(found.value)
+
+
+def test_faults_name_the_role_that_refused() -> None:
+    """The numbers by which compiled code tells a role are those of the table of roles."""
+    numbers = {name: number for name, number in vars(faults).items() if name.isupper() and isinstance(number, int)}
+    assert [name.lower() for name in numbers] == list(faults.ROLES)
+    assert list(numbers.values()) == list(range(len(faults.ROLES)))
 
 
 def test_a_view_inside_the_contact_sees_the_same_surface() -> None:
