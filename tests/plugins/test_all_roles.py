@@ -66,13 +66,14 @@ import json, sys
 from lambda_core import api
 
 events = api.electric("6208-axial-1300", sys.argv[1:]).events
-print(json.dumps({"voltage": abs(events.contact_voltage[0]), "peak": events.peak[0]}))
+first = int((events.time > 0.0).argmax())  # at time 0 the source stands at a voltage already
+print(json.dumps({"voltage": abs(events.contact_voltage[first]), "peak": events.peak[first]}))
 """
 
 
 def test_films_break_down_and_burn_by_foreign_laws(site: Installation) -> None:
-    """The first film breaks down at the 4 V of the package, and the first current is 4 V over 28 Ohm."""
+    """The first film under a rising voltage breaks down at the 4 V of the package, and the first current is 4 V over 28 Ohm."""
     answer = site.python(CURRENTS, "electric.breakdown.law=own", "electric.discharge.law=own", "electric.duration=2 ms")
     assert answer.code == 0, answer.err
-    assert answer.data["voltage"] == pytest.approx(4.0, rel=1e-9)
+    assert answer.data["voltage"] == pytest.approx(4.0, rel=1e-7)  # crossed inside a step, along a straight line
     assert answer.data["peak"] == pytest.approx(1.0 / 7.0, rel=1e-6)
