@@ -38,7 +38,7 @@ def damaged_code(seed: int, number: int, folder: Path) -> Said:
     store = folder / "cache"
     _linked(cache_folder(), store / "kernels")
     # What the command needs; the file that says which functions there are, and the one with machine code.
-    places = [path for path in (store / "kernels").iterdir() if path.is_dir()]
+    places = [path for path in (store / "kernels").iterdir() if path.is_dir() and any(path.iterdir())]
     host = pick.random() < _HOST
     chosen = sorted(path for path in places if path.name.startswith("host-") == host)
     victims = pick.sample(chosen, min(len(chosen), 1 if host else 8))
