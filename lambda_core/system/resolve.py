@@ -18,7 +18,7 @@ from pydantic import BaseModel
 from lambda_core.case.case import Case
 from lambda_core.case.case_writer import standalone_toml
 from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue
-from lambda_core.domain.elements import DOFS
+from lambda_core.domain.elements import BODIES, DOFS
 from lambda_core.domain.units import show
 from lambda_core.laws.context import Material
 from lambda_core.laws.jit.reach import reach
@@ -46,6 +46,9 @@ from lambda_core.system.time_functions import highest_frequency, peak, time_func
 # A run that has not converged after this many turns of the cage has something to say.
 LONGEST_RUN = 30.0  # [cage turns]
 MOST_TIME = 1e6  # [s] simulated; at a tenth of a millisecond per step that is a month of computing
+# [m/s] on the pitch circle: a ring of steel would be under rho v^2 = 7.9 GPa of hoop stress (Timoshenko and Goodier,
+# Theory of Elasticity, rotating rings), three times what bearing steel bears.
+FASTEST = 1000.0
 MOST_STEPS, MOST_SAMPLES = 1e9, 1e7  # of one run: half a day of computing, some ten gigabytes
 # Largest step: the cage must not skip over pocket contacts, nor any step over an excitation. With 200 steps per turn
 # a 6319 at 3000 rpm without a cage leaves 1.3e-3 of the energy unexplained, with 400 1.3e-4 for the same wall time.
@@ -98,6 +101,7 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingM
     _possible(case, ledger)
     cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, materials["cage"], ledger)
     inertias = _inertias(case, geometry, materials, cage_estimate, ledger)
+    _check_spins(case, geometry, ledger)
     solver = _solver(case, geometry, ledger)
     ledger.check(case.name)
     return BearingModel(
@@ -227,6 +231,17 @@ def _solver(case: Case, geometry: Geometry, ledger: Ledger) -> Solver:
         max_step=given.max_step or largest,
         max_wall=given.max_wall or math.inf,
     )
+
+
+def _check_spins(case: Case, geometry: Geometry, ledger: Ledger) -> None:
+    """Refuse prescribed spins at which rings and cage would fly apart."""
+    highest = 2.0 * FASTEST / geometry.pitch_diameter
+    spins: dict[str, Any] = {"operation.speed": case.operation.speed}
+    for name in BODIES:
+        spins[f"bodies.{name}.spin.motion"] = getattr(getattr(case.bodies, name).spin, "motion", None)
+    for place, motion in spins.items():
+        if peak(time_function(motion)) > highest:
+            ledger.problem(place, f"is too fast: steel bursts far below {show(highest, 'rotational_speed', 3)}")
 
 
 def _end_in_sight(case: Case, end: float, turn: float, ledger: Ledger) -> None:

@@ -36,6 +36,21 @@ def test_c4_wild_geometry_is_refused_by_its_option(settings: list[str], where: s
     assert where in [problem.where for problem in caught.value.problems]
 
 
+@pytest.mark.parametrize(
+    ("settings", "where"),
+    [
+        (["operation.speed=7e14 rpm"], "operation.speed"),
+        (["bodies.cage.spin.mode=prescribed", "bodies.cage.spin.motion=7e14 rpm"], "bodies.cage.spin.motion"),
+    ],
+)
+def test_a_spin_that_bursts_steel_is_refused(settings: list[str], where: str) -> None:
+    """Records of 1e9 turns in a fifth of a millisecond had filled the memory."""
+    with pytest.raises(CaseError, match="too fast") as caught:
+        api.check(CASE, settings)
+    assert where in [problem.where for problem in caught.value.problems]
+    assert api.check(CASE, ["operation.speed=100000 rpm"])
+
+
 @pytest.mark.parametrize("temperature", ["1e6 degC", "1 K"])
 def test_c4_an_oil_that_is_no_liquid_is_refused(temperature: str) -> None:
     with pytest.raises(CaseError, match="no oil is liquid there"):
