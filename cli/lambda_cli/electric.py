@@ -9,6 +9,7 @@ import typer
 
 from lambda_cli.options import CaseArgument, ForceOption, JsonOption, SetOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+from lambda_core.domain.errors import UsageError
 
 SourceArgument = Annotated[
     str, typer.Argument(metavar="CASE|RESULT", help="Case file, name of a built-in case, or result file of a run.")
@@ -41,6 +42,8 @@ def electric(
     overrides = [f"electric.{path}={value}" for path, value in short.items() if value is not None]
     if out is not None:
         api.check_discharges_file(out, overwrite=force)
+        if out.exists() and Path(source).exists() and out.samefile(source):
+            raise UsageError(f"{out} is what is read: choose another name with --out")
     with talk(progress, quiet) as speaker:
         found = api.electric(source, [*(changes or ()), *overrides], announce=speaker.say)
     if out is not None:

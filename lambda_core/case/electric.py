@@ -26,7 +26,7 @@ from lambda_core.domain.units import (
 class Inverter(Section):
     """Common-mode voltage of a two-level inverter with three phases and sine-triangle modulation."""
 
-    dc_link: Voltage = option("800 V", "voltage of the dc link", gt=0.0)
+    dc_link: Voltage = option("800 V", "voltage of the dc link", gt=0.0, le=1e6)
     switching_frequency: Frequency = option("10 kHz", "frequency of the triangle", gt=0.0)
     rise_time: Time = option("50 ns", "duration of a switching edge", gt=0.0)
     modulation: float = option(0.8, "amplitude of the sine over that of the triangle", ge=0.0, le=1.0)
@@ -42,7 +42,7 @@ class Inverter(Section):
 class Sine(Section):
     """Sinusoidal common-mode voltage."""
 
-    amplitude: Voltage = option(description="amplitude", gt=0.0)
+    amplitude: Voltage = option(description="amplitude", gt=0.0, le=1e6)
     frequency: Frequency = option(description="frequency", gt=0.0)
     points: int = option(200, "corners of the polygon per period", ge=16)
 
@@ -50,7 +50,7 @@ class Sine(Section):
 class Step(Section):
     """One edge of the common-mode voltage from zero."""
 
-    amplitude: Voltage = option(description="voltage after the edge")
+    amplitude: Voltage = option(description="voltage after the edge", ge=-1e6, le=1e6)
     time: Time = option("0 s", "when the edge begins", ge=0.0)
     rise_time: Time = option("50 ns", "duration of the edge", gt=0.0)
 

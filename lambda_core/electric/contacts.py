@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 
 PHASES = 12  # equilibria per ball pitch
+_MOST_SAMPLES = 500_000  # about a gigabyte of nine balls
 _TURNS = 10.0  # of the cage, where nothing says how long
 VACUUM_PERMITTIVITY = 8.8541878128e-12  # [F/m], CODATA 2018
 
@@ -187,6 +188,10 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
     pitch = 2.0 * math.pi / (z * abs(relative))
     length = _TURNS * z * pitch if duration is None else duration
     count = max(math.ceil(length / pitch * phases), 1)
+    if count > _MOST_SAMPLES:
+        raise UsageError(
+            f"{length:.4g} s are {count} positions of the balls, at most {_MOST_SAMPLES}: shorten duration"
+        )
     step = np.arange(count + 1)
     time = step * pitch / phases
     moved = step if relative > 0.0 else -step

@@ -201,6 +201,8 @@ def film_from_outside(
         hertz = None if frequency is None else parse(frequency, "frequency")
     except ValueError as error:
         raise UsageError(f"frequency: {error}") from None
+    if hertz is not None and not hertz > 0.0:
+        raise UsageError(f"frequency {frequency}: must be greater than 0 Hz")
     if not 0.0 < uncertainty < 1.0:
         raise UsageError(f"the uncertainty is a share of the capacitance between 0 and 1, not {uncertainty:g}")
     found = equilibria(model_of(source, overrides), announce=announce)

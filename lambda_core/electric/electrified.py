@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from lambda_core.results.reader import Result
     from lambda_core.system.bearing import BearingModel
 
+_SILICON_NITRIDE = re.compile(r"si3n4|silicon.?nitride", re.IGNORECASE)
+_PERMITTIVITY = 8.0  # of it, usual value of makers' sheets: it insulates, whether or not the case says so
 _SIDES = (("film_inner", "inner"), ("film_outer", "outer"))
 
 
@@ -114,4 +117,7 @@ def _electrified(
         )
         for element, ring in _SIDES
     )
-    return Electrified(case, chosen.options, chosen.laws, plain, (inner, outer), roughness)
+    options, film = chosen.options, chosen.options.film
+    if film.ball_permittivity is None and _SILICON_NITRIDE.search(materials["ball"].name):
+        options = options.model_copy(update={"film": film.model_copy(update={"ball_permittivity": _PERMITTIVITY})})
+    return Electrified(case, options, chosen.laws, plain, (inner, outer), roughness)

@@ -14,7 +14,8 @@ from lambda_core.case.signals import read_table
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError, UsageError
-from lambda_core.electric.circuit import shoulders_capacitance
+from lambda_core.electric.circuit import circuit_of
+from lambda_core.electric.electrified import of_model
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.solver.sampling import CONTACT_CHANNELS
 
@@ -171,7 +172,11 @@ def film_from_series(
     """
     model = found[0].assembly.model
     values = read_measured(path, frequency)
-    films = FilmModel(found, shoulders_capacitance({**vars(model.geometry)}))
+    bearing = of_model(model)
+    film = bearing.options.film
+    if film.ball_permittivity is not None or film.roughness != "smooth" or bearing.options.cage is not None:
+        raise UsageError("the film is found for balls that conduct, smooth films and no cage: leave out their options")
+    films = FilmModel(found, circuit_of(bearing.options, bearing.geometry).rings)
     quantiles = np.quantile(values, (0.16, 0.5, 0.84))
     high, middle, low = (films.scale(float(value)) for value in quantiles)
     slope = films.slope(middle)

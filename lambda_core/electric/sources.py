@@ -12,8 +12,10 @@ import numpy as np
 
 from lambda_core.case.electric import Inverter, Series, Sine, Step
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import UsageError
 
 Turned = Callable[[FloatArray], FloatArray]  # times [s] -> angles of the rotor [rad]
+_MOST = 2e7  # corners of one stretch
 _LATER = 1e6  # after the end, where nothing changes any more [s]
 
 
@@ -31,6 +33,12 @@ def corners(
     """
     origin = start if origin is None else origin
     begin, end = start - origin, stop - origin
+    expected = _rate(source) * (end - begin)
+    if expected > _MOST:
+        raise UsageError(
+            f"the source has {expected:.2g} corners in {end - begin:.3g} s, at most {_MOST:g} are computed: "
+            "shorten electric.duration, or give a slower source"
+        )
     if isinstance(source, Inverter):
         t, v = inverter(source, begin, end, lambda times: turned(times + origin))
     elif isinstance(source, Sine):
@@ -46,6 +54,17 @@ def corners(
     else:
         t, v = _repeated(np.array(source.rows), begin, end)
     return t + origin, v
+
+
+def _rate(source: Inverter | Sine | Step | Series) -> float:
+    """Return corners per second."""
+    if isinstance(source, Inverter):
+        return 16.0 * source.switching_frequency
+    if isinstance(source, Sine):
+        return source.frequency * source.points
+    if isinstance(source, Step):
+        return 0.0
+    return len(source.rows) / (source.rows[-1][0] - source.rows[0][0])
 
 
 def reach(source: Inverter | Sine | Step | Series) -> float:

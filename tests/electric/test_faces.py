@@ -151,3 +151,31 @@ def test_map(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
 def test_mistakes_in_a_map_are_named(arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["electric-map", "6208-axial-1300", "--quiet", *arguments]) == 2
     assert words in " ".join(capsys.readouterr().err.split())
+
+
+def test_densities_are_over_the_mean_area_of_one_raceway() -> None:
+    """Films are in series: one current goes through the contacts of the inner and then of the outer raceway.
+
+    Under axial load all balls are alike, and each presses on 3/2 Q/p_max (Hertz); the outer's area is a little larger.
+    """
+    found = api.electric("6208-axial-1300", SHORT).outcome
+    state = api.quasistatic("6208-axial-1300")
+    inner = 9 * 1.5 * state.max_load_N / (1e3 * state.max_pressure_GPa)  # [mm2]
+    assert inner < found.hertz_area_mm2 < 1.3 * inner
+
+
+def test_what_is_read_is_not_written_over(combined_run: Result, capsys: pytest.CaptureFixture[str]) -> None:
+    path = str(combined_run.path)
+    before = combined_run.path.read_bytes()
+    assert main(["electric", path, "--out", path, "--force"]) == 2
+    assert "is what is read" in capsys.readouterr().err
+    assert combined_run.path.read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [("electric.duration=1e6 s", "at most"), ("electric.inverter.dc_link=1e300 V", "electric.inverter.dc_link")],
+)
+def test_counts_without_end_are_refused(change: str, words: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["electric", "6208-axial-1300", "--set", change]) in (2, 3)
+    assert words in capsys.readouterr().err
