@@ -28,7 +28,9 @@ class ResultError(UsageError):
 def opened(path: Path) -> Iterator[h5py.File]:
     """Open a result of this layout; what is wrong with it, whenever it shows, is a ResultError."""
     if not path.is_file():
-        what = "is a folder, not a result file" if path.is_dir() else "does not exist"
+        what = "does not exist"
+        if path.exists():
+            what = "is a folder, not a result file" if path.is_dir() else "is no regular file"
         raise ResultError(f"{path} {what}")
     try:
         file = open_for_reading(path)

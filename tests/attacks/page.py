@@ -86,8 +86,9 @@ def _of_hostile(entries: Entries) -> list[str]:
 
 
 def _of_kills(entries: Entries) -> list[str]:
-    met = sum(bool(entry.get("met")) for entry in entries)
-    return [f"killed with a file open: {met} of {len(entries)}"]
+    met = [entry for entry in entries if entry.get("met")]
+    over = sum(entry["verdict"] == "usage" for entry in met)
+    return [f"killed with a file open: {len(met)} of {len(entries)}; gone on with: {len(met) - over}; finished: {over}"]
 
 
 def _of_soak(entries: Entries) -> list[str]:

@@ -70,11 +70,15 @@ def test_c2_3_nothing_is_imported_from_the_working_directory(tmp_path: Path) -> 
         (tmp_path / f"{name}.py").write_text("open('imported', 'a').write(__name__)\n", encoding="utf-8")
     script = Path(sys.executable).parent / "lambda-bearing"
     (tmp_path / "s.toml").write_text(
-        f'[study]\ncase = "{CASE}"\nmode = "quasistatic"\n\n[[vary]]\nkey = "loads.axial"\nvalues = ["1 kN", "2 kN"]\n',
+        f'name = "two"\ncase = "{CASE}"\nmode = "quasi-static"\nresponses = ["max_load_N"]\n\n'
+        '[[parameters]]\npath = "loads.axial"\nvalues = ["1 kN", "2 kN"]\n',
         encoding="utf-8",
     )
     for arguments in (["plugins", "check", "damping"], ["study", "run", "s.toml", "--workers", "2", "--quiet"]):
-        subprocess.run([script, *arguments], cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+        done = subprocess.run(
+            [script, *arguments], cwd=tmp_path, capture_output=True, text=True, timeout=250, check=False
+        )
+        assert done.returncode == 0, done.stderr
     assert not (tmp_path / "imported").exists()
 
 
