@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import math
+from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import create_model
+from pydantic import AfterValidator, create_model
 
 from lambda_core.case.option import Section, option
 from lambda_core.domain.elements import ELEMENTS
 from lambda_core.domain.roles import DEFAULT_MODELS, MOTION_ROLES, Role
 from lambda_core.domain.units import Time
 
-Parameters = dict[str, dict[str, Any]]  # role -> parameter -> value
+
+def _finite(given: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    """Refuse infinities and NaN: no law has use for them, and no file of a result can hold them."""
+    for role, values in given.items():
+        for name, value in values.items():
+            if isinstance(value, float) and not math.isfinite(value):
+                raise ValueError(f"{role}.{name}: {value} is no finite number")
+    return given
+
+
+# role -> parameter -> value
+Parameters = Annotated[dict[str, dict[str, Any]], AfterValidator(_finite)]
 
 
 def _help(role: Role) -> str:

@@ -55,3 +55,10 @@ def test_a_spin_that_bursts_steel_is_refused(settings: list[str], where: str) ->
 def test_c4_an_oil_that_is_no_liquid_is_refused(temperature: str) -> None:
     with pytest.raises(CaseError, match="no oil is liquid there"):
         api.check(CASE, [f"lubricant.temperature={temperature}"])
+
+
+@pytest.mark.parametrize("value", ["inf", "nan"])
+def test_a_parameter_without_end_is_refused(value: str) -> None:
+    """It had ended as a bug where the case was written into the result."""
+    with pytest.raises(CaseError, match="no finite number"):
+        api.check(CASE, [f"parameters.rolling_resistance.thermal_coefficient={value}"])
