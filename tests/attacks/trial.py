@@ -145,7 +145,7 @@ class Trial:
     ) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         self._folder, self._watched = folder, watched
-        self._json = "--json" in arguments
+        self._json = "--json" in arguments and "--help" not in arguments  # help is for people
         self._began = time.monotonic()
         self._seen = 0.0  # since the beginning, without waiting [s]
         sys.stdout.flush()
