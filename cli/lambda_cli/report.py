@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import ForceOption
+from lambda_cli.options import ForceOption, Units, UnitsOption
 
 
 def report(
@@ -27,14 +27,18 @@ def report(
             "or none; may be repeated; default: all.",
         ),
     ] = None,
+    units: UnitsOption = Units.SI,
     force: ForceOption = False,
 ) -> None:
     """Write a report: results, views, convergence, inputs with sources, assumptions, references.
 
-    One HTML file without anything from outside, or a PDF (--out x.pdf) where a browser or WeasyPrint is installed.
+    One HTML file without anything from outside, or a PDF (--out x.pdf) where a browser or WeasyPrint is installed
+    (pip install "lambda-bearing[pdf]").
     """
     from lambda_core import api
 
     parts = None if not appendices else [name for name in appendices if name != "none"]
-    written = api.report(source, out, overwrite=force, project=project, author=author, appendices=parts)
+    written = api.report(
+        source, out, overwrite=force, project=project, author=author, appendices=parts, units=units.value
+    )
     typer.echo(str(written))

@@ -96,6 +96,10 @@ def write(registry: Registry, data: ViewData, folder: Path, stem: str, formats: 
     for name in formats:
         if name not in FORMATS:
             raise UsageError(unknown_name("format", name, FORMATS))
+    ending = folder.suffix.removeprefix(".").lower()
+    if (ending in FORMATS and not folder.is_dir()) or folder.is_file():
+        example = f"{stem}-{data.view}.{ending if ending in FORMATS else formats[0]}"
+        raise UsageError(f"{folder}: pictures go into a folder, which they name themselves there: {example}")
     figure = registry.figure(registry.views.get(data.view), data)
     written = []
     try:

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.number_text import number, plus_minus
+from lambda_core.domain.number_text import number
+from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import show
 from lambda_core.results.text import hours
 from lambda_core.views.table import StudyTable
@@ -35,21 +36,15 @@ class Table:
     rows: tuple[tuple[str, ...], ...]
 
 
-def key_figures(summary: Any) -> list[tuple[str, str, str]]:
+def key_figures(summary: Any, units: UnitSystem = SI) -> list[tuple[str, str, str]]:
     """Return what an engineer looks for first: loss, life, safety, lubrication; each name, number, unit."""
-    rating = summary.rating
-    found = [
-        (
-            "friction torque (95 %)",
-            plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm),
-            "N mm",
-        ),
-        ("power loss", rounded(summary.power_loss_W), "W"),
-    ]
+    rating, torque = summary.rating, units.unit("N mm")
+    mean = units.plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm, "N mm").removesuffix(torque)
+    found = [("friction torque (95 %)", mean.strip(), torque), _figure("power loss", summary.power_loss_W, "W", units)]
     if rating is not None:
         found += [
-            ("friction torque, SKF's catalogue", rounded(rating.skf_torque_Nmm), "N mm"),
-            ("friction torque, Schaeffler's catalogue", rounded(rating.schaeffler_torque_Nmm), "N mm"),
+            _figure("friction torque, SKF's catalogue", rating.skf_torque_Nmm, "N mm", units),
+            _figure("friction torque, Schaeffler's catalogue", rating.schaeffler_torque_Nmm, "N mm", units),
             ("rating life L10rh, ISO/TS 16281", _life(rating.reference_life_h), ""),
             ("rating life L10h, ISO 281", _life(rating.basic_life_h), ""),
             ("static safety C0/P0, ISO 76", rounded(rating.static_safety, 2), ""),
@@ -58,22 +53,26 @@ def key_figures(summary: Any) -> list[tuple[str, str, str]]:
     tilt = ", ".join(number(angle, 2) for angle in summary.inner_ring_tilt_mrad)
     return [
         *found,
-        ("smallest minimum film", rounded(summary.min_film_um), "um"),
+        _figure("smallest minimum film", summary.min_film_um, "um", units),
         ("Lambda, central film over roughness", "..".join(rounded(v, 2) for v in summary.film_parameter), ""),
-        ("largest contact pressure", rounded(summary.max_pressure_GPa), "GPa"),
+        _figure("largest contact pressure", summary.max_pressure_GPa, "GPa", units),
         ("tilt of the inner ring y, z", tilt, "mrad"),
     ]
 
 
-def run_figures(summary: Any) -> Table:
+def _figure(name: str, value: float | None, unit: str, units: UnitSystem, digits: int = 3) -> tuple[str, str, str]:
+    return name, rounded(None if value is None else units.value(value, unit), digits), units.unit(unit)
+
+
+def run_figures(summary: Any, units: UnitSystem = SI) -> Table:
     """Return the remaining averages of a run."""
-    position = ", ".join(number(value, 2) for value in summary.inner_ring_displacement_um)
+    position = ", ".join(units.number(value, "um", 2) for value in summary.inner_ring_displacement_um)
     rows = (
-        ("input torque", rounded(summary.input_torque_Nmm, 4), "N mm"),
+        _figure("input torque", summary.input_torque_Nmm, "N mm", units, 4),
         ("cage over inner ring speed", rounded(summary.cage_speed_ratio, 4), ""),
         ("cage over kinematic speed", rounded(summary.cage_speed_over_epicyclic, 4), ""),
         ("capacitance of the bearing", rounded(summary.bearing_capacitance_nF), "nF"),
-        ("inner ring x, y, z (mean)", position, "um"),
+        ("inner ring x, y, z (mean)", position, units.unit("um")),
         ("energy residual", rounded(summary.energy_residual, 2), "of input"),
     )
     return Table("averages of the run", ("", "value", "unit"), rows)
@@ -112,33 +111,45 @@ def rounded(value: float | None, digits: int = 3) -> str:
     return f"{short:,.0f}".replace(",", " ") if abs(short) >= 1000.0 else f"{short:g}"
 
 
-def breakdown(summary: Any) -> Table:
+def breakdown(summary: Any, units: UnitSystem = SI) -> Table:
     total = summary.friction_torque_Nmm
     rows = [
-        (name.replace("_", " "), written(value), f"{100.0 * value / total:.1f}" if total and value is not None else "")
+        (
+            name.replace("_", " "),
+            in_unit("", value, "N mm", units)[1],
+            f"{100.0 * value / total:.1f}" if total and value is not None else "",
+        )
         for name, value in summary.friction_breakdown_Nmm.items()
     ]
-    return Table("friction torque by mechanism", ("mechanism", "N mm", "%"), tuple(rows))
+    return Table("friction torque by mechanism", ("mechanism", units.unit("N mm"), "%"), tuple(rows))
 
 
-def contacts(summary: Any) -> Table:
-    head = ("ball", "ring", "azimuth deg", "load N", "contact angle deg", "film um", "capacitance pF")
+def contacts(summary: Any, units: UnitSystem = SI) -> Table:
+    load, film = units.unit("N"), units.unit("um")
+    head = ("ball", "ring", "azimuth deg", f"load {load}", "contact angle deg", f"film {film}", "capacitance pF")
     rows = tuple(
         (
-            str(c.ball), c.ring, f"{c.azimuth_deg:.1f}", f"{c.load_N:.1f}", f"{c.contact_angle_deg:.2f}",
-            written(c.film_um), written(c.capacitance_pF),
+            str(c.ball), c.ring, f"{c.azimuth_deg:.1f}", f"{units.value(c.load_N, 'N'):.1f}",
+            f"{c.contact_angle_deg:.2f}", in_unit("", c.film_um, "um", units)[1], written(c.capacitance_pF),
         )
         for c in summary.contacts
     )  # fmt: skip
     return Table(_CONTACT, head, rows)
 
 
-def convergence(summary: Any) -> Table:
+def in_unit(name: str, value: Any, unit: str, units: UnitSystem) -> tuple[str, str, str]:
+    """Return a row: a name, a value in the unit in which it is shown, that unit."""
+    if isinstance(value, float):
+        value = units.value(value, unit)
+    return name, written(value), units.unit(unit)
+
+
+def convergence(summary: Any, units: UnitSystem = SI) -> Table:
     rows = [
         ("simulated time", written(summary.simulated_s), "s"),
         ("cage revolutions discarded", str(summary.revolutions_discarded), ""),
         ("cage revolutions averaged", str(summary.revolutions_averaged), ""),
-        ("95 % half-width of the friction torque", written(summary.friction_torque_ci_Nmm), "N mm"),
+        in_unit("95 % half-width of the friction torque", summary.friction_torque_ci_Nmm, "N mm", units),
         ("energy residual", written(summary.energy_residual), "of input"),
         ("wall time", written(summary.wall_s), "s"),
         *((name.replace("_", " "), f"{count:.0f}", "") for name, count in summary.solver_statistics.items()),
@@ -146,14 +157,14 @@ def convergence(summary: Any) -> Table:
     return Table("convergence", ("", "value", "unit"), tuple(rows))
 
 
-def study_points(table: StudyTable) -> Table:
+def study_points(table: StudyTable, units: UnitSystem = SI) -> Table:
     columns = [*table.parameters, *(c for c in table.responses if "." not in c.name)]
-    head = ("point", *(f"{c.label} [{c.unit}]" if c.unit else c.label for c in columns), "state")
+    head = ("point", *(f"{c.label} [{units.unit(c.unit)}]" if c.unit else c.label for c in columns), "state")
     shown = table.rows()[:_ROWS]
     rows = tuple(
         (
             str(row["point"]),
-            *(written(row[c.name]) for c in columns),
+            *(in_unit("", row[c.name], c.unit, units)[1] for c in columns),
             f"{row['state']}: {row['reason']}" if row["reason"] else row["state"],
         )
         for row in shown
@@ -162,7 +173,7 @@ def study_points(table: StudyTable) -> Table:
     return Table(f"points{left}", head, rows)
 
 
-def value_tables(values: Iterable[ResolvedValue]) -> tuple[Table, ...]:
+def value_tables(values: Iterable[ResolvedValue], units: UnitSystem = SI) -> tuple[Table, ...]:
     """Return the resolved values with their sources, a table for each section of the case.
 
     What parts of a section share (the material of rings and balls, the laws of both raceways) stands there once.
@@ -173,7 +184,8 @@ def value_tables(values: Iterable[ResolvedValue]) -> tuple[Table, ...]:
         part = ""
         if section in _IN_PARTS:
             part, _, name = name.partition(".")
-        row = (name or section.removesuffix("s"), _shown(value), value.status, value.source, value.grade)
+        shown = units.sentence(_shown(value))
+        row = (name or section.removesuffix("s"), shown, value.status, value.source, value.grade)
         sections.setdefault(section, {}).setdefault(row, []).append(part.replace("_", " "))
     head = ("", "value", "status", "source", "grade")
     return tuple(

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_target
+from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.report.gallery import every
 from lambda_core.report.key_tables import (
     Table,
@@ -19,15 +20,16 @@ from lambda_core.report.key_tables import (
     contacts,
     convergence,
     currents,
+    in_unit,
     key_figures,
     law_table,
     run_figures,
     study_points,
     value_tables,
-    written,
 )
 from lambda_core.views.chart import ViewData
 from lambda_core.views.method import NotApplicable
+from lambda_core.views.other_units import in_units
 from lambda_core.views.table import StudyTable
 
 if TYPE_CHECKING:
@@ -65,12 +67,13 @@ APPENDICES = ("tables", *(name for name, _ in _CHAPTERS))
 
 @dataclass(frozen=True)
 class Cover:
-    """What the person who reports says: project, author, day, and which appendices follow the first page."""
+    """What the person who reports says: project, author, day, which appendices follow the first page, which units."""
 
     project: str = ""
     author: str = ""
     date: str = ""
     appendices: tuple[str, ...] = APPENDICES
+    units: UnitSystem = SI
 
     @property
     def line(self) -> str:
@@ -97,13 +100,13 @@ def run_report(registry: Registry, result: Result, cover: Cover = _NO_COVER) -> 
     """Return the page about one run."""
     from lambda_core.results.citation import citation
 
-    summary = result.summary()
+    summary, units = result.summary(), cover.units
     pictures = _pictures(registry, result, "result", cover)
     versions = [(name, version) for name, version in result.versions.items()]
     keys = [(f"code of {name}", key[:16]) for name, key in sorted(result.kernel_keys.items())]
     inputs = Inputs(
-        value_tables(result.values),
-        result.assumptions,
+        value_tables(result.values, units),
+        tuple(map(units.sentence, result.assumptions)),
         law_table(result.laws),
         citation(result),
         result.case_toml,
@@ -113,18 +116,23 @@ def run_report(registry: Registry, result: Result, cover: Cover = _NO_COVER) -> 
         kind="run",
         cover=cover,
         title=result.title,
-        headline=result.headline.splitlines(),
+        headline=units.sentence(result.headline).splitlines(),
         subtitle=f"{summary.case}   {result.path.name}   {result.created}",
         verdict="converged" if summary.converged else "not converged",
         good=summary.converged,
-        reasons=summary.reasons,
-        warnings=summary.warnings,
+        reasons=[units.sentence(reason) for reason in summary.reasons],
+        warnings=[units.sentence(warning) for warning in summary.warnings],
         sketch=next((p for p in pictures if p.name == _SKETCH and p.svg), None),
-        figures=key_figures(summary),
-        tables=(breakdown(summary), run_figures(summary), *currents(summary), contacts(summary)),
+        figures=key_figures(summary, units),
+        tables=(
+            breakdown(summary, units),
+            run_figures(summary, units),
+            *currents(summary),
+            contacts(summary, units),
+        ),
         pictures=[p for p in pictures if p.name not in (*_TRUST, _SKETCH)],
         trust=[p for p in pictures if p.name in _TRUST],
-        trust_tables=(convergence(summary),),
+        trust_tables=(convergence(summary, units),),
         inputs=inputs,
     )
 
@@ -148,10 +156,10 @@ def study_report(
         for name, count in (("partial", status.partial), ("failed", status.failed), ("to do", status.pending))
         if count
     ]
-    tables = [study_points(table)]
+    tables = [study_points(table, cover.units)]
     if status.best is not None:
         units = table.units()
-        rows = tuple((name, written(value), units.get(name, "")) for name, value in status.best.items())
+        rows = tuple(in_unit(name, value, units.get(name, ""), cover.units) for name, value in status.best.items())
         tables.insert(0, Table(f"best point ({status.message})", ("", "value", "unit"), rows))
     return _render(
         kind="study",
@@ -174,7 +182,7 @@ def study_report(
     )
 
 
-def case_inputs(model: Any) -> Inputs:
+def case_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
     """Return the inputs of a study from the resolved model of its case."""
     from types import SimpleNamespace
 
@@ -185,8 +193,8 @@ def case_inputs(model: Any) -> Inputs:
     laws, versions = origin.laws(), origin.versions()
     source: Any = SimpleNamespace(path=model.name, laws=laws, values=model.values, versions=versions)
     return Inputs(
-        value_tables(model.values),
-        tuple(model.assumptions),
+        value_tables(model.values, units),
+        tuple(map(units.sentence, model.assumptions)),
         law_table(laws),
         citation(source),
         model.case_toml,
@@ -243,7 +251,7 @@ def _pictures(registry: Registry, subject: Any, kind: Any, cover: Cover) -> list
         if isinstance(data, NotApplicable):
             found.append(Picture(view.name, "", str(data)))
         else:
-            found.append(Picture(view.name, svg(registry, data)))
+            found.append(Picture(view.name, svg(registry, in_units(data, cover.units))))
     return found
 
 

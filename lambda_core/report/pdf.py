@@ -28,8 +28,8 @@ def check_printer() -> None:
     """
     if _browser() is None and find_spec("weasyprint") is None:
         raise UsageError(
-            f"a PDF needs a browser ({', '.join(BROWSERS[:3])}) or the package weasyprint (pip install weasyprint), "
-            "and neither is here: write .html and print that"
+            f"a PDF needs a browser on PATH ({', '.join(BROWSERS[:3])}) or WeasyPrint, and neither is here: "
+            'pip install "lambda-bearing[pdf]", or write .html and print that from any browser'
         )
 
 

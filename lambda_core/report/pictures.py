@@ -212,6 +212,7 @@ def report(
     project: str = "",
     author: str = "",
     appendices: Sequence[str] | None = None,
+    units: str = "si",
 ) -> Path:
     """Write one self-contained page about a run or a study, as HTML or PDF.
 
@@ -220,8 +221,8 @@ def report(
     source : path-like
         A result or its file, or the folder of a study.
     out : path-like, optional
-        File whose ending says the format: ``.html``, or ``.pdf`` where a browser or WeasyPrint is installed; default:
-        the name of the source with ``.html`` in the working directory.
+        File whose ending says the format: ``.html``, or ``.pdf`` where a browser or WeasyPrint (extra ``pdf``) is
+        installed; default: the name of the source with ``.html`` in the working directory.
     overwrite : bool
         Replace a page that stands there.
     project, author : str
@@ -229,6 +230,8 @@ def report(
     appendices : sequence of str, optional
         What follows the first page: ``tables``, ``views``, ``trust``, ``inputs``, ``assumptions``, ``laws``,
         ``references``, ``origin``; default: all of it.
+    units : str
+        ``si`` or ``us``: in which numbers are shown; the case stands as it was written.
 
     Returns
     -------
@@ -246,7 +249,7 @@ def report(
     from lambda_core.report.pdf import check_printer, write_pdf
 
     path = Path(out) if out is not None else Path(f"{view_stem([source])}.html")
-    cover = _cover(project, author, appendices)
+    cover = _cover(project, author, appendices, units)
     _refuse_existing(path, overwrite)
     is_pdf = path.suffix.lower() == ".pdf"
     if is_pdf:
@@ -257,24 +260,25 @@ def report(
         from lambda_core.case.case_io import parse_case
 
         definition, case_toml = files(Path(source))
-        inputs = case_inputs(resolve(parse_case(case_toml, str(source))))
+        inputs = case_inputs(resolve(parse_case(case_toml, str(source))), cover.units)
         text = study_report(registry(), subject, study_status(Path(source)), inputs, definition, cover)
     else:
         text = run_report(registry(), subject, cover)
     return write_pdf(text, path) if is_pdf else write_page(text, path)
 
 
-def _cover(project: str, author: str, appendices: Sequence[str] | None) -> Cover:
+def _cover(project: str, author: str, appendices: Sequence[str] | None, units: str) -> Cover:
     """Return what stands on the page beside the results; the day only where somebody signs."""
     from datetime import date
 
+    from lambda_core.domain.unit_systems import unit_system
     from lambda_core.report.page import APPENDICES, Cover
 
     chosen = tuple(APPENDICES if appendices is None else appendices)
     for name in chosen:
         if name not in APPENDICES:
             raise UsageError(unknown_name("appendix", name, APPENDICES))
-    return Cover(project, author, date.today().isoformat() if project or author else "", chosen)
+    return Cover(project, author, date.today().isoformat() if project or author else "", chosen, unit_system(units))
 
 
 def _refuse_existing(path: Path, overwrite: bool) -> None:

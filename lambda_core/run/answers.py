@@ -152,7 +152,7 @@ def compare(
     from lambda_core.run.compare_methods import compare as ask
     from lambda_core.run.comparison import comparison_of
 
-    model, known = ready_model(source, overrides, announce), registry().methods
+    model, known = ready_model(source, overrides, announce, is_static=True), registry().methods
     unknown = next((name for name in methods if name not in known), None)
     if unknown is not None:
         raise UsageError(unknown_name("comparison method", unknown, known))

@@ -184,10 +184,7 @@ def _solved(phase: Phase, case: Case, share: float, announce: Callable[[str], No
     where = f'phase "{phase.name}"'
     changes = [f"{path}={_written(value)}" for path, value in phase.changes.items()]
     try:
-        changed = apply_overrides(case, changes)
-        if changed.operation.speed == 0.0 and changed.solver.duration is None:  # a run would need to know when to end
-            changed = changed.with_(solver={"duration": "1 s"})
-        model = ready_model(changed, announce=announce)
+        model = ready_model(apply_overrides(case, changes), announce=announce, is_static=True)
         found = solve(model, announce=announce)
     except CaseError as error:
         raise CaseError(f"{where} of {case.name}", error.problems) from None

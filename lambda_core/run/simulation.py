@@ -51,7 +51,8 @@ def quasistatic(
     from lambda_core.results.quasistatic import quasistatic_of
     from lambda_core.solver.drivers.equilibrium import solve
 
-    return quasistatic_of(solve(ready_model(source, overrides, announce), announce=announce))
+    model = ready_model(source, overrides, announce, is_static=True)
+    return quasistatic_of(solve(model, announce=announce))
 
 
 def estimate(

@@ -23,6 +23,7 @@ def check(
     *,
     folder: Path | None = None,
     catalogue: Catalogue | None = None,
+    is_static: bool = False,
 ) -> BearingModel:
     """Read and resolve a case without running it.
 
@@ -36,6 +37,8 @@ def check(
         Where file names in plain tables are looked up; default: the working directory.
     catalogue : Catalogue, optional
         An open catalogue to look things up in; default: one is opened for this call.
+    is_static : bool
+        Whether only an equilibrium is wanted: a case in which nothing turns then needs no duration.
 
     Returns
     -------
@@ -60,18 +63,18 @@ def check(
             loaded = validate_case(source, str(source.get("name", "case")), folder)
         else:
             loaded = source if isinstance(source, Case) else case(source)
-        return resolve(apply_overrides(loaded, changes) if changes else loaded, catalogue)
+        return resolve(apply_overrides(loaded, changes) if changes else loaded, catalogue, is_static=is_static)
     except InvalidCase as error:
         if error.remainder is None:
             raise
         try:
-            resolve(error.remainder, catalogue)
+            resolve(error.remainder, catalogue, is_static=is_static)
         except CaseError as more:
             raise error.joined(more.problems) from None
         raise
 
 
-def resolve(case: Case, catalogue: Catalogue | None = None) -> BearingModel:
+def resolve(case: Case, catalogue: Catalogue | None = None, *, is_static: bool = False) -> BearingModel:
     """Freeze a case into the model of a run: every value in SI with its origin.
 
     Parameters
@@ -80,6 +83,8 @@ def resolve(case: Case, catalogue: Catalogue | None = None) -> BearingModel:
         What the engineer wrote.
     catalogue : Catalogue, optional
         An open catalogue to look things up in; default: one is opened for this call.
+    is_static : bool
+        Whether only an equilibrium is wanted: a case in which nothing turns then needs no duration.
 
     Returns
     -------
@@ -98,9 +103,9 @@ def resolve(case: Case, catalogue: Catalogue | None = None) -> BearingModel:
 
     models = registry()
     if catalogue is not None:
-        return freeze(case, models, catalogue)
+        return freeze(case, models, catalogue, is_static=is_static)
     with closing(models.catalogue()) as opened:
-        return freeze(case, models, opened)
+        return freeze(case, models, opened, is_static=is_static)
 
 
 def problems(source: Mapping[str, Any] | Case) -> tuple[Problem, ...]:
@@ -142,13 +147,16 @@ def describe(model: BearingModel) -> CaseReport:
 
 
 def model_of(
-    source: str | Path | Mapping[str, Any] | Case | BearingModel, overrides: Iterable[str] = ()
+    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    overrides: Iterable[str] = (),
+    *,
+    is_static: bool = False,
 ) -> BearingModel:
     """Return the resolved model of whatever a function of this package takes as a case."""
     from lambda_core.system.bearing import BearingModel
 
     if not isinstance(source, BearingModel):
-        return check(source, overrides)
+        return check(source, overrides, is_static=is_static)
     if list(overrides):
         raise UsageError("a resolved model takes no overrides: change the case and resolve it")
     return source

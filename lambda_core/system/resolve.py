@@ -56,7 +56,7 @@ STEPS_PER_CAGE_TURN = 400.0
 STEPS_PER_PERIOD = 20.0
 
 
-def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingModel:
+def resolve(case: Case, registry: ModelSource, catalogue: Catalogue, *, is_static: bool = False) -> BearingModel:
     """Freeze a case into the model that a run needs.
 
     Parameters
@@ -67,6 +67,8 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingM
         Models by role and name.
     catalogue : Catalogue
         Bearings, lubricants, materials, cages, clearance classes.
+    is_static : bool
+        Whether the model is for an equilibrium alone, which needs no end in time.
 
     Raises
     ------
@@ -102,7 +104,7 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue) -> BearingM
     cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, materials["cage"], ledger)
     inertias = _inertias(case, geometry, materials, cage_estimate, ledger)
     _check_spins(case, geometry, ledger)
-    solver = _solver(case, geometry, ledger)
+    solver = _solver(case, geometry, ledger, is_static=is_static)
     ledger.check(case.name)
     return BearingModel(
         name=case.name,
@@ -209,9 +211,9 @@ def cage_period(case: Case, geometry: Geometry) -> float:
     return 2.0 * math.pi / speed if speed > 0.0 else math.inf
 
 
-def _solver(case: Case, geometry: Geometry, ledger: Ledger) -> Solver:
+def _solver(case: Case, geometry: Geometry, ledger: Ledger, *, is_static: bool) -> Solver:
     given, turn = case.solver, cage_period(case, geometry)
-    if math.isinf(turn) and given.duration is None:
+    if math.isinf(turn) and given.duration is None and not is_static:
         ledger.problem("solver.duration", "is required where nothing turns at first: averages need turns of the cage")
     longest = given.max_duration or (LONGEST_RUN * turn if math.isfinite(turn) else given.duration or 0.0)
     if given.duration is not None and given.max_duration is not None and given.duration > given.max_duration:
@@ -221,7 +223,8 @@ def _solver(case: Case, geometry: Geometry, ledger: Ledger) -> Solver:
     largest = min(steps)
     if math.isinf(largest):
         largest = (given.duration or 1.0) / STEPS_PER_CAGE_TURN
-    _end_in_sight(case, given.duration or longest, turn, ledger)
+    if not is_static:
+        _end_in_sight(case, given.duration or longest, turn, ledger)
     return Solver(
         tolerance=given.tolerance,
         duration=given.duration or 0.0,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -132,20 +133,24 @@ def ready_model(
     source: str | Path | Mapping[str, Any] | Case | BearingModel,
     overrides: Iterable[str] = (),
     announce: Callable[[str], None] | None = None,
+    *,
+    is_static: bool = False,
 ) -> BearingModel:
     """Return the resolved model of a case as it runs: at its own temperatures, where it wants them computed.
+
+    With `is_static` it is for an equilibrium, which needs no end in time.
 
     Raises
     ------
     CaseError, SolverError
         With a sentence about the case, or about why there are no steady temperatures.
     """
-    model = model_of(source, overrides)
+    model = model_of(source, overrides, is_static=is_static)
     if model.thermal is None:
         return model
     from lambda_core.thermal.operating import at_own_temperatures
 
-    return at_own_temperatures(model, resolve, announce)
+    return at_own_temperatures(model, partial(resolve, is_static=is_static), announce)
 
 
 def _is_result(source: object) -> bool:

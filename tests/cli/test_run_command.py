@@ -254,3 +254,13 @@ def test_quasistatic_prints_the_same_numbers_as_its_json(capsys: pytest.CaptureF
     assert f"Q_max {data['max_load_N']:.0f} N" in out
     assert f"{data['friction_torque_Nmm']:.1f} N mm" in out
     assert len([line for line in out.splitlines() if " inner  " in line]) >= 9
+
+
+def test_an_equilibrium_at_rest_needs_no_end_in_time(capsys: pytest.CaptureFixture[str]) -> None:
+    resting = ["--set", "operation.speed=0 rpm"]
+    assert main(["quasistatic", CASE, *resting, "--json", "--quiet"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["max_load_N"] > 100.0
+    assert found["friction_torque_Nmm"] is None
+    assert main(["run", CASE, *resting]) == 3  # a run does
+    assert "solver.duration" in capsys.readouterr().err

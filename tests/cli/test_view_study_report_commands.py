@@ -46,6 +46,14 @@ def test_view_writes_pictures_and_prints_their_names(call: Call, combined_run: R
     assert all(Path(line).stat().st_size > 5000 for line in out.splitlines())
 
 
+def test_view_wants_a_folder_to_draw_into(call: Call, combined_run: Result, tmp_path: Path) -> None:
+    for name in (tmp_path / "film.svg", combined_run.path):  # a file that there is none of, and one that there is
+        code, out, err = call("view", str(combined_run.path), "film", "--out", str(name))
+        assert (code, out) == (2, "")
+        assert f"{name}: pictures go into a folder, which they name themselves there: combined-film.svg" in err
+    assert not (tmp_path / "film.svg").exists()
+
+
 def test_view_prints_data(call: Call, combined_run: Result) -> None:
     code, out, _ = call("view", str(combined_run.path), "film", "--json")
     data = json.loads(out)

@@ -124,12 +124,27 @@ def test_the_head_and_the_appendices_are_chosen(radial_run: Result, tmp_path: Pa
         api.report(radial_run, tmp_path / "x.html", appendices=["view"])
 
 
+def test_the_page_is_in_units_of_the_united_states(radial_run: Result, tmp_path: Path) -> None:
+    path = api.report(radial_run, tmp_path / "us.html", appendices=["tables", "inputs"], units="us")
+    found = Page(path.read_text(encoding="utf-8"))
+    torque = radial_run.summary().friction_torque_Nmm
+    assert torque is not None
+    assert f"{torque / 112.985:.1f}" in found.text  # 1 lbf in = 112.985 N mm
+    assert "lbf in" in found.text
+    assert "load lbf" in found.text
+    assert "degF" in found.text
+    results = found.text[: found.text.index("Inputs and their sources")]
+    assert not re.search(r"\d (N mm|kN|um|degC|W|GPa)\b", results)
+    with pytest.raises(UsageError, match='"uk" is not a known system of units'):
+        api.report(radial_run, tmp_path / "uk.html", units="uk")
+
+
 def test_without_a_printer_a_pdf_is_refused_before_the_work(
     radial_run: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(pdf, "_browser", lambda: None)
     monkeypatch.setattr(pdf, "find_spec", lambda name: None)
-    with pytest.raises(UsageError, match=r"needs a browser \(chromium, .*weasyprint.*neither is here"):
+    with pytest.raises(UsageError, match=r"browser on PATH \(chromium, .*neither is here: .*lambda-bearing\[pdf\]"):
         api.report(radial_run, tmp_path / "x.pdf")
     assert not (tmp_path / "x.pdf").exists()
 
