@@ -21,6 +21,7 @@ NAMES = {
     "speed": "wall time per simulated second and per revolution at measured accuracy",
     "integrators": "CVODE and SciPy on the same right-hand side",
     "scaling": "number of balls, cells of a contact",
+    "bearings": "number of bearings on a shaft",
     "operating_point": "quasi-static points",
     "foreign_law": "a traction law from another distribution",
     "startup": "cold and warm start of the command line",

@@ -35,7 +35,7 @@ def _repeat_factor(count, gamma, handle):
 
 def _repeat_solve(count, handle):
     for _ in range(count):
-        arrow_solve(handle.factors, handle.slope)
+        arrow_solve(handle.blocks, handle.factors, handle.slope)
     return count
 
 

@@ -36,6 +36,7 @@ array2 = types.float64[:, ::1]
 array3 = types.float64[:, :, ::1]
 array4 = types.float64[:, :, :, ::1]
 iarray1 = types.int64[::1]
+iarray2 = types.int64[:, ::1]
 
 
 def record_t(kind: np.dtype[Any]) -> Any:

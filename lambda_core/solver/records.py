@@ -158,6 +158,7 @@ BODY = record(
     ("damping", f8, (6,)),  # [N s/m, N m s/rad]
 )
 ROW = record(
+    ("number", i8),  # its place in the table of rows
     ("first_ball", i8),
     ("balls", i8),
     ("first_raceway", i8),  # the raceways that every ball of the row touches

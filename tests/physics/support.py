@@ -126,17 +126,10 @@ class Machine:
 
     def jacobian(self, y: FloatArray, t: float = 0.0) -> FloatArray:
         """Return the block-arrow Jacobian as a dense matrix."""
-        bundle, blocks, z = self.assembly.bundle, self.assembly.blocks, self.count
+        bundle, blocks = self.assembly.bundle, self.assembly.blocks
         self.evaluate(y, t, want=0)
         assert core().jacobian(t, y, bundle, blocks) == 1, fault_sentence(self.assembly)
-        dense = np.zeros((y.size, y.size))
-        for j in range(z):
-            own = slice(L.NB * j, L.NB * (j + 1))
-            dense[own, own] = blocks.a[j]
-            dense[own, L.NB * z :] = blocks.b[j]
-            dense[L.NB * z :, own] = blocks.c[j]
-        dense[L.NB * z :, L.NB * z :] = blocks.d
-        return dense
+        return dense(blocks)
 
     @contextmanager
     def frictionless(self) -> Iterator[None]:
@@ -152,6 +145,22 @@ class Machine:
         """Return the whole shared state (3, 12), prescribed motions included."""
         self.evaluate(y, t, want=0)
         return np.array(self.assembly.bundle.shared).reshape(3, L.NS)
+
+
+def dense(blocks: Blocks) -> FloatArray:
+    """Return the block-arrow Jacobian as one matrix: what a ball does not reach stays zero."""
+    reach, tail = blocks.reach, L.NB * blocks.a.shape[0]
+    size = tail + blocks.d.shape[0]
+    matrix = np.zeros((size, size))
+    for r, width in enumerate(reach.width):
+        columns = tail + reach.columns[r, :width]
+        for j in range(reach.first[r], reach.first[r + 1]):
+            own = np.arange(L.NB * j, L.NB * (j + 1))
+            matrix[np.ix_(own, own)] = blocks.a[j]
+            matrix[np.ix_(own, columns)] = blocks.b[j, :, :width]
+            matrix[np.ix_(columns, own)] = blocks.c[j, :width]
+    matrix[tail:, tail:] = blocks.d
+    return matrix
 
 
 def time_function(m: Machine, kind: str, body: int, component: int, t: float) -> FloatArray:
@@ -189,7 +198,7 @@ def integrate_tables(
     control["step"], control["shortest_step"], control["longest_step"] = 1e-9, 1e-16, interval
     control["sample_interval"] = interval
     mem.count["stale"] = 1
-    compiled, factors = core(), make_factors(int(bundle.system[0]["balls"]), bundle.active.size)
+    compiled, factors = core(), make_factors(blocks.reach, bundle.active.size)
     while control["time"][0] < duration:
         status = compiled.advance(
             compiled.evaluate_pointer, compiled.jacobian_pointer, duration, 10_000, bundle, blocks, factors, mem

@@ -26,8 +26,8 @@ def _no_force(out):
 @helper
 def pocket_columns(ball, j, row, bundle, bl):
     """Add the pocket of ball j; a pocket without force is skipped."""
-    scratch, viscosity, b, fm = bundle.scratch[0], row.oil.viscosity, row.cage, bl.wrenches
-    cage, g, out, fault = bundle.bodies_now[b], scratch.guide, scratch.out[:], scratch.fault
+    scratch, viscosity, fm, p = bundle.scratch[0], row.oil.viscosity, bl.wrenches, bl.reach.place[row.number, row.cage]
+    cage, g, out, fault = bundle.bodies_now[row.cage], scratch.guide, scratch.out[:], scratch.fault
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
     near_ball, near_cage = bl.ball.view(BALL), bl.body.view(BODY_STATE)
     pocket_state(ball, cage, j, row, g)
@@ -53,11 +53,11 @@ def pocket_columns(ball, j, row, bundle, bl):
         pocket_apply(near_ball[0], near_cage[0], g, out, fm[2], fm[3])
         if k < NB:
             add_slope(bl.own, k, fm[2], fm[0], step)
-            add_slope(bl.from_ball[b], k, fm[3], fm[1], step)
+            add_slope(bl.from_ball[p], k, fm[3], fm[1], step)
         else:
-            column = NS * b + k - NB
+            column = NS * p + k - NB
             add_slope(bl.to_shared, column, fm[2], fm[0], step)
-            add_slope(bl.shared[b], column, fm[3], fm[1], step)
+            add_slope(bl.parts[j, p], column, fm[3], fm[1], step)
     return 1
 
 

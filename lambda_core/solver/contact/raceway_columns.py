@@ -30,9 +30,10 @@ def _wrenches_near(scratch, bl):
 
 
 @helper
-def _contact_columns(ball, ring, raceway, bundle, bl):
-    """Add one raceway contact to the force slopes; scratch holds its kinematics and wrench."""
-    scratch, b = bundle.scratch[0], raceway.body
+def _contact_columns(ball, j, ring, raceway, row, bundle, bl):
+    """Add one raceway contact of ball j to the force slopes; scratch holds its kinematics and wrench."""
+    scratch, p = bundle.scratch[0], bl.reach.place[row.number, raceway.body]
+    index, on_ring = bl.reach.index[row.number], bl.parts[j, p]
     kin, fm = scratch.kinematics[1], bl.wrenches
     near_ball, near_ring = bl.ball.view(BALL), bl.body.view(BODY_STATE)
     clear(fm[0])
@@ -51,10 +52,10 @@ def _contact_columns(ball, ring, raceway, bundle, bl):
                 continue
         _wrenches_near(scratch, bl)
         add_slope(bl.own, c, fm[2], fm[0], step)
-        add_slope(bl.from_ball[b], c, fm[3], fm[1], step)
+        add_slope(bl.from_ball[p], c, fm[3], fm[1], step)
     for c in range(NS):
-        column = NS * b + c
-        if bl.index[column] < 0 or (c == STHETA and raceway.surface_on == 0):
+        column = NS * p + c
+        if index[column] < 0 or (c == STHETA and raceway.surface_on == 0):
             continue
         step = body_step(c, False)
         near_ring[0] = ring
@@ -67,7 +68,7 @@ def _contact_columns(ball, ring, raceway, bundle, bl):
                 continue
         _wrenches_near(scratch, bl)
         add_slope(bl.to_shared, column, fm[2], fm[0], step)
-        add_slope(bl.shared[b], column, fm[3], fm[1], step)
+        add_slope(on_ring, column, fm[3], fm[1], step)
 
 
 @helper
@@ -91,5 +92,5 @@ def raceway_columns(ball, j, row, bundle, bl):
         if ok != 1:
             scratch.fault.ball = j
             return 0
-        _contact_columns(ball, ring, raceway, bundle, bl)
+        _contact_columns(ball, j, ring, raceway, row, bundle, bl)
     return 1

@@ -93,5 +93,4 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: O
         body_wrenches=np.zeros(bodies, R.WRENCH),
         ball_wrenches=np.zeros(balls, R.WRENCH),
     )
-    blocks = make_blocks(balls, bodies, active)
-    return Assembly(model, kernels, oils, frame, bundle, blocks, state_scales(model, active))
+    return Assembly(model, kernels, oils, frame, bundle, make_blocks(bundle), state_scales(model, active))

@@ -92,7 +92,7 @@ class BearingEngine:
         self._balls = model.geometry.ball_count
         start = initial_state(self._equilibrium)
         active = self._assembly.bundle.active
-        self._factors = make_factors(self._balls, active.size)
+        self._factors = make_factors(self._assembly.blocks.reach, active.size)
         self._memory = memory.make_memory(
             start, self._assembly.scale, model.solver.tolerance, self._assembly.bundle, _CAPACITY
         )

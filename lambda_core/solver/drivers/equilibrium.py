@@ -224,7 +224,7 @@ def _continue(compiled: Core, assembly: Assembly, state: FloatArray, *, friction
     report, last = np.zeros(1, dtype=STATIC_REPORT), np.zeros(state.size)
     balls = assembly.model.geometry.ball_count
     trust, held = np.ones(balls), np.zeros(balls, dtype=np.int64)
-    factors = make_factors(balls, assembly.bundle.active.size)
+    factors = make_factors(assembly.blocks.reach, assembly.bundle.active.size)
     status = Status.UNFINISHED
     while (
         status == Status.UNFINISHED and report["iterations"][0] < _MAX_ITERATIONS[friction]

@@ -82,18 +82,19 @@ def _dense(t, y, out, handle):
     if handle.evaluate(t, handle.y, handle.bundle, handle.slope, handle.rates, 0) != 1:
         return 0  # the compiled Jacobian builds on the evaluation at its point
     ok = handle.jacobian(t, handle.y, handle.bundle, handle.blocks)
-    bl = handle.blocks
-    balls, n = bl.b.shape[0], bl.b.shape[2]
-    tail = L.NB * balls
+    bl, reach, n = handle.blocks, handle.blocks.reach, handle.blocks.d.shape[0]
+    tail = L.NB * bl.a.shape[0]
     out[:, :] = 0.0
-    for j in range(balls):
-        row = L.NB * j
-        for i in range(L.NB):
-            for k in range(L.NB):
-                out[row + i, row + k] = bl.a[j, i, k]
-            for k in range(n):
-                out[row + i, tail + k] = bl.b[j, i, k]
-                out[tail + k, row + i] = bl.c[j, k, i]
+    for r in range(reach.width.size):
+        for j in range(reach.first[r], reach.first[r + 1]):
+            row = L.NB * j
+            for i in range(L.NB):
+                for k in range(L.NB):
+                    out[row + i, row + k] = bl.a[j, i, k]
+                for k in range(reach.width[r]):
+                    column = tail + reach.columns[r, k]
+                    out[row + i, column] = bl.b[j, i, k]
+                    out[column, row + i] = bl.c[j, k, i]
     for i in range(n):
         for k in range(n):
             out[tail + i, tail + k] = bl.d[i, k]
@@ -145,7 +146,7 @@ class Handle:
         self.size = n = assembly.size
         self._state, self._slope = np.zeros(n), np.zeros(n)
         solver = core()
-        factors = make_factors(assembly.model.geometry.ball_count, assembly.bundle.active.size)
+        factors = make_factors(assembly.blocks.reach, assembly.bundle.active.size)
         self._handle = _compiled(_new)(
             solver.evaluate_pointer,
             solver.jacobian_pointer,

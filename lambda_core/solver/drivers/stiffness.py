@@ -81,16 +81,17 @@ def _forces_slope(assembly: Assembly, state: FloatArray) -> None:
 def _eliminated(assembly: Assembly) -> FloatArray:
     """Return the stiffness left when the balls' positions are eliminated, shape (5, 5)."""
     blocks, body = assembly.blocks, assembly.model.inner_ring
-    index = blocks.index
-    columns, rows = index[list(_STATES)], index[list(_RATES)]
+    columns, rows = blocks.index[list(_STATES)], blocks.index[list(_RATES)]
+    own = blocks.reach.index[0]  # the inner ring is the first body that a ball touches, too
+    own_columns, own_rows = own[list(_STATES)], own[list(_RATES)]
     inertia = np.array([body.mass] * 3 + [body.transverse_inertia] * 2)
     positions, accelerations = [L.BX, L.BR], [L.BVX, L.BVR]
     slope = blocks.d[np.ix_(rows, columns)].copy()
-    for own, on_ball, on_ring in zip(blocks.a, blocks.b, blocks.c, strict=True):
-        feel = on_ball[np.ix_(accelerations, columns)]
+    for ball, on_ball, on_ring in zip(blocks.a, blocks.b, blocks.c, strict=True):
+        feel = on_ball[np.ix_(accelerations, own_columns)]
         if not np.any(feel):
             continue  # the inner ring does not touch this ball
-        hold = own[np.ix_(accelerations, positions)]
-        slope -= on_ring[np.ix_(rows, positions)] @ np.linalg.solve(hold, feel)
+        hold = ball[np.ix_(accelerations, positions)]
+        slope -= on_ring[np.ix_(own_rows, positions)] @ np.linalg.solve(hold, feel)
     matrix: FloatArray = -inertia[:, None] * slope * _SIGNS[None, :]
     return matrix

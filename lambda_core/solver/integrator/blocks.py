@@ -8,21 +8,23 @@ import numpy as np
 from numba import types
 
 from lambda_core.solver import records as R
+from lambda_core.solver.integrator.reach import Reach, make_reach, reach_t
 from lambda_core.solver.layout import NB, NS, array1, array2, array3, array4, iarray1, table_t
 
 
 class Blocks(NamedTuple):
-    """Jacobian blocks and workspaces."""
+    """Jacobian blocks and workspaces; those of a ball have the columns of its own bodies, in their places."""
 
+    reach: Reach  # the own bodies of each row
     a: Any  # (Z, 9, 9)
-    b: Any  # (Z, 9, n_active)
-    c: Any  # (Z, n_active, 9)
+    b: Any  # (Z, 9, widest)
+    c: Any  # (Z, widest, 9)
     d: Any  # (n_active, n_active)
     own: Any  # (6, 9) d(ball force)/d(ball)
-    to_shared: Any  # (6, 12 bodies) d(ball force)/d(shared)
-    from_ball: Any  # (bodies, 6, 9) d(body force)/d(ball)
-    shared: Any  # (bodies, 6, 12 bodies) d(body force)/d(shared), of one ball, then summed
-    parts: Any  # (Z, bodies, 6, 12 bodies) the same of every ball
+    to_shared: Any  # (6, 12 places) d(ball force)/d(own bodies)
+    from_ball: Any  # (places, 6, 9) d(own body force)/d(ball)
+    parts: Any  # (Z, places, 6, 12 places) d(own body force)/d(own bodies) by each ball
+    shared: Any  # (bodies, 6, 12 bodies) d(body force)/d(shared): the parts' sum, and the lands
     due: Any  # int64 (Z,): whether the next call renews this ball; it leaves 1 everywhere
     slope: Any  # TANGENT (1,): d(wrench)/d(kinematics) of one contact
     ball: Any  # (9,) perturbed
@@ -36,6 +38,7 @@ class Blocks(NamedTuple):
 
 
 _BLOCK_TYPES = {
+    "reach": reach_t,
     "a": array3,
     "b": array3,
     "c": array3,
@@ -54,22 +57,24 @@ _BLOCK_TYPES = {
 blocks_t = types.NamedTuple([_BLOCK_TYPES.get(name, array1) for name in Blocks._fields], Blocks)
 
 
-def make_blocks(balls: int, bodies: int, active: np.ndarray) -> Blocks:
-    """Allocate the blocks for `balls` balls, `bodies` bodies and their free shared states `active`."""
-    n, shared = active.size, NS * bodies
-    index = np.full(shared, -1, dtype=np.int64)
-    index[active] = np.arange(n)
-    zeros = np.zeros
+def make_blocks(bundle: Any) -> Blocks:
+    """Allocate the blocks for the tables of a bundle."""
+    balls, bodies, n = int(bundle.system["balls"][0]), bundle.bodies.size, bundle.active.size
+    index = np.full(NS * bodies, -1, dtype=np.int64)
+    index[bundle.active] = np.arange(n)
+    reach, zeros = make_reach(bundle), np.zeros
+    places, widest = reach.bodies.shape[1], reach.columns.shape[1]
     return Blocks(
+        reach=reach,
         a=zeros((balls, NB, NB)),
-        b=zeros((balls, NB, n)),
-        c=zeros((balls, n, NB)),
+        b=zeros((balls, NB, widest)),
+        c=zeros((balls, widest, NB)),
         d=zeros((n, n)),
         own=zeros((6, NB)),
-        to_shared=zeros((6, shared)),
-        from_ball=zeros((bodies, 6, NB)),
-        shared=zeros((bodies, 6, shared)),
-        parts=zeros((balls, bodies, 6, shared)),
+        to_shared=zeros((6, NS * places)),
+        from_ball=zeros((places, 6, NB)),
+        parts=zeros((balls, places, 6, NS * places)),
+        shared=zeros((bodies, 6, NS * bodies)),
         due=np.ones(balls, dtype=np.int64),
         slope=zeros(1, R.TANGENT),
         ball=zeros(NB),

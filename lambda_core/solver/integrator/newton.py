@@ -132,7 +132,7 @@ def solve_step(evaluate, jacobian, t, h, bundle, bl, fa, mem):
         count.newton_iterations += 1
         for i in range(n):
             change[i] = mem.base[i] + gamma * mem.slope[i] - new[i]
-        arrow_solve(fa, change)
+        arrow_solve(bl, fa, change)
         # A matrix factored for another gamma over- or undershoots by a known amount.
         relax = 2.0 / (1.0 + gamma / control.factored_gamma)
         again = iteration > 0 and careful

@@ -13,13 +13,13 @@ from lambda_core.solver.records import BODY_STATE
 def ball_block(ball, row, bl, a, b):
     """Turn force slopes into the rows of one ball."""
     r, vt, vr = ball.radius, ball.velocity[2], ball.velocity[1]
-    orbit = vt / r
+    orbit, index = vt / r, bl.reach.index[row.number]
     for i in range(6):
         inverse = 1.0 / row.ball_mass if i < 3 else 1.0 / row.ball_inertia
         for c in range(NB):
             a[3 + i, c] = bl.own[i, c] * inverse
-        for column in range(bl.index.size):
-            k = bl.index[column]
+        for column in range(index.size):
+            k = index[column]
             if k >= 0:
                 b[3 + i, k] = bl.to_shared[i, column] * inverse
     for i in range(3):
@@ -60,16 +60,16 @@ def force_map(body, now, m):
 
 
 @helper
-def body_rows(b, bl, c_block):
-    """Write d(body b)/d(ball) into a block C."""
+def body_rows(p, index, bl, c_block):
+    """Write d(body)/d(ball) of the body at place p into a block C."""
     for row in range(NS):
-        k = bl.index[NS * b + row]
+        k = index[NS * p + row]
         if k < 0:
             continue
         for col in range(NB):
             total = 0.0
             for i in range(6):
-                total += bl.map[row, i] * bl.from_ball[b, i, col]
+                total += bl.map[row, i] * bl.from_ball[p, i, col]
             c_block[k, col] = total
 
 

@@ -6,6 +6,8 @@ Each ball couples only to itself and to the bodies:
          [     ...       ...],
          [C_1, ..., C_Z,  D ]]
 
+B and C hold the columns and rows of the bodies that the ball touches (:mod:`lambda_core.solver.integrator.reach`).
+
 A contact's wrench depends on the states through nine kinematic numbers; its slope with them is
 costly and taken once (:mod:`.tangent`), their slopes with the states and the change of the frame are cheap.
 """
@@ -16,7 +18,7 @@ import math
 
 from lambda_core.solver.cage.guide_columns import land_columns, neighbour_columns, pocket_columns
 from lambda_core.solver.contact.raceway_columns import raceway_columns
-from lambda_core.solver.layout import BPSI, NB, helper
+from lambda_core.solver.layout import BPSI, NB, NS, helper
 from lambda_core.solver.motion.block_rows import ball_block, body_rows, force_map, shared_rows
 from lambda_core.solver.motion.force_elements import drag_force
 from lambda_core.solver.motion.prescribed import fill_shared
@@ -46,21 +48,15 @@ def _drag_columns(ball, row, bundle, bl):
 
 
 @helper
-def _keep_part(bl, j):
-    """Keep what ball j adds to the slopes of the forces on the bodies."""
-    for b in range(bl.shared.shape[0]):
+def _add_part(bl, r, j):
+    """Add what ball j of row r adds to the slopes of the forces on the bodies."""
+    bodies, count, part = bl.reach.bodies[r], bl.reach.count[r], bl.parts[j]
+    for p in range(count):
+        total = bl.shared[bodies[p]]
         for i in range(6):
-            for c in range(bl.shared.shape[2]):
-                bl.parts[j, b, i, c] = bl.shared[b, i, c]
-
-
-@helper
-def _add_part(bl, j):
-    """Add what ball j adds to the slopes of the forces on the bodies."""
-    for b in range(bl.shared.shape[0]):
-        for i in range(6):
-            for c in range(bl.shared.shape[2]):
-                bl.shared[b, i, c] += bl.parts[j, b, i, c]
+            for q in range(count):
+                for c in range(NS):
+                    total[i, NS * bodies[q] + c] += part[p, i, NS * q + c]
 
 
 @helper
@@ -95,17 +91,18 @@ def _force_columns(balls, j, row, bundle, bl):
 @helper
 def _ball_blocks(balls, j, row, bundle, bl):
     """Write the blocks A, B, C of ball j and its part of D; returns 1 when well."""
-    bl.shared[:, :, :] = 0.0
+    reach, r = bl.reach, row.number
+    bl.parts[j, :, :, :] = 0.0
     bl.own[:, :] = 0.0
     bl.to_shared[:, :] = 0.0
     bl.from_ball[:, :, :] = 0.0
     if _force_columns(balls, j, row, bundle, bl) != 1:
         return 0
     ball_block(balls[j], row, bl, bl.a[j], bl.b[j])
-    for b in range(bundle.bodies.size):
+    for p in range(reach.count[r]):
+        b = reach.bodies[r, p]
         force_map(bundle.bodies[b], bundle.bodies_now[b], bl.map)
-        body_rows(b, bl, bl.c[j])
-    _keep_part(bl, j)
+        body_rows(p, reach.index[r], bl, bl.c[j])
     return 1
 
 
@@ -126,9 +123,10 @@ def jacobian(t, y, bundle, bl):
     bl.shared[:, :, :] = 0.0
     if system.guides_on == 1 and land_columns(bundle, bl) != 1:
         return 0
-    for j in range(system.balls):
-        bl.due[j] = 1
-        _add_part(bl, j)
+    for r in range(bundle.rows.size):
+        for j in range(bl.reach.first[r], bl.reach.first[r + 1]):
+            bl.due[j] = 1
+            _add_part(bl, r, j)
     bl.d[:, :] = 0.0
     for b in range(bundle.bodies.size):
         if bundle.bodies[b].moves == 0:

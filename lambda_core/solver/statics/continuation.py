@@ -222,7 +222,7 @@ def solve_static(evaluate, jacobian, bundle, bl, fa, y, weight, last, trust, hel
             for i in range(n):
                 step[i] = dt * f[i]
             if arrow_factor(bl, 1.0, dt, fa) == 1:
-                arrow_solve(fa, step)
+                arrow_solve(bl, fa, step)
                 size = _merit(step, weight)
                 clipped = system.friction_on == 1 and size > _CONVERGED and _clip_speeds(step, speed, spin, trust)
                 shrink = min(1.0, _LARGEST_MOVE / (_largest_move(step, weight, system.balls) + 1e-300))

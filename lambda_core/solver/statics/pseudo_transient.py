@@ -65,49 +65,59 @@ def _copy(source, target):
             target[i, k] = source[i, k]
 
 
+@helper
+def _moves_ball(state, held, friction_on):
+    """Return whether a state of a ball takes part in the pseudo-transient system."""
+    return _ball_row(state, held, friction_on) >= 0 or (state == BVT and friction_on == 1)
+
+
+@helper
+def _mask_ball(j, r, bundle, bl, held, a2, b2, c2, on):
+    """Turn the blocks of ball j of row r into those of the pseudo-transient system; `on` marks the columns of all."""
+    friction_on, reach = bundle.system[0].friction_on, bl.reach
+    a, b, c = bl.a[j], bl.b[j], bl.c[j]
+    a2[:, :], b2[:, :], c2[:, :] = 0.0, 0.0, 0.0
+    for i in range(NB):
+        row = _ball_row(i, held, friction_on)
+        if row < 0:
+            continue
+        scale = _MOBILITY if i < 3 else 1.0
+        for k in range(NB):
+            if _moves_ball(k, held, friction_on):
+                a2[i, k] = scale * a[row, k]
+        for k in range(reach.width[r]):
+            b2[i, k] = scale * b[row, k] * on[reach.columns[r, k]]
+    if held and friction_on == 1:
+        a2[BVT, BVT] = -_HOLD
+    for k in range(reach.width[r]):
+        position = reach.columns[r, k]
+        row, sign = _shared_row(bundle.active[position], bundle.bodies)
+        if on[position] == 1:
+            own = reach.index[r, NS * reach.place[r, row // NS] + row % NS]
+            for i in range(NB):
+                if _moves_ball(i, held, friction_on):
+                    c2[k, i] = _MOBILITY * sign * c[own, i]
+    _copy(a2, a)
+    _copy(b2, b)
+    _copy(c2, c)
+
+
 @allocating_helper
 def mask(bundle, bl, held):
     """Turn the blocks of dy/dt into those of the pseudo-transient system, in place."""
-    system = bundle.system[0]
-    z, n = system.balls, bl.d.shape[0]
-    active = bundle.active
-    column_on = np.zeros(n, dtype=np.int64)
+    active, n, widest = bundle.active, bl.d.shape[0], bl.b.shape[2]
+    on = np.zeros(n, dtype=np.int64)
+    for k in range(n):
+        row, _ = _shared_row(active[k], bundle.bodies)
+        on[k] = 1 if row >= 0 and bl.index[row] >= 0 else 0
+    a2, b2, c2 = np.zeros((NB, NB)), np.zeros((NB, widest)), np.zeros((widest, NB))
+    for r in range(bundle.rows.size):
+        for j in range(bl.reach.first[r], bl.reach.first[r + 1]):
+            _mask_ball(j, r, bundle, bl, held[j], a2, b2, c2, on)
+    d2 = np.zeros((n, n))
     for k in range(n):
         row, sign = _shared_row(active[k], bundle.bodies)
-        column_on[k] = 1 if row >= 0 and bl.index[row] >= 0 else 0
-    a2, b2 = np.zeros((NB, NB)), np.zeros((NB, n))
-    for j in range(z):
-        a, b = bl.a[j], bl.b[j]
-        a2[:, :] = 0.0
-        b2[:, :] = 0.0
-        for i in range(NB):
-            row = _ball_row(i, held[j], system.friction_on)
-            if row < 0:
-                continue
-            scale = _MOBILITY if i < 3 else 1.0
-            for c in range(NB):
-                if _ball_row(c, held[j], system.friction_on) >= 0 or (c == BVT and system.friction_on == 1):
-                    a2[i, c] = scale * a[row, c]
-            for k in range(n):
-                b2[i, k] = scale * b[row, k] * column_on[k]
-        if held[j] and system.friction_on == 1:
-            a2[BVT, BVT] = -_HOLD
-        _copy(a2, a)
-        _copy(b2, b)
-    d2, c2 = np.zeros((n, n)), np.zeros((n, NB))
-    for k in range(n):
-        row, sign = _shared_row(active[k], bundle.bodies)
-        if column_on[k] == 1:
+        if on[k] == 1:
             for m in range(n):
-                d2[k, m] = _MOBILITY * sign * bl.d[bl.index[row], m] * column_on[m]
+                d2[k, m] = _MOBILITY * sign * bl.d[bl.index[row], m] * on[m]
     _copy(d2, bl.d)
-    for j in range(z):
-        c = bl.c[j]
-        c2[:, :] = 0.0
-        for k in range(n):
-            row, sign = _shared_row(active[k], bundle.bodies)
-            if column_on[k] == 1:
-                for i in range(NB):
-                    if _ball_row(i, held[j], system.friction_on) >= 0 or (i == BVT and system.friction_on == 1):
-                        c2[k, i] = _MOBILITY * sign * c[bl.index[row], i]
-        _copy(c2, c)

@@ -1,0 +1,63 @@
+"""Which bodies, and so which columns of the Jacobian, the balls of each row reach.
+
+A ball touches the raceways of its row and its cage and nothing else, so its blocks hold the columns of those bodies
+alone: the *own* bodies of its row. Numbers among them are places; a row with fewer than the widest leaves the rest
+unused.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import types
+
+from lambda_core.solver.layout import NS, iarray1, iarray2
+
+
+class Reach(NamedTuple):
+    """The own bodies of each row of balls, and where their states stand."""
+
+    first: Any  # int64 (rows + 1,): first ball of each row, in the end the number of balls
+    count: Any  # int64 (rows,): own bodies
+    bodies: Any  # int64 (rows, places): the own bodies, in the order of all
+    place: Any  # int64 (rows, bodies): place of each body among the own ones, or -1
+    width: Any  # int64 (rows,): free states of the own bodies
+    columns: Any  # int64 (rows, widest): their positions among all free shared states
+    index: Any  # int64 (rows, 12 places): position of each state of the own bodies among their free ones, or -1
+
+
+_TYPES = {"first": iarray1, "count": iarray1, "width": iarray1}
+reach_t = types.NamedTuple([_TYPES.get(name, iarray2) for name in Reach._fields], Reach)
+
+
+def _own_bodies(bundle: Any, row: Any) -> list[int]:
+    """Return the bodies that the balls of a row touch, in order."""
+    begin = int(row["first_raceway"])
+    touched = {int(body) for body in bundle.raceways["body"][begin : begin + int(row["raceways"])]}
+    return sorted(touched | ({int(row["cage"])} if row["caged"] else set()))
+
+
+def make_reach(bundle: Any) -> Reach:
+    """Return what each row of the tables in a bundle reaches."""
+    own = [_own_bodies(bundle, row) for row in bundle.rows]
+    rows, places = len(own), max(len(bodies) for bodies in own)
+    positions = np.full(NS * bundle.bodies.size, -1, dtype=np.int64)
+    positions[bundle.active] = np.arange(bundle.active.size)
+    states = [np.concatenate([NS * body + np.arange(NS) for body in bodies]) for bodies in own]
+    free = [positions[of][positions[of] >= 0] for of in states]
+    found = Reach(
+        first=np.array([*bundle.rows["first_ball"], bundle.system["balls"][0]], dtype=np.int64),
+        count=np.array([len(bodies) for bodies in own], dtype=np.int64),
+        bodies=np.zeros((rows, places), dtype=np.int64),
+        place=np.full((rows, bundle.bodies.size), -1, dtype=np.int64),
+        width=np.array([columns.size for columns in free], dtype=np.int64),
+        columns=np.zeros((rows, max(columns.size for columns in free)), dtype=np.int64),
+        index=np.full((rows, NS * places), -1, dtype=np.int64),
+    )
+    for r, (bodies, of, columns) in enumerate(zip(own, states, free, strict=True)):
+        found.bodies[r, : len(bodies)] = bodies
+        found.place[r, bodies] = np.arange(len(bodies))
+        found.columns[r, : columns.size] = columns
+        found.index[r, : of.size] = np.where(positions[of] >= 0, np.cumsum(positions[of] >= 0) - 1, -1)
+    return found
