@@ -15,8 +15,8 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.electric.circuit import circuit_of
 from lambda_core.electric.contacts import Contacts, films
 from lambda_core.electric.film_laws import FilmLaw, film_laws
-from lambda_core.electric.march import Circuit, Films, March, Network, Strength
-from lambda_core.electric.sources import corners, reach
+from lambda_core.electric.march import UNCHARGED, Circuit, Films, March, Network, Strength
+from lambda_core.electric.sources import corners, one_period, reach
 
 if TYPE_CHECKING:
     from lambda_core.electric.electrified import Electrified
@@ -126,6 +126,7 @@ def simulate(
         announce=announce,
     )
     source = corners(options.source, begin, end + reach(options.source), contacts.turned)
+    rest = one_period(options.source, begin, contacts.turned)
     last, first = contacts.time.size, 0
     started, spent = time.perf_counter(), 0.0
     if settled is not None:
@@ -134,10 +135,11 @@ def simulate(
         if last - first < 2:
             raise UsageError(f"{contacts.origin}: too short: nothing is left from {settled:.4g} s on")
         if first > 0:
-            network.advance(electric.part(slice(0, first + 1)), source)
+            network.advance(electric.part(slice(0, first + 1)), source, rest=rest)
         spent = float(electric.time[first] - begin)
     rows = slice(first, last)
-    found = network.advance(electric.part(rows), source, (np.inf, -np.inf) if window is None else window)
+    recorded = (np.inf, -np.inf) if window is None else window
+    found = network.advance(electric.part(rows), source, recorded, rest if first == 0 else UNCHARGED)
     wall = time.perf_counter() - started
     contacts, electric = contacts.part(rows), electric.part(rows)
     length = float(electric.time[-1] - electric.time[0])

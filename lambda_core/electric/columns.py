@@ -51,7 +51,8 @@ T_LEAK, T_ARC_CHARGE = 4, 5  # charge from all nodes to ground: through conducta
 T_STORED_0, T_STORED, T_CHARGE_0, T_CHARGE = range(6, 10)  # energy [J] and charge of all nodes [C], start and end
 T_EVENTS, T_DISCHARGES, T_TRACE, T_SEGMENTS, T_TIME = range(10, 15)
 T_STATUS = 15  # that a law refused with
-N_TOTAL = 16
+T_SETTLING, T_BEGAN = 16, 17  # 1 until films stand the voltages of the start; time from which sums count [s]
+N_TOTAL = 18
 # One row per contact that broke down in a discharge, `events[...]`.
 (
     E_TIME,  # of the breakdown [s]

@@ -16,8 +16,8 @@ from lambda_core.electric.contacts import CHANNELS, Contacts, contacts_of_sample
 from lambda_core.electric.electrified import of_model
 from lambda_core.electric.events import events_of
 from lambda_core.electric.film_laws import film_laws
-from lambda_core.electric.march import Network
-from lambda_core.electric.sources import corners, reach
+from lambda_core.electric.march import UNCHARGED, Network
+from lambda_core.electric.sources import corners, one_period, reach
 from lambda_core.laws.kernels import sources_key
 from lambda_core.results.circuit_rows import CIRCUIT, DISCHARGES, CircuitRows
 
@@ -99,14 +99,14 @@ class Live:
         part = waiting.part(slice(0, last + 1))
         parts = films(part, self._options, self._rolled)
         known, angle = self._known
-        source = corners(
-            self._options.source,
-            float(part.time[0]),
-            float(waiting.time[-1]),
-            lambda times: turned(known, angle, times),
-            origin=float(known[0]),
-        )
-        march = self._network.advance(parts, source)
+        options, origin = self._options.source, float(known[0])
+
+        def angles(times: FloatArray) -> FloatArray:
+            return turned(known, angle, times)
+
+        source = corners(options, float(part.time[0]), float(waiting.time[-1]), angles, origin=origin)
+        rest = one_period(options, origin, angles) if self._rolled is None else UNCHARGED
+        march = self._network.advance(parts, source, rest=rest)
         events = events_of(march, part)
         self._rolled, self._waiting = parts.rolled[-1], waiting.part(slice(last, None))
         self._broken += events.time.size

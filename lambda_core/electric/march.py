@@ -140,6 +140,8 @@ class March:
     total: FloatArray
 
 
+Corners = tuple[FloatArray, FloatArray]  # times [s], volts
+UNCHARGED: Corners = (np.zeros(0), np.zeros(0))
 _FIRST_ROOM = 4096  # events that there is room for at first
 _TRACE_ROOM = 20000
 _SUMS = slice(L.T_SOURCE, L.T_ARC_CHARGE + 1)
@@ -195,7 +197,11 @@ class Network:
         return float(self._total[L.T_TIME])
 
     def advance(
-        self, films: Films, source: tuple[FloatArray, FloatArray], window: tuple[float, float] = (np.inf, -np.inf)
+        self,
+        films: Films,
+        source: Corners,
+        window: tuple[float, float] = (np.inf, -np.inf),
+        rest: Corners = UNCHARGED,
     ) -> March:
         """March through the times of the films, from discharge to discharge.
 
@@ -207,6 +213,9 @@ class Network:
             Corners of the common-mode voltage, times [s] increasing, and volts.
         window : tuple of float
             Times between which every corner is recorded [s].
+        rest : tuple of float64[:]
+            One period of the source, in the first stretch: the network begins with the charges that such periods
+            bring back. Default: it begins uncharged.
 
         Raises
         ------
@@ -220,7 +229,7 @@ class Network:
             trace = np.zeros((_TRACE_ROOM, L.N_TRACE))
             self._total[:], self._vectors[:] = before, vectors
             self._total[L.T_EVENTS] = self._total[L.T_TRACE] = 0.0
-            status = self._march(films, source, extremes, events, trace, np.array(window, dtype=np.float64))
+            status = self._march(films, rest, source, extremes, events, trace, np.array(window, dtype=np.float64))
             if status != L.EVENTS_FULL:
                 break
             room *= 8
@@ -235,7 +244,7 @@ class Network:
         return March(events[: int(total[L.T_EVENTS])].copy(), extremes, trace[: int(total[L.T_TRACE])].copy(), total)
 
     def _march(
-        self, films: Films, source: tuple[FloatArray, FloatArray], extremes: FloatArray, events: FloatArray,
+        self, films: Films, rest: Corners, source: Corners, extremes: FloatArray, events: FloatArray,
         trace: FloatArray, window: FloatArray,
     ) -> int:  # fmt: skip
         """Call the compiled march; return its status."""
@@ -251,7 +260,7 @@ class Network:
         )
         breaks, arcs = strength.breakdown, strength.discharge
         status = self._run(
-            int(not self._began), *(np.ascontiguousarray(a, dtype=np.float64) for a in (*source, *tables)),
+            int(not self._began), *(np.ascontiguousarray(a, dtype=np.float64) for a in (*rest, *source, *tables)),
             circuit.constants(), strength.roughness, strength.least_voltage,
             breaks.kernel.pointer, breaks.par, arcs.kernel.pointer, arcs.par,
             int(circuit.insulated), self._seed, self._substeps, self._work, self._vectors, self._held, self._known,
@@ -277,16 +286,17 @@ def march(
     films: Films,
     circuit: Circuit,
     strength: Strength,
-    source: tuple[FloatArray, FloatArray],
+    source: Corners,
     *,
     seed: int = 0,
     substeps: int = 2,
     window: tuple[float, float] = (np.inf, -np.inf),
+    rest: Corners = UNCHARGED,
     announce: Any = None,
 ) -> March:
     """March a network through the times of the films; see :class:`Network`."""
     network = Network(circuit, strength, films.film.shape[1], seed=seed, substeps=substeps, announce=announce)
-    return network.advance(films, source, window)
+    return network.advance(films, source, window, rest)
 
 
 def compiled(announce: Any) -> Any:

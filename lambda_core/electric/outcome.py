@@ -164,7 +164,7 @@ def energy_residual(total: FloatArray) -> float:
 def charge_residual(simulation: Simulation) -> float:
     """Return charge brought by the source - leaked - through arcs - kept, over the charge that the source moved."""
     total, (times, volts) = simulation.march.total, simulation.source
-    begin, end = np.interp((simulation.films.time[0], total[L.T_TIME]), times, volts)
+    begin, end = np.interp((total[L.T_BEGAN], total[L.T_TIME]), times, volts)
     winding = simulation.circuit.winding
     rest = winding * (end - begin) - total[L.T_LEAK] - total[L.T_ARC_CHARGE]
     rest -= total[L.T_CHARGE] - total[L.T_CHARGE_0]

@@ -67,6 +67,22 @@ def _rate(source: Inverter | Sine | Step | Series) -> float:
     return len(source.rows) / (source.rows[-1][0] - source.rows[0][0])
 
 
+def one_period(source: Inverter | Sine | Step | Series, origin: float, turned: Turned) -> tuple[FloatArray, FloatArray]:
+    """Return the corners of the first period of a source that began at `origin` [s]; of an edge, which has none, none.
+
+    The voltage ends where it began.
+    """
+    if isinstance(source, Inverter):
+        return inverter(source, 0.0, 1.0 / source.switching_frequency, lambda times: turned(times + origin))
+    if isinstance(source, Sine):
+        count = np.arange(source.points + 1)
+        volts = source.amplitude * np.sin(2.0 * math.pi * (count % source.points) / source.points)
+        return count / (source.frequency * source.points), volts
+    if isinstance(source, Series):
+        return _repeated(np.array(source.rows), 0.0, 0.0)
+    return np.zeros(0), np.zeros(0)
+
+
 def reach(source: Inverter | Sine | Step | Series) -> float:
     """Return for how long the voltage is known ahead of the rotor's last known angle [s], 0 where it needs none."""
     return 1.0 / source.switching_frequency if isinstance(source, Inverter) else 0.0

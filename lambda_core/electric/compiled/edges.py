@@ -24,15 +24,16 @@ from lambda_core.electric.compiled.discharge import discharge, record
 from lambda_core.electric.compiled.matrices import across, across_bearing, assemble
 from lambda_core.electric.compiled.modes import amplitudes, charges, heat, modes, propagate, voltages
 from lambda_core.electric.compiled.patches import threshold
+from lambda_core.electric.compiled.rest import periodic
 from lambda_core.electric.compiled.source import slope_at, source_work, voltage_at
 
 march_sig = i8(
-    i8, array1, array1, array1, array3, array3, array3, array3, array3, array3, machine_t, f8, f8,
+    i8, array1, array1, array1, array1, array1, array3, array3, array3, array3, array3, array3, machine_t, f8, f8,
     law_of("breakdown"), array2, law_of("discharge"), array2, i8, i8, i8,
     array3, array2, held_t, iarray2, array2, array1, array1, array2, channels_t, iarray1, array2, array2, array2,
     array1, array1,
 )  # fmt: skip
-N_WORK, N_VECTORS = 9, 19
+N_WORK, N_VECTORS = 9, 20
 _NO_PATCH = -(2**62)
 
 
@@ -128,6 +129,20 @@ def _store(events, total, rows, ball, sample):
     return 1
 
 
+@shared_helper
+def _open_books(n, winding, volt, now, q, v, total):
+    """Begin to count, once the films stand the voltages that they have.
+
+    The start is that of films which never break down. One that does not stand it breaks down at once, at a voltage
+    that would not have come about: neither this discharge nor the voltage before it is one of the operation.
+    """
+    total[L.T_SETTLING], total[L.T_BEGAN], total[L.T_TRACE] = 0.0, now, 0.0
+    for k in (L.T_SOURCE, L.T_OHMIC, L.T_ARC, L.T_MOTION, L.T_LEAK, L.T_ARC_CHARGE):
+        total[k] = 0.0
+    total[L.T_STORED_0] = _energy(n, q, v) + winding * volt * (0.5 * volt - v[L.ROTOR])
+    total[L.T_CHARGE_0] = _sum(n, q)
+
+
 @helper
 def _longest(held):
     """Return a step in which no contact that may break down rolls over more than one patch [s]."""
@@ -150,7 +165,7 @@ def _leaks(n, g, s, out):
 
 
 def march(
-    first, source_t, source_v, t, cap, cond, film, thinnest, area_of, rolled, machine, roughness, least,
+    first, rest_t, rest_v, source_t, source_v, t, cap, cond, film, thinnest, area_of, rolled, machine, roughness, least,
     break_law, break_par, arc_law, arc_par, insulated, seed, substeps,
     work, vectors, held, known, drawn, break_out, arc_out, rows, state, place, extremes, events, trace, window,
     total,
@@ -161,6 +176,8 @@ def march(
     ----------
     first : int
         1 where the march begins, 0 where it goes on from what `vectors` and `total` hold.
+    rest_t, rest_v : float64[:]
+        Corners of one period of the source, for the charges that the march begins with; empty: it begins uncharged.
     source_t, source_v : float64[:], shape (k,)
         Corners of the common-mode voltage [s], [V].
     t : float64[:], shape (n,)
@@ -193,7 +210,7 @@ def march(
     shared = 2 if insulated == 1 else 1
     c, g, s = work[0], work[1], work[2]
     y, v, v1, after, area, decay = vectors[0], vectors[1], vectors[2], vectors[3], vectors[4], vectors[5]
-    q, drive, stand, leaks = vectors[15], vectors[16], vectors[17], vectors[18]
+    q, drive, stand, leaks, mean = vectors[15], vectors[16], vectors[17], vectors[18], vectors[19]
     now, n, winding = t[0] if first == 1 else total[L.T_TIME], shared + cap.shape[1], machine.winding
     place[0] = 0
     slope_at(now, source_t, source_v, place)
@@ -201,7 +218,8 @@ def march(
         for i in range(n):
             q[i], v[i] = 0.0, 0.0
         q[L.ROTOR] = winding * voltage_at(now, source_t, source_v, place)
-        total[L.T_CHARGE_0] = q[L.ROTOR]
+        total[L.T_SETTLING] = 1.0
+    total[L.T_BEGAN] = now
     began = 1 - first
     for i in range(t.size - 1):
         extremes[i, 0], extremes[i, 1] = math.inf, -math.inf
@@ -229,16 +247,16 @@ def march(
             if modes(n, c, g, work[3], work[4], s, decay) == 0:
                 return L.NOT_POSITIVE
             _leaks(n, g, s, leaks)
-            amplitudes(n, s, q, y)
+            if began == 0 and rest_t.size > 1:
+                periodic(n, decay, s, winding, rest_t, rest_v, y, drive, after, area, mean)
+            else:
+                amplitudes(n, s, q, y)
             voltages(n, s, y, v)
             volt = voltage_at(now, source_t, source_v, place)
             if began == 1:
                 total[L.T_MOTION] += _energy(n, q, v) - before
                 total[L.T_SOURCE] -= winding * volt * (v[L.ROTOR] - held_at)
-            else:
-                began = 1
-                total[L.T_STORED_0] = _energy(n, q, v) + winding * volt * (0.5 * volt - v[L.ROTOR])
-                record(trace, total, window, now, volt, across_bearing(shared, v), 0.0)
+            began = 1
             while now < stop:
                 total[L.T_SEGMENTS] += 1.0
                 slope, end = slope_at(now, source_t, source_v, place)
@@ -255,6 +273,10 @@ def march(
                 if best < 0.0:
                     total[L.T_STATUS] = -best - 1.0
                     return L.NO_VOLTAGE
+                if total[L.T_SETTLING] == 1.0 and (best != 0.0 or rest_t.size < 2):
+                    charges(n, c, v, q)
+                    _open_books(n, winding, volt, now, q, v, total)
+                    record(trace, total, window, now, volt, across_bearing(shared, v), 0.0)
                 patch_time = now + dt - begin
                 if best <= 1.0:
                     dt *= best
@@ -267,7 +289,8 @@ def march(
                     y[a], v[a] = after[a], v1[a]
                 now += dt
                 bearing = across_bearing(shared, v)
-                extremes[i, 0], extremes[i, 1] = min(extremes[i, 0], bearing), max(extremes[i, 1], bearing)
+                if total[L.T_SETTLING] == 0.0:
+                    extremes[i, 0], extremes[i, 1] = min(extremes[i, 0], bearing), max(extremes[i, 1], bearing)
                 record(trace, total, window, now, volt + slope * dt, bearing, 0.0)
                 if best > 1.0:
                     continue
@@ -299,7 +322,7 @@ def march(
                 )  # fmt: skip
                 if status != L.OK:
                     return status
-                if _store(events, total, rows, ball, float(i)) == 0:
+                if total[L.T_SETTLING] == 0.0 and _store(events, total, rows, ball, float(i)) == 0:
                     return L.EVENTS_FULL
                 amplitudes(n, s, q, y)
                 voltages(n, s, y, v)

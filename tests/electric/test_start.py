@@ -1,0 +1,96 @@
+"""How the circuit begins: as a machine whose inverter has long been on."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from electric.networks import ROUGH, SMOOTH, residuals, steady, switching, turning
+
+from lambda_core import api
+from lambda_core.case.electric import Inverter, Series, Sine, Step
+from lambda_core.electric import columns as L
+from lambda_core.electric.march import Circuit, march
+from lambda_core.electric.sources import corners, one_period
+
+STOP = 6e-3
+
+
+def at_rest(angle: np.ndarray) -> np.ndarray:
+    return 0.0 * angle
+
+
+@pytest.mark.parametrize("leak", [0.0, 1e-12, 1e-9, 1e-7])
+@pytest.mark.parametrize("brush", [0.0, 1e-8, 1e-5, 1.0])
+def test_begins_in_the_steady_state(leak: float, brush: float) -> None:
+    """The first period of the bearing voltage is the fortieth, from no leak at all to a brush of 1 Ohm."""
+    inverter = Inverter()
+    source, rest = (f(inverter, 0.0, *t, at_rest) for f, t in ((corners, (STOP,)), (one_period, ())))
+    films = steady(100e-12, 80e-12, leak=leak, stop=STOP)
+    found = march(films, Circuit(50e-12, 800e-12, brush=brush), SMOOTH, source, window=(0.0, 1.0), rest=rest)
+    time, volts = found.trace[:, 0], found.trace[:, 2]
+    first, late = (volts[(time > 1e-4 * (k + 0.001)) & (time < 1e-4 * (k + 0.999))] for k in (0, 40))
+    assert first.size == 12
+    np.testing.assert_allclose(first, late, atol=1e-6 * 16.0)
+
+
+def test_grounded_rotor_has_no_voltage_at_the_start() -> None:
+    """A brush of 1 Ohm: nothing of the 16 V that an uncharged rotor would start with, only the current of the edges."""
+    inverter = Inverter()
+    source, rest = corners(inverter, 0.0, STOP, at_rest), one_period(inverter, 0.0, at_rest)
+    films = steady(400e-12, 400e-12, stop=STOP)
+    circuit = Circuit(50e-12, 800e-12, brush=1.0)
+    edge = 50e-12 * 2.0 * 800.0 / 3.0 / 50e-9  # C_wr dV/dt of two phases at once through 1 Ohm [V]
+    kept = march(films, circuit, SMOOTH, source, rest=rest).extremes
+    assert np.abs(kept).max() < 1.01 * edge
+    found = api.electric("6208-axial-1300", ["electric.duration=5 ms", "electric.grounding.brush=1 Ohm"])
+    assert max(map(abs, found.outcome.bearing_voltage_V)) < 1.01 * edge
+
+
+def test_offset_of_a_measured_series_leaks_away() -> None:
+    """A series about 100 V: a bearing that leaks does not see the 100 V, from its first moment on."""
+    points = [f"{1e-5 * k} s, {100.0 + 50.0 * math.sin(0.1 * math.pi * k)} V" for k in range(20)]
+    series = Series(points=points)
+    source, rest = corners(series, 0.0, STOP, at_rest), one_period(series, 0.0, at_rest)
+    films = steady(400e-12, 400e-12, leak=1e-12, stop=STOP)
+    found = march(films, Circuit(50e-12, 800e-12), SMOOTH, source, rest=rest)
+    ratio = 50.0 / (50.0 + 800.0 + 200.0)
+    assert found.extremes[:, 1].max() == pytest.approx(50.0 * ratio, rel=0.02)
+    assert found.extremes[:, 0].min() == pytest.approx(-50.0 * ratio, rel=0.02)
+
+
+def test_periods_close() -> None:
+    """Every periodic source ends its first period at the voltage it began with; an edge has no period."""
+    series = Series(points=["0 s, 3 V", "1 us, 5 V", "2 us, -1 V"])
+    for source in (Inverter(), Sine(amplitude="5 V", frequency="77 Hz"), series):
+        times, volts = one_period(source, 0.0, lambda t: 288.0 * t)
+        assert volts[-1] == volts[0]
+        assert np.all(np.diff(times) > 0.0)
+    assert one_period(Step(amplitude="5 V"), 0.0, at_rest)[0].size == 0
+
+
+def test_films_that_do_not_stand_the_start() -> None:
+    """What breaks down because of the start alone is no event, and its voltage no largest one; all still adds up."""
+    source, rest = switching(0.021), switching(1e-4)
+    films, circuit = turning(film=0.5e-6), Circuit(50e-12, 1000e-12, 5e-12)
+    found = march(films, circuit, ROUGH, source, seed=1, rest=rest)
+    assert found.events[0, 0] > 0.0
+    begun = found.total[L.T_BEGAN]
+    assert 0.0 < begun < 1e-6
+    assert max(map(abs, residuals(found, circuit, source))) < 1e-6
+    quiet = march(turning(), circuit, SMOOTH, source, rest=rest)
+    assert quiet.total[L.T_BEGAN] == 0.0
+
+
+def test_largest_voltage_is_one_that_films_stand() -> None:
+    """The rotor of a 6208 stands at 15 V when nothing breaks down; where all breaks down below that, it is not told."""
+    found = api.electric(
+        "6208-axial-1300", ["electric.duration=10 ms", "electric.breakdown.parameters.strength=5 V/um"]
+    )
+    outcome = found.outcome
+    assert outcome.discharges > 100
+    assert found.events.time[0] > 0.0
+    broke = np.abs(found.events.bearing_voltage).max()
+    assert max(map(abs, outcome.bearing_voltage_V)) <= 1.001 * broke
+    assert broke < 0.7 * outcome.bearing_voltage_ratio * 400.0
