@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 from lambda_core.discovery.hookspecs import hookimpl
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import Channel
 from lambda_core.domain.hertz import hertz_shape
 from lambda_core.domain.roles import OK, ROLE_API
 from lambda_core.domain.units import Quantity
@@ -12,6 +13,7 @@ from lambda_core.laws.law import LazyLaw, law
 from lambda_core.laws.parameter import NoParameters, Parameters, parameter
 from lambda_core.views.chart import Arrows, Axis, Field, Mark, Panel, Series, ViewData
 from lambda_core.views.method import METHOD_API, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
+from lambda_core.views.observer import EVENT_API, OBSERVER_API, Event, Integral, Number, Observer, Samples
 from lambda_core.views.scene import Scene
 from lambda_core.views.table import Column, StudyTable
 from lambda_core.views.view import VIEW_API, Figure, Options, RunData, View
@@ -20,17 +22,22 @@ if not TYPE_CHECKING:  # with it, any name would do
     from lambda_core.laws.old_form import __getattr__  # noqa: F401
 
 __all__ = [
+    "EVENT_API",
     "METHOD_API",
+    "OBSERVER_API",
     "OK",
     "ROLE_API",
     "VIEW_API",
     "Arrows",
     "Axis",
+    "Channel",
     "Column",
     "Context",
+    "Event",
     "Field",
     "Figure",
     "FloatArray",
+    "Integral",
     "LazyLaw",
     "Mark",
     "Material",
@@ -40,12 +47,15 @@ __all__ = [
     "MethodTable",
     "NoParameters",
     "NotApplicable",
+    "Number",
+    "Observer",
     "Oil",
     "Options",
     "Panel",
     "Parameters",
     "Quantity",
     "RunData",
+    "Samples",
     "Scene",
     "Series",
     "StudyTable",

@@ -63,6 +63,7 @@ def limits(duration: str | None, max_wall: str | None) -> list[str]:
 def finish(result: Result, as_json: bool, units: Units) -> None:
     """Print the summary and end with the exit code that its state calls for."""
     from lambda_core.domain.errors import PartialResultError
+    from lambda_core.domain.plugin_errors import PluginError
 
     summary = result.summary()
     typer.echo(summary.model_dump_json(indent=2) if as_json else summary.text(columns(), units.system))
@@ -71,3 +72,5 @@ def finish(result: Result, as_json: bool, units: Units) -> None:
         raise typer.Exit(130)
     if not summary.converged:
         raise PartialResultError(f"not converged: {'; '.join(summary.reasons)}")
+    if summary.plugin_faults:
+        raise PluginError("; ".join(summary.plugin_faults))

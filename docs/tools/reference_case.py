@@ -58,7 +58,7 @@ def case_page() -> str:
             if table not in seen:
                 seen.add(table)
                 lines += _section(path, table)
-    return md.page([*lines, *_models(), *_time_functions(), *_units()])
+    return md.page([*lines, *_models(), *_watching(), *_time_functions(), *_units()])
 
 
 def _tables(parent: type[BaseModel], name: str, prefix: str) -> Iterator[tuple[str, type[BaseModel]]]:
@@ -143,6 +143,23 @@ def _models() -> list[str]:
         "`forces.ELEMENT.parameters.ROLE.NAME` that of one force element.",
         "",
         *md.table(("option", "default", "meaning", "force elements"), rows),
+    ]
+
+
+def _watching() -> list[str]:
+    """Describe the tables of observers and events, whose parameters are the plugins' own."""
+    rows = [
+        ["`observers.NAME.PARAMETER`", "by the observer", Case.model_fields["observers"].description or ""],
+        ["`events.NAME.action`", '`"stop"`', 'what a run does at the event: `"stop"` or `"record"`'],
+        ["`events.NAME.PARAMETER`", "by the event", Case.model_fields["events"].description or ""],
+    ]
+    return [
+        "## `[observers]` and `[events]`",
+        "",
+        "NAME is an observer or event that [a plugin](../plugins.md#channels-and-events-of-your-own) brings; an "
+        "empty table, `[observers.NAME]`, leaves all parameters at their defaults.",
+        "",
+        *md.table(("option", "default", "meaning"), rows),
     ]
 
 

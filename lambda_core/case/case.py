@@ -45,6 +45,10 @@ class Case(Section):
     solver: Solver = option({}, "integrator and averages")
     output: Output = option({}, "what is written")
     electric: Electric | None = option(None, "the bearing in the circuit of an electric machine")
+    observers: Parameters = option({}, "channels that plugins add to the result: a table per observer, its parameters")
+    events: Parameters = option(
+        {}, "what plugins look out for: a table per event, action stop (default) or record, and its parameters"
+    )
     _folder: Path | None = PrivateAttr(default=None)
 
     @model_validator(mode="after")

@@ -22,7 +22,7 @@ def _finite(given: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
     return given
 
 
-# role -> parameter -> value
+# role -> parameter -> value; observer or event -> parameter -> value
 Parameters = Annotated[dict[str, dict[str, Any]], AfterValidator(_finite)]
 
 

@@ -19,11 +19,17 @@ from lambda_core.laws.old_form import new_form
 from lambda_core.laws.par import par_layout
 from lambda_core.laws.parameter import default_fault
 from lambda_core.views.method import METHOD_API, Method
+from lambda_core.views.observer import event_fault, observer_fault
 from lambda_core.views.view import view_fault
 
 _NAME = re.compile(r"[a-z0-9]+(?:-[a-z0-9]+)*")
 _TARGET = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*")
-_KINDS = {"lambda_methods": "method", "lambda_views": "view"}
+_KINDS = {
+    "lambda_methods": "method",
+    "lambda_views": "view",
+    "lambda_observers": "observer",
+    "lambda_events": "event",
+}
 
 
 @dataclass(frozen=True)
@@ -40,7 +46,7 @@ class Collection:
     """Everything registered, by kind; `take` is all or nothing for one plugin."""
 
     models: dict[tuple[str, str], Law | LazyLaw] = field(default_factory=dict)
-    named: dict[tuple[str, str], Any] = field(default_factory=dict)  # ("method" or "view", name) -> item
+    named: dict[tuple[str, str], Any] = field(default_factory=dict)  # (one of _KINDS, name) -> item
     folders: list[tuple[str, Path]] = field(default_factory=list)  # (distribution, folder)
     origins: dict[tuple[str, str], str] = field(default_factory=dict)  # (kind or role, name) -> distribution
 
@@ -108,6 +114,10 @@ def _fault(entry: Entry) -> str:
         return f"lambda_laws registers a {type(item).__name__}: write @law(role, name, ...) above the kernel"
     if entry.hook == "lambda_methods":
         return _method_fault(item)
+    if entry.hook == "lambda_observers":
+        return observer_fault(item) or _name_fault("observer", item.name)
+    if entry.hook == "lambda_events":
+        return event_fault(item) or _name_fault("event", item.name)
     return view_fault(item) or _name_fault("view", item.name)
 
 

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from lambda_core.catalogue.protocol import Catalogue
     from lambda_core.views.chart import ViewData
+    from lambda_core.views.observer import Event, Observer
     from lambda_core.views.scene import Scene
     from lambda_core.views.view import Figure, View
 
@@ -41,6 +42,16 @@ def lambda_methods(register: Callable[[Method], None]) -> None:
 @hookspec
 def lambda_views(register: Callable[[View], None]) -> None:
     """Register views: ``register(View("my-view", "What it shows", "result", data))``."""
+
+
+@hookspec
+def lambda_observers(register: Callable[[Observer], None]) -> None:
+    """Register observers, channels of their own in a run's result: ``register(Observer("wear", ...))``."""
+
+
+@hookspec
+def lambda_events(register: Callable[[Event], None]) -> None:
+    """Register events, which a run records or ends at: ``register(Event("cage-instability", ...))``."""
 
 
 @hookspec(firstresult=True)

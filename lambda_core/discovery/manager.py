@@ -26,7 +26,14 @@ from lambda_core.domain.installed import CASES, COMMANDS, OFF_VARIABLE, PLUGINS,
 from lambda_core.domain.plugin_errors import PluginError, PluginFault, describe
 from lambda_core.laws.law import law_of
 
-_REGISTERING_HOOKS = ("lambda_laws", "lambda_methods", "lambda_views", "lambda_data")
+_REGISTERING_HOOKS = (
+    "lambda_laws",
+    "lambda_methods",
+    "lambda_views",
+    "lambda_observers",
+    "lambda_events",
+    "lambda_data",
+)
 
 log = logging.getLogger("lambda_core")
 

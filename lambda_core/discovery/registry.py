@@ -17,6 +17,7 @@ from lambda_core.domain.plugin_errors import PluginError, PluginFault, blamed, d
 from lambda_core.domain.roles import ROLES
 from lambda_core.laws.law import Law, LazyLaw, law_of
 from lambda_core.views.method import Method
+from lambda_core.views.observer import Event, Observer
 from lambda_core.views.view import Figure, View
 
 if TYPE_CHECKING:
@@ -41,6 +42,10 @@ class Registry:
         Comparison methods by name.
     views : mapping of str to View
         Views by name.
+    observers : mapping of str to Observer
+        Observers by name.
+    events : mapping of str to Event
+        Events by name.
     data_folders : tuple of (str, pathlib.Path)
         Distribution and folder of catalogue rows.
     """
@@ -60,6 +65,8 @@ class Registry:
         self.faults = faults
         self.methods: Mapping[str, Method] = _of_kind(collection, "method")
         self.views: Mapping[str, View] = _of_kind(collection, "view")
+        self.observers: Mapping[str, Observer] = _of_kind(collection, "observer")
+        self.events: Mapping[str, Event] = _of_kind(collection, "event")
         self.data_folders: tuple[tuple[str, Path], ...] = tuple(collection.folders)
 
     def names(self, role: str) -> tuple[str, ...]:
@@ -101,6 +108,16 @@ class Registry:
     def view(self, name: str) -> View:
         """Return one view; PluginError with the nearest names when unknown."""
         found: View = self._named("view", name, self.views)
+        return found
+
+    def observer(self, name: str) -> Observer:
+        """Return one observer; PluginError with the nearest names when unknown."""
+        found: Observer = self._named("observer", name, self.observers)
+        return found
+
+    def event(self, name: str) -> Event:
+        """Return one event; PluginError with the nearest names when unknown."""
+        found: Event = self._named("event", name, self.events)
         return found
 
     def figure(self, view: View | None, data: ViewData) -> Figure:

@@ -19,7 +19,7 @@ from lambda_core.domain.roles import DEFAULT_MODELS, ROLE_API, ROLES
 from lambda_core.laws.check import ModelReport, check_model
 from lambda_core.laws.law import Law
 
-Kind = Literal["model", "method", "view", "data"]
+Kind = Literal["model", "method", "view", "observer", "event", "data"]
 
 
 class ParameterCard(FieldCard):
@@ -107,7 +107,12 @@ def inventory(registry: Registry) -> Inventory:
                 faults.append(FaultCard(distribution=origin, entry_point=f"{role}/{name}", message=str(error)))
                 continue
             items.append(Item(kind="model", role=role, name=name, distribution=origin, reference=found.reference))
-    kinds: tuple[tuple[Kind, Any], ...] = (("method", registry.methods), ("view", registry.views))
+    kinds: tuple[tuple[Kind, Any], ...] = (
+        ("method", registry.methods),
+        ("view", registry.views),
+        ("observer", registry.observers),
+        ("event", registry.events),
+    )
     for kind, named in kinds:
         for name, item in named.items():
             reference = str(getattr(item, "reference", ""))

@@ -44,7 +44,17 @@ DIMENSIONS: dict[str, tuple[str, ...]] = {
 
 @dataclass(frozen=True)
 class Channel:
-    """One quantity over time."""
+    """One quantity over time.
+
+    Attributes
+    ----------
+    name : str
+        In lower case with underscores.
+    dims : tuple of str
+        What it is per, beside time: names of :data:`DIMENSIONS`, "ball", "marker".
+    unit, meaning : str
+        SI unit, "-" for plain numbers; one line for people.
+    """
 
     name: str
     dims: tuple[str, ...]

@@ -99,6 +99,21 @@ def currents(summary: Any) -> tuple[Table, ...]:
     return (Table("bearing currents", ("", "value", "unit"), tuple(rows)),)
 
 
+def watched(summary: Any) -> tuple[Table, ...]:
+    """Return what observers and events of plugins say; nothing where the case has none."""
+    tables = []
+    if summary.observed:
+        rows = tuple((f"{n.meaning} ({n.observer})", rounded(n.value, 4), n.unit) for n in summary.observed)
+        tables.append(Table("observers", ("", "value", "unit"), rows))
+    if summary.events:
+        times = tuple(
+            (f"{e.title} ({e.event})", str(e.count), rounded(e.first_s, 4), rounded(e.last_s, 4))
+            for e in summary.events
+        )
+        tables.append(Table("events", ("", "times", "first s", "last s"), times))
+    return tuple(tables)
+
+
 def _life(life: float | None) -> str:
     return "–" if life is None else hours(life)
 

@@ -26,6 +26,7 @@ from lambda_core.report.key_tables import (
     run_figures,
     study_points,
     value_tables,
+    watched,
 )
 from lambda_core.views.chart import ViewData
 from lambda_core.views.method import NotApplicable
@@ -128,6 +129,7 @@ def run_report(registry: Registry, result: Result, cover: Cover = _NO_COVER) -> 
             breakdown(summary, units),
             run_figures(summary, units),
             *currents(summary),
+            *watched(summary),
             contacts(summary, units),
         ),
         pictures=[p for p in pictures if p.name not in (*_TRUST, _SKETCH)],

@@ -20,6 +20,14 @@ import numpy as np
 from lambda_core.domain.channels import DIMENSIONS, Channel
 from lambda_core.results.averages import INTEGRALS
 from lambda_core.results.circuit_rows import CIRCUIT, CIRCUIT_GROUP, DISCHARGES, DISCHARGES_GROUP
+from lambda_core.results.event_rows import (
+    EVENT_COLUMNS,
+    EVENTS,
+    EVENTS_GROUP,
+    OBSERVER_COLUMNS,
+    event_rows,
+    observer_rows,
+)
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.run_status import Rows
 from lambda_core.system.bearing import BearingModel
@@ -67,6 +75,8 @@ def create(file: h5py.File, provenance: Provenance, channels: Sequence[Channel])
     revolutions = file.create_group(REVOLUTIONS_GROUP)
     number = Channel("revolution", (), "-", "whole cage revolutions completed")
     _series(revolutions, (number, *INTEGRALS), "revolution")
+    if model.events:
+        _series(file.create_group(EVENTS_GROUP), EVENTS, "time")
     if model.electric is not None:
         _series(file.create_group(CIRCUIT_GROUP), CIRCUIT, "time")
         _series(file.create_group(DISCHARGES_GROUP), DISCHARGES, "time")
@@ -118,6 +128,10 @@ def _inputs(group: h5py.Group, provenance: Provenance) -> None:
         group.create_dataset(name, data=np.array(lines, dtype=object), dtype=_TEXT).make_scale(name)
     _table(group, "values", _VALUE_COLUMNS, provenance.values())
     _table(group, "laws", _LAW_COLUMNS, provenance.laws())
+    if model.observers:
+        _table(group, "observers", OBSERVER_COLUMNS, observer_rows(model, provenance.kernel_keys))
+    if model.events:
+        _table(group, "events", EVENT_COLUMNS, event_rows(model, provenance.kernel_keys))
     for name, pairs in (("versions", provenance.versions()), ("kernel_keys", dict(provenance.kernel_keys))):
         rows = [{"name": key, "value": value} for key, value in pairs.items()]
         _table(group, name, ("name", "value"), rows)
@@ -146,6 +160,7 @@ def _rows_of(name: str, rows: Rows) -> int:
         REVOLUTIONS_GROUP: rows.revolutions,
         CIRCUIT_GROUP: rows.circuit,
         DISCHARGES_GROUP: rows.discharges,
+        EVENTS_GROUP: rows.events,
     }
     return by_group.get(name.rpartition("/")[0], rows.samples)
 

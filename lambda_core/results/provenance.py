@@ -18,6 +18,7 @@ from lambda_core.domain.roles import FILMS
 from lambda_core.laws.law import Law
 from lambda_core.results.rating import Rating
 from lambda_core.system.bearing import BearingModel
+from lambda_core.views.observer import Event, Observer
 
 _LIBRARIES = ("numpy", "scipy", "numba", "llvmlite", "h5py", "pydantic")
 # Of the model these stand in datasets of their own, or follow from the case and are part of the geometry.
@@ -111,6 +112,8 @@ def plain(value: Any) -> Any:
     """Return `value` as what JSON can say."""
     if isinstance(value, Law):
         return {"role": value.role, "name": value.name, "distribution": value.distribution}
+    if isinstance(value, Observer | Event):
+        return {"name": value.name, "distribution": value.distribution}
     if isinstance(value, BaseModel):
         return {name: plain(getattr(value, name)) for name in type(value).model_fields}
     if is_dataclass(value):

@@ -20,6 +20,7 @@ from lambda_core.domain.printable import printable
 from lambda_core.results import checkpoint
 from lambda_core.results import file_format as layout
 from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP
+from lambda_core.results.event_rows import EVENTS_GROUP
 from lambda_core.results.integrity import check_model, heaps_are_whole
 from lambda_core.results.opening import (
     ResultError,
@@ -137,16 +138,16 @@ class Result:
             return checkpoint.latest(slot.tobytes() for slot in file[layout.SLOTS][()])
 
     def circuit(self) -> dict[str, NDArray[np.float64]]:
-        """Return what the run wrote of its electric circuit, column -> values; empty where it has none.
-
-        Time of the sample [s], ``bearing_capacitance`` [F], ``bearing_voltage_least`` and ``bearing_voltage_largest``
-        since the sample before [V].
-        """
+        """Return what the run wrote of its electric circuit: columns of circuit_rows.CIRCUIT, empty without one."""
         return self._circuit_table(CIRCUIT_GROUP, "circuit")
 
     def discharges(self) -> dict[str, NDArray[np.float64]]:
         """Return every film that broke down in the run, column -> values, SI; empty where it has no circuit."""
         return self._circuit_table(DISCHARGES_GROUP, "discharges")
+
+    def events(self) -> dict[str, NDArray[np.float64]]:
+        """Return when events of the case began: ``time`` [s], ``event``, the row of :attr:`watched_events`."""
+        return self._circuit_table(EVENTS_GROUP, "events")
 
     def _circuit_table(self, group: str, kind: str) -> dict[str, NDArray[np.float64]]:
         with opened(self.path) as file:
@@ -179,6 +180,16 @@ class Result:
     def laws(self) -> list[dict[str, str]]:
         """Element, role, model, distribution, reference, parameters, origins, kernel key of every law."""
         return self._input_table("laws")
+
+    @cached_property
+    def observers(self) -> list[dict[str, str]]:
+        """Name, title, distribution, reference, parameters, numbers, hash of the code of every observer."""
+        return self._input_table("observers")
+
+    @cached_property
+    def watched_events(self) -> list[dict[str, str]]:
+        """Name, title, distribution, reference, parameters, action, hash of the code of every event."""
+        return self._input_table("events")
 
     @cached_property
     def versions(self) -> dict[str, str]:
@@ -343,5 +354,6 @@ class Result:
 
     def _input_table(self, name: str) -> list[dict[str, str]]:
         with opened(self.path) as file:
-            rows = layout.read_table(file[layout.INPUTS_GROUP][name])
+            table = file[layout.INPUTS_GROUP].get(name)  # a case without observers or events has no such table
+            rows = layout.read_table(table) if table is not None else []
         return [{key: printable(text) for key, text in row.items()} for row in rows]

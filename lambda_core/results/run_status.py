@@ -16,7 +16,8 @@ from lambda_core.domain.printable import printable
 class Rows:
     """How many rows of the growing datasets count.
 
-    Samples, running integrals, boundaries of cage revolutions; of an electric circuit its own samples and discharges.
+    Samples, running integrals, boundaries of cage revolutions; of an electric circuit its own samples and discharges;
+    events.
     """
 
     samples: int = 0
@@ -24,6 +25,7 @@ class Rows:
     revolutions: int = 0
     circuit: int = 0
     discharges: int = 0
+    events: int = 0
 
 
 State = Literal["running", "finished", "stopped", "interrupted", "failed"]
@@ -48,6 +50,8 @@ class Status:
         Counters of the solver, all sessions together.
     process : dict of str to str
         Which process writes: host, pid, start.
+    faults : tuple of str
+        What plugins that only look on did wrong, one sentence each.
     """
 
     state: State = "running"
@@ -56,6 +60,7 @@ class Status:
     wall: float = 0.0
     statistics: dict[str, float] = field(default_factory=dict)
     process: dict[str, str] = field(default_factory=dict)
+    faults: tuple[str, ...] = ()
 
     def to_bytes(self, size: int) -> bytes:
         """Return JSON of at most `size` bytes; an overlong message is cut."""
@@ -71,6 +76,7 @@ class Status:
         try:
             fields = json.loads(data)
             fields["message"] = printable(str(fields["message"]))
+            fields["faults"] = tuple(printable(str(fault)) for fault in fields.get("faults", ()))
             return Status(**{**fields, "rows": Rows(**fields["rows"])})
         except (KeyError, TypeError) as error:
             raise ValueError(str(error)) from None

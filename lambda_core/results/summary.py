@@ -19,9 +19,11 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.averages import Interval, finite
 from lambda_core.results.convergence import shortfalls, window
 from lambda_core.results.currents import Currents, currents_of
+from lambda_core.results.event_rows import EventSeen, ObserverNumber
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, tolerance_warning, warnings, worst
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.watched import events_seen, observed_numbers
 from lambda_core.system.bearing import Solver
 
 if TYPE_CHECKING:
@@ -90,6 +92,9 @@ class Summary(Record):
     bearing_capacitance_nF: float | None = Field(description="at the end state")
     capacitance_note: str = Field(description="which contacts asperities short, where they do", default="")
     currents: Currents | None = Field(description="of a case with a circuit; null without one", default=None)
+    observed: list[ObserverNumber] = Field(description="numbers of the observers of the case", default=[])
+    events: list[EventSeen] = Field(description="events that the case looks out for", default=[])
+    plugin_faults: list[str] = Field(description="observers and events that failed, and why", default=[])
     rating: Rating | None = Field(description="life, safety and catalogue friction of the case at its start")
     shoulders: list[Shoulder] = Field(description="how near contacts came to the shoulders, the worst on each ring")
     warnings: list[str] = Field(description="where case or run left what bearing, oil and laws are made for")
@@ -161,6 +166,9 @@ def summarise(result: Result) -> Summary:
         bearing_capacitance_nF=finite(1e9 * float(end["bearing_capacitance"])),
         capacitance_note=capacitance_note(end["load"], end["capacitance"]),
         currents=currents_of(result, float(chosen.interval.first[0])),
+        observed=observed_numbers(result, float(chosen.interval.first[0])),
+        events=events_seen(result),
+        plugin_faults=list(status.faults),
         rating=result.rating,
         shoulders=edges,
         warnings=[
@@ -185,7 +193,7 @@ def _reasons(state: str, message: str, found: list[str]) -> list[str]:
     """Put the end first: a run that did not reach it is not converged, whatever its averages say."""
     ends = {"running": "the run has not reached its end", "failed": "the solver could not go on"}
     if state == "finished":
-        return found
+        return [message, *found] if found and message else found
     return [message or ends.get(state, "the run was stopped before its end"), *found]
 
 

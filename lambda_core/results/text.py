@@ -62,6 +62,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         ),
         *([line("", summary.capacitance_note)] if summary.capacitance_note else []),
         *_currents(summary.currents),
+        *watched_lines(summary),
         line("shoulders", *(_margin(edge, units) for edge in summary.shoulders)),
         line("energy residual", f"{_small(summary.energy_residual)} of input"),
         line("wall time", *_wall(summary)),
@@ -85,6 +86,22 @@ def _currents(found: Currents | None) -> list[str]:
         arcs = f"{found.arc_power_mW:.3g} mW in arcs"
         lines.append(line("  discharges", f"at {volts[1]:.3g} V", f"{amperes[1]:.3g} A", arcs))
     return lines
+
+
+def watched_lines(summary: Summary) -> list[str]:
+    """Return the numbers of observers, the events, and which of them failed."""
+    lines = [
+        line("observed" if index == 0 else "", f"{each.observer} {each.name} {_four(each.value)} {each.unit}".rstrip())
+        for index, each in enumerate(summary.observed)
+    ]
+    for index, event in enumerate(summary.events):
+        said = "did not happen" if not event.count else f"began {event.count} times, first at {_four(event.first_s)} s"
+        lines.append(line("events" if index == 0 else "", f"{event.event} {said}"))
+    return lines + [line("failed" if index == 0 else "", fault) for index, fault in enumerate(summary.plugin_faults)]
+
+
+def _four(value: float | None) -> str:
+    return NONE if value is None else f"{value:.4g}"
 
 
 def rating_lines(rating: Rating | None, units: UnitSystem = SI) -> list[str]:

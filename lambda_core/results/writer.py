@@ -23,6 +23,7 @@ from lambda_core.results import hdf5
 from lambda_core.results.averages import INTEGRALS, spans
 from lambda_core.results.checkpoint import Checkpoint
 from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP, CircuitRows
+from lambda_core.results.event_rows import EVENTS_GROUP
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.run_status import Rows, Status
 
@@ -62,6 +63,7 @@ class ResultWriter:
                 ("revolutions", layout.REVOLUTIONS_GROUP),
                 ("circuit", CIRCUIT_GROUP),
                 ("discharges", DISCHARGES_GROUP),
+                ("events", EVENTS_GROUP),
             )
             if group in file
         }
@@ -70,7 +72,7 @@ class ResultWriter:
         self._samples: list[Mapping[str, NDArray[np.float64]]] = []
         self._records: list[FloatArray] = []
         self._revolutions: list[FloatArray] = []
-        self._circuit: dict[str, list[Mapping[str, FloatArray]]] = {"circuit": [], "discharges": []}
+        self._tables: dict[str, list[Mapping[str, FloatArray]]] = {"circuit": [], "discharges": [], "events": []}
         with self._guard():
             file.swmr_mode = True
         self._put_status(status)
@@ -123,8 +125,15 @@ class ResultWriter:
     def add_circuit(self, rows: CircuitRows) -> None:
         """Take what the electric circuit did."""
         for kind, table in (("circuit", rows.circuit), ("discharges", rows.discharges)):
-            if len(table["time"]):
-                self._circuit[kind].append(table)
+            self._add_table(kind, table)
+
+    def add_events(self, rows: Mapping[str, FloatArray]) -> None:
+        """Take the events that began, columns of event_rows.EVENTS."""
+        self._add_table("events", rows)
+
+    def _add_table(self, kind: str, table: Mapping[str, FloatArray]) -> None:
+        if len(table["time"]):
+            self._tables[kind].append(table)
 
     def pending(self) -> int:
         """Return how many samples wait in memory."""
@@ -146,7 +155,7 @@ class ResultWriter:
         with self._guard():
             self._append_samples()
             self._append_records()
-            self._append_circuit()
+            self._append_tables()
             self._file.flush()
         self._put_status(status)
 
@@ -206,8 +215,8 @@ class ResultWriter:
             self._written = replace(self._written, **{kind: start + len(rows)})
             rows.clear()
 
-    def _append_circuit(self) -> None:
-        for kind, tables in self._circuit.items():
+    def _append_tables(self) -> None:
+        for kind, tables in self._tables.items():
             start = getattr(self._written, kind)
             count = sum(len(table["time"]) for table in tables)
             for name, data in self._growing[kind].items() if tables else ():
@@ -224,7 +233,7 @@ class ResultWriter:
     def _growth(self) -> int:
         """Return the bytes of the chunks that the waiting rows will open."""
         waiting = {"samples": self.pending(), "records": len(self._records), "revolutions": len(self._revolutions)}
-        waiting |= {kind: sum(len(table["time"]) for table in tables) for kind, tables in self._circuit.items()}
+        waiting |= {kind: sum(len(table["time"]) for table in tables) for kind, tables in self._tables.items()}
         total = 0
         for kind, count in waiting.items():
             start = getattr(self._written, kind)

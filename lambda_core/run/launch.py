@@ -18,6 +18,7 @@ from lambda_core.results.reader import Result
 from lambda_core.run.engineering import rating_of
 from lambda_core.run.loop import resume, run
 from lambda_core.run.progress import Report
+from lambda_core.run.watch import Watch
 from lambda_core.solver.code_files import physics_sources
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import solve
@@ -51,8 +52,9 @@ def launch(
     """
     path = destination(model, out, force)
     live = _live(model, announce)
-    engine, provenance = _engine(model, announce, live)
-    return run(engine, provenance, path, force=force, report=report, live=live)
+    watch = Watch(model)
+    engine, provenance = _engine(model, announce, live, watch)
+    return run(engine, provenance, path, force=force, report=report, live=live, watch=watch)
 
 
 def relaunch(
@@ -70,12 +72,13 @@ def relaunch(
     if changed:
         raise ResultError(f"{path} cannot go on: the case now resolves to other values: {_some(changed)}")
     live = _live(model, announce)
-    engine, provenance = _engine(model, announce, live)
+    watch = Watch(model)
+    engine, provenance = _engine(model, announce, live, watch)
     keys = result.kernel_keys
     other = sorted(name for name, key in provenance.kernel_keys.items() if keys.get(name) != key)
     if other:
         raise ResultError(f"{path} cannot go on: the code has changed since: {_some(other)}")
-    return resume(engine, provenance, path, report=report, live=live)
+    return resume(engine, provenance, path, report=report, live=live, watch=watch)
 
 
 def destination(model: BearingModel, out: Path | None, force: bool) -> Path:
@@ -109,7 +112,9 @@ def _live(model: BearingModel, announce: Announce | None) -> Live | None:
     return Live(model, announce)
 
 
-def _engine(model: BearingModel, announce: Announce | None, live: Live | None) -> tuple[BearingEngine, Provenance]:
+def _engine(
+    model: BearingModel, announce: Announce | None, live: Live | None, watch: Watch
+) -> tuple[BearingEngine, Provenance]:
     start = solve(model, announce=announce)
     if announce is not None:
         announce(_start_line(quasistatic_of(start)))
@@ -117,7 +122,7 @@ def _engine(model: BearingModel, announce: Announce | None, live: Live | None) -
     core = sources_key(*physics_sources())
     rating = rating_of(start, registry().methods)
     keys = live.keys() if live is not None else {}
-    return engine, Provenance(model, {**engine.kernel_keys, **keys, "core": core}, rating)
+    return engine, Provenance(model, {**engine.kernel_keys, **keys, **watch.keys(), "core": core}, rating)
 
 
 def _start_line(start: QuasiStatic) -> str:

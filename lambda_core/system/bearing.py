@@ -19,6 +19,7 @@ from lambda_core.domain.elements import BodyName
 from lambda_core.domain.fits import Mounting
 from lambda_core.laws.context import Material, Oil
 from lambda_core.laws.law import Law
+from lambda_core.views.observer import Action, Event, Observer
 
 
 @dataclass(frozen=True)
@@ -125,6 +126,23 @@ class ElectricModel:
 
 
 @dataclass(frozen=True)
+class ChosenObserver:
+    """An observer of a plugin, with validated parameters."""
+
+    item: Observer
+    parameters: BaseModel  # instance of item.parameters, SI
+
+
+@dataclass(frozen=True)
+class ChosenEvent:
+    """An event of a plugin, with validated parameters, and what the run does at it."""
+
+    item: Event
+    parameters: BaseModel  # instance of item.parameters, SI
+    action: Action
+
+
+@dataclass(frozen=True)
 class Depth:
     """Modelling depth: which parts and how finely a contact is divided."""
 
@@ -198,6 +216,8 @@ class BearingModel:
         Where the case says two things, and which of them counts.
     electric : ElectricModel or None
         The circuit that a run computes beside the motion; it does not act on the motion.
+    observers, events : mapping of str to ChosenObserver, ChosenEvent
+        What plugins write of a run, and what they look out for, by name.
     values : tuple of ResolvedValue
         Every frozen number with its origin.
     """
@@ -231,3 +251,5 @@ class BearingModel:
     mounting: Mounting | None = None
     contradictions: tuple[str, ...] = ()
     electric: ElectricModel | None = None
+    observers: Mapping[str, ChosenObserver] = field(default_factory=dict)
+    events: Mapping[str, ChosenEvent] = field(default_factory=dict)

@@ -10,8 +10,8 @@ import dataclasses
 import hashlib
 import json
 import math
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterable, Mapping
+from typing import Any, Protocol
 
 from pydantic import BaseModel
 
@@ -23,7 +23,17 @@ from lambda_core.domain.units import show
 from lambda_core.laws.context import Material
 from lambda_core.laws.jit.reach import reach
 from lambda_core.laws.law import Law
-from lambda_core.system.bearing import BearingModel, ChosenLaw, Depth, Geometry, Marker, Output, Solver
+from lambda_core.system.bearing import (
+    BearingModel,
+    ChosenEvent,
+    ChosenLaw,
+    ChosenObserver,
+    Depth,
+    Geometry,
+    Marker,
+    Output,
+    Solver,
+)
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.resolve_bodies import (
     Inertia,
@@ -41,7 +51,9 @@ from lambda_core.system.resolve_geometry import check_clearance, resolve_geometr
 from lambda_core.system.resolve_laws import LawResolver, ModelSource
 from lambda_core.system.resolve_materials import resolve_lubricant, resolve_material
 from lambda_core.system.resolve_thermal import check_thermal
+from lambda_core.system.resolve_watch import WatchSource, resolve_events, resolve_observers
 from lambda_core.system.time_functions import highest_frequency, peak, time_function
+from lambda_core.views.observer import Event, Observer
 
 # A run that has not converged after this many turns of the cage has something to say.
 LONGEST_RUN = 30.0  # [cage turns]
@@ -56,15 +68,19 @@ STEPS_PER_CAGE_TURN = 400.0
 STEPS_PER_PERIOD = 20.0
 
 
-def resolve(case: Case, registry: ModelSource, catalogue: Catalogue, *, is_static: bool = False) -> BearingModel:
+class PluginSource(ModelSource, WatchSource, Protocol):
+    """What the resolution needs of the registry."""
+
+
+def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_static: bool = False) -> BearingModel:
     """Freeze a case into the model that a run needs.
 
     Parameters
     ----------
     case : Case
         What the engineer wrote.
-    registry : ModelSource
-        Models by role and name.
+    registry : PluginSource
+        Models by role and name; observers and events by name.
     catalogue : Catalogue
         Bearings, lubricants, materials, cages, clearance classes.
     is_static : bool
@@ -90,6 +106,7 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue, *, is_stati
     guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")
     laws = LawResolver(case, registry, lubricant, guidance, ledger).resolve() if lubricant else {}
     electric = resolve_electric(case.electric.inlined(), registry, ledger) if case.electric else None
+    observers, events = resolve_observers(case, registry, ledger), resolve_events(case, registry, ledger)
     if bare is None or cage_row is None or oil is None:
         ledger.check(case.name)
         raise AssertionError("a part is missing and no problem says why")
@@ -130,18 +147,25 @@ def resolve(case: Case, registry: ModelSource, catalogue: Catalogue, *, is_stati
         values=tuple(ledger.values),
         assumptions=tuple(ledger.assumptions),
         case_toml=standalone_toml(written),
-        plugins=_distributions({**laws, "electric": electric.laws if electric else {}}),
+        plugins=_distributions(
+            {**laws, "electric": electric.laws if electric else {}}, [*observers.values(), *events.values()]
+        ),
         markers={name: Marker(m.body, (m.x, m.y, m.z)) for name, m in case.markers.items()},
         thermal=case.thermal if case.operation.temperatures == "computed" else None,
         mounting=mounting,
         contradictions=tuple(ledger.contradictions),
         electric=electric,
+        observers=observers,
+        events=events,
     )
 
 
-def _distributions(laws: Mapping[str, Mapping[str, ChosenLaw]]) -> tuple[str, ...]:
-    """Return "distribution version" of every plugin that a chosen law comes from."""
+def _distributions(
+    laws: Mapping[str, Mapping[str, ChosenLaw]], watching: Iterable[ChosenObserver | ChosenEvent]
+) -> tuple[str, ...]:
+    """Return "distribution version" of every plugin that a chosen law, observer or event comes from."""
     found = {law.model.distribution for roles in laws.values() for law in roles.values()}
+    found |= {chosen.item.distribution for chosen in watching}
     return tuple(sorted(found - {""}))
 
 
@@ -292,7 +316,9 @@ def case_hash(model: BearingModel) -> str:
         silent |= {"thermal", "mounting"}
     if model.electric is None:
         silent |= {"electric"}
-    data = {f.name: _plain(getattr(model, f.name)) for f in dataclasses.fields(model) if f.name not in silent}
+    absent = [name for name in ("observers", "events") if not getattr(model, name)]  # as before there were any
+    names = [f.name for f in dataclasses.fields(model) if f.name not in (*silent, *absent)]
+    data = {name: _plain(getattr(model, name)) for name in names}
     text = json.dumps(data, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()
 
@@ -302,6 +328,8 @@ def _plain(value: Any) -> Any:
     if isinstance(value, Law):
         laws = [function for function in (value.kernel, value.prepare) if function is not None]
         return [value.role, value.name, value.role_api, *(reach(law, lenient=True).key for law in laws)]
+    if isinstance(value, Observer | Event):
+        return [value.name, value.key]
     if isinstance(value, BaseModel):
         return {name: _plain(getattr(value, name)) for name in type(value).model_fields}
     if dataclasses.is_dataclass(value) and not isinstance(value, type):

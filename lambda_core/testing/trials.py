@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import CHANNELS, Channel
 from lambda_core.laws.probe import trial_context
 from lambda_core.views.method import MethodInputs, NotApplicable
 from lambda_core.views.view import RunData
@@ -63,6 +64,12 @@ class TrialRun:
         self.case_toml = ""
         self.model = dict(model or {})
         self.kernel_keys: dict[str, str] = {}
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """Return the channels that were given, those of the program with their meaning."""
+        known = {channel.name: channel for channel in CHANNELS}
+        return tuple(known.get(name, Channel(name, (), "", "")) for name in self._channels)
 
     def __getitem__(self, name: str) -> FloatArray:
         """Return one channel, first axis time."""

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict
 
+from lambda_core.domain.channels import Channel
 from lambda_core.views.chart import ViewData
 
 VIEW_API = 1
@@ -29,6 +30,10 @@ class RunData(Protocol):
     title: str
     headline: str
     case: str
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """Channels over time, those of observers among them: names, dimensions, units, meanings."""
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """Return one channel, first axis time, SI."""

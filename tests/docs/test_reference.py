@@ -71,6 +71,7 @@ def test_every_option_of_a_case_is_described(path: str) -> None:
     text = page("reference/case.md")
     name = _described(path)
     keyed = {"parameters": "`parameters.ROLE.NAME`", "markers": "`markers.NAME.body`"}
+    keyed |= {"observers": "`observers.NAME.PARAMETER`", "events": "`events.NAME.action`"}
     assert keyed.get(name, f"| `{name}` |") in text, f"{path} ({name})"
 
 

@@ -1,0 +1,23 @@
+"""The run ends when the cage's centre leaves the middle by more than a share of its clearance in the pockets."""
+
+import numpy as np
+
+from lambda_core.plugins import Event, Parameters, hookimpl, parameter
+
+
+class Whirl(Parameters):
+    share: float = parameter(
+        1.0, "distance of the cage's centre over half its pocket clearance", status="assumed", gt=0.0
+    )
+
+
+def whirls(samples, parameters, model):
+    """Tell at which samples the cage's centre is farther from the inner ring's axis than it may be."""
+    inner, cage = samples["body_position"][:, 0, 1:], samples["body_position"][:, 2, 1:]
+    limit = 0.5 * parameters.share * model["cage"]["pocket_clearance"]
+    return np.hypot(*(cage - inner).T) > limit
+
+
+@hookimpl
+def lambda_events(register):
+    register(Event("cage-whirl", "the cage has left the middle", whirls, "own work", Whirl, event_api=1))

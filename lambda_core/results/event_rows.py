@@ -1,0 +1,82 @@
+"""What a result keeps of observers and events: who they are, and when an event began."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+
+from lambda_core.domain.channels import Channel
+from lambda_core.results.record import Record
+from lambda_core.system.bearing import BearingModel
+from lambda_core.views.observer import Reduction
+
+EVENTS_GROUP = "events"
+OBSERVER_COLUMNS = ("name", "title", "distribution", "reference", "parameters", "numbers", "key")
+EVENT_COLUMNS = ("name", "title", "distribution", "reference", "parameters", "action", "key")
+
+EVENTS: tuple[Channel, ...] = (
+    Channel("time", (), "s", "of the first sample at which it is so"),
+    Channel("event", (), "", "row of inputs/events, from 0"),
+)
+
+
+class ObserverNumber(Record):
+    """One number that an observer has over the averaged revolutions."""
+
+    observer: str
+    name: str
+    value: float | None
+    unit: str
+    meaning: str
+
+
+class EventSeen(Record):
+    """One event of a run."""
+
+    event: str
+    title: str
+    action: str
+    count: int  # how often it began
+    first_s: float | None
+    last_s: float | None
+
+
+class NumberWritten(Record):
+    """How a number of an observer is made, as it stands in the result."""
+
+    name: str
+    channel: str
+    reduction: Reduction
+    meaning: str
+
+
+def observer_rows(model: BearingModel, keys: Mapping[str, str]) -> list[dict[str, str]]:
+    """Return one row per observer of a run; `keys` are hashes of their code by "observer/NAME"."""
+    return [
+        {
+            "name": name,
+            "title": chosen.item.title,
+            "distribution": chosen.item.distribution,
+            "reference": chosen.item.reference,
+            "parameters": chosen.parameters.model_dump_json(),
+            "numbers": json.dumps([vars(number) for number in chosen.item.numbers]),
+            "key": keys.get(f"observer/{name}", ""),
+        }
+        for name, chosen in model.observers.items()
+    ]
+
+
+def event_rows(model: BearingModel, keys: Mapping[str, str]) -> list[dict[str, str]]:
+    """Return one row per event that a run looks out for; `keys` are hashes of their code by "event/NAME"."""
+    return [
+        {
+            "name": name,
+            "title": chosen.item.title,
+            "distribution": chosen.item.distribution,
+            "reference": chosen.item.reference,
+            "parameters": chosen.parameters.model_dump_json(),
+            "action": chosen.action,
+            "key": keys.get(f"event/{name}", ""),
+        }
+        for name, chosen in model.events.items()
+    ]
