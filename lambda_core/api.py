@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from lambda_core.case.signals import SIGNAL_KINDS
     from lambda_core.catalogue.designation import Designation, read_designation
     from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue, LubricantRow, MaterialRow
-    from lambda_core.discovery.manager import registry, switch_off
+    from lambda_core.discovery.manager import registry, switch_off, use_plugin
     from lambda_core.discovery.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins
     from lambda_core.discovery.registry import Registry
     from lambda_core.discovery.survey import CheckCard, ModelCard, Verdict
@@ -62,6 +62,7 @@ if TYPE_CHECKING:
 # Where each name is at home.
 _CALLS = {
     "domain.errors": "CaseError LambdaError UsageError",
+    "discovery.manager": "use_plugin",
     "discovery.packages": "check_plugins new_plugin plugin_faults plugin_model plugins",
     "system.cases": "builtin_cases case catalogue draft init_case save schema",
     "system.checking": "check describe problems resolve",
@@ -102,7 +103,7 @@ _PARTS = {
     "batch.studies": "StudyStatus",
 }
 __all__ = sorted(" ".join(_CALLS.values()).split())
-_HOME = {name: room for room, names in (_CALLS | _PARTS).items() for name in names.split()}
+_HOME = {name: room for part in (_PARTS, _CALLS) for room, names in part.items() for name in names.split()}
 
 
 def __getattr__(name: str) -> Any:

@@ -20,6 +20,7 @@ from typer.core import TyperCommand, TyperGroup
 import lambda_core
 from lambda_cli.commands import Entry, entries
 from lambda_cli.interrupt import second_signal_ends
+from lambda_cli.plugin_option import with_plugin_option
 from lambda_core.domain.errors import CaseError, LambdaError, UsageError
 from lambda_core.domain.printable import printable
 
@@ -55,6 +56,7 @@ def _command(entry: Entry) -> Any:
         loaded = application
     command = typer.main.get_command(loaded)
     command.name = entry.name
+    with_plugin_option(command)
     _for_reading(command)
     return command
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from lambda_cli.options import JsonOption
+from lambda_cli.plugin_option import named_plugin
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -140,7 +141,7 @@ def new(
 def check(
     names: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[NAME]...", help="Distributions, roles or ROLE/NAME; everything when left out."),
+        typer.Argument(metavar="[NAME]...", help="Packages, roles, ROLE/NAME or FILE.py; everything when left out."),
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -149,11 +150,12 @@ def check(
     from lambda_core.api import Verdict
 
     cards = []
-    for card in api.check_plugins(names or ()):
+    names = [named_plugin(name) for name in names or ()]
+    for card in api.check_plugins(names):
         cards.append(card)
         if not as_json:
             _print(_verdict(card))
-    faults = api.plugin_faults(names or ())
+    faults = api.plugin_faults(names)
     if as_json:
         typer.echo(Verdict(models=cards, faults=faults).model_dump_json(indent=2))
     else:

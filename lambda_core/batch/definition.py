@@ -15,6 +15,7 @@ from lambda_core.case.option import Section, option
 from lambda_core.case.problems import problems
 from lambda_core.domain.errors import CaseError, Problem, UsageError
 from lambda_core.domain.files import read_text
+from lambda_core.domain.handed_laws import named
 
 Mode = Literal["quasi-static", "dynamic"]
 Kind = Literal["crossed", "zipped", "latin-hypercube", "sobol", "saltelli", "optimise"]
@@ -183,6 +184,7 @@ def validate_study(data: Mapping[str, Any], source: str = "study") -> Study:
     if "bearing" in data and "case" not in data:
         words = f'is a case, not a study; a study names it: case = "{source}", and [[parameters]] that vary'
         raise CaseError(source, [Problem("", words)])
+    data = {key: named(value) for key, value in data.items()}
     try:
         return Study.model_validate(data)
     except ValidationError as error:

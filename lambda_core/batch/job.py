@@ -40,6 +40,7 @@ class Task:
     mode: Literal["quasi-static", "dynamic"]
     responses: tuple[str, ...]
     folder: str  # of the study, on a file system that all workers see (dynamic)
+    guests: bytes = b""  # plugin files and laws that the director has beside its packages
 
 
 @dataclass(frozen=True)
@@ -67,6 +68,7 @@ def work(task: Task) -> Outcome:
     if _asked_to_stop:
         return Outcome(task.number, "stopped", "the worker was asked to stop", "", {}, "", 0.0)
     try:
+        _be_ready(task.guests)
         model = resolve_point(task.case_toml, task.changes)
         hash_ = point_hash(model)
         model = with_temperatures(model)
@@ -81,6 +83,14 @@ def work(task: Task) -> Outcome:
         reason = f"unexpected {type(error).__name__}: {' '.join(str(error).split())}"
     _asked_to_stop = state == "stopped" and multiprocessing.parent_process() is not None
     return Outcome(task.number, state, reason, hash_, values, file, time.perf_counter() - start)  # type: ignore[arg-type]
+
+
+@lru_cache(maxsize=1)
+def _be_ready(guests: bytes) -> None:
+    """Take the plugins of the director, once."""
+    from lambda_core.discovery.manager import as_guests_of
+
+    as_guests_of(guests)
 
 
 def resolve_point(case_toml: str, changes: tuple[str, ...]) -> BearingModel:

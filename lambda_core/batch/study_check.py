@@ -124,11 +124,13 @@ def _case_toml(study: Study, folder: Path | None) -> str:
     from lambda_core.batch.values import written
     from lambda_core.case.case_io import apply_overrides, load_case
     from lambda_core.case.case_writer import standalone_toml
+    from lambda_core.discovery.manager import registry
+    from lambda_core.system.law_packages import with_packages
 
     local = folder / study.case if folder is not None else Path(study.case)
     case = load_case(local if local.is_file() else study.case)
     changes = [f"{path}={written(value)}" for path, value in study.set.items()]
-    return standalone_toml(apply_overrides(case, changes) if changes else case)
+    return standalone_toml(with_packages(apply_overrides(case, changes) if changes else case, registry()))
 
 
 def _first_model(study: Study, plan: Plan, case_toml: str) -> BearingModel:

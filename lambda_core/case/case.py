@@ -14,6 +14,7 @@ from lambda_core.case.motion import Bodies, Gravity, Loads, Marker, Operation
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import Bearing, Lubricant, Materials, Surface
 from lambda_core.case.thermal import Thermal
+from lambda_core.domain.handed_laws import packed, unpack
 
 NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]*$"
 
@@ -66,6 +67,15 @@ class Case(Section):
 
     __hash__ = None  # type: ignore[assignment]
 
+    def __getstate__(self) -> dict[Any, Any]:
+        """Return what is pickled: with the laws that were handed over as objects, which no other process knows."""
+        return {**super().__getstate__(), "handed": packed()}
+
+    def __setstate__(self, state: dict[Any, Any]) -> None:
+        """Take what was pickled."""
+        unpack(state.pop("handed", b""))
+        super().__setstate__(state)
+
     def __dir__(self) -> list[str]:
         """Return the names that a notebook completes: sections, and what a case can do."""
         return sorted({*type(self).model_fields, "folder", "written", "with_"})
@@ -80,7 +90,8 @@ class Case(Section):
         Examples
         --------
         ``case.with_(operation={"speed": "2750 rpm"}, bearing={"clearance": "C3"})``; None
-        takes an option back to its default.
+        takes an option back to its default. A law may stand as the function itself: ``case.with_(models={"traction":
+        law})``, with ``@law(...)`` above it.
 
         Raises
         ------

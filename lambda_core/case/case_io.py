@@ -15,11 +15,13 @@ from lambda_core.case.case import Case, merged
 from lambda_core.case.salvage import invalid_case
 from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
 from lambda_core.domain.files import read_text
+from lambda_core.domain.handed_laws import named
 from lambda_core.domain.option_tree import field_at
 
 _DEEPEST = 20  # levels of tables and lists
 _LOCATION = re.compile(r"\(at (?:line (\d+), column (\d+)|end of document)\)")
 _BARE_UNIT = re.compile(r"^(\s*[\w.\"-]+\s*=\s*)([+-]?[\d.,]+\s*[A-Za-z/][^#\"]*?)\s*(#.*)?$")
+_LAWS_IN = ("models", "forces", "electric")  # where a program may hand over a law in place of its name
 _FILES = 8  # most names that an error lists
 
 
@@ -82,6 +84,7 @@ def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | 
         raise CaseError(source, [Problem("", f"is a study, not a case: lambda-bearing study run {source}")])
     if _is_deep(data):
         raise CaseError(source, [Problem("", "is nested too deeply")])
+    data = {key: named(value) if key in _LAWS_IN else value for key, value in data.items()}
     try:
         return Case.model_validate(data, context={"folder": folder})
     except ValidationError as error:

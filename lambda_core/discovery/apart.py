@@ -10,6 +10,7 @@ import threading
 from collections.abc import Iterator, Sequence
 from queue import Empty, Queue
 
+from lambda_core.discovery.local_files import guests
 from lambda_core.discovery.registry import Registry
 from lambda_core.discovery.survey import CheckCard, check_installed, chosen
 
@@ -56,8 +57,11 @@ class _Trials:
 
     def __init__(self, labels: Sequence[str]) -> None:
         command = [sys.executable, "-P", "-m", __name__, *labels]
-        self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
-        self._lines: Queue[str] = Queue()
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        assert self._process.stdin is not None
+        with self._process.stdin as handed:
+            handed.write(guests())
+        self._lines: Queue[bytes] = Queue()
         threading.Thread(target=self._read, daemon=True).start()
 
     def __enter__(self) -> _Trials:
@@ -72,7 +76,7 @@ class _Trials:
         with self._process.stdout as lines:
             for line in lines:
                 self._lines.put(line)
-        self._lines.put("")
+        self._lines.put(b"")
 
     def next(self, limit: float) -> CheckCard | str:
         """Return what came out of the next model, or a sentence of what it did instead."""
@@ -89,8 +93,9 @@ class _Trials:
 
 def _main(labels: Sequence[str]) -> None:
     """Try models out and write a line for each; whatever plugins print goes to stderr."""
-    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.manager import as_guests_of, registry
 
+    as_guests_of(sys.stdin.buffer.read())
     with os.fdopen(os.dup(1), "w", encoding="utf-8") as answers:
         os.dup2(2, 1)
         for card in check_installed(registry(), labels):

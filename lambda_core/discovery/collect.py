@@ -11,8 +11,8 @@ from typing import Any
 from pydantic import BaseModel
 
 from lambda_core.domain.errors import unknown_name
-from lambda_core.domain.installed import OWN
-from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.domain.installed import OWN, project_of
+from lambda_core.domain.plugin_errors import PluginError, PluginFault
 from lambda_core.domain.roles import ROLE_API, ROLES
 from lambda_core.laws.law import Law, LazyLaw, law_of
 from lambda_core.laws.old_form import new_form
@@ -43,16 +43,22 @@ class Entry:
 
 @dataclass
 class Collection:
-    """Everything registered, by kind; `take` is all or nothing for one plugin."""
+    """Everything registered, by kind; `take` is all or nothing for one plugin.
 
-    models: dict[tuple[str, str], Law | LazyLaw] = field(default_factory=dict)
+    A law is known by its package and its name, "carreau-traction:carreau": no package can take a name from another.
+    Of methods and views of one name the first keeps it, the others are called by the qualified one.
+    """
+
+    models: dict[tuple[str, str], Law | LazyLaw] = field(default_factory=dict)  # (role, qualified name)
+    same: dict[tuple[str, str], str] = field(default_factory=dict)  # a law's second qualified name -> its first
     named: dict[tuple[str, str], Any] = field(default_factory=dict)  # (one of _KINDS, name) -> item
     folders: list[tuple[str, Path]] = field(default_factory=list)  # (distribution, folder)
     origins: dict[tuple[str, str], str] = field(default_factory=dict)  # (kind or role, name) -> distribution
+    notes: list[PluginFault] = field(default_factory=list)  # what people should know of plugins in use
 
     def take(self, entries: Sequence[Entry]) -> str:
         """Add one plugin's entries, or return the sentence that says why none of them."""
-        claimed: dict[tuple[str, str], str] = {}
+        claimed: set[tuple[str, str]] = set()
         for entry in entries:
             message = _fault(entry)
             if message:
@@ -60,10 +66,10 @@ class Collection:
             if entry.hook == "lambda_data":
                 continue
             key = _key(entry)
-            owner = self.origins.get(key) or claimed.get(key)
-            if owner:
-                return f'the {key[0]} "{key[1]}" is already taken by {owner}'
-            claimed[key] = entry.distribution
+            plain = (key[0], _short(key[1]))
+            if key in claimed or entry.distribution in (self.origins.get(key), self.origins.get(plain)):
+                return f'the {key[0]} "{_short(key[1])}" is already taken by {entry.distribution}'
+            claimed.add(key)
         for entry in entries:
             self._add(entry)
         return ""
@@ -73,18 +79,52 @@ class Collection:
             self.folders.append((entry.distribution, Path(entry.item)))
             return
         key = _key(entry)
-        self.origins[key] = entry.distribution
-        if law := law_of(entry.item):
+        law = law_of(entry.item)
+        if law and (first := self._same_kernel(law)):
+            self.same[key] = first
+            return
+        if law:
             self.models[key] = replace(law, distribution=entry.distribution)
         elif isinstance(entry.item, LazyLaw):
             self.models[key] = entry.item
         else:
-            self.named[key] = with_distribution(entry.item, entry.distribution)
+            key = self._named(entry)
+        self.origins[key] = entry.distribution
+
+    def _named(self, entry: Entry) -> tuple[str, str]:
+        """Add a method or a view under its name, or under the qualified one where its name is taken."""
+        kind, full = _key(entry)
+        name, item = entry.item.name, with_distribution(entry.item, entry.distribution)
+        if owner := self.origins.get((kind, name)):
+            self.notes.append(
+                PluginFault(
+                    entry.distribution, name, f'its {kind} "{name}" is called {full}: {owner} has one of that name',
+                    is_broken=False,
+                )
+            )  # fmt: skip
+            name, item = full, replace(item, name=full)
+        self.named[kind, name] = item
+        return kind, name
+
+    def _same_kernel(self, law: Law) -> str:
+        """Return the qualified name under which a kernel is known already: a program handed over what a package has."""
+        target = f"{getattr(law.kernel, '__module__', '')}:{getattr(law.kernel, '__qualname__', '')}"
+        for (role, full), known in self.models.items():
+            if (role, _short(full)) == (law.role, law.name) and (
+                known.target == target if isinstance(known, LazyLaw) else known.kernel is law.kernel
+            ):
+                return full
+        return ""
+
+
+def _short(name: str) -> str:
+    """Return a name without the package before it."""
+    return name.rpartition(":")[2]
 
 
 def is_own(distribution: str) -> bool:
     """Tell whether "name version" is this program's own distribution."""
-    return distribution.split(" ")[0] == OWN
+    return project_of(distribution) == OWN
 
 
 def with_distribution(item: Any, distribution: str) -> Any:
@@ -95,10 +135,10 @@ def with_distribution(item: Any, distribution: str) -> Any:
 
 
 def _key(entry: Entry) -> tuple[str, str]:
-    if entry.hook == "lambda_laws":
-        law = law_of(entry.item) or entry.item
-        return (law.role, law.name)
-    return (_KINDS[entry.hook], entry.item.name)
+    """Return role or kind, and the qualified name."""
+    law = law_of(entry.item) or entry.item
+    kind = law.role if entry.hook == "lambda_laws" else _KINDS[entry.hook]
+    return kind, f"{project_of(entry.distribution)}:{law.name}"
 
 
 def _fault(entry: Entry) -> str:
@@ -161,6 +201,8 @@ def law_fault(item: Law) -> str:
 def _method_fault(item: Any) -> str:
     if not isinstance(item, Method):
         return f"lambda_methods registers a {type(item).__name__}: wrap the function in Method(name, title, ...)"
+    if item.method_api is None:
+        return f"the method {item.name} does not say for which version it is written: write method_api={METHOD_API}"
     if item.method_api != METHOD_API:
         return f"the method {item.name} is written for version {item.method_api} of the interface; this is {METHOD_API}"
     if not callable(item.evaluate):

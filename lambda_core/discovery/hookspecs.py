@@ -41,7 +41,7 @@ def lambda_methods(register: Callable[[Method], None]) -> None:
 
 @hookspec
 def lambda_views(register: Callable[[View], None]) -> None:
-    """Register views: ``register(View("my-view", "What it shows", "result", data))``."""
+    """Register views: ``register(View("my-view", "What it shows", "result", data, view_api=1))``."""
 
 
 @hookspec

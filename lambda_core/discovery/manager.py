@@ -11,8 +11,9 @@ import contextlib
 import logging
 import os
 import sys
-from collections.abc import Hashable, Iterable, Sequence
-from functools import lru_cache
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from functools import lru_cache, partial
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -20,8 +21,10 @@ import pluggy
 
 from lambda_core.discovery import hookspecs
 from lambda_core.discovery.collect import Collection, Entry
+from lambda_core.discovery.local_files import add_file, file_sources, take_guests
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError, nearest, unknown_name
+from lambda_core.domain.handed_laws import HandedLaw, handed_laws, when_changed
 from lambda_core.domain.installed import CASES, COMMANDS, OFF_VARIABLE, PLUGINS, Source, installed, switched_off
 from lambda_core.domain.plugin_errors import PluginError, PluginFault, describe
 from lambda_core.laws.law import law_of
@@ -52,7 +55,8 @@ def switch_off(names: Iterable[str]) -> None:
         When a name is not installed.
     """
     groups = (PLUGINS, COMMANDS, CASES)
-    known = {name for group in groups for source in installed(group) for name in (source.project, source.name)}
+    sources = [*(source for group in groups for source in installed(group)), *file_sources()]
+    known = {name for source in sources for name in (source.project, source.name)}
     for name in names:
         if name not in known:
             raise UsageError(unknown_name("plugin", name, known))
@@ -60,14 +64,61 @@ def switch_off(names: Iterable[str]) -> None:
     registry.cache_clear()
 
 
+def use_plugin(path: str | Path) -> None:
+    """Take a plugin of one file into use, for this process and those that it starts (``--plugin FILE.py``).
+
+    Parameters
+    ----------
+    path : path-like
+        A Python file with laws, or with hooks, as the module of a package would have them. It is read now, executed
+        once, and needs no package; it sees no other files beside it.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file.
+    PluginError
+        When it cannot be used, with its name and the line.
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise UsageError(f'"{path}" is no file: a plugin of one file is FILE.py')
+    source = add_file(file)
+    registry.cache_clear()
+    for fault in registry().faults:
+        if fault.entry_point == source.name and fault.is_broken:
+            raise PluginError(str(fault))
+
+
+def as_guests_of(data: bytes) -> None:
+    """Take the plugin files and laws of another process (:func:`lambda_core.discovery.local_files.guests`)."""
+    if take_guests(data):
+        registry.cache_clear()
+
+
 @lru_cache(maxsize=1)
 def registry() -> Registry:
     """Return the registry of this process, discovered at the first call; broken plugins are logged."""
-    found = discover(installed(PLUGINS), off=switched_off())
+    handed = [Source(law.project, law.digest, law.label, partial(_hooks_of, law)) for law in handed_laws()]
+    found = discover([*installed(PLUGINS), *file_sources(), *handed], off=switched_off())
     for fault in found.faults:
         if fault.is_broken:
             log.warning("plugin not in use: %s", fault)
     return found
+
+
+when_changed(registry.cache_clear)
+
+
+def _hooks_of(handed: HandedLaw) -> ModuleType:
+    """Return a module that brings one law that was handed over."""
+
+    def register_law(register: Callable[[Any], None]) -> None:
+        register(handed.item)
+
+    module = ModuleType(f"{handed.role}/{handed.label}")
+    vars(module)["lambda_laws"] = hookspecs.hookimpl(register_law)
+    return module
 
 
 def discover(sources: Sequence[Source], off: Iterable[str] = ()) -> Registry:

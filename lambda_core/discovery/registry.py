@@ -13,6 +13,8 @@ import pluggy
 
 from lambda_core.discovery.collect import Collection, is_own, law_fault
 from lambda_core.domain.errors import nearest, unknown_name
+from lambda_core.domain.handed_laws import NOTEBOOK
+from lambda_core.domain.installed import project_of
 from lambda_core.domain.plugin_errors import PluginError, PluginFault, blamed, describe
 from lambda_core.domain.roles import ROLES
 from lambda_core.laws.law import Law, LazyLaw, law_of
@@ -38,6 +40,8 @@ class Registry:
         Name and version of the plugins in use.
     faults : tuple of PluginFault
         Installed plugins that are not in use, and why.
+    notes : tuple of PluginFault
+        What people should know of plugins that are in use: names that others have, a slow import.
     methods : mapping of str to Method
         Comparison methods by name.
     views : mapping of str to View
@@ -57,12 +61,17 @@ class Registry:
         faults: tuple[PluginFault, ...],
         hooks: pluggy.PluginManager,
     ) -> None:
-        self._models = dict(collection.models)
+        self._models = dict(collection.models)  # by role and qualified name
+        self._same = dict(collection.same)
+        self._short: dict[tuple[str, str], list[str]] = {}  # role and name -> the qualified names that end in it
+        for role, full in self._models:
+            self._short.setdefault((role, full.rpartition(":")[2]), []).append(full)
         self._origins = dict(collection.origins)
         self._loaded: dict[tuple[str, str], Law] = {}
         self._hooks = hooks
         self.distributions = distributions
         self.faults = faults
+        self.notes = tuple(collection.notes)
         self.methods: Mapping[str, Method] = _of_kind(collection, "method")
         self.views: Mapping[str, View] = _of_kind(collection, "view")
         self.observers: Mapping[str, Observer] = _of_kind(collection, "observer")
@@ -70,31 +79,53 @@ class Registry:
         self.data_folders: tuple[tuple[str, Path], ...] = tuple(collection.folders)
 
     def names(self, role: str) -> tuple[str, ...]:
-        """Return the names of the models for `role`, built-in ones first; imports nothing."""
+        """Return the names of the models for `role`, built-in ones first; imports nothing.
+
+        A name that several packages have stands here with the package before it.
+        """
         if role not in ROLES:
             raise PluginError(unknown_name("role", role, ROLES))
-        return tuple(name for known, name in self._models if known == role)
+        shorts = [(full, full.rpartition(":")[2]) for known, full in self._models if known == role]
+        return tuple(short if len(self._short[role, short]) == 1 else full for full, short in shorts)
 
     def origin(self, kind: str, name: str) -> str:
         """Return the distribution ("my-traction 0.1") of a model (by its role), method or view."""
-        return self._origins[kind, name]
+        return self._origins[kind, self._full(kind, name) if kind in ROLES else name]
 
     def model(self, role: str, name: str) -> Law:
         """Return one model, importing its module if needed.
 
+        Parameters
+        ----------
+        role, name : str
+            A name alone, or with its package: "carreau-traction:carreau".
+
         Raises
         ------
         PluginError
-            When `role` has no such model (with the nearest names and what exists), or
-            when its module cannot be imported.
+            When `role` has no such model (with the nearest names and what exists), when several packages have one of
+            that name, or when its module cannot be imported.
         """
-        if name not in self.names(role):
-            raise PluginError(self._unknown(role, name))
-        key = (role, name)
+        full = self._full(role, name)
+        key = (role, full)
         if key not in self._loaded:
             found = self._models[key]
             self._loaded[key] = _load(found, self._origins[key]) if isinstance(found, LazyLaw) else found
         return self._loaded[key]
+
+    def _full(self, role: str, name: str) -> str:
+        """Return the qualified name of a model."""
+        if role not in ROLES:
+            raise PluginError(unknown_name("role", role, ROLES))
+        full = self._same.get((role, name), name)
+        if (role, full) in self._models:
+            return full
+        found = self._short.get((role, name), [])
+        if not found:
+            raise PluginError(self._unknown(role, name))
+        if len(found) > 1:
+            raise PluginError(f'several {role} models are called "{name}", choose one: {", ".join(found)}')
+        return found[0]
 
     def models(self, role: str) -> dict[str, Law]:
         """Return every model for `role` by name; one that cannot be imported is an error."""
@@ -195,12 +226,27 @@ class Registry:
     def _unknown(self, role: str, name: str) -> str:
         """Say that `role` has no model `name`: nearest names, everything there is, and what is missing."""
         names = self.names(role)
-        shown = [n if is_own(self._origins[role, n]) else f"{n} ({self._origins[role, n]})" for n in names]
+        package, _, short = name.rpartition(":")
+        if package and (role, short) in self._short:
+            names = tuple(self._short[role, short])
+        shown = [n if is_own(self.origin(role, n)) else f"{n} ({self.origin(role, n)})" for n in names]
         close = nearest(name, names)
         hint = f"nearest: {', '.join(close)}; " if close else ""
         article = "an" if role[0] in "aeiou" else "a"
         text = f'"{name}" is not {article} {role} model; {hint}available: {", ".join(shown) or "none"}'
-        return text + self._not_loaded()
+        return text + (self._absent(package) or self._not_loaded())
+
+    def _absent(self, package: str) -> str:
+        """Say why nothing of a package is in use, "" without a package."""
+        for fault in self.faults:
+            if package and project_of(fault.distribution) == package:
+                return f"; not in use: {fault.distribution}: {fault.message}"
+        if not package or package in map(project_of, self.distributions):
+            return ""
+        if package == NOTEBOOK:
+            return f"; a law of a {NOTEBOOK} is known to the program that hands it over, and to no other"
+        where = f"--plugin {package} takes it into use" if package.endswith(".py") else "it is not installed"
+        return f"; {package} brings it: {where}"
 
     def _not_loaded(self) -> str:
         if not self.faults:

@@ -14,6 +14,7 @@ from pydantic.fields import FieldInfo
 from lambda_core.case.cards import FieldCard, field_card
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError, nearest, unknown_name
+from lambda_core.domain.installed import project_of
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import DEFAULT_MODELS, ROLE_API, ROLES
 from lambda_core.laws.check import ModelReport, check_model
@@ -218,7 +219,7 @@ def broken(registry: Registry, wanted: Sequence[str] = ()) -> list[FaultCard]:
     return [
         FaultCard(**vars(fault))
         for fault in registry.faults
-        if fault.is_broken and (not wanted or fault.distribution.split(" ")[0] in wanted)
+        if fault.is_broken and (not wanted or project_of(fault.distribution) in wanted)
     ]
 
 
@@ -227,10 +228,10 @@ def chosen(registry: Registry, wanted: Sequence[str]) -> Iterator[tuple[str, str
     every = [(role, name) for role in ROLES for name in registry.names(role)]
     known: dict[str, list[tuple[str, str]]] = {}
     for role, name in every:
-        for word in (role, f"{role}/{name}", registry.origin(role, name).split(" ")[0]):
+        for word in (role, f"{role}/{name}", project_of(registry.origin(role, name))):
             known.setdefault(word, []).append((role, name))
     for distribution in (*registry.distributions, *(fault.distribution for fault in registry.faults)):
-        known.setdefault(distribution.split(" ")[0], [])
+        known.setdefault(project_of(distribution), [])
     for word in wanted:
         if word not in known:
             raise UsageError(unknown_name("distribution, role or ROLE/NAME", word, known))

@@ -14,6 +14,7 @@ PLUGINS = "lambda_bearing.plugins"  # modules with hooks
 COMMANDS = "lambda_bearing.commands"  # functions or typer applications
 CASES = "lambda_bearing.cases"  # packages of case files
 OFF_VARIABLE = "LAMBDA_BEARING_NO_PLUGIN"
+ON_VARIABLE = "LAMBDA_BEARING_PLUGINS"  # files of one plugin each, and folders of such
 OWN = "lambda-bearing"  # the distribution of the built-in plugins
 
 
@@ -31,6 +32,11 @@ class Source:
     def distribution(self) -> str:
         """Name and version, as messages show them."""
         return f"{self.project} {self.version}".rstrip()
+
+
+def project_of(distribution: str) -> str:
+    """Return the name in "name version"; names of files may hold blanks."""
+    return distribution.rpartition(" ")[0] or distribution
 
 
 def _source(point: EntryPoint) -> Source:

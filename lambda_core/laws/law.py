@@ -9,13 +9,15 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
+from lambda_core.domain.handed_laws import MARK
+from lambda_core.domain.installed import OWN, project_of
 from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.domain.roles import ROLE_API
 from lambda_core.laws.context import Context
 from lambda_core.laws.parameter import NoParameters
 
 Prepare = Callable[[Any, Context], Any]
 Kernel = TypeVar("Kernel", bound=Callable[..., int])
-_MARK = "lambda_law"  # attribute of a function that is the kernel of a law
 
 
 def _no_errors() -> Mapping[int, str]:
@@ -78,6 +80,12 @@ class Law:
         """Role, name and distribution as messages show them."""
         return f"{self.role}/{self.name} ({self.distribution})" if self.distribution else f"{self.role}/{self.name}"
 
+    @property
+    def qualified(self) -> str:
+        """The name with its package before it, "carreau-traction:carreau", which no other package can take."""
+        project = project_of(self.distribution)
+        return f"{project}:{self.name}" if project and project != OWN else self.name
+
 
 @dataclass(frozen=True)
 class LazyLaw:
@@ -104,7 +112,7 @@ def law(
     name: str,
     parameters: type[BaseModel] = NoParameters,
     *,
-    role_api: int,
+    role_api: int | None = None,
     reference: str,
     summary: str = "",
     validity: str = "",
@@ -124,7 +132,7 @@ def law(
     parameters : type of pydantic.BaseModel
         Fields with defaults, units, limits and sources; the kernel reads them by name from ``par``, SI.
     role_api : int
-        Version of the role interface that the law is written for, as a number: 2.
+        Version of the role interface that the law is written for, as a number: 2. Without it the law is refused.
     reference : str
         Publication and equation numbers, "-" where there is nothing to cite.
     summary, validity : str
@@ -159,6 +167,12 @@ def law(
         When the description of the law contradicts its kernel or its parameters.
     """
 
+    if role_api is None:
+        raise PluginError(
+            f"{role}/{name} does not say for which version of the roles it is written: "
+            f"write role_api={ROLE_API}, the number itself"
+        )
+
     def decorate(kernel: Kernel) -> Kernel:
         made = Law(
             role,
@@ -178,7 +192,7 @@ def law(
                 f"{made.label}: the kernel is a {type(kernel).__name__}: write a plain Python function "
                 "without a decorator, the program compiles it"
             )
-        kernel.__dict__[_MARK] = made
+        kernel.__dict__[MARK] = made
         return kernel
 
     return decorate
@@ -186,5 +200,5 @@ def law(
 
 def law_of(item: object) -> Law | None:
     """Return the law that an object is, or is the kernel of; None for any other object."""
-    found = item if isinstance(item, Law) else getattr(item, _MARK, None)
+    found = item if isinstance(item, Law) else getattr(item, MARK, None)
     return found if isinstance(found, Law) else None

@@ -67,7 +67,9 @@ class Summary(Record):
     interface: int = INTERFACE
     case: str
     title: str
-    headline: str = Field(description="two lines: bearing and oil; loads, speed and depth")
+    headline: str = Field(
+        description="lines: bearing and oil; loads, speed and depth; laws of plugins, where there are any"
+    )
     file: str
     state: Literal["running", "finished", "stopped", "interrupted", "failed"]
     converged: bool

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
@@ -70,7 +70,13 @@ def relaunch(
     result = Result(path)
     changed = differences(result.model, model_data(model))
     if changed:
-        raise ResultError(f"{path} cannot go on: the case now resolves to other values: {_some(changed)}")
+        moved = _moved(model, result.model)
+        why = (
+            f"its laws have changed: {_some(moved)}"
+            if moved
+            else f"the case now resolves to other values: {_some(changed)}"
+        )
+        raise ResultError(f"{path} cannot go on: {why}")
     live = _live(model, announce)
     watch = Watch(model)
     engine, provenance = _engine(model, announce, live, watch)
@@ -130,6 +136,18 @@ def _start_line(start: QuasiStatic) -> str:
         f"equilibrium: {start.loaded_balls} balls loaded, "
         f"Q_max {start.max_load_N / 1e3:.2f} kN ({start.max_load_ring} ring), p_max {start.max_pressure_GPa:.2f} GPa"
     )
+
+
+def _moved(model: BearingModel, before: Mapping[str, Any]) -> list[str]:
+    """Return a sentence for each law that comes from another package, version or text of a file than before."""
+    found: dict[str, None] = {}
+    for element, roles in model.laws.items():
+        for role, law in roles.items():
+            then = before["laws"].get(element, {}).get(role, {}).get("model", {}).get("distribution", "")
+            now = law.model.distribution
+            if then != now:
+                found[f"{role}/{law.model.name} is of {now} now, it was of {then}"] = None
+    return list(found)
 
 
 def _some(names: list[str]) -> str:

@@ -186,15 +186,27 @@ def resume(
 
     Raises
     ------
+    CaseError
+        When its laws or data are not here any more, with the packages and files that had them.
     UsageError
         When the file is no result, nothing is left to do, or the case or the code has changed.
     """
     from lambda_core.case.case_io import apply_overrides, parse_case
+    from lambda_core.domain.errors import CaseError, Problem
+    from lambda_core.domain.installed import OWN, project_of
     from lambda_core.run.launch import relaunch
 
-    text = result(path).case_toml
-    case = parse_case(text, str(path)).with_(solver={"max_wall": None})
-    model = resolve(apply_overrides(case, overrides))
+    found = result(path)
+    case = parse_case(found.case_toml, str(path)).with_(solver={"max_wall": None})
+    try:
+        model = resolve(apply_overrides(case, overrides))
+    except CaseError as error:
+        others = [name for name in found.plugins if project_of(name) != OWN]
+        if not others:
+            raise
+        raise CaseError(
+            error.source, [*error.problems, Problem("", f"its laws came from {', '.join(others)}")]
+        ) from None
     return relaunch(Path(path), model, report=progress, announce=announce)
 
 

@@ -10,6 +10,7 @@ from pydantic import BaseModel
 from lambda_core.domain.elements import DOFS
 from lambda_core.domain.units import from_si, show
 from lambda_core.system.bearing import BearingModel, Body, Term, TimeFunction
+from lambda_core.system.law_packages import laws_line
 from lambda_core.system.operating_limits import operating_warnings
 from lambda_core.system.resolve import case_hash
 from lambda_core.system.time_functions import scaled
@@ -102,7 +103,7 @@ def value_reports(model: BearingModel) -> list[ValueReport]:
 
 
 def headline(model: BearingModel) -> list[str]:
-    """Return two lines that say what the model is: bearing and oil; loads, speed and depth."""
+    """Return the lines that say what the model is: bearing and oil; loads, speed and depth; laws of plugins."""
     g = model.geometry
     temperature = f"{from_si(model.oil.temperature, 'temperature'):.4g} degC"
     first = [
@@ -118,7 +119,7 @@ def headline(model: BearingModel) -> list[str]:
         turning += " at the start, driven by a torque"
     depth = f"strips {model.depth.rows}x{model.depth.strips}"
     second = [*_loads(model.inner_ring), turning, depth, f"cage {'on' if model.depth.cage else 'off'}"]
-    return ["  ".join(first), "   ".join(second)]
+    return ["  ".join(first), "   ".join(second), *filter(None, [laws_line(model)])]
 
 
 def _clearance(model: BearingModel) -> str:

@@ -34,6 +34,7 @@ from lambda_core.system.bearing import (
     Output,
     Solver,
 )
+from lambda_core.system.law_packages import with_packages
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.resolve_bodies import (
     Inertia,
@@ -146,7 +147,7 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
         output=Output(case.output.interval or 0.0, case.output.checkpoint_interval),
         values=tuple(ledger.values),
         assumptions=tuple(ledger.assumptions),
-        case_toml=standalone_toml(written),
+        case_toml=standalone_toml(with_packages(written, registry)),
         plugins=_distributions(
             {**laws, "electric": electric.laws if electric else {}}, [*observers.values(), *events.values()]
         ),

@@ -13,6 +13,7 @@ from lambda_core.domain.errors import LambdaError, unknown_name
 from lambda_core.domain.roles import ELECTRIC_ROLES, ROLES
 from lambda_core.laws.calls import plain_call
 from lambda_core.system.bearing import ChosenLaw, ElectricModel
+from lambda_core.system.law_packages import law_called
 from lambda_core.system.ledger import Ledger
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ def resolve_electric(options: Electric, registry: ModelSource, ledger: Ledger) -
 def _law(role: str, options: Electric, registry: ModelSource, ledger: Ledger) -> ChosenLaw | None:
     section = getattr(options, role)
     try:
-        chosen = registry.model(role, section.law)
+        chosen = law_called(registry, role, section.law, given="law" in section.model_fields_set)
     except LambdaError as error:
         ledger.problem(f"electric.{role}.law", str(error))
         return None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -13,9 +14,11 @@ from lambda_core.case.problems import problems
 from lambda_core.catalogue.protocol import LubricantRow
 from lambda_core.domain.elements import ELEMENTS
 from lambda_core.domain.errors import LambdaError, unknown_name
+from lambda_core.domain.installed import OWN
 from lambda_core.domain.roles import CAGE, DEFAULT_MODELS, MOTION_ROLES
 from lambda_core.laws.law import Law
 from lambda_core.system.bearing import ChosenLaw
+from lambda_core.system.law_packages import law_called
 from lambda_core.system.ledger import Ledger, Status
 
 NONE = "none"
@@ -86,18 +89,19 @@ class LawResolver:
 
     def _law(self, element: str, role: str) -> ChosenLaw | None:
         name, where = self._choice(element, role)
-        if name == BALL_BALL and self.case.depth.cage:
+        plain = name.removeprefix(f"{OWN}:")
+        if plain == BALL_BALL and self.case.depth.cage:
             self.ledger.problem(where, f'"{name}" is the contact without a cage: it needs depth.cage = false')
             return None
-        if role == "supply" and name != PRESCRIBED and self.case.lubricant.starvation < 1.0:
+        if role == "supply" and plain != PRESCRIBED and self.case.lubricant.starvation < 1.0:
             self.ledger.problem("lubricant.starvation", f'belongs to the supply law {PRESCRIBED}, not to "{name}"')
             return None
         try:
-            chosen = self.registry.model(role, name)
+            chosen = law_called(self.registry, role, name, given=self._chosen_by(element, role) == "given")
         except LambdaError as error:
             self.ledger.problem(where, str(error))
             return None
-        rows = self._lubricant_rows(role, name)
+        rows = self._lubricant_rows(role, chosen)
         case_texts = self._case_texts(element, role, chosen)
         texts: dict[str, Any] = {key: row.text() for key, row in rows.items()}
         texts.update({key: text for key, (text, _) in case_texts.items()})
@@ -165,8 +169,16 @@ class LawResolver:
     def _automatic(self, role: str) -> str:
         return self.lubricant.rheology if self.lubricant else NONE
 
-    def _lubricant_rows(self, role: str, name: str) -> Mapping[str, Any]:
-        return self.lubricant.parameters.get(role, {}).get(name, {}) if self.lubricant else {}
+    def _lubricant_rows(self, role: str, chosen: Law) -> Mapping[str, Any]:
+        """Return what the oil's data has for a law; data of one of ours is not for another's of the same name."""
+        known = self.lubricant.parameters.get(role, {}) if self.lubricant else {}
+        if chosen.qualified in known or chosen.name not in known:
+            return known.get(chosen.qualified, {})
+        try:
+            ours = self.registry.model(role, f"{OWN}:{chosen.name}")
+        except LambdaError:
+            return known[chosen.name]
+        return known[chosen.name] if ours.qualified == chosen.qualified else {}
 
     def _case_texts(self, element: str, role: str, chosen: Law) -> dict[str, tuple[Any, str]]:
         """Return parameter -> (text, path) of the case: the element's own before the general ones."""
@@ -243,8 +255,8 @@ class LawResolver:
         found = []
         for element in (each for each in self._elements() if each in MOTION_ROLES[role].elements):
             name, _ = self._choice(element, role)
-            if name in self.registry.names(role):
-                found.append(self.registry.model(role, name))
+            with suppress(LambdaError):  # told where it was chosen
+                found.append(law_called(self.registry, role, name, given=self._chosen_by(element, role) == "given"))
         return found
 
     def _explain(self, laws: Mapping[str, Mapping[str, ChosenLaw]]) -> None:

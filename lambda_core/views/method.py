@@ -163,6 +163,8 @@ class Method:
         method does not cover the case.
     validity : str
         Cases that it is made for.
+    method_api : int
+        Version of this interface that it is written for, as a number: 1. Without it the method is refused.
     """
 
     name: str
@@ -170,7 +172,7 @@ class Method:
     reference: str
     evaluate: Callable[[MethodInputs], MethodTable]
     validity: str = ""
-    method_api: int = METHOD_API
+    method_api: int | None = None
     distribution: str = ""  # filled by the registry
 
 

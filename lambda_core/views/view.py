@@ -104,6 +104,8 @@ class View:
     offered : callable, optional
         ``offered(subject) -> bool``: whether reports and lists of every view ask for this one; it can be asked for by
         name at all times.
+    view_api : int
+        Version of this interface that it is written for, as a number: 1. Without it the view is refused.
     """
 
     name: str
@@ -114,7 +116,7 @@ class View:
     figure: Callable[[ViewData], Figure] | None = field(default=None, repr=False)
     reference: str = ""
     offered: Callable[[Any], bool] | None = field(default=None, repr=False)
-    view_api: int = VIEW_API
+    view_api: int | None = None
     distribution: str = ""  # filled by the registry
 
 
@@ -122,6 +124,8 @@ def view_fault(item: object) -> str:
     """Say what keeps a view from being registered, or nothing."""
     if not isinstance(item, View):
         return f"lambda_views registers a {type(item).__name__}: wrap the function in View(name, title, subject, data)"
+    if item.view_api is None:
+        return f"the view {item.name} does not say for which version it is written: write view_api={VIEW_API}"
     if item.view_api != VIEW_API:
         return f"the view {item.name} is written for version {item.view_api} of the interface; this is {VIEW_API}"
     if item.subject not in ("result", "results", "study"):

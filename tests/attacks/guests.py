@@ -48,7 +48,7 @@ def evaluate(inputs):
 
 @hookimpl
 def lambda_methods(register):
-    register(Method("guest", "a guest", "none", evaluate))
+    register(Method("guest", "a guest", "none", evaluate, method_api=1))
 """
 _VIEW = """
 def data(subject, options):
@@ -57,7 +57,7 @@ def data(subject, options):
 
 @hookimpl
 def lambda_views(register):
-    register(View("guest", "a guest", "result", data))
+    register(View("guest", "a guest", "result", data, view_api=1))
 """
 _OTHERS = (
     "raise RuntimeError('at import')\n",
@@ -81,7 +81,7 @@ _OTHERS = (
     _VIEW.format(body="return 42"),
     _VIEW.format(body="raise SystemExit(9)"),
     _VIEW.format(body="return subject['no-such-channel']"),
-    "@hookimpl\ndef lambda_views(register):\n    register(View('film', 'twice', 'result', print))\n",
+    "@hookimpl\ndef lambda_views(register):\n    register(View('film', 'twice', 'result', print, view_api=1))\n",
     '@law("no-such-role", "guest", role_api=2, reference="none")\ndef other(par, out):\n    return 1\n',
     '@law("damping", "cubic", role_api=2, reference="-")\ndef cubic(delta, delta_dot, load, par, out):\n    return 1\n',
     '@law("damping", "", role_api=2, reference="")\ndef nameless(delta, delta_dot, load, par, out):\n    return 1\n',

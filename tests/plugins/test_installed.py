@@ -67,7 +67,7 @@ PACKAGES = {
     # not in use at all: found at discovery
     "bad-import": "import a_library_that_is_not_installed\n",
     "bad-hook": code(name="bad-hook", hook="lambda_lwas"),
-    "bad-name": code(name="ree-eyring"),
+    "bad-name": code(name="Bad_Name"),
     "bad-version": code(name="bad-version", api=1),
     "bad-future": code(name="bad-future", api=3),
     "old-form": OLD,
@@ -88,7 +88,7 @@ PACKAGES = {
 SENTENCES = {
     "bad-import": "cannot be imported: ModuleNotFoundError: No module named 'a_library_that_is_not_installed'",
     "bad-hook": '"lambda_lwas" is not a known hook; nearest: lambda_laws',
-    "bad-name": 'the traction "ree-eyring" is already taken by lambda-bearing',
+    "bad-name": 'the traction name "Bad_Name" is not in lower case with hyphens ("my-law")',
     "bad-version": "traction/bad-version is written for version 1 of the role interface; this program has 2: "
     'write @law("traction", "bad-version", Limit, role_api=2, reference=...) above the kernel and read par.ratio',
     "bad-future": "traction/bad-future is written for version 3 of the role interface; this program has 2",

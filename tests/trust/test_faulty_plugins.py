@@ -31,10 +31,10 @@ def number(*_: Any) -> Any:
 def test_a4_a_method_that_fails_does_not_stop_the_others() -> None:
     good = MethodTable(())
     methods = [
-        Method("failing", "", "none", fail, distribution="guest 1.0"),
-        Method("leaving", "", "none", leave, distribution="guest 1.0"),
-        Method("counting", "", "none", number, distribution="guest 1.0"),
-        Method("good", "", "none", lambda inputs: good),
+        Method("failing", "", "none", fail, distribution="guest 1.0", method_api=1),
+        Method("leaving", "", "none", leave, distribution="guest 1.0", method_api=1),
+        Method("counting", "", "none", number, distribution="guest 1.0", method_api=1),
+        Method("good", "", "none", lambda inputs: good, method_api=1),
     ]
     answers = evaluate_methods(methods, SimpleNamespace())  # type: ignore[arg-type]
     assert [answer.table for answer in answers] == [None, None, None, good]
@@ -45,7 +45,7 @@ def test_a4_a_method_that_fails_does_not_stop_the_others() -> None:
 
 @pytest.mark.parametrize(("data", "words"), [(fail, "KeyError"), (leave, "SystemExit"), (number, "not a ViewData")])
 def test_a4_a_view_that_fails_is_named(data: Any, words: str) -> None:
-    view = View("guest", "a guest", "result", data, distribution="guest 1.0")
+    view = View("guest", "a guest", "result", data, distribution="guest 1.0", view_api=1)
     with pytest.raises(PluginError, match=rf'the view "guest" \(guest 1\.0\) .*{words}'):
         data_of(view, None, {})
 

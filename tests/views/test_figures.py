@@ -150,7 +150,7 @@ def test_a_strangers_view_is_drawn_by_the_house_or_by_itself(radial_run: Result)
 
         @hookimpl
         def lambda_views(register: Callable[[View], None]) -> None:
-            register(View("stranger", "torque of the drive", "result", torque, Choice, figure))
+            register(View("stranger", "torque of the drive", "result", torque, Choice, figure, view_api=1))
 
         module.lambda_views = lambda_views  # type: ignore[attr-defined]
         return module
@@ -172,6 +172,7 @@ def test_a_strangers_view_is_drawn_by_the_house_or_by_itself(radial_run: Result)
     ("changes", "words"),
     [
         ({"view_api": 7}, "written for version 7"),
+        ({"view_api": None}, "does not say for which version it is written: write view_api=1"),
         ({"subject": "movie"}, 'looks at "movie"'),
         ({"data": 3}, "the data of the view x is a int"),
         ({"figure": 3}, "the figure of the view x is a int"),

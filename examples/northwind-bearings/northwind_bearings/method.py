@@ -28,4 +28,5 @@ STRIBECK = Method(
     reference="Stribeck 1907, Trans. ASME 29, 420: ball bearings for various loads",
     evaluate=stribeck,
     validity="pure radial load, deep-groove ball bearings",
+    method_api=1,
 )

@@ -44,4 +44,5 @@ LOAD_SHARE = View(
     load_share,
     ShareOptions,
     reference="Stribeck 1907, Trans. ASME 29, 420",
+    view_api=1,
 )

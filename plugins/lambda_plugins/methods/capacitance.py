@@ -129,4 +129,5 @@ ANALYTICAL_CAPACITANCE = Method(
     reference="Syla et al. 2026, Lubricants 14, 154, section 4.3, eq. 2-3, 25, 32, 34",
     evaluate=evaluate,
     validity="full film, no slip, no heating",
+    method_api=1,
 )

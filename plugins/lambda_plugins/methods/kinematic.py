@@ -55,4 +55,5 @@ KINEMATIC = Method(
     reference="Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 1, ch. 10",
     evaluate=evaluate,
     validity="pure rolling, equal contact angles at both raceways",
+    method_api=1,
 )

@@ -83,4 +83,5 @@ QUASI_STATIC = Method(
     title="Quasi-static equilibrium of this project",
     reference="the same laws and geometry as the simulation, without its dynamics",
     evaluate=evaluate,
+    method_api=1,
 )

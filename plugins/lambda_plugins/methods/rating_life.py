@@ -107,6 +107,7 @@ ISO_281 = Method(
     reference="ISO 281:2007; ISO 76:2006",
     evaluate=evaluate_iso281,
     validity="rigid rings, no tilt, normal clearance, inner ring rotating",
+    method_api=1,
 )
 
 ISO_TS_16281 = Method(
@@ -115,4 +116,5 @@ ISO_TS_16281 = Method(
     reference="ISO/TS 16281:2008, eq. 19-29",
     evaluate=evaluate_ts16281,
     validity="loads of the project's own quasi-static equilibrium",
+    method_api=1,
 )

@@ -112,4 +112,5 @@ SCHAEFFLER = Method(
     reference="Schaeffler, Rolling Bearings HR 1 (2019); Syla et al. 2026, eq. 38-39",
     evaluate=evaluate,
     validity="series 60, 62, 63, 64, 618; steady running",
+    method_api=1,
 )

@@ -260,4 +260,5 @@ SKF = Method(
     reference="SKF, Rolling bearings, catalogue 17000 EN (2018), chapter Friction",
     evaluate=evaluate,
     validity="series 60, 62, 63, 64, 618, 619; open bearings; steady running; normal clearance",
+    method_api=1,
 )

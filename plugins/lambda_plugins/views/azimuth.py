@@ -72,8 +72,8 @@ def film(run: RunData, options: Options) -> ViewData:
 
 
 VIEWS = (
-    View("load-distribution", "load of every ball around the bearing", "result", load_distribution),
-    View("contact-angle", "contact angles over azimuth", "result", contact_angle),
-    View("pressure", "maximum contact pressure over azimuth", "result", pressure),
-    View("film", "film thickness and Lambda over azimuth", "result", film),
+    View("load-distribution", "load of every ball around the bearing", "result", load_distribution, view_api=1),
+    View("contact-angle", "contact angles over azimuth", "result", contact_angle, view_api=1),
+    View("pressure", "maximum contact pressure over azimuth", "result", pressure, view_api=1),
+    View("film", "film thickness and Lambda over azimuth", "result", film, view_api=1),
 )

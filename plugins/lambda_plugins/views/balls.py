@@ -53,4 +53,8 @@ def ball_speeds(run: RunData, options: Options) -> ViewData:
     return ViewData("ball-speeds", "Speeds of the balls", source(run), panels, 2, notes)
 
 
-VIEWS = (View("ball-speeds", "orbital speed, spin and skidding of the balls over azimuth", "result", ball_speeds),)
+VIEWS = (
+    View(
+        "ball-speeds", "orbital speed, spin and skidding of the balls over azimuth", "result", ball_speeds, view_api=1
+    ),
+)

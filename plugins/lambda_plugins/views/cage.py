@@ -123,6 +123,6 @@ def pocket_forces(run: RunData, options: Options) -> ViewData:
 
 
 VIEWS = (
-    View("cage-orbit", "orbit of the cage, whirl, cage speed over kinematics", "result", cage_orbit),
-    View("pocket-forces", "forces in the pockets and at the lands", "result", pocket_forces),
+    View("cage-orbit", "orbit of the cage, whirl, cage speed over kinematics", "result", cage_orbit, view_api=1),
+    View("pocket-forces", "forces in the pockets and at the lands", "result", pocket_forces, view_api=1),
 )

@@ -52,4 +52,12 @@ def _spectrum(run: RunData, time: np.ndarray, values: np.ndarray) -> Panel:
     )
 
 
-VIEWS = (View("capacitance", "capacitance over time and its spectrum, contacts over azimuth", "result", capacitance),)
+VIEWS = (
+    View(
+        "capacitance",
+        "capacitance over time and its spectrum, contacts over azimuth",
+        "result",
+        capacitance,
+        view_api=1,
+    ),
+)

@@ -71,4 +71,4 @@ def _loads(runs: Sequence[RunData], names: Sequence[str]) -> tuple[Series, ...]:
     return tuple(found)
 
 
-VIEWS = (View("comparison", "several results side by side", "results", comparison),)
+VIEWS = (View("comparison", "several results side by side", "results", comparison, view_api=1),)

@@ -195,5 +195,6 @@ VIEWS = (
         "result",
         contact_map,
         Choice,
+        view_api=1,
     ),
 )

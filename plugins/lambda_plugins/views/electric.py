@@ -124,5 +124,6 @@ _PARTS: tuple[tuple[str, Any, type[Options]], ...] = (
     ("impedance", impedance, Options),
 )
 VIEWS = tuple(
-    View(name, _TITLES[name], "result", data, options, offered=_in_a_machine) for name, data, options in _PARTS
+    View(name, _TITLES[name], "result", data, options, offered=_in_a_machine, view_api=1)
+    for name, data, options in _PARTS
 )

@@ -46,4 +46,6 @@ def energy_balance(run: RunData, options: Options) -> ViewData:
     return ViewData("energy-balance", "Energy balance", source(run), panels, 2, notes)
 
 
-VIEWS = (View("energy-balance", "energy put in, dissipated and stored over time", "result", energy_balance),)
+VIEWS = (
+    View("energy-balance", "energy put in, dissipated and stored over time", "result", energy_balance, view_api=1),
+)

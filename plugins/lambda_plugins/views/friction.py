@@ -86,6 +86,6 @@ def convergence(run: RunData, options: Options) -> ViewData:
 
 
 VIEWS = (
-    View("friction-breakdown", "friction torque by mechanism and ring", "result", friction_breakdown),
-    View("convergence", "friction torque over time with the confidence of its mean", "result", convergence),
+    View("friction-breakdown", "friction torque by mechanism and ring", "result", friction_breakdown, view_api=1),
+    View("convergence", "friction torque over time with the confidence of its mean", "result", convergence, view_api=1),
 )

@@ -17,4 +17,4 @@ def heat(run: RunData, options: Options) -> ViewData:
     return found
 
 
-VIEWS = (View("heat", "where the heat of a run goes, and the temperatures that follow", "result", heat),)
+VIEWS = (View("heat", "where the heat of a run goes, and the temperatures that follow", "result", heat, view_api=1),)

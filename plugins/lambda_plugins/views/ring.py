@@ -95,12 +95,13 @@ def ring_spectrum(run: RunData, options: Options) -> ViewData:
 
 _ORDERS = "Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., vol. 1, ch. 10"
 VIEWS = (
-    View("ring-orbit", "orbit of the inner ring's centre", "result", ring_orbit),
+    View("ring-orbit", "orbit of the inner ring's centre", "result", ring_orbit, view_api=1),
     View(
         "ring-spectrum",
         "spectrum of the inner ring with BPFO, BPFI, BSF, FTF",
         "result",
         ring_spectrum,
         reference=_ORDERS,
+        view_api=1,
     ),
 )

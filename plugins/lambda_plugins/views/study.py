@@ -246,9 +246,23 @@ def _judged(name: str, x: FloatArray, y: FloatArray, chosen: NDArray[np.bool_], 
 
 
 VIEWS = (
-    View("study-curves", "responses over one parameter", "study", study_curves, Curves),
-    View("study-map", "responses as surfaces over two parameters", "study", study_map, Surface),
-    View("friction-stack", "friction by mechanism, stacked over one parameter", "study", friction_stack, Along),
-    View("sensitivity", "how much each parameter decides each response", "study", sensitivity, Which),
-    View("stability-map", "where a measure of unsteadiness stays below a limit", "study", stability_map, Threshold),
+    View("study-curves", "responses over one parameter", "study", study_curves, Curves, view_api=1),
+    View("study-map", "responses as surfaces over two parameters", "study", study_map, Surface, view_api=1),
+    View(
+        "friction-stack",
+        "friction by mechanism, stacked over one parameter",
+        "study",
+        friction_stack,
+        Along,
+        view_api=1,
+    ),
+    View("sensitivity", "how much each parameter decides each response", "study", sensitivity, Which, view_api=1),
+    View(
+        "stability-map",
+        "where a measure of unsteadiness stays below a limit",
+        "study",
+        stability_map,
+        Threshold,
+        view_api=1,
+    ),
 )

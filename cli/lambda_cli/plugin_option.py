@@ -1,0 +1,50 @@
+"""``--plugin FILE.py``, which every command takes: laws of one file, for one call."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+_HELP = "Use the laws of a file, too; may be repeated. Without it no file is read but those of your plugin folder."
+
+
+def take_plugins(files: list[str] | None) -> None:
+    """Take the named files into use before the command begins."""
+    if files:
+        from lambda_core.api import use_plugin
+
+        for file in files:
+            use_plugin(file)
+
+
+def _with_option(
+    plugin: Annotated[
+        list[str] | None,
+        typer.Option("--plugin", metavar="FILE", help=_HELP, callback=take_plugins, is_eager=True),
+    ] = None,
+) -> None:
+    """Have the option and nothing else."""
+
+
+def with_plugin_option(command: Any) -> None:
+    """Give a command, or every command of a group, the option."""
+    below = getattr(command, "commands", None)
+    if below is not None:
+        for other in below.values():
+            with_plugin_option(other)
+    elif not any("--plugin" in parameter.opts for parameter in command.params):
+        pattern = typer.Typer(add_completion=False)
+        pattern.command()(_with_option)
+        option = next(each for each in typer.main.get_command(pattern).params if "--plugin" in each.opts)
+        option.expose_value = False
+        command.params.append(option)
+
+
+def named_plugin(name: str) -> str:
+    """Return what a plugin is called; a file is taken into use by being named."""
+    if not name.endswith(".py"):
+        return name
+    take_plugins([name])
+    return Path(name).name

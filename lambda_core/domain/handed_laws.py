@@ -1,0 +1,118 @@
+"""Laws that a Python program hands over as objects where a case has a name: in a notebook, or from a script.
+
+The rooms below discovery know a law by its marks only; the registry of this process takes what is gathered here.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import linecache
+import pickle
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+MARK = "lambda_law"  # attribute of a function that is the kernel of a law
+NOTEBOOK = "notebook"  # stands where the name of a package, or of a script, would
+
+
+@dataclass(frozen=True)
+class HandedLaw:
+    """One law that was handed over."""
+
+    project: str  # name of the script, or NOTEBOOK
+    digest: str  # of the text that it comes from
+    role: str
+    name: str
+    item: Any  # the law, or its kernel
+
+    @property
+    def label(self) -> str:
+        """The name by which a case chooses it."""
+        return f"{self.project}:{self.name}"
+
+
+_laws: dict[tuple[str, str], HandedLaw] = {}  # by role and label
+_listeners: list[Callable[[], None]] = []
+
+
+def when_changed(listener: Callable[[], None]) -> None:
+    """Have a function called whenever a law is handed over that was not known before."""
+    _listeners.append(listener)
+
+
+def handed_laws() -> tuple[HandedLaw, ...]:
+    """Return every law that was handed over in this process."""
+    return tuple(_laws.values())
+
+
+def take_laws(laws: tuple[HandedLaw, ...]) -> None:
+    """Take laws that another process was handed."""
+    if not laws:
+        return
+    _laws.update({(law.role, law.label): law for law in laws})
+    for listener in _listeners:
+        listener()
+
+
+def packed() -> bytes:
+    """Return every law that was handed over as bytes, functions by their code; empty without one."""
+    if not _laws:
+        return b""
+    from numba import cloudpickle
+
+    data: bytes = cloudpickle.dumps(handed_laws())  # type: ignore[no-untyped-call]
+    return data
+
+
+def unpack(data: bytes) -> None:
+    """Take the laws that :func:`packed` of another process returned, but for those that are known."""
+    laws: tuple[HandedLaw, ...] = pickle.loads(data) if data else ()
+    known = {(law.role, law.label): law.digest for law in _laws.values()}
+    take_laws(tuple(law for law in laws if known.get((law.role, law.label)) != law.digest))
+
+
+def is_law(item: object) -> bool:
+    """Tell whether an object is a law, or a function with ``@law(...)`` above it."""
+    law = getattr(item, MARK, item)
+    return all(hasattr(law, name) for name in ("role", "name", "kernel", "parameters"))
+
+
+def name_of(item: Any) -> str:
+    """Return the name by which a case chooses a law that is handed over, and keep the law for this process."""
+    law = getattr(item, MARK, item)
+    project, digest = _origin(law.kernel)
+    handed = HandedLaw(project, digest, law.role, law.name, item)
+    if _laws.get((law.role, handed.label)) != handed:
+        take_laws((handed,))
+    return handed.label
+
+
+def named(value: Any) -> Any:
+    """Return the tables of a case, or lists of values, with every law in them replaced by its name."""
+    if isinstance(value, Mapping):
+        return {key: named(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [named(item) for item in value]
+    return name_of(value) if is_law(value) else value
+
+
+def _origin(kernel: Any) -> tuple[str, str]:
+    """Return the script that a kernel stands in and the digest of its text; of a notebook, of the function's text."""
+    code = getattr(kernel, "__code__", None)
+    path = Path(code.co_filename if code is not None else "")
+    if path.suffix == ".py" and path.is_file() and "ipykernel" not in str(path):
+        return path.name, digest_of(path.read_bytes())
+    try:
+        linecache.checkcache()
+        text = inspect.getsource(kernel)
+    except (OSError, TypeError):
+        text = code.co_code.hex() if code is not None else repr(kernel)
+    return NOTEBOOK, digest_of(text.encode())
+
+
+def digest_of(text: bytes) -> str:
+    """Return the first 12 digits of the SHA-256 of a text."""
+    return hashlib.sha256(text).hexdigest()[:12]

@@ -1,0 +1,204 @@
+"""Laws without a package: from one file, from a folder, from a program that hands them over."""
+
+from __future__ import annotations
+
+import json
+import os
+import pickle
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from lambda_core import api
+from lambda_core.discovery import local_files, manager
+from lambda_core.domain import handed_laws
+from lambda_core.domain.installed import ON_VARIABLE
+from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.plugins import OK, law
+
+LAW = """from math import exp
+from lambda_core.plugins import OK, law
+
+@law("traction", "short", role_api=2, reference="own work")
+def traction(slip, p, T, ln_eta, h, par, tau):
+    for i in range(slip.size):
+        newtonian = exp(min(ln_eta[i], 40.0)) * slip[i] / h
+        tau[i] = newtonian * 0.07 * p[i] / (newtonian + 0.07 * p[i] + 1e-300)
+    return OK
+"""
+CHOICE = ["models.traction=short"]
+
+
+@law("traction", "handed", role_api=2, reference="own work")
+def by_hand(slip: Any, p: Any, T: Any, ln_eta: Any, h: float, par: Any, tau: Any) -> int:
+    for i in range(slip.size):
+        tau[i] = 0.05 * p[i] if slip[i] > 0.0 else 0.0
+    return OK
+
+
+@pytest.fixture(autouse=True)
+def untouched(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
+    """Leave the process as it was: no file named, no law handed over."""
+    monkeypatch.setenv(ON_VARIABLE, "")
+    monkeypatch.setattr(local_files, "user_folder", lambda: tmp_path / "config" / "plugins")
+    monkeypatch.setattr(local_files, "_texts", {})
+    monkeypatch.setattr(handed_laws, "_laws", {})
+    manager.registry.cache_clear()
+    yield
+    monkeypatch.undo()
+    manager.registry.cache_clear()
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    path = tmp_path / "short.py"
+    path.write_text(LAW)
+    return path
+
+
+def traction(case: Any, changes: list[str] = CHOICE) -> Any:
+    return api.check(case, changes).laws["ball_inner"]["traction"].model
+
+
+def test_a_minimal_law_is_at_most_10_lines() -> None:
+    assert len(LAW.splitlines()) <= 10
+
+
+def test_a_file_is_used_once_it_is_named(file: Path) -> None:
+    with pytest.raises(api.CaseError, match='"short" is not a traction model'):
+        api.check("6319-cp10-1500", CHOICE)
+    api.use_plugin(file)
+    found = traction("6319-cp10-1500")
+    assert found.distribution == f"short.py {handed_laws.digest_of(LAW.encode())}"
+    assert 'traction = "short.py:short"' in api.check("6319-cp10-1500", CHOICE).case_toml
+
+
+def test_an_edited_file_is_another_text(file: Path) -> None:
+    api.use_plugin(file)
+    before = traction("6319-cp10-1500").distribution
+    file.write_text(LAW.replace("0.07", "0.08"))
+    assert traction("6319-cp10-1500").distribution == before  # one process runs one text
+    api.use_plugin(file)
+    assert traction("6319-cp10-1500").distribution != before
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("def law(", r"bad.py \w+ \(.*bad.py\): cannot be imported: SyntaxError.*line 1"),
+        ("import helpers_beside_it", "cannot be imported: ModuleNotFoundError: No module named 'helpers_beside_it'"),
+        ("x = 1\n", "has no law and implements no hook"),
+        (LAW.replace(", role_api=2", ""), r"does not say for which version of the roles it is written: write role_api"),
+    ],
+)
+def test_a_file_that_cannot_be_used_says_why(tmp_path: Path, text: str, words: str) -> None:
+    path = tmp_path / "bad.py"
+    path.write_text(text)
+    (tmp_path / "helpers_beside_it.py").write_text("")
+    with pytest.raises(PluginError, match=words):
+        api.use_plugin(path)
+
+
+def test_only_what_is_named_is_read(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(file.parent)
+    monkeypatch.setenv(ON_VARIABLE, os.pathsep.join([".", "short.py"]))
+    manager.registry.cache_clear()
+    found = manager.registry()
+    assert [fault.message for fault in found.faults] == [
+        f"{ON_VARIABLE} names files and folders by their whole path"
+    ] * 2
+    assert "short" not in found.names("traction")
+    monkeypatch.setenv(ON_VARIABLE, str(file.parent))
+    manager.registry.cache_clear()
+    assert traction("6319-cp10-1500").name == "short"
+
+
+def test_files_of_the_users_folder_are_in_use(file: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "config" / "plugins"
+    folder.mkdir(parents=True)
+    file.rename(folder / "short.py")
+    manager.registry.cache_clear()
+    assert traction("6319-cp10-1500").name == "short"
+
+
+def test_a_law_is_handed_over_as_the_function_itself() -> None:
+    case = api.case("6319-cp10-1500").with_(models={"traction": by_hand})
+    assert case.models.traction == "test_one_file.py:handed"
+    found = traction(case, [])
+    assert found.kernel is by_hand
+    assert found.distribution.startswith("test_one_file.py ")
+    assert traction(api.case("6319-cp10-1500").written() | {"models": {"traction": by_hand}}, []).kernel is by_hand
+
+
+def test_a_pickled_case_brings_its_laws(tmp_path: Path) -> None:
+    """Another process, which knows neither this file nor its law, resolves the case to the same law."""
+    code = (
+        "import pickle, sys; from lambda_core import api; from lambda_core.system.resolve import case_hash; "
+        "print(case_hash(api.check(pickle.load(open(sys.argv[1], 'rb')))))"
+    )
+    source = (
+        f"import pickle, sys\nfrom lambda_core import api\nfrom lambda_core.system.resolve import case_hash\n{LAW}\n"
+        "case = api.case('6319-cp10-1500').with_(models={'traction': traction})\n"
+        "pickle.dump(case, open(sys.argv[1], 'wb'))\nprint(case_hash(api.check(case)))\n"
+    )
+    said = [
+        subprocess.run(
+            [sys.executable, "-c", text, str(tmp_path / "case.bin")], capture_output=True, text=True, check=True
+        )
+        for text in (source, code)
+    ]
+    assert said[0].stdout == said[1].stdout != ""
+
+
+def test_workers_get_the_files_and_laws_of_the_director(file: Path) -> None:
+    """What a task carries makes the registry of another process the same, also when the file is gone by then."""
+    api.use_plugin(file)
+    case = api.case("6319-cp10-1500").with_(models={"traction": by_hand})
+    beside = local_files.guests()
+    file.unlink()
+    local_files._texts.clear()
+    handed_laws._laws.clear()
+    manager.registry.cache_clear()
+    manager.as_guests_of(beside)
+    assert traction("6319-cp10-1500").distribution.startswith("short.py ")
+    assert traction(case, []).kernel.__code__.co_code == by_hand.__code__.co_code
+    assert local_files.guests() == beside or pickle.loads(beside)[0] == pickle.loads(local_files.guests())[0]
+
+
+@pytest.mark.timeout(900)  # the first test of a session that needs the solver compiles it
+def test_a_study_works_with_a_file_and_its_law(file: Path, tmp_path: Path) -> None:
+    api.use_plugin(file)
+    study = {
+        "name": "own", "case": "6208-axial-1300", "set": {"models.traction": "short"},
+        "responses": ["friction_torque_Nmm"], "parameters": [{"path": "loads.axial", "values": ["300 N", "600 N"]}],
+    }  # fmt: skip
+    status = api.study_run(study, tmp_path / "own", workers=1)
+    assert (status.done, status.failed) == (2, 0), status.reasons
+
+
+@pytest.mark.timeout(900)
+def test_from_saved_file_to_result(file: Path, tmp_path: Path) -> None:
+    """The commands take the file, --json stays one object, and the result says where its law came from."""
+    env = os.environ | {ON_VARIABLE: ""}
+
+    def program(*arguments: str) -> subprocess.CompletedProcess[str]:
+        command = [sys.executable, "-m", "lambda_cli", *arguments]
+        return subprocess.run(command, env=env, cwd=tmp_path, capture_output=True, text=True, check=False)
+
+    checked = program("plugins", "check", "short.py", "--json")
+    assert [card["ok"] for card in json.loads(checked.stdout)["models"]] == [True], checked.stderr
+    begun = os.times()
+    found = program("quasistatic", "6208-axial-1300", "--set", CHOICE[0], "--plugin", "short.py", "--json")
+    ended = os.times()
+    spent = ended.children_user + ended.children_system - begun.children_user - begun.children_system
+    assert spent < 10.0  # [s] of a processor, from the saved file to its result: the solver was compiled before
+    answer = json.loads(found.stdout)
+    assert "laws of others: traction short (short.py " in answer["headline"]
+    refused = program("check", "6208-axial-1300", "--set", CHOICE[0])
+    assert (refused.returncode, refused.stdout) == (3, "")
+    missing = program("check", "6208-axial-1300", "--plugin", "none.py")
+    assert (missing.returncode, missing.stderr.strip()) == (2, '"none.py" is no file: a plugin of one file is FILE.py')
