@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from lambda_core.batch.run_queue import QueuedRun, RunQueue
     from lambda_core.batch.scheduler import StudyProgress
     from lambda_core.batch.studies import StudyStatus
     from lambda_core.batch.study_files import init_study, study_examples
@@ -99,6 +100,7 @@ _PARTS = {
     "results.summary": "Summary",
     "run.estimate": "Estimate",
     "run.progress": "Progress",
+    "batch.run_queue": "QueuedRun RunQueue",
     "batch.scheduler": "StudyProgress",
     "batch.studies": "StudyStatus",
 }

@@ -17,10 +17,11 @@ from lambda_gui.builder import BuilderScreen
 from lambda_gui.case_files import CaseApp
 from lambda_gui.commands import OptionSearch
 from lambda_gui.dialogs import Ask
-from lambda_gui.runs import Queue, Run
+from lambda_gui.runs import open_queue
 from lambda_gui.theme import DARK, LIGHT
 
 if TYPE_CHECKING:
+    from lambda_core.api import QueuedRun
     from lambda_gui.taken import Kind, Taken
 
 _POLL = 0.2  # how often runs are asked what is new [s]
@@ -60,7 +61,7 @@ class BuilderApp(CaseApp):
         super().__init__()
         self._start = case
         self._is_alone = is_alone
-        self.queue = Queue(self._run_ended)
+        self.queue = open_queue(self._run_ended)
 
     def on_mount(self) -> None:
         """Show the case, or ask for one."""
@@ -138,7 +139,7 @@ class BuilderApp(CaseApp):
             return
         self.action_runs(run)
 
-    def action_runs(self, shown: Run | None = None) -> None:
+    def action_runs(self, shown: QueuedRun | None = None) -> None:
         """Show all runs."""
         from lambda_gui.run_screen import RunScreen
 
@@ -156,7 +157,7 @@ class BuilderApp(CaseApp):
             if isinstance(screen, BuilderScreen) and screen.is_mounted:
                 screen.refresh_head()
 
-    def _run_ended(self, run: Run) -> None:
+    def _run_ended(self, run: QueuedRun) -> None:
         severity: Any = {"done": "information", "stopped": "warning", "failed": "error"}[run.state]
         self.notify(f"{run.name}: {run.message}", severity=severity, timeout=6)
 

@@ -16,7 +16,7 @@ from lambda_gui.derived import duration
 from lambda_gui.traces import CageTrace, LoadTrace, TorqueTrace, Trace
 
 if TYPE_CHECKING:
-    from lambda_gui.runs import Queue, Run
+    from lambda_core.api import QueuedRun, RunQueue
 
 _COLUMNS = (("", 1), ("case", 24), ("progress", 12), ("time left", 9), ("torque N mm", 16))
 _MARK = {"waiting": "○", "running": "▶", "done": "✔", "stopped": "■", "failed": "✘"}
@@ -43,7 +43,7 @@ class RunScreen(Screen[None]):
     RunScreen.-wide DataTable { height: 10; }
     """
 
-    def __init__(self, queue: Queue, shown: Run | None = None) -> None:
+    def __init__(self, queue: RunQueue, shown: QueuedRun | None = None) -> None:
         super().__init__()
         self._queue = queue
         self._first = shown
@@ -80,7 +80,7 @@ class RunScreen(Screen[None]):
         self.call_after_refresh(self._draw)
 
     @property
-    def run_shown(self) -> Run | None:
+    def run_shown(self) -> QueuedRun | None:
         """The run under the cursor."""
         at, runs = self.query_one(DataTable).cursor_row, self._queue.runs
         return runs[at] if 0 <= at < len(runs) else None
@@ -150,7 +150,7 @@ class RunScreen(Screen[None]):
         self.follow()
 
 
-def _cells(run: Run) -> list[Text]:
+def _cells(run: QueuedRun) -> list[Text]:
     last = run.last
     percent, left = (last.percent, last.left_s) if last else (0.0, None)
     if run.state == "waiting":
@@ -172,7 +172,7 @@ def _bar(percent: float, width: int) -> str:
     return ("█" * (full // 2) + "▌" * (full % 2)).ljust(width, "·")
 
 
-def _state(run: Run, width: int) -> Text:
+def _state(run: QueuedRun, width: int) -> Text:
     """Say where the run stands, in three lines."""
     text, last = Text(), run.last
     if run.state == "waiting":

@@ -93,6 +93,11 @@ def _be_ready(guests: bytes) -> None:
     as_guests_of(guests)
 
 
+def lost(task: Task, reason: str) -> Outcome:
+    """Return the outcome of a task whose worker died."""
+    return Outcome(task.number, "failed", reason, "", {}, "", 0.0)
+
+
 def resolve_point(case_toml: str, changes: tuple[str, ...]) -> BearingModel:
     """Return the model of one point; CaseError with everything that is wrong with it."""
     from lambda_core.case.case_io import apply_overrides

@@ -1,6 +1,6 @@
-"""Where points are worked on: processes of this machine, or dask workers anywhere.
+"""Where tasks are worked on: processes of this machine, dask workers anywhere, or programs that outlive this one.
 
-A study needs nothing but :class:`concurrent.futures.Executor`; any other one can be handed to it.
+A director needs nothing but :class:`concurrent.futures.Executor`; any other one can be handed to it.
 """
 
 from __future__ import annotations
@@ -8,12 +8,14 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import subprocess
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import contextmanager
 from importlib import import_module
 from multiprocessing.connection import wait
+from pathlib import Path
 from typing import Any
 
 from lambda_core.domain.errors import UsageError
@@ -28,8 +30,15 @@ _WORKERS_SET = (
 class Pool:
     """An executor that can be opened again after it broke."""
 
+    ahead = 3  # tasks per worker that are handed out
+
     def __init__(self, workers: int) -> None:
         self.workers = workers
+
+    @property
+    def room(self) -> int:
+        """How many tasks are handed out at a time."""
+        return self.ahead * self.workers
 
     def open(self) -> Executor:
         """Return a working executor."""
@@ -38,6 +47,9 @@ class Pool:
     def close(self, *, stop: bool = False) -> None:
         """Give the workers back; with `stop` without waiting for what they do."""
         raise NotImplementedError
+
+    def watch(self) -> None:
+        """Look after what nobody tells of by itself."""
 
 
 class Processes(Pool):
@@ -102,6 +114,14 @@ def _workers_variables() -> Iterator[None]:
                 del os.environ[name]
             else:
                 os.environ[name] = value
+
+
+def start_apart(command: Sequence[str], folder: Path, said: Path, answer: Path) -> subprocess.Popen[bytes]:
+    """Start a program that outlives this process; errors and answers go to files. OSError when it cannot be started."""
+    with said.open("wb") as errors, answer.open("wb") as output:
+        return subprocess.Popen(
+            command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output, stderr=errors, start_new_session=True
+        )
 
 
 class Dask(Pool):

@@ -16,6 +16,7 @@ from typing import Any
 from lambda_core.batch.definition import Study, validate_study
 from lambda_core.batch.design import Coordinate, Point
 from lambda_core.batch.job import Outcome
+from lambda_core.batch.scheduler import Counts
 from lambda_core.domain.errors import UsageError
 from lambda_core.results.run_status import Status, this_process
 from lambda_core.views.table import Column, PointState, StudyTable
@@ -49,17 +50,6 @@ class Heading:
     name: str
     unit: str
     meaning: str
-
-
-@dataclass(frozen=True)
-class Counts:
-    """How many points are in which state."""
-
-    total: int
-    done: int
-    partial: int
-    failed: int
-    pending: int
 
 
 @contextmanager

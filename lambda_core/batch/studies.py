@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from lambda_core.batch.definition import Study, read_study, validate_study
 from lambda_core.batch.design import Plan
-from lambda_core.batch.job import RUNS, Task, point_hash, resolve_point
+from lambda_core.batch.job import RUNS, Outcome, Task, lost, point_hash, resolve_point, work
 from lambda_core.batch.optimise import Best, best_row, search
 from lambda_core.batch.pool import pool, usable_cores
 from lambda_core.batch.scheduler import Director, Report
@@ -199,20 +199,20 @@ def _work(
         before = manifest.seconds()
         if todo or study.optimise is not None:
             count = min(workers or usable_cores(), max(len(todo), 1))
-            staff = pool(where, count)
+            workers_pool = pool(where, count)
             stop = True
             try:
-                director = Director(manifest, staff, report)
+                director = Director[Task, Outcome](manifest, workers_pool, work, lost, report)
                 done = director.run(_tasks(manifest, todo, names))
                 if done and study.optimise is not None:
                     _optimise(manifest, plan, names, director)
                 stop = not done
             finally:
-                staff.close(stop=stop)
+                workers_pool.close(stop=stop)
                 wall = time.monotonic() - begun
                 manifest.write_meta("wall", repr(float(manifest.meta("wall") or 0.0) + wall))
                 spent = manifest.seconds() - before
-                manifest.write_meta("efficiency", repr(spent / (wall * staff.workers)) if wall > 0.0 else "")
+                manifest.write_meta("efficiency", repr(spent / (wall * workers_pool.workers)) if wall > 0.0 else "")
     return _status(manifest)
 
 
@@ -223,7 +223,7 @@ def _tasks(manifest: Manifest, todo: list[tuple[int, tuple[str, ...]]], names: t
     return (Task(number, case_toml, changes, study.mode, names, folder, beside) for number, changes in todo)
 
 
-def _optimise(manifest: Manifest, plan: Plan, names: tuple[str, ...], director: Director) -> None:
+def _optimise(manifest: Manifest, plan: Plan, names: tuple[str, ...], director: Director[Task, Outcome]) -> None:
     """Search from the first points; every new point joins the study."""
     goal = manifest.study.optimise
     assert goal is not None

@@ -10,6 +10,7 @@ from typing import Literal, get_args
 from pydantic import Field
 
 from lambda_core.batch.pool import usable_cores
+from lambda_core.batch.scheduler import Report
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.results.record import Record
@@ -19,7 +20,7 @@ from lambda_syla2026.fig5 import Fig5, fig5
 from lambda_syla2026.fig7 import Fig7, fig7
 from lambda_syla2026.page import Chapter, write
 from lambda_syla2026.table4 import Table4, table4
-from lambda_syla2026.workshop import Answer, Report, Workshop
+from lambda_syla2026.workshop import Answer, Workshop
 
 What = Literal["table4", "anchors", "fig5", "fig7", "all"]
 MOST_WORKERS = 4

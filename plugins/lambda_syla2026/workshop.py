@@ -2,16 +2,14 @@
 
 A job is a case, changes to it and a kind of reading. Its numbers stand in a file named by the hash of the
 resolved model; a run's own result file lies beside. Both belong to the code of the solver, whose hash names
-their folder: after a change of the physics everything is computed anew.
+their folder: after a change of the physics everything is computed anew. Jobs go through the director that works
+through studies, too.
 """
 
 from __future__ import annotations
 
-import json
-import os
 import time
-from collections.abc import Callable, Sequence
-from concurrent.futures import Future, as_completed
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import lru_cache
 from importlib.resources import files
@@ -19,8 +17,9 @@ from pathlib import Path
 from types import TracebackType
 
 from lambda_core.batch.job import Task, point_hash, resolve_point, work
-from lambda_core.batch.pool import Pool, pool
-from lambda_core.batch.scheduler import StudyProgress
+from lambda_core.batch.memo import Memo
+from lambda_core.batch.pool import Processes
+from lambda_core.batch.scheduler import Counts, Director, Report
 from lambda_core.domain.errors import LambdaError, SolverError, UsageError
 from lambda_core.results.reader import Result
 from lambda_syla2026.readings import DYNAMIC, STATIC, Numbers
@@ -29,7 +28,6 @@ _DIGITS = 20  # of the hash in names of files
 READ_ONCE = {"stability"}  # hundreds of runs: their files go once their numbers are kept
 ANCHOR = "anchor"  # no built-in case: each point names its own bearing
 _FORMAT = 3  # of the kept numbers; raised when a reading changes its meaning
-Report = Callable[[StudyProgress], None]
 
 
 @dataclass(frozen=True)
@@ -45,8 +43,9 @@ class Job:
 class Answer:
     """What a job has found.
 
-    `state` is "done", "partial" (a run that has not converged) or "failed"; the reason says why. `processor_s` is the
-    time of the processor that it took when it was computed; `fresh` says that it was computed by this call.
+    `state` is "done", "partial" (a run that has not converged), "failed" or "stopped" (somebody asked the run to);
+    the reason says why. `processor_s` is the time of the processor that it took when it was computed; `fresh` says
+    that it was computed by this call.
     """
 
     state: str
@@ -65,24 +64,55 @@ class Answer:
         return value
 
 
-def do(job: Job, folder: str) -> Answer:
-    """Do one job in `folder`, or read what was found before."""
-    started = time.process_time()
+@dataclass(frozen=True)
+class Assignment:
+    """A job and the folder where what it finds is kept."""
+
+    job: Job
+    folder: str
+
+
+@dataclass(frozen=True)
+class Found:
+    """What became of a job."""
+
+    job: Job
+    answer: Answer
+
+    @property
+    def state(self) -> str:
+        """The state of the answer."""
+        return self.answer.state
+
+
+def do(assigned: Assignment) -> Found:
+    """Do one job, or read what was found before."""
+    return Found(assigned.job, _answer(assigned.job, assigned.folder))
+
+
+def lost(assigned: Assignment, reason: str) -> Found:
+    """Return what is said of a job whose worker died."""
+    return Found(assigned.job, Answer("failed", reason, "", {}))
+
+
+def _answer(job: Job, folder: str) -> Answer:
+    started, memo = time.process_time(), Memo(Path(folder) / "points")
     try:
         model = resolve_point(case_text(job.case), job.changes)
         hash_ = point_hash(model)
-        kept = Path(folder) / "points" / f"{hash_[:_DIGITS]}-{job.kind.replace(' ', '-')}-{_FORMAT}.json"
-        if kept.exists():
-            return Answer(**json.loads(kept.read_text(encoding="utf-8")))
+        name = f"{hash_[:_DIGITS]}-{job.kind.replace(' ', '-')}-{_FORMAT}"
+        kept = memo.find(name)
+        if kept is not None:
+            return Answer(**kept)
         dynamic = job.kind in DYNAMIC
         answer = _run(job, hash_, folder) if dynamic else Answer("done", "", hash_, STATIC[job.kind](model))
     except LambdaError as error:
         return Answer("failed", str(error), "", {})
     answer = replace(answer, processor_s=time.process_time() - started)
-    if answer.state == "failed":
+    if answer.state in ("failed", "stopped"):
         return answer
     read = job.kind in READ_ONCE
-    _keep(kept, replace(answer, file="") if read else answer)
+    memo.keep(name, asdict(replace(answer, file="") if read else answer))
     if read:
         (Path(folder) / answer.file).unlink()
     return replace(answer, fresh=True)
@@ -102,22 +132,14 @@ def case_text(name: str) -> str:
 def _run(job: Job, hash_: str, folder: str) -> Answer:
     outcome = work(Task(0, case_text(job.case), job.changes, "dynamic", (), folder))
     if outcome.state in ("failed", "stopped"):
-        return Answer("failed", outcome.reason, hash_, {})
+        return Answer(outcome.state, outcome.reason, hash_, {})
     numbers = DYNAMIC[job.kind](Result(Path(folder) / outcome.file))
     return Answer(outcome.state, outcome.reason, hash_, numbers, outcome.file)
 
 
-def _keep(path: Path, answer: Answer) -> None:
-    """Write an answer whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_suffix(f".{os.getpid()}")
-    part.write_text(json.dumps(asdict(answer), allow_nan=False), encoding="utf-8")
-    part.replace(path)
-
-
 @dataclass
 class Workshop:
-    """Workers and the folder that keeps what they find.
+    """Workers and the folder that keeps what they find; the store of their director.
 
     Parameters
     ----------
@@ -134,10 +156,7 @@ class Workshop:
     report: Report | None = None
     failures: list[str] = field(default_factory=list)
     answers: dict[Job, Answer] = field(default_factory=dict)  # everything that was asked for
-    _pool: Pool | None = None
-    _total: int = 0
-    _done: int = 0
-    _started: float = field(default_factory=time.monotonic)
+    _asked: set[Job] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         from lambda_core.laws.kernels import sources_key
@@ -149,6 +168,8 @@ class Workshop:
             self._work.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise UsageError(f"cannot write into {self.folder}: {error.strerror}") from None
+        self._pool = Processes(self.workers)
+        self._director = Director[Assignment, Found](self, self._pool, do, lost, self.report, keep_after=0.0)
 
     def __enter__(self) -> Workshop:
         return self
@@ -156,34 +177,32 @@ class Workshop:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if self._pool is not None:
-            self._pool.close(stop=kind is not None)
+        self._pool.close(stop=kind is not None)
 
     def all(self, jobs: Sequence[Job]) -> list[Answer]:
-        """Do jobs side by side and return their answers in order; equal jobs are done once."""
+        """Do jobs side by side and return their answers in order; equal jobs are done once.
+
+        Raises
+        ------
+        KeyboardInterrupt
+            When somebody asked a run to stop; what was found is kept.
+        """
         known = dict.fromkeys(jobs)
-        if self._pool is None:
-            self._pool = pool("processes", self.workers)
-            self._executor = self._pool.open()
-        self._total += len(known)
-        futures: dict[Future[Answer], Job] = {self._executor.submit(do, job, str(self._work)): job for job in known}
-        found: dict[Job, Answer] = {}
-        for future in as_completed(futures):
-            job, answer = futures[future], future.result()
-            found[job] = answer
-            self._done += 1
+        self._asked |= known.keys()
+        if not self._director.run(Assignment(job, str(self._work)) for job in known if job not in self.answers):
+            raise KeyboardInterrupt
+        for job in known:
+            answer = self.answers[job]
             if answer.state != "done":
                 self.failures.append(f"{job.case} {job.kind}: {answer.state}: {answer.reason}")
-            self._say()
-        self.answers |= found
-        return [found[job] for job in jobs]
+        return [self.answers[job] for job in jobs]
 
-    def _say(self) -> None:
-        if self.report is None:
-            return
-        wall = time.monotonic() - self._started
-        left = (self._total - self._done) * wall / self._done
-        percent = 100.0 * self._done / self._total
-        self.report(
-            StudyProgress(points=self._total, done=self._done, failed=0, percent=percent, wall_s=wall, left_s=left)
-        )
+    def keep(self, outcomes: Sequence[Found]) -> None:
+        """Take in what jobs have found."""
+        self.answers |= {found.job: found.answer for found in outcomes}
+
+    def counts(self) -> Counts:
+        """Return how many jobs are in which state."""
+        states = [answer.state for answer in self.answers.values()]
+        done, partial, failed = (states.count(name) for name in ("done", "partial", "failed"))
+        return Counts(len(self._asked), done, partial, failed, len(self._asked) - done - partial - failed)

@@ -7,8 +7,8 @@ from pathlib import Path
 from driving import LARGE, SMALL, builder, checked, go_to, screen_text, wait_for, write
 from lambda_gui.app import BuilderApp
 from lambda_gui.run_screen import _state
-from lambda_gui.runs import Run
 
+from lambda_core.batch.run_queue import QueuedRun
 from lambda_core.run.progress import Progress
 
 
@@ -47,7 +47,7 @@ def test_a_run_says_what_its_bearing_stands(tmp_path: Path) -> None:
         energy_residual=None, inner_loads_N=(), wall_s=1.0, left_s=1.0, bearing_voltage_V=(-18.04, 26.9),
         films_broken_per_s=14823.0,
     )  # fmt: skip
-    run = Run("case", tmp_path / "r.h5", tmp_path)
+    run = QueuedRun("case", tmp_path / "r.h5", tmp_path)
     run.state, run.history = "running", [said]
     assert "bearing -18.0 .. 26.9 V   1.482e+04 films break per second" in _state(run, 80).plain
     run.history = [said.model_copy(update={"bearing_voltage_V": None})]

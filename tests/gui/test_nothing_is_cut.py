@@ -17,7 +17,6 @@ from lambda_gui.outline import Node
 from lambda_gui.own_row import OwnRow
 from lambda_gui.results_screen import ResultsScreen
 from lambda_gui.run_screen import RunScreen
-from lambda_gui.runs import Run
 from lambda_gui.tree import ModelTree
 from reading import cut_on
 from textual.geometry import Offset
@@ -191,7 +190,7 @@ async def test_the_catalogue(size: tuple[int, int]) -> None:
     nothing(found)
 
 
-def runs_of_every_kind(folder: Path) -> Iterable[Run]:
+def runs_of_every_kind(folder: Path) -> Iterable[api.QueuedRun]:
     """Return runs in every state, with names and messages as long as they come."""
     history = [
         Progress(
@@ -223,7 +222,7 @@ def runs_of_every_kind(folder: Path) -> Iterable[Run]:
         ("stopped", "stopped; what it has is kept"),
         ("failed", long),
     ):
-        run = Run("6319-cp6.5-3000-with-more", folder / f"{state}.h5", folder, state=state, message=message)  # type: ignore[arg-type]
+        run = api.QueuedRun("6319-cp6.5-3000-with-more", folder / f"{state}.h5", folder, state=state, message=message)  # type: ignore[arg-type]
         run.history = history if state != "waiting" else []
         yield run
 

@@ -18,7 +18,7 @@ from lambda_gui.dialogs import OpenCase
 from lambda_gui.helper import Helper
 from lambda_gui.results_screen import ResultsScreen
 from lambda_gui.run_screen import RunScreen
-from lambda_gui.runs import Queue, Run
+from lambda_gui.runs import open_queue
 from textual.widgets import DataTable
 
 from lambda_core import api
@@ -56,7 +56,7 @@ def fake_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[i
     return steps
 
 
-def settle(queue: Queue, run: Run, seconds: float = 30.0) -> None:
+def settle(queue: api.RunQueue, run: api.QueuedRun, seconds: float = 30.0) -> None:
     """Poll until a run has ended."""
     end = time.monotonic() + seconds
     while run.state in ("waiting", "running"):
@@ -117,8 +117,8 @@ async def test_from_an_empty_model_to_a_result_by_keyboard(work_folder: Path) ->
 
 def test_runs_wait_for_each_other(work_folder: Path, fake_program: Callable[[int], None]) -> None:
     fake_program(10)
-    ended: list[Run] = []
-    queue = Queue(ended.append)
+    ended: list[api.QueuedRun] = []
+    queue = open_queue(ended.append)
     first, second = (queue.add("case", "name = 'case'", work_folder) for _ in range(2))
     assert (first.state, second.state) == ("running", "waiting")
     assert first.result != second.result
@@ -130,7 +130,7 @@ def test_runs_wait_for_each_other(work_folder: Path, fake_program: Callable[[int
 
 def test_a_cancelled_run_stops_itself(work_folder: Path, fake_program: Callable[[int], None]) -> None:
     fake_program(2000)
-    queue = Queue(lambda run: None)
+    queue = open_queue(lambda run: None)
     run, waiting = (queue.add("case", "name = 'case'", work_folder) for _ in range(2))
     while not run.history:
         queue.poll()
@@ -144,9 +144,9 @@ def test_a_cancelled_run_stops_itself(work_folder: Path, fake_program: Callable[
 
 def test_a_run_outlives_the_builder(work_folder: Path, fake_program: Callable[[int], None]) -> None:
     fake_program(2000)
-    first = Queue(lambda run: None)
+    first = open_queue(lambda run: None)
     run = first.add("case", "name = 'case'", work_folder)
-    second = Queue(lambda run: None)
+    second = open_queue(lambda run: None)
     second.find_earlier()
     (found,) = second.runs
     assert found.result == run.result

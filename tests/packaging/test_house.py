@@ -50,11 +50,10 @@ def test_roles_are_declared_once() -> None:
 
 
 def test_processes_are_started_in_few_places() -> None:
-    """Studies, the compile step, the check of plugins apart, and the builder's runs."""
+    """The batch engine, the compile step, and the check of plugins apart."""
     places = {place.split(":")[0] for place in found(r"ProcessPoolExecutor|subprocess\.Popen", OURS)}
     assert places == {
         "lambda_core/batch/pool.py",
         "lambda_core/discovery/apart.py",
         "lambda_core/solver/entry.py",
-        "gui/lambda_gui/runs.py",
     }

@@ -242,20 +242,16 @@ def deadly(task: Any) -> Any:
     return Outcome(task.number, "done", "", "", {"friction_torque_Nmm": float(task.number)}, "", 0.0)
 
 
-def test_a_point_that_kills_its_worker_fails_alone(
-    write: Write, tmp_path: Path, inline: Executor, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from lambda_core.batch import scheduler as director
-    from lambda_core.batch.job import Task
+def test_a_point_that_kills_its_worker_fails_alone(write: Write, tmp_path: Path, inline: Executor) -> None:
+    from lambda_core.batch.job import Outcome, Task, lost
 
     folder = tmp_path / "deadly"
     api.study_run(write(MAP), folder, executor=inline)
-    monkeypatch.setattr(director, "work", deadly)
     manifest = Manifest(folder, write=True)
     staff = Processes(2)
     tasks = [Task(number, "", (), "quasi-static", (), "") for number in range(6)]
     try:
-        assert Director(manifest, staff).run(tasks)
+        assert Director[Task, Outcome](manifest, staff, deadly, lost).run(tasks)
     finally:
         staff.close(stop=True)
         manifest.close()
