@@ -16,26 +16,30 @@ FloatArray = base.FloatArray
 
 
 def _repeat_slope(count, t, handle):
+    memory, bundle = handle.memory, handle.bundle
     for _ in range(count):
-        handle.evaluate(t, handle.y, handle.bundle, handle.slope, handle.rates, 1)
+        handle.evaluate(t, memory.new, bundle, memory.slope, memory.rates, 1)
     return count
 
 
 def _repeat_jacobian(count, t, handle):
+    memory, bundle, blocks = handle.memory, handle.bundle, handle.blocks
     for _ in range(count):
-        handle.jacobian(t, handle.y, handle.bundle, handle.blocks)
+        handle.jacobian(t, memory.new, bundle, blocks)
     return count
 
 
 def _repeat_factor(count, gamma, handle):
+    blocks, factors = handle.blocks, handle.factors
     for _ in range(count):
-        arrow_factor(handle.blocks, 1.0, gamma, handle.factors)
+        arrow_factor(blocks, 1.0, gamma, factors)
     return count
 
 
 def _repeat_solve(count, handle):
+    memory, blocks, factors = handle.memory, handle.blocks, handle.factors
     for _ in range(count):
-        arrow_solve(handle.blocks, handle.factors, handle.slope)
+        arrow_solve(blocks, factors, memory.slope)
     return count
 
 
@@ -58,7 +62,7 @@ class Handle(base.Handle):
 
     def settle_at(self, t: float, y: FloatArray, gamma: float) -> None:
         """Bring everything that is repeated to one state: kinematics, Jacobian, factors."""
-        self._state[:] = y
+        self._memory.new[:] = y
         self.repeat_slope(1, t)
         self.repeat_jacobian(1, t)
         self.repeat_factor(1, gamma)
@@ -77,5 +81,5 @@ class Handle(base.Handle):
 
     def repeat_solve(self, count: int) -> None:
         """Solve with the factors `count` times."""
-        self._slope[:] = 1e-3
+        self._memory.slope[:] = 1e-3
         _compiled(_repeat_solve)(count, self._handle)

@@ -1,7 +1,6 @@
-"""One model's compiled right-hand side and Jacobian for callers in Python, kept where compiled code reaches them.
+"""One model's compiled right-hand side and Jacobian for callers in Python, through the handle of the integrator.
 
-Handing the record of constants, pointers and workspaces over from Python takes a millisecond, far longer than an
-evaluation. Here it is handed over once; a call through the handle costs a microsecond.
+A call costs a microsecond; the state in hand and what comes of it stand in the integrator's memory.
 """
 
 # Numba infers the types of compiled functions.
@@ -15,73 +14,44 @@ from typing import Any
 import numpy as np
 from numba import njit, types
 from numba.core.errors import NumbaExperimentalFeatureWarning
-from numba.experimental import structref
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.entry import core
-from lambda_core.solver.integrator import memory
-from lambda_core.solver.integrator.arrow import factors_t, make_factors
-from lambda_core.solver.integrator.blocks import blocks_t
+from lambda_core.solver.integrator.arrow import make_factors
+from lambda_core.solver.integrator.handle import handle_t
+from lambda_core.solver.integrator.memory import make_memory
 
-_FIELDS = (
-    ("evaluate", memory.evaluate_t),
-    ("jacobian", memory.jacobian_t),
-    ("bundle", L.bundle_t),
-    ("blocks", blocks_t),
-    ("factors", factors_t),
-    ("y", L.array1),
-    ("slope", L.array1),
-    ("rates", L.array1),
-)
-
-
-@structref.register
-class _HandleType(types.StructRef):
-    def preprocess_fields(self, fields):
-        return tuple((name, types.unliteral(kind)) for name, kind in fields)
-
-
-class _Handle(structref.StructRefProxy):
-    """The handle as Python sees it."""
-
-
-structref.define_proxy(_Handle, _HandleType, [name for name, _ in _FIELDS])
-handle_t = _HandleType(_FIELDS)
 _frozen1 = types.Array(types.float64, 1, "C", readonly=True)
 
 
-def _new(evaluate, jacobian, bundle, blocks, factors, y, slope, rates):
-    handle = structref.new(handle_t)
-    handle.evaluate, handle.jacobian, handle.bundle, handle.blocks = evaluate, jacobian, bundle, blocks
-    handle.factors, handle.y, handle.slope, handle.rates = factors, y, slope, rates
-    return handle
-
-
 def _slope(t, y, out, handle):
-    for i in range(handle.y.size):
-        handle.y[i] = y[i]
-    return handle.evaluate(t, handle.y, handle.bundle, out, handle.rates, 0)
+    memory = handle.memory
+    for i in range(memory.new.size):
+        memory.new[i] = y[i]
+    return handle.evaluate(t, memory.new, handle.bundle, out, memory.rates, 0)
 
 
 def _slope_and_rates(t, y, out, handle):
-    n = handle.y.size
+    memory = handle.memory
+    n = memory.new.size
     for i in range(n):
-        handle.y[i] = y[i]
-    ok = handle.evaluate(t, handle.y, handle.bundle, handle.slope, handle.rates, 1)
-    out[:n] = handle.slope
-    out[n:] = handle.rates
+        memory.new[i] = y[i]
+    ok = handle.evaluate(t, memory.new, handle.bundle, memory.slope, memory.rates, 1)
+    out[:n] = memory.slope
+    out[n:] = memory.rates
     return ok
 
 
 def _dense(t, y, out, handle):
     """Write the Jacobian as a dense matrix; returns 1, or what the kernels said."""
-    for i in range(handle.y.size):
-        handle.y[i] = y[i]
-    if handle.evaluate(t, handle.y, handle.bundle, handle.slope, handle.rates, 0) != 1:
+    memory = handle.memory
+    for i in range(memory.new.size):
+        memory.new[i] = y[i]
+    if handle.evaluate(t, memory.new, handle.bundle, memory.slope, memory.rates, 0) != 1:
         return 0  # the compiled Jacobian builds on the evaluation at its point
-    ok = handle.jacobian(t, handle.y, handle.bundle, handle.blocks)
+    ok = handle.jacobian(t, memory.new, handle.bundle, handle.blocks)
     bl, reach, n = handle.blocks, handle.blocks.reach, handle.blocks.d.shape[0]
     tail = L.NB * bl.a.shape[0]
     out[:, :] = 0.0
@@ -102,17 +72,17 @@ def _dense(t, y, out, handle):
 
 
 def _rates(times, states, out, handle):
+    memory = handle.memory
     for i in range(times.size):
-        handle.y[:] = states[i]
-        if handle.evaluate(times[i], handle.y, handle.bundle, handle.slope, handle.rates, 1) != 1:
+        memory.new[:] = states[i]
+        if handle.evaluate(times[i], memory.new, handle.bundle, memory.slope, memory.rates, 1) != 1:
             return 0
-        out[i] = handle.rates
+        out[i] = memory.rates
     return 1
 
 
 _f8, _i8, _a1 = types.float64, types.int64, L.array1
 _SIGNATURES: dict[Any, Any] = {
-    _new: handle_t(*(kind for _, kind in _FIELDS)),
     _slope: _i8(_f8, _frozen1, _a1, handle_t),
     _slope_and_rates: _i8(_f8, _frozen1, _a1, handle_t),
     _dense: _i8(_f8, _frozen1, L.array2, handle_t),
@@ -144,19 +114,12 @@ class Handle:
     def __init__(self, assembly: Assembly) -> None:
         self.assembly = assembly
         self.size = n = assembly.size
-        self._state, self._slope = np.zeros(n), np.zeros(n)
-        solver = core()
-        factors = make_factors(assembly.blocks.reach, assembly.bundle.active.size)
-        self._handle = _compiled(_new)(
-            solver.evaluate_pointer,
-            solver.jacobian_pointer,
-            assembly.bundle,
-            assembly.blocks,
-            factors,
-            self._state,
-            self._slope,
-            np.zeros(L.power_count(assembly.bundle)),
-        )
+        bundle, solver = assembly.bundle, core()
+        self._memory = make_memory(np.zeros(n), assembly.scale, 1.0, bundle, capacity=1)
+        self._handle = solver.make_context(
+            solver.evaluate_pointer, solver.jacobian_pointer, solver.advance_pointer, solver.observe_pointer,
+            bundle, assembly.blocks, make_factors(assembly.blocks.reach, bundle.active.size), self._memory,
+        )  # fmt: skip
 
     def slope(self, t: float, y: FloatArray, out: FloatArray) -> int:
         """Write dy/dt, shapes (n,); returns 1, or 0 where a kernel refused. `y` may be anything that can be read."""
