@@ -12,6 +12,7 @@ import html
 import io
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -26,6 +27,7 @@ from lambda_gui.derived import Derived
 from lambda_gui.dialogs import Ask, OpenCase
 from lambda_gui.results_screen import ResultsScreen
 from lambda_gui.run_screen import RunScreen
+from lambda_gui.study_screen import StudyScreen
 from lambda_gui.tree import ModelTree
 from rich.cells import cell_len
 from textual.widgets import DataTable, OptionList
@@ -205,6 +207,31 @@ def results(view: str | None = None, *, marked: int = 0) -> Script:
     return play
 
 
+async def study(pilot: Pilot[None]) -> None:
+    await estimated(pilot)
+    await node(pilot, "motion")
+    await pilot.pause(0.3)
+    app_of(pilot).builder.go_to(("operation", "speed"))
+    await pilot.pause(0.5)
+    await pilot.press("f3")
+    await until(pilot, lambda: isinstance(pilot.app.screen, StudyScreen))
+    screen = cast(StudyScreen, pilot.app.screen)
+    await until(pilot, lambda: screen.is_fine)
+
+
+async def study_curves(pilot: Pilot[None]) -> None:
+    await study(pilot)
+    await pilot.press("f5")
+    queue = app_of(pilot).queue
+    await until(pilot, lambda: queue.runs and queue.runs[-1].is_complete)
+    await pilot.press("enter")
+    await until(pilot, lambda: isinstance(pilot.app.screen, ResultsScreen))
+    views = pilot.app.screen.query_one("#views", OptionList)
+    await until(pilot, lambda: views.option_count > 1)
+    await pilot.press("down")
+    await settled(pilot)
+
+
 async def no_results(pilot: Pilot[None]) -> None:
     await checked(pilot)
     Path("empty").mkdir(exist_ok=True)
@@ -254,6 +281,9 @@ SCENES: dict[str, Scene] = {
     "results-light": Scene(_6208, results(), light=True),
     **{view: Scene(_6208, results(view)) for view in VIEWS},
     "comparison": Scene(_6208, results("comparison", marked=2)),
+    "differences": Scene(_6208, results("what differs", marked=2)),
+    "study": Scene(_6208, study),
+    "study-curves": Scene(_6208, study_curves),
     "no-results": Scene(_6208, no_results),
     "help": Scene(_6208, helped(builder)),
     "help-run": Scene(_6208, helped(no_runs)),
@@ -277,7 +307,7 @@ async def shoot(scene: Scene, size: tuple[int, int]) -> str:
             app.queue.poll()
             await asyncio.sleep(0.05)
         for run in app.queue.runs:
-            run.result.unlink(missing_ok=True)
+            shutil.rmtree(run.result) if run.result.is_dir() else run.result.unlink(missing_ok=True)
         return picture
 
 

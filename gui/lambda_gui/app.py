@@ -130,14 +130,41 @@ class BuilderApp(CaseApp):
             text = f"{count} mistake{'s' * (count != 1)} to mend first: F8" if count else "still checking"
             self.notify(text, severity="warning", timeout=4)
             return
-        draft = builder.draft
-        folder = draft.path.resolve().parent if draft.path else Path.cwd()
+        self._queue_up(model.name, model.case_toml)
+
+    def _queue_up(self, name: str, case_toml: str, study_toml: str = "") -> None:
+        path = self.builder.draft.path
+        folder = path.resolve().parent if path else Path.cwd()
         try:
-            run = self.queue.add(model.name, model.case_toml, folder)
+            run = self.queue.add(name, case_toml, folder, study_toml)
         except LambdaError as error:
             self.notify(str(error), severity="error", timeout=10)
             return
         self.action_runs(run)
+
+    # -- studies --
+
+    def action_study(self) -> None:
+        """Set up a study of the case; the option under the keyboard is the first that varies."""
+        from lambda_gui.rows import Row
+        from lambda_gui.study_screen import StudyScreen
+
+        builder = self.builder
+        model = builder.check.model
+        if model is None:
+            self.notify("a study starts from a case without mistakes: F8", severity="warning", timeout=4)
+            return
+        row = next((w for w in self.focused.ancestors_with_self if isinstance(w, Row)), None) if self.focused else None
+        path, written = "", ""
+        if row is not None:
+            path, written = ".".join(row.place.keys), row.place.get() or builder.around.resolved(row.place.keys)
+        self.push_screen(StudyScreen(builder.draft, model, path, str(written)))
+
+    def run_study(self, study: dict[str, Any], case_toml: str) -> None:
+        """Run a study of a case."""
+        import tomlkit
+
+        self._queue_up(str(study["name"]), case_toml, tomlkit.dumps(study))
 
     def action_runs(self, shown: QueuedRun | None = None) -> None:
         """Show all runs."""
@@ -166,8 +193,8 @@ class BuilderApp(CaseApp):
         active = self.queue.active
         if not active:
             return ""
-        last = active[0].last
-        words = f"▶ {last.percent:.0f} %" if last else "▶ starting"
+        first = active[0]
+        words = f"▶ {first.percent:.0f} %" if first.last or first.points else "▶ starting"
         return f"{words} +{len(active) - 1}" if len(active) > 1 else words
 
     # -- results --
@@ -226,6 +253,7 @@ class BuilderApp(CaseApp):
         yield SystemCommand("Save as", "write the case to another file", self.action_save_as)
         yield SystemCommand("Run", "run the case as it stands", self.action_run_case)
         yield SystemCommand("Runs", "the queue and live traces", self.action_runs)
+        yield SystemCommand("Study", "let one or two options of the case vary", self.action_study)
         yield SystemCommand("Results", "summary, views, comparison, export", self.action_results)
         yield SystemCommand("Catalogue of bearings", "choose one for the case", self.show_catalogue)
         yield SystemCommand(

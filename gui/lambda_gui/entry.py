@@ -85,6 +85,11 @@ class Entry(Input):
         self._card = card
         self._names = names
 
+    def take(self, card: FieldCard) -> None:
+        """Take the units of another card."""
+        self._card = card
+        self.suggester = Completion(card.units, self._names)
+
     def begin(self, letter: str) -> None:
         """Take the keyboard with the first letter of a new value."""
         self.select_on_focus = False  # until the entry is left: what follows belongs to that letter

@@ -12,7 +12,7 @@ from lambda_core.domain.errors import LambdaError
 from lambda_gui.dialogs import AskText
 from lambda_gui.helper import Helper
 
-SUMMARY = "summary"
+SUMMARY, DIFFERENCES = "summary", "what differs"  # words, no pictures
 
 
 class ExportScreen(Screen[None]):
@@ -48,8 +48,8 @@ class ExportScreen(Screen[None]):
 
     def action_figure(self) -> None:
         """Write the view as SVG and PNG."""
-        if self._view == SUMMARY:
-            self.notify("choose a view first; the summary goes into the report", severity="warning")
+        if self._view in (SUMMARY, DIFFERENCES):
+            self.notify("choose a view first; words go into the report", severity="warning")
         else:
             self._export("draw", "figures into the folder", sources=True)
 

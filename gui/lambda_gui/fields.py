@@ -35,6 +35,11 @@ class TextRow(Row):
         super().__init__(place, card, around, **how)
         self._kind = kind
 
+    def take(self, card: FieldCard) -> None:
+        """Be about another option from now on: its units complete what is typed."""
+        self.card = card
+        self.query_one(Entry).take(card)
+
     def control(self) -> Widget:
         """Return an entry with completion."""
         names = (lambda: self.around.names(self._kind)) if self._kind else None

@@ -29,6 +29,7 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
             ("Enter", "into the form; in a field: complete the unit and go on; on a choice: open its list"),
             ("Esc", "from the form back to the tree"),
             ("F2", "catalogue: bearings, or oils when the form of the lubricant is shown"),
+            ("F3", "a study: the option under the keyboard varies, or any other"),
             ("F5 or Ctrl+R", "run the case as it stands, saved or not"),
             ("F6  F7", "results; runs"),
             ("F8", "go to the next mistake"),
@@ -66,6 +67,20 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
             *_ALL,
         ),
     ),
+    "StudyScreen": (
+        "A study",
+        "One or two options of the case take many values; each point is an equilibrium, or a run. What it will take "
+        "stands below before anything is started; catalogues answer beside the simulation, on one axis.",
+        (
+            ("↑ ↓ or Tab", "between the rows"),
+            ("Enter", "complete the unit or the path, and go on"),
+            ("F5", "run it: it waits for its turn under Runs, its folder appears under Results"),
+            ("Ctrl+S", "save it as a file for the shell: lambda-bearing study run FILE"),
+            ("F6  F7", "results; runs"),
+            ("Esc", "back to the case"),
+            *_ALL,
+        ),
+    ),
     "RunScreen": (
         "Runs",
         "Runs wait for each other and go on when the builder is closed. The traces show the run under the cursor: "
@@ -82,8 +97,9 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     ),
     "ResultsScreen": (
         "Results",
-        "The result files beside the case, the newest first; one that a run still writes is read again as it grows. "
-        "The list below has the summary and all views. Two or more marked results are compared.",
+        "The results and studies (with a /) beside the case, the newest first; one that grows is read again. The list "
+        "below has the summary and all views. Two or more marked results are compared: what differs in their cases, "
+        "numbers beside each other, pictures with catalogues on the same axis.",
         (
             ("Tab", "between the results and the views"),
             ("↑ ↓", "move in the list; what is under the cursor is shown"),

@@ -74,9 +74,35 @@ def report(say: Say, sources: list[str], target: str) -> list[str]:
     return [str(api.report(source, name)) for source, name in zip(sources, names, strict=True)]
 
 
-_WORK: dict[str, Callable[..., Any]] = {
-    work.__name__: work for work in (estimate, summary, case_text, views, view, draw, report)
-}
+def study_cost(say: Say, study: dict[str, Any], case_toml: str) -> str:
+    """Return what a study of a case will take."""
+    from tempfile import TemporaryDirectory
+
+    from lambda_core import api
+
+    with TemporaryDirectory(prefix="lambda-bearing-") as folder:
+        case = Path(folder) / "case.toml"
+        case.write_text(case_toml, encoding="utf-8")
+        return api.study_check(study | {"case": str(case)}, announce=say).text()
+
+
+def study_summary(say: Say, path: str) -> Any:
+    """Return where a study stands, and its table."""
+    from lambda_core import api
+
+    return api.study_status(path), api.study_table(path)
+
+
+def differences(say: Say, sources: list[str]) -> Any:
+    """Return several results beside each other."""
+    from lambda_core import api
+
+    say("reading ...")
+    return api.side_by_side(sources)
+
+
+_DOES = (estimate, summary, case_text, views, view, draw, report, study_cost, study_summary, differences)
+_WORK: dict[str, Callable[..., Any]] = {work.__name__: work for work in _DOES}
 
 
 def main() -> None:

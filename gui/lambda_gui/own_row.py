@@ -9,7 +9,6 @@ from rich.text import Text
 from textual import events
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
-from textual.containers import VerticalScroll
 from textual.screen import ModalScreen
 from textual.widgets import Footer, Static
 
@@ -19,22 +18,8 @@ from lambda_core.domain.units import UNITS
 from lambda_gui.fields import row_for
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.outline import Keys
-from lambda_gui.rows import Row, Surroundings
-
-
-class Cell:
-    """One value of the row that is being written."""
-
-    def __init__(self, values: dict[Keys, Any], keys: Keys) -> None:
-        self._values, self.keys = values, keys
-
-    def get(self) -> Any:
-        """Return the value."""
-        return self._values.get(self.keys)
-
-    def put(self, value: Any) -> None:
-        """Set the value."""
-        self._values[self.keys] = value
+from lambda_gui.places import Held
+from lambda_gui.rows import Row, Rows, Surroundings
 
 
 class OwnRow(ModalScreen[str | None]):
@@ -49,7 +34,7 @@ class OwnRow(ModalScreen[str | None]):
     ]
     DEFAULT_CSS = """
     OwnRow { background: $background; }
-    OwnRow VerticalScroll { height: 1fr; padding: 0 1; }
+    OwnRow Rows { height: 1fr; padding: 0 1; }
     OwnRow .title { height: auto; width: 1fr; background: $panel; padding: 0 1; }
     OwnRow OptionHelp { height: 4; border-top: hkey $border-blurred; }
     OwnRow .group { width: 1fr; height: 1; color: $primary; margin-top: 1; }
@@ -66,12 +51,12 @@ class OwnRow(ModalScreen[str | None]):
         title = Text("A row of your own", style="bold")
         title.append("  values that you change get the source and grade below", style="not bold dim")
         yield Static(title, classes="title")
-        with VerticalScroll(can_focus=False):
+        with Rows():
             for group, cells in self._groups():
                 yield Static(group, classes="group")
                 for keys, card, value in cells:
                     self._values[keys] = value
-                    yield row_for(Cell(self._values, keys), card, Surroundings())
+                    yield row_for(Held(self._values, keys), card, Surroundings())
         yield OptionHelp()
         yield Footer()
 

@@ -75,3 +75,18 @@ class Part:
     def part(self, name: str) -> Part:
         """Return the place of an entry of the table that stands here."""
         return Part(self._whole, *self._path, name)
+
+
+class Held:
+    """A value of a form that is no case."""
+
+    def __init__(self, values: dict[Keys, Any], keys: Keys) -> None:
+        self._values, self.keys = values, keys
+
+    def get(self) -> Any:
+        """Return the value."""
+        return self._values.get(self.keys)
+
+    def put(self, value: Any) -> None:
+        """Set the value."""
+        self._values[self.keys] = value

@@ -1,17 +1,36 @@
-"""Result files of a folder, and whether they have changed."""
+"""Results and studies of a folder, and whether they have changed."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
 
+# What makes a folder a study; a test holds it to the batch room's own.
+MANIFEST = "manifest.sqlite"
+
+
+def is_study(path: Path) -> bool:
+    """Tell whether a path is the folder of a study."""
+    return (path / MANIFEST).is_file()
+
+
+def named(path: Path) -> str:
+    """Return the name under which a result or a study is listed."""
+    return f"{path.name}/" if path.is_dir() else path.stem
+
 
 def results_in(folder: Path) -> list[Path]:
-    """Return the result files of a folder, the newest first."""
+    """Return the result files and the studies of a folder, the newest first."""
     try:
-        return sorted(folder.glob("*.h5"), key=lambda path: -path.stat().st_mtime)
+        found = [*folder.glob("*.h5"), *(file.parent for file in folder.glob(f"*/{MANIFEST}"))]
+        return sorted(found, key=lambda path: -_file(path).stat().st_mtime)
     except OSError:
         return []
+
+
+def _file(path: Path) -> Path:
+    """Return the file that changes as a result or a study grows."""
+    return path / MANIFEST if path.is_dir() else path
 
 
 def stamp_of(paths: Sequence[Path]) -> object:
@@ -19,7 +38,7 @@ def stamp_of(paths: Sequence[Path]) -> object:
     found = []
     for path in paths:
         try:
-            status = path.stat()
+            status = _file(path).stat()
             found.append((path, status.st_size, status.st_mtime_ns))
         except OSError:
             found.append((path, 0, 0))

@@ -1,4 +1,4 @@
-"""Results: summary, views, comparison of several, export."""
+"""Results and studies: summary, views, comparison of several, export."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ from textual.widgets.option_list import Option
 from lambda_core.domain.errors import LambdaError
 from lambda_gui.charts import notes_text, shape_of, widget_for
 from lambda_gui.dialogs import AskText
-from lambda_gui.export import SUMMARY, ExportScreen
-from lambda_gui.result_files import results_in, stamp_of
+from lambda_gui.export import DIFFERENCES, SUMMARY, ExportScreen
+from lambda_gui.result_files import is_study, named, results_in, stamp_of
 from lambda_gui.summary_view import summary_view
+from lambda_gui.table_views import differences_view, study_view
 
 if TYPE_CHECKING:
     from lambda_core.views.chart import ViewData
@@ -27,7 +28,7 @@ _LIVE = 2.0  # how often a result that grows is read again [s]
 
 
 class ResultsScreen(ExportScreen):
-    """Result files of a folder.
+    """Result files and studies of a folder.
 
     Parameters
     ----------
@@ -72,6 +73,7 @@ class ResultsScreen(ExportScreen):
         self._more: list[Path] = [shown] if shown is not None else []
         self._marked: set[Path] = set()
         self._stamp: object = None
+        self._subject = ""  # what the listed views are of
         self._data: ViewData | None = None
 
     def compose(self) -> ComposeResult:
@@ -119,7 +121,7 @@ class ResultsScreen(ExportScreen):
         self._files = [path for path in found if path.exists()]
         table.clear()
         for path in self._files:
-            table.add_row(Text("●" if path in self._marked else "", style="bold"), path.stem)
+            table.add_row(Text("●" if path in self._marked else "", style="bold"), named(path))
         if keep is not None and keep.resolve() in self._files:
             table.move_cursor(row=self._files.index(keep.resolve()))
 
@@ -135,13 +137,26 @@ class ResultsScreen(ExportScreen):
         return marked or ([current] if current is not None else [])
 
     def on_data_table_row_highlighted(self, event: DataTable.RowHighlighted) -> None:
-        """Show the result under the cursor."""
-        self._show()
+        """Show the result under the cursor; a study has other views."""
+        if self._subject not in ("", self._of()):
+            self._fill_views()
+        else:
+            self._show()
+
+    def _of(self) -> str:
+        """Return what is chosen: a result, several, or a study."""
+        chosen = self.chosen()
+        if len(chosen) > 1:
+            return "results"
+        return "study" if chosen and is_study(chosen[0]) else "result"
 
     def action_mark(self) -> None:
         """Mark a result; two or more are compared."""
         path = self.current()
         if path is None:
+            return
+        if is_study(path):
+            self.notify("a study is looked at by itself; its points stand beside each other in its views", timeout=4)
             return
         self._marked ^= {path}
         was_many = len(self._marked - {path}) > 1 or len(self._marked) > 1
@@ -152,11 +167,11 @@ class ResultsScreen(ExportScreen):
     def action_other(self) -> None:
         """Open a result from elsewhere."""
 
-        def named(text: str | None) -> None:
+        def opened(text: str | None) -> None:
             if text is None:
                 return
             path = Path(text).expanduser()
-            if path.is_dir():
+            if path.is_dir() and not is_study(path):
                 self._folder = path
             elif path.exists():
                 self._more.append(path)
@@ -166,7 +181,7 @@ class ResultsScreen(ExportScreen):
             self._list(path)
             self._show()
 
-        self.app.push_screen(AskText("Result file or folder", str(self._folder)), named)
+        self.app.push_screen(AskText("Result file or folder", str(self._folder)), opened)
 
     def action_switch(self) -> None:
         """Go from the results to the views and back."""
@@ -182,20 +197,21 @@ class ResultsScreen(ExportScreen):
 
     @work(exclusive=True, group="views")
     async def _fill_views(self) -> None:
-        """List the views of one result, or of several."""
-        many = len(self.chosen()) > 1
+        """List the views of one result, of several, or of a study."""
+        subject = self._subject = self._of()
         try:
-            cards = await self._helper.ask("views", subject="results" if many else "result")
+            cards = await self._helper.ask("views", subject=subject)
         except LambdaError as error:
             self.notify(str(error), severity="error")
             return
         options = self.query_one("#views", OptionList)
         options.clear_options()
-        options.add_option(Option(SUMMARY, id=SUMMARY))
+        first = [SUMMARY, DIFFERENCES] if subject == "results" else [SUMMARY]
+        options.add_options([Option(name, id=name) for name in first])
         options.add_options([Option(card.name.replace("-", " "), id=card.name) for card in cards])
-        names = [SUMMARY, *(card.name for card in cards)]
-        if self._view not in names:
-            self._view = names[-1] if many else SUMMARY
+        names = [*first, *(card.name for card in cards)]
+        if self._view not in names or (subject == "results" and self._view == SUMMARY):
+            self._view = {"results": DIFFERENCES, "study": cards[0].name if cards else SUMMARY}.get(subject, SUMMARY)
         options.highlighted = names.index(self._view)
         self._show()
 
@@ -225,11 +241,9 @@ class ResultsScreen(ExportScreen):
             return
         self._stamp = stamp_of(paths)
         try:
-            if self._view == SUMMARY:
-                found = [await self._helper.ask("summary", path=str(path)) for path in paths]
+            if self._view in (SUMMARY, DIFFERENCES):
                 self._data = None
-                await self._put(*(Static(summary_view(summary, self.app.theme_variables)) for summary in found))
-                self.say("   ".join(summary.state for summary in found))
+                await self._show_words(paths)
                 return
             self._data = await self._helper.ask("view", sources=[str(path) for path in paths], name=self._view)
         except LambdaError as error:
@@ -238,6 +252,22 @@ class ResultsScreen(ExportScreen):
             self.say()
             return
         self._show_data(self._data)
+
+    async def _show_words(self, paths: list[Path]) -> None:
+        """Show what is no picture: summaries, a study, what differs."""
+        if self._view == DIFFERENCES:
+            beside = await self._helper.ask("differences", sources=[str(path) for path in paths])
+            await self._put(*map(Static, differences_view(beside)))
+            self.say()
+        elif is_study(paths[0]):
+            status, points = await self._helper.ask("study_summary", path=str(paths[0]))
+            width = self.query_one("#content", VerticalScroll).size.width - 2
+            await self._put(*map(Static, study_view(status, points, width)))
+            self.say(f"{status.points} points, {status.mode}")
+        else:
+            found = [await self._helper.ask("summary", path=str(path)) for path in paths]
+            await self._put(*(Static(summary_view(summary, self.app.theme_variables)) for summary in found))
+            self.say("   ".join(summary.state for summary in found))
 
     def _show_data(self, data: ViewData) -> None:
         self.say(f"{data.title}   {data.source}")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rich.text import Text
 from textual.app import ComposeResult
-from textual.containers import Horizontal, Vertical
+from textual.containers import Horizontal, Vertical, VerticalScroll
 from textual.message import Message
 from textual.widget import Widget
 from textual.widgets import Static
@@ -62,6 +62,10 @@ class Surroundings:
     def is_changed(self, keys: Keys) -> bool:
         """Tell whether an option differs from the file."""
         return False
+
+
+class Rows(VerticalScroll, can_focus=False, inherit_bindings=False):
+    """Rows of a form of its own; the arrow keys are left to the screen, which goes from row to row."""
 
 
 class Row(Vertical):

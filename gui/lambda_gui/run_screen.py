@@ -128,8 +128,8 @@ class RunScreen(Screen[None]):
     def action_go_on(self) -> None:
         """Continue a run that was stopped."""
         run = self.run_shown
-        if run is None or run.state not in ("stopped", "failed", "done") or run.message == "converged":
-            self.notify("only a run that ended before it converged can go on", timeout=3)
+        if run is None or run.state not in ("stopped", "failed", "done") or run.is_complete:
+            self.notify("only a run that ended before it converged, or a study with points left, can go on", timeout=3)
         elif not run.result.exists():
             self.notify(f"{run.result} does not exist: run the case again", severity="error")
         else:
@@ -151,8 +151,7 @@ class RunScreen(Screen[None]):
 
 
 def _cells(run: QueuedRun) -> list[Text]:
-    last = run.last
-    percent, left = (last.percent, last.left_s) if last else (0.0, None)
+    last, percent, left = run.last, run.percent, run.left_s
     if run.state == "waiting":
         bar = "waiting"
     elif run.state in ("running", "stopped"):
@@ -162,6 +161,8 @@ def _cells(run: QueuedRun) -> list[Text]:
     torque = ""
     if last is not None and last.friction_torque_Nmm is not None:
         torque = plus_minus(last.friction_torque_Nmm, last.friction_torque_ci_Nmm)
+    if run.points is not None:
+        torque = f"{run.points.done}/{run.points.points} points"
     time_left = duration(left) if run.is_active and left is not None else ""
     cells = (_MARK[run.state], run.name, bar, time_left, torque)
     return [Text(cell, no_wrap=True, overflow="ellipsis") for cell in cells]
@@ -177,6 +178,11 @@ def _state(run: QueuedRun, width: int) -> Text:
     text, last = Text(), run.last
     if run.state == "waiting":
         text.append(f"{_MARK[run.state]} {run.name}  waits for the runs above it", style="bold")
+    elif run.points is not None and run.state in ("running", "stopped"):
+        text.append(_bar(run.percent, max(10, width - 46)), style="bold")
+        failed = f", {run.points.failed} failed" if run.points.failed else ""
+        text.append(f" {run.percent:3.0f} %  {run.points.done} of {run.points.points} points{failed}")
+        text.append(f"  {duration(run.left_s)} left" if run.left_s is not None and run.is_active else "")
     elif last is not None and run.state in ("running", "stopped"):
         text.append(_bar(last.percent, max(10, width - 46)), style="bold")
         text.append(

@@ -1,4 +1,4 @@
-"""A queue of single runs, each a program of its own, one at a time.
+"""A queue of single runs and studies, each a program of its own, one at a time.
 
 A run outlives whoever asked for it: what it says goes to a file, and a queue that is opened later finds the runs that
 are still going on. The result file is the truth; nothing else is needed to look at it or to go on with it.
@@ -17,29 +17,39 @@ from pathlib import Path
 from typing import Any, Literal
 
 from lambda_core.batch.programs import SAID, Program, Programs
-from lambda_core.batch.scheduler import Counts, Director
+from lambda_core.batch.scheduler import Counts, Director, StudyProgress
 from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.run.progress import Progress
 
+Kind = Literal["run", "study"]
 State = Literal["waiting", "running", "done", "stopped", "failed"]
 
 _MOST_KEPT = 4000  # points of the progress; older ones are thinned out
 _CONVERGED, _PARTIAL, _INTERRUPTED = 0, 5, 130
 _FORGOTTEN_AFTER = 86400.0  # [s] age at which the files of a run that nobody took in are cleared away
+# What the program is told to do: at first, and to go on.
+_WORK: dict[Kind, tuple[list[str], list[str]]] = {
+    "run": (["run", "case.toml", "--out"], ["resume"]),
+    "study": (["study", "run", "study.toml", "--out"], ["study", "resume"]),
+}
+_COMPLETE: dict[Kind, str] = {"run": "converged", "study": "every point has a result"}
+_SHORT: dict[Kind, str] = {"run": "not converged", "study": "not every point has a result"}
 
 
 @dataclass
 class QueuedRun:
-    """One run: waiting, going on, or ended."""
+    """One run, or one study: waiting, going on, or ended."""
 
     name: str
-    result: Path
+    result: Path  # the file, or the folder of a study
     folder: Path  # of its own files: the case as it was, what it says
     command: Sequence[str] = ()  # of the program that runs cases
+    kind: Kind = "run"
     resumes: bool = False
     state: State = "waiting"
     message: str = ""
     history: list[Progress] = field(default_factory=list)
+    points: StudyProgress | None = None  # of a study: where it stands
     program: Program | None = None
     _is_news: bool = False  # its end is still to be told
     _read: int = 0
@@ -51,6 +61,23 @@ class QueuedRun:
         return self.history[-1] if self.history else None
 
     @property
+    def percent(self) -> float:
+        """How much is done [%]."""
+        told = self.points or self.last
+        return told.percent if told is not None else 0.0
+
+    @property
+    def left_s(self) -> float | None:
+        """How long it still takes [s], None where that is not known."""
+        told = self.points or self.last
+        return told.left_s if told is not None else None
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether there is nothing to go on with."""
+        return self.message == _COMPLETE[self.kind]
+
+    @property
     def is_active(self) -> bool:
         """Whether its process is at work."""
         return self.state == "running"
@@ -59,10 +86,10 @@ class QueuedRun:
         """Start the process, unless it is at work or the run was taken out of the queue; returns itself."""
         if self.state == "waiting":
             self._is_news = True
-            work = ["resume", str(self.result)] if self.resumes else ["run", "case.toml", "--out", str(self.result)]
+            work = _WORK[self.kind][self.resumes]
             program = Program(self.folder)
             try:
-                program.start([*self.command, *work, "--progress=json", "--json"])
+                program.start([*self.command, *work, str(self.result), "--progress=json", "--json"])
             except OSError as error:
                 self.state, self.message = "failed", f"cannot be started: {error.strerror}"
             else:
@@ -92,11 +119,11 @@ class QueuedRun:
         self.take_in()
         words, code = self.message, self.program.code
         if code is None:  # started by a queue that is gone: the result file knows how it ended
-            code = _code_of(self.result)
+            code = _code_of(self.result) if self.kind == "run" else _code_of_study(self.result)
         if code == _CONVERGED:
-            self.state, self.message = "done", "converged"
+            self.state, self.message = "done", _COMPLETE[self.kind]
         elif code == _PARTIAL:
-            self.state, self.message = "done", words or "not converged"
+            self.state, self.message = "done", words or _SHORT[self.kind]
         elif code in (_INTERRUPTED, -signal.SIGINT):
             kept = "what it has is kept" if self.result.exists() else "it had not begun"
             self.state, self.message = "stopped", f"stopped; {kept}"
@@ -122,7 +149,10 @@ class QueuedRun:
     def _hear(self, line: str) -> None:
         try:
             found: dict[str, Any] = json.loads(line)
-            if found.pop("event") == "progress":
+            is_progress = found.pop("event") == "progress"
+            if is_progress and self.kind == "study":
+                self.points = StudyProgress(**found)
+            elif is_progress:
                 self.history.append(Progress(**found))
                 if len(self.history) > _MOST_KEPT:
                     self.history[: _MOST_KEPT // 2] = self.history[: _MOST_KEPT // 2 : 2]
@@ -145,6 +175,18 @@ def _code_of(result: Path) -> int:
     return {"interrupted": _INTERRUPTED, "failed": 4, "running": 1}.get(found.state, _PARTIAL)
 
 
+def _code_of_study(folder: Path) -> int:
+    from lambda_core.batch.studies import status
+
+    try:
+        found = status(folder)
+    except LambdaError:
+        return 1
+    if found.pending:
+        return _INTERRUPTED
+    return _PARTIAL if found.failed or found.partial else _CONVERGED
+
+
 class RunQueue:
     """Runs in the order in which they were asked for, one at a time; a store of the director that starts them.
 
@@ -163,8 +205,13 @@ class RunQueue:
         self._folder, self._command, self._ended = folder, tuple(command), ended
         self._director = Director[QueuedRun, QueuedRun](self, Programs(1), QueuedRun.begin, _never_lost, keep_after=0.0)
 
-    def add(self, name: str, case_toml: str, folder: Path) -> QueuedRun:
-        """Put a case into the queue; its result goes into `folder` under a name that is free.
+    def add(self, name: str, case_toml: str, folder: Path, study_toml: str = "") -> QueuedRun:
+        """Put a case, or a study of it, into the queue; what comes of it goes into `folder` under a free name.
+
+        Parameters
+        ----------
+        study_toml : str
+            The study, whose case is ``case.toml``; without one the case is run.
 
         Raises
         ------
@@ -174,11 +221,14 @@ class RunQueue:
         if not os.access(folder, os.W_OK | os.X_OK):
             raise UsageError(f"the folder {folder} is not writable: save the case in another one first")
         own = self._folder / f"{time.strftime('%Y%m%d-%H%M%S')}-{os.getpid()}-{len(self.runs)}"
-        run = QueuedRun(name, self._free(folder, name), own, self._command)
+        kind: Kind = "study" if study_toml else "run"
+        run = QueuedRun(name, self._free(folder, name, ".h5" if kind == "run" else ""), own, self._command, kind)
+        about = {"name": name, "result": str(run.result), "kind": kind}
+        files = {"case.toml": case_toml, "study.toml": study_toml, "about": json.dumps(about)}
         try:
             own.mkdir(parents=True)
-            (own / "case.toml").write_text(case_toml, encoding="utf-8")
-            (own / "about").write_text(json.dumps({"name": name, "result": str(run.result)}), encoding="utf-8")
+            for file, text in files.items():
+                (own / file).write_text(text, encoding="utf-8")
         except OSError as error:
             shutil.rmtree(own, ignore_errors=True)
             raise UsageError(f"cannot write {own}: {error.strerror}") from None
@@ -194,12 +244,12 @@ class RunQueue:
         self._director.add([run])
         self.poll()
 
-    def _free(self, folder: Path, name: str) -> Path:
+    def _free(self, folder: Path, name: str, ending: str) -> Path:
         taken = {run.result for run in self.runs}
-        path, number = folder.resolve() / f"{name}.h5", 1
+        path, number = folder.resolve() / f"{name}{ending}", 1
         while path.exists() or path in taken:
             number += 1
-            path = folder.resolve() / f"{name}-{number}.h5"
+            path = folder.resolve() / f"{name}-{number}{ending}"
         return path
 
     def poll(self) -> bool:
@@ -218,7 +268,8 @@ class RunQueue:
             try:
                 about = json.loads((own / "about").read_text(encoding="utf-8"))
                 program = Program.found(own)
-                run = QueuedRun(about["name"], Path(about["result"]), own, self._command, state="running")
+                kind: Kind = "study" if about.get("kind") == "study" else "run"
+                run = QueuedRun(about["name"], Path(about["result"]), own, self._command, kind, state="running")
                 run.program, run._is_news = program, True
                 is_alive = program.is_alive()
             except (OSError, ValueError, KeyError, TypeError):

@@ -1,0 +1,78 @@
+"""Tables for results: what differs between several, and the points of a study."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rich.table import Table
+from rich.text import Text
+
+from lambda_core.domain.number_text import NONE, number
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from lambda_core.api import StudyStatus
+    from lambda_core.results.side_by_side import SideBySide
+    from lambda_core.views.table import StudyTable
+
+_POINTS = 200  # of a study that are listed
+_NUMBER, _STATE = 11, 9  # columns of one number, of a state
+_LARGE = 1e4  # numbers above are rounded to three digits
+
+
+def differences_view(found: SideBySide) -> list[RenderableType]:
+    """Return what the cases of several results say differently, and their key numbers, a column for each."""
+    inputs = _beside("what differs", found.names)
+    for row in found.inputs:
+        inputs.add_row(row.option, *(NONE if value is None else value for value in row.values))
+    if not found.inputs:
+        inputs.add_row("nothing: the same inputs", *[""] * len(found.names))
+    numbers = _beside("numbers", found.names)
+    for entry in found.numbers:
+        if any(value is not None for value in entry.values):
+            name = f"{entry.name} [{entry.unit}]" if entry.unit else entry.name
+            numbers.add_row(name, *(NONE if value is None else _short(value) for value in entry.values))
+    return [inputs, Text(), numbers]
+
+
+def _beside(head: str, names: list[str]) -> Table:
+    table = Table(box=None, pad_edge=False, header_style="bold", expand=True, padding=(0, 1, 0, 0))
+    table.add_column(head, ratio=2, overflow="fold")
+    for name in names:
+        table.add_column(name, ratio=1, justify="right", overflow="fold")
+    return table
+
+
+def study_view(status: StudyStatus, points: StudyTable, width: int) -> list[RenderableType]:
+    """Return where a study stands and its first points; numbers for which there is no room are named.
+
+    Parameters
+    ----------
+    width : int
+        Columns that there are.
+    """
+    columns = [*points.parameters, *(c for c in points.responses if "." not in c.name)]
+    shown = columns[: max(2, (width - _STATE) // _NUMBER)]
+    table = Table(box=None, pad_edge=False, header_style="bold", padding=(0, 1, 0, 0))
+    for column in shown:
+        name = column.label.rpartition("/")[0].replace("/", " ") or column.label
+        table.add_column(f"{name} {column.unit}".strip(), justify="right", width=_NUMBER - 1, overflow="fold")
+    table.add_column("state", width=_STATE - 1)
+    rows = points.rows()
+    for row in rows[:_POINTS]:
+        table.add_row(*(_cell(row[column.name]) for column in shown), row["state"])
+    left = [column.name for column in columns[len(shown) :]]
+    notes = [f"{len(rows) - _POINTS} points more"] if len(rows) > _POINTS else []
+    notes += [f"also asked: {', '.join(left)}"] if left else []
+    return [Text(status.text(), style="dim"), Text(), table, Text("\n".join(notes), style="dim")]
+
+
+def _cell(value: float | str | None) -> str:
+    if value is None:
+        return NONE
+    return value if isinstance(value, str) else _short(value)
+
+
+def _short(value: float) -> str:
+    return f"{value:.4g}" if abs(value) < _LARGE else number(float(f"{value:.3g}"), 0)
