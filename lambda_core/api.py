@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from lambda_core.report.pictures import animate, draw, report, view, view_all, view_stem, views
     from lambda_core.results.reader import Result
     from lambda_core.results.run_status import Status, process_identity, this_process
+    from lambda_core.results.side_by_side import SideBySide
     from lambda_core.results.summary import Summary
     from lambda_core.run.answers import cite, compare, result, side_by_side, summary
     from lambda_core.run.duty_cycle import duty
@@ -96,6 +97,7 @@ _PARTS = {
     "system.oil_table": "oil_table",
     "system.operating_limits": "operating_warnings",
     "results.reader": "Result",
+    "results.side_by_side": "SideBySide",
     "results.run_status": "Status process_identity this_process",
     "results.summary": "Summary",
     "run.estimate": "Estimate",

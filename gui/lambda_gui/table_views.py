@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import TYPE_CHECKING
 
 from rich.table import Table
@@ -12,12 +13,11 @@ from lambda_core.domain.number_text import NONE, number
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-    from lambda_core.api import StudyStatus
-    from lambda_core.results.side_by_side import SideBySide
+    from lambda_core.api import SideBySide, StudyStatus
     from lambda_core.views.table import StudyTable
 
 _POINTS = 200  # of a study that are listed
-_NUMBER, _STATE = 11, 9  # columns of one number, of a state
+_NUMBER, _STATE, _NAME = 11, 9, 12  # columns of one number, of a state, of a name
 _LARGE = 1e4  # numbers above are rounded to three digits
 
 
@@ -25,14 +25,14 @@ def differences_view(found: SideBySide) -> list[RenderableType]:
     """Return what the cases of several results say differently, and their key numbers, a column for each."""
     inputs = _beside("what differs", found.names)
     for row in found.inputs:
-        inputs.add_row(row.option, *(NONE if value is None else value for value in row.values))
+        inputs.add_row(Text(row.option), *(Text(NONE if value is None else value) for value in row.values))
     if not found.inputs:
         inputs.add_row("nothing: the same inputs", *[""] * len(found.names))
     numbers = _beside("numbers", found.names)
     for entry in found.numbers:
         if any(value is not None for value in entry.values):
             name = f"{entry.name} [{entry.unit}]" if entry.unit else entry.name
-            numbers.add_row(name, *(NONE if value is None else _short(value) for value in entry.values))
+            numbers.add_row(Text(name), *(NONE if value is None else _short(value) for value in entry.values))
     return [inputs, Text(), numbers]
 
 
@@ -40,7 +40,8 @@ def _beside(head: str, names: list[str]) -> Table:
     table = Table(box=None, pad_edge=False, header_style="bold", expand=True, padding=(0, 1, 0, 0))
     table.add_column(head, ratio=2, overflow="fold")
     for name in names:
-        table.add_column(name, ratio=1, justify="right", overflow="fold")
+        words = textwrap.wrap(name, _NAME) or [name]  # rich would cut a name anywhere
+        table.add_column(Text("\n".join(words)), ratio=1, justify="right", overflow="fold")
     return table
 
 
@@ -57,11 +58,11 @@ def study_view(status: StudyStatus, points: StudyTable, width: int) -> list[Rend
     table = Table(box=None, pad_edge=False, header_style="bold", padding=(0, 1, 0, 0))
     for column in shown:
         name = column.label.rpartition("/")[0].replace("/", " ") or column.label
-        table.add_column(f"{name} {column.unit}".strip(), justify="right", width=_NUMBER - 1, overflow="fold")
+        table.add_column(Text(f"{name} {column.unit}".strip()), justify="right", width=_NUMBER - 1, overflow="fold")
     table.add_column("state", width=_STATE - 1)
     rows = points.rows()
     for row in rows[:_POINTS]:
-        table.add_row(*(_cell(row[column.name]) for column in shown), row["state"])
+        table.add_row(*(Text(_cell(row[column.name])) for column in shown), row["state"])
     left = [column.name for column in columns[len(shown) :]]
     notes = [f"{len(rows) - _POINTS} points more"] if len(rows) > _POINTS else []
     notes += [f"also asked: {', '.join(left)}"] if left else []

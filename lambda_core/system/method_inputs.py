@@ -136,4 +136,6 @@ def method_inputs(
         drag_edition=getattr(drag_parameters, "edition", "2018"),
         permittivity=permittivity,
         state=state,
+        designation=next((str(v.value) for v in model.values if v.path == "bearing.designation"), ""),
+        shoulder_diameter_inner=geometry.shoulder_diameter_inner,
     )

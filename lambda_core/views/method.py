@@ -92,6 +92,8 @@ class MethodInputs:
     drag_edition: Literal["2008", "2018"] = "2018"  # edition of SKF's drag formula, to which V_M belongs
     permittivity: Callable[[float], float] | None = None  # pressure [Pa] -> eps_r at the bulk temperature
     state: EquilibriumState | None = None  # quasi-static loads, displacement, stiffness and friction
+    designation: str = ""  # as it is written, with its suffixes
+    shoulder_diameter_inner: float | None = None  # of the inner ring, on which lips of seals slide [m]
 
     @property
     def mean_diameter(self) -> float:

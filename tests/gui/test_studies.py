@@ -147,5 +147,6 @@ async def test_two_results_say_what_differs(
         shown = screen_text(pilot.app)
         assert "6319" in shown
         assert "6208" in shown
-        assert "friction torque [N mm]" in " ".join(shown.split())
+        assert "torque [N mm]" in " ".join(shown.split())
+        assert "pressure [GPa]" in " ".join(shown.split())
         assert not cut_on(pilot.app)

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from lambda_plugins.methods.schaeffler import idle_torque, load_torque
 from lambda_plugins.methods.skf import SERIES, load_variables, skf_friction
 from lambda_plugins.methods.skf_drag import drag_torque, drag_torque_2008
+from lambda_plugins.methods.skf_seals import SEALS, seal_torque, seals_of
 
 from .published import Published
 
@@ -185,3 +186,62 @@ def test_catalogues_agree_in_order_of_magnitude() -> None:
         schaeffler = idle_torque(2.3, 0.1475, speed * RPM, fva3(62.5))
         schaeffler += load_torque(0.0009, 0.1475, load, 0.0, 112.6e3)[0]
         assert 1.0 < schaeffler * 1e3 / _torque_6319(ratio, speed, 62.5, 0.0) < 2.0
+
+
+@pytest.mark.parametrize(
+    ("kind", "outside", "counterface", "torque"),
+    [
+        # SKF, General catalogue 6000 (2008), table 4 of chapter Friction: K_S1 d_s^beta + K_S2 [N mm] by hand
+        ("RSL", 25.0, 14.0, 0.0),
+        ("RSL", 52.0, 31.3, 0.0018 * 31.3**2.25),  # 4.17
+        ("RSH", 52.0, 31.3, 66.9),
+        ("RS1", 62.0, 37.4, 81.6),
+        ("RS1", 80.0, 49.1, 134.9),
+        ("RS1", 90.0, 56.1, 170.1),
+        ("RS1", 110.0, 68.8, 0.018 * 68.8**2.25),  # 245.4
+        ("RZ", 90.0, 56.1, 0.0),
+    ],
+)
+def test_seals_after_skf(kind: str, outside: float, counterface: float, torque: float) -> None:
+    found = seal_torque(kind, outside * 1e-3, counterface * 1e-3)
+    assert found is not None
+    assert found * 1e3 == pytest.approx(torque, rel=2e-3)
+    half = seal_torque(kind, outside * 1e-3, counterface * 1e-3, sides=1)
+    assert half == pytest.approx(0.5 * found)
+
+
+def test_seals_that_the_table_does_not_have() -> None:
+    assert seal_torque("RSH", 0.062, 0.037) is None
+    assert seal_torque("RSL", 0.062, 0.037) is None
+    assert {kind: rows[-1].up_to for kind, rows in SEALS.items()} == {
+        "RZ": 175.0, "RSL": 52.0, "RSH": 52.0, "RS1": math.inf
+    }  # fmt: skip
+    assert seals_of("6308-2RS1/C3") == ("RS1", 2)
+    assert seals_of("6205 rsh") == ("RSH", 1)
+    assert seals_of("6205-2RSH2") == ("", 0)  # of FKM
+    assert seals_of("6308 C3") == ("", 0)
+
+
+def test_a_sealed_bearing_turns_harder_in_the_catalogue() -> None:
+    from lambda_core import api
+
+    case = {
+        "name": "sealed",
+        "bearing": {"designation": "6308-2RS1", "maker": "SKF"},
+        "lubricant": {"name": "mineral-vg68", "temperature": "70 degC"},
+        "loads": {"radial": "2.5 kN"},
+        "operation": {"speed": "3000 rpm"},
+    }
+    sealed, opened = (
+        api.compare(case | {"bearing": {"designation": name, "maker": "SKF"}}, methods=["skf"])
+        for name in ("6308-2RS1", "6308")
+    )
+    seals = sealed.value("skf", "friction", "seals")
+    assert seals is not None
+    shoulder = 1e3 * api.check(case).geometry.shoulder_diameter_inner
+    assert seals == pytest.approx(0.018 * shoulder**2.25 + 15.0)
+    totals = [found.value("skf", "friction", "total") for found in (sealed, opened)]
+    assert totals[0] - totals[1] == pytest.approx(seals)  # type: ignore[operator]
+    assert opened.value("skf", "friction", "seals") is None
+    (method,) = sealed.methods
+    assert any(line.startswith("2 RS1 seals on the shoulder") for line in method.assumptions)

@@ -142,7 +142,7 @@ def test_a_designation_means_what_the_same_options_mean() -> None:
 @pytest.mark.parametrize(
     ("suffix", "words"),
     [
-        ("-2RS1", "2RS1 of the designation: contact seal (NBR) on both sides: seal friction is not in the model"),
+        ("-2RS1", "2RS1 of the designation: contact seal (NBR) on both sides: its friction is in SKF's method alone"),
         ("-2Z", "2Z of the designation: shield on both sides: they do not touch"),
         ("/P6", "P6 of the designation: precision class of ISO 492: the model's rings and balls run true"),
         ("/S1", "S1 of the designation: rings heat-stabilised"),

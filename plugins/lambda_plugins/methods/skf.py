@@ -1,4 +1,4 @@
-"""Friction torque after the SKF catalogue model: M = M_rr + M_sl + M_drag (open bearings, no seals).
+"""Friction torque after the SKF catalogue model: M = M_rr + M_sl + M_drag + M_seal.
 
 Source: SKF, Rolling bearings, catalogue PUB BU/P1 17000 EN (2018), chapter "Friction". Public functions
 take SI; the catalogue's formulas are in mm, N, 1/min, mm2/s and give N mm, converted inside.
@@ -14,6 +14,7 @@ from lambda_core.domain.errors import unknown_name
 from lambda_core.views.method import Lubrication, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
 from lambda_plugins.methods.skf_chart import UNCERTAINTY, drag_loss_factor
 from lambda_plugins.methods.skf_drag import K_Z, drag_torque, drag_torque_2008
+from lambda_plugins.methods.skf_seals import seal_torque, seals_of
 
 MU_BOUNDARY = 0.12  # mu_bl while running
 MU_BOUNDARY_STARTING = 0.15  # mu_bl at rest
@@ -208,7 +209,8 @@ def full_film_coefficient(base_type: str) -> float:
 
 def evaluate(inputs: MethodInputs) -> MethodTable:
     """Answer a case with the SKF model."""
-    assumptions = [f"lubrication: {inputs.lubrication}", "open bearing without contact seals"]
+    seals, about_seals = _seals(inputs)
+    assumptions = [f"lubrication: {inputs.lubrication}", about_seals]
     height = 0.0
     if inputs.oil_level is not None:
         height = max(inputs.oil_level + 0.5 * inputs.ball_diameter, 0.0)
@@ -238,10 +240,11 @@ def evaluate(inputs: MethodInputs) -> MethodTable:
         edition=inputs.drag_edition,
     )
     torque = [
-        ("total", result.total, "M"),
+        ("total", result.total + seals, "M"),
         ("rolling", result.rolling, "M_rr"),
         ("sliding", result.sliding, "M_sl"),
         ("drag", result.drag, "M_drag"),
+        *([("seals", seals, "M_seal")] if seals else []),
     ]
     factors = [
         ("inlet heating factor", result.inlet_heating, "phi_ish"),
@@ -254,11 +257,25 @@ def evaluate(inputs: MethodInputs) -> MethodTable:
     return MethodTable(tuple(rows), tuple(assumptions))
 
 
+def _seals(inputs: MethodInputs) -> tuple[float, str]:
+    """Return the friction torque of the seals [N m], and a sentence about it."""
+    kind, sides = seals_of(inputs.designation)
+    if not kind:
+        return 0.0, "open bearing without contact seals"
+    if inputs.shoulder_diameter_inner is None:
+        return 0.0, f"friction of the {kind} seals left out: the shoulder of the inner ring is not known"
+    torque = seal_torque(kind, inputs.outside_diameter, inputs.shoulder_diameter_inner, sides)
+    if torque is None:
+        return 0.0, f"friction of the {kind} seals left out: SKF's table has none for this outside diameter"
+    what = f"{sides} {kind} seals" if sides == 2 else f"one {kind} seal, half of what two have"
+    return torque, f"{what} on the shoulder of the inner ring, at most: the recess of a sealed bearing is smaller"
+
+
 SKF = Method(
     name="skf",
     title="SKF catalogue friction model",
-    reference="SKF, Rolling bearings, catalogue 17000 EN (2018), chapter Friction",
+    reference="SKF, Rolling bearings, catalogue 17000 EN (2018), chapter Friction; seals after 6000 (2008), table 4",
     evaluate=evaluate,
-    validity="series 60, 62, 63, 64, 618, 619; open bearings; steady running; normal clearance",
+    validity="series 60, 62, 63, 64, 618, 619; seals RZ, RSL, RSH, RS1; steady running; normal clearance",
     method_api=1,
 )
