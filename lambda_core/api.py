@@ -9,6 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from lambda_core.batch.current_map import electric_map
     from lambda_core.batch.run_queue import QueuedRun, RunQueue
     from lambda_core.batch.scheduler import StudyProgress
     from lambda_core.batch.studies import StudyStatus
@@ -38,7 +39,6 @@ if TYPE_CHECKING:
     from lambda_core.electric.door import (
         check_discharges_file,
         electric,
-        electric_map,
         film_from_outside,
         write_discharges,
     )
@@ -73,7 +73,8 @@ _CALLS = {
     "run.answers": "cite compare result side_by_side summary",
     "run.speed_curve": "stribeck stribeck_picture",
     "thermal.temperatures": "thermal thermal_pictures warm_up",
-    "electric.door": "check_discharges_file electric electric_map film_from_outside write_discharges",
+    "electric.door": "check_discharges_file electric film_from_outside write_discharges",
+    "batch.current_map": "electric_map",
     "batch.study_files": "init_study study_examples",
     "batch.study_runs": "study_check study_resume study_run study_schema study_status study_table",
     "report.pictures": "animate draw report view view_all view_stem views",

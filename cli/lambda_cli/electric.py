@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import CaseArgument, ForceOption, JsonOption, SetOption
+from lambda_cli.options import CaseArgument, ExecutorOption, ForceOption, JsonOption, SetOption, WorkersOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.errors import UsageError
 
@@ -75,7 +75,13 @@ def film(
 
 
 def risk_map(
-    case: CaseArgument,
+    source: Annotated[
+        str,
+        typer.Argument(
+            metavar="CASE|FOLDER",
+            help="Case file or name of a built-in case; or the folder of a map, to go on with it.",
+        ),
+    ],
     changes: SetOption = None,
     speed: Annotated[
         str | None, typer.Option("--speed", metavar="FROM,TO", help='Of the inner ring, "500 rpm, 10000 rpm".')
@@ -84,6 +90,12 @@ def risk_map(
         str, typer.Option("--temperature", metavar="FROM,TO", help="Of oil and parts.")
     ] = "20 degC, 110 degC",
     points: Annotated[str, typer.Option("--points", metavar="NxM", help="Speeds times temperatures.")] = "20x10",
+    folder: Annotated[
+        Path | None,
+        typer.Option("--folder", metavar="FOLDER", help="Keep the map as a study, which goes on after a kill."),
+    ] = None,
+    workers: WorkersOption = None,
+    executor: ExecutorOption = "processes",
     out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Every number, as .csv.")] = None,
     draw: Annotated[
         Path | None, typer.Option("--draw", metavar="DIR", help="Also write pictures (svg and png) into this folder.")
@@ -96,19 +108,24 @@ def risk_map(
     """Discharges over speed and temperature, on quasi-static films.
 
     The circuit is the section electric of the case. Speeds are even in logarithm; without --speed they go from a tenth
-    to twice the speed of the case.
+    to twice the speed of the case. With --folder the map is a study: after Ctrl+C or a kill, lambda-bearing
+    electric-map FOLDER does what is missing. Numbers do not depend on the workers.
     """
     from lambda_core import api
 
     with talk(progress, quiet) as speaker:
         found = api.electric_map(
-            case,
+            source,
             changes or (),
             speed=speed,
             temperature=temperature,
             points=points,
             out=out,
             overwrite=force,
+            folder=folder,
+            executor=executor,
+            workers=workers,
+            progress=speaker.update,
             announce=speaker.say,
         )
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text())

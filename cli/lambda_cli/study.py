@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from lambda_cli.options import ForceOption, JsonOption
+from lambda_cli.options import ExecutorOption, ForceOption, JsonOption, WorkersOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.printable import cell_text, printable
 
@@ -22,17 +22,6 @@ if TYPE_CHECKING:
 app = typer.Typer(no_args_is_help=True, add_completion=False, help="Many runs: sweeps, samples, maps, searches.")
 
 FolderArgument = Annotated[Path, typer.Argument(metavar="FOLDER", help="Folder of a study.")]
-WorkersOption = Annotated[
-    int | None, typer.Option("--workers", min=1, metavar="N", help="Processes; default: every processor.")
-]
-ExecutorOption = Annotated[
-    str,
-    typer.Option(
-        "--executor",
-        metavar="WHERE",
-        help="processes, dask (a cluster on this machine), or a dask scheduler: its address (tcp://host:8786) or file.",
-    ),
-]
 
 
 @app.command()
@@ -41,7 +30,9 @@ def init(
     start: Annotated[
         str | None,
         typer.Option(
-            "--from", metavar="STUDY", help="friction-map (default), warm-and-tight, what-decides or cage-stability."
+            "--from",
+            metavar="STUDY",
+            help="friction-map (default), warm-and-tight, what-decides, risk-map or cage-stability.",
         ),
     ] = None,
     case: Annotated[
@@ -56,8 +47,8 @@ def init(
     """Write a commented study file to start from.
 
     friction-map: friction over speed and load, 500 points; warm-and-tight: the least friction that film and pressure
-    allow, a search; what-decides: which parameter decides, Sobol' indices; cage-stability: where the cage turns
-    steadily, 16 runs.
+    allow, a search; what-decides: which parameter decides, Sobol' indices; risk-map: bearing currents over speed and
+    temperature, 200 points; cage-stability: where the cage turns steadily, 16 runs.
     """
     from lambda_core import api
 

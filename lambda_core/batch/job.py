@@ -73,7 +73,7 @@ def work(task: Task) -> Outcome:
         hash_ = point_hash(model)
         model = with_temperatures(model)
         if task.mode == "quasi-static":
-            state, values = "done", _static(model, task.responses)
+            state, values = "done", static_values(model, task.responses)
         else:
             file = f"{RUNS}/{hash_[:_HASH_DIGITS]}.h5"
             state, reason, values = _dynamic(model, Path(task.folder) / file, task.responses)
@@ -156,12 +156,20 @@ def _equilibrium(model: BearingModel) -> Equilibrium:
     return solve(model, kernels_of(model))
 
 
-def _static(model: BearingModel, names: tuple[str, ...]) -> dict[str, float | None]:
+def static_values(model: BearingModel, names: tuple[str, ...]) -> dict[str, float | None]:
+    """Return the responses of a quasi-static point.
+
+    Raises
+    ------
+    SolverError
+        When there is no solution.
+    """
     from lambda_core.batch.responses import StaticPoint, evaluate
     from lambda_core.results.quasistatic import quasistatic_of
 
     found = _equilibrium(model)
-    return evaluate(names, StaticPoint(found, quasistatic_of(found)), method_rows(found, names))
+    point = StaticPoint(found, quasistatic_of(found), kernels_of(model))
+    return evaluate(names, point, method_rows(found, names))
 
 
 def method_rows(found: Equilibrium, names: tuple[str, ...]) -> dict[str, float | None]:

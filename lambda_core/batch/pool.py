@@ -10,8 +10,8 @@ import os
 import signal
 import subprocess
 import threading
-from collections.abc import Iterator, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from importlib import import_module
 from multiprocessing.connection import wait
@@ -20,6 +20,7 @@ from typing import Any
 
 from lambda_core.domain.errors import UsageError
 
+HERE = "here"  # in this process
 _PATIENCE = 20.0  # with a scheduler that does not answer [s]
 _WORKERS_SET = (
     *("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"),
@@ -175,6 +176,19 @@ class Dask(Pool):
             self._cluster.close()
 
 
+class Inline(Executor):
+    """Does each task in this process, when it is handed over."""
+
+    def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Do it now."""
+        future: Future[Any] = Future()
+        try:
+            future.set_result(function(*args, **kwargs))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+
 class Given(Pool):
     """An executor that somebody else made and will shut down."""
 
@@ -191,7 +205,7 @@ class Given(Pool):
 
 
 def pool(where: str | Executor, workers: int) -> Pool:
-    """Return the pool that `where` means: ``processes``, ``dask``, a scheduler's address, or an executor.
+    """Return the pool that `where` means: ``processes``, ``here``, ``dask``, a scheduler's address, or an executor.
 
     Raises
     ------
@@ -202,12 +216,14 @@ def pool(where: str | Executor, workers: int) -> Pool:
         return Given(where, workers)
     if where == "processes":
         return Processes(workers)
+    if where == HERE:
+        return Given(Inline(), 1)
     if where == "dask":
         return Dask(workers)
     if "://" in where or where.endswith(".json"):
         return Dask(workers, where)
     raise UsageError(
-        f'"{where}" is not a place to work; there are: processes, dask, the address of a dask scheduler '
+        f'"{where}" is not a place to work; there are: processes, here, dask, the address of a dask scheduler '
         "(tcp://host:8786) or its file (scheduler.json)"
     )
 

@@ -10,16 +10,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.batch import measures
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import CaseError, Problem, nearest
+from lambda_core.electric.current_numbers import UNITS, CurrentNumbers, meaning, run_numbers, static_numbers
 
 if TYPE_CHECKING:
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.results.reader import Result
     from lambda_core.results.summary import Summary
+    from lambda_core.solver.drivers.compiled_laws import Kernels
     from lambda_core.solver.drivers.equilibrium import Equilibrium
 
 Number = float | None
@@ -28,10 +31,16 @@ BREAKDOWN = "friction_breakdown_Nmm"
 
 @dataclass
 class StaticPoint:
-    """A quasi-static point: the equilibrium, and the same in the words of the machine interface."""
+    """A quasi-static point: the equilibrium, the same in the words of the machine interface, and its compiled laws."""
 
     equilibrium: Equilibrium
     summary: QuasiStatic
+    kernels: Kernels
+
+    @cached_property
+    def currents(self) -> CurrentNumbers:
+        """Bearing currents on quasi-static films."""
+        return static_numbers(self.equilibrium, self.kernels)
 
 
 @dataclass
@@ -40,6 +49,11 @@ class DynamicPoint:
 
     result: Result
     summary: Summary
+
+    @cached_property
+    def currents(self) -> CurrentNumbers:
+        """Bearing currents on the films of the run."""
+        return run_numbers(self.result)
 
 
 @dataclass(frozen=True)
@@ -91,6 +105,18 @@ def _axes() -> list[Response]:
     ]
 
 
+def _current(name: str) -> Callable[[Any], Number]:
+    def read(point: Any) -> Number:
+        value: Number = getattr(point.currents, name)
+        return value
+
+    return read
+
+
+def _currents() -> list[Response]:
+    return [Response(name, unit, meaning(name), _current(name), _current(name)) for name, unit in UNITS.items()]
+
+
 def _catalogue() -> dict[str, Response]:
     both = [
         ("friction_torque_Nmm", "N mm", "friction torque"),
@@ -135,6 +161,7 @@ def _catalogue() -> dict[str, Response]:
             measures.ball_speed_deviation,
         ),
         Response("pocket_touch_share", "", "share of time a pocket touches its ball", None, measures.pocket_share),
+        *_currents(),
     ]  # fmt: skip
     return {response.name: response for response in found}
 
@@ -149,6 +176,11 @@ USUAL: Mapping[str, tuple[str, ...]] = {
         "min_film_um", "energy_residual", "converged",
     ),
 }  # fmt: skip
+
+
+def asks_currents(names: Sequence[str]) -> bool:
+    """Tell whether the electric circuit is among what is asked."""
+    return any(name in UNITS for name in names)
 
 
 def chosen(names: Sequence[str], mode: str, source: str) -> tuple[str, ...]:

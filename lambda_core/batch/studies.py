@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
 from contextlib import closing
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -16,11 +16,15 @@ from lambda_core.batch.design import Plan
 from lambda_core.batch.job import RUNS, Outcome, Task, lost, point_hash, resolve_point, work
 from lambda_core.batch.optimise import Best, best_row, search
 from lambda_core.batch.pool import pool, usable_cores
+from lambda_core.batch.responses import asks_currents
 from lambda_core.batch.scheduler import Director, Report
 from lambda_core.batch.store import Manifest, readable
 from lambda_core.batch.study_check import Announce, Ready, check, duration
 from lambda_core.domain.errors import UsageError
 from lambda_core.views.table import StudyTable
+
+if TYPE_CHECKING:
+    from lambda_core.case.case import Case
 
 Where = str | Executor
 
@@ -74,8 +78,13 @@ def _short(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def prepare(source: str | Path | Mapping[str, Any] | Study, workers: int | None, announce: Announce = None) -> Ready:
-    """Read and check a study; errors as in :func:`lambda_core.batch.study_check.check`."""
+def prepare(
+    source: str | Path | Mapping[str, Any] | Study,
+    workers: int | None,
+    announce: Announce = None,
+    case: Case | None = None,
+) -> Ready:
+    """Read and check a study; errors as in :func:`lambda_core.batch.study_check.check`, `case` as there."""
     folder: Path | None = None
     if isinstance(source, Study):
         study = source
@@ -83,7 +92,7 @@ def prepare(source: str | Path | Mapping[str, Any] | Study, workers: int | None,
         study = validate_study(source)
     else:
         study, folder = read_study(source)
-    return check(study, folder, workers or usable_cores(), announce)
+    return check(study, folder, workers or usable_cores(), announce, case)
 
 
 def start(
@@ -103,7 +112,7 @@ def start(
         target, ready.study, text, ready.case_toml, ready.study.title or ready.study.name, ready.headings
     )
     with closing(manifest):
-        manifest.write_meta("fingerprint", _fingerprint(ready.plan, ready.case_toml))
+        manifest.write_meta("fingerprint", _fingerprint(ready.plan, ready.case_toml, ready.names))
         manifest.add(list(ready.plan.points()))
         return _work(manifest, ready.plan, ready.names, where, workers, report, retry=False)
 
@@ -131,14 +140,14 @@ def resume(
         plan = Plan(study)
         if manifest.counts().total < plan.fixed_count:  # killed while it was being set up
             manifest.add([plan.point(number) for number in range(manifest.counts().total, plan.fixed_count)])
-        now, then = _fingerprint(plan, manifest.case_toml), manifest.meta("fingerprint")
+        names = tuple(h.name for h in manifest.headings() if h.kind == "response")
+        now, then = _fingerprint(plan, manifest.case_toml, names), manifest.meta("fingerprint")
         if then and now != then:
             raise UsageError(
                 f"{folder} cannot go on: the catalogue, a law or the program has changed since it was started, its "
                 "points would not belong together; start it again: lambda-bearing study run "
                 f"{folder / 'study.toml'} --out {folder}-2"
             )
-        names = tuple(h.name for h in manifest.headings() if h.kind == "response")
         return _work(manifest, plan, names, where, workers, report, retry=retry)
 
 
@@ -169,13 +178,15 @@ def is_study(path: Path) -> bool:
     return (path / FILE).is_file()
 
 
-def _fingerprint(plan: Plan, case_toml: str) -> str:
-    """Return a hash of the first point with all its laws and of the compiled core."""
+def _fingerprint(plan: Plan, case_toml: str, names: tuple[str, ...]) -> str:
+    """Return a hash of the first point with all its laws, and of the compiled code that the responses go through."""
+    from lambda_core.electric.current_numbers import code_folder
     from lambda_core.laws.kernels import sources_key
     from lambda_core.solver.code_files import compiled_sources
 
     model = resolve_point(case_toml, plan.point(0).changes)
-    return f"{point_hash(model)} {sources_key(*compiled_sources())}"
+    sources = (*compiled_sources(), code_folder()) if asks_currents(names) else compiled_sources()
+    return f"{point_hash(model)} {sources_key(*sources)}"
 
 
 def _work(

@@ -14,12 +14,13 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from lambda_core.batch.definition import Study
 from lambda_core.batch.design import Coordinate, Plan, Point
-from lambda_core.batch.job import kernels_of, method_columns, resolve_point, with_temperatures
-from lambda_core.batch.responses import RESPONSES, chosen
+from lambda_core.batch.job import kernels_of, method_columns, resolve_point, static_values, with_temperatures
+from lambda_core.batch.responses import RESPONSES, asks_currents, chosen
 from lambda_core.batch.store import Heading, parameter_headings
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError
 
 if TYPE_CHECKING:
+    from lambda_core.case.case import Case
     from lambda_core.system.bearing import BearingModel
 
 Announce = Callable[[str], None] | None
@@ -72,13 +73,17 @@ class Ready:
     first: BearingModel
 
 
-def check(study: Study, folder: Path | None, workers: int, announce: Announce = None) -> Ready:
+def check(
+    study: Study, folder: Path | None, workers: int, announce: Announce = None, case: Case | None = None
+) -> Ready:
     """Check a study: counts, case, paths, units, responses, cost; its kernels are compiled afterwards.
 
     Parameters
     ----------
     folder : pathlib.Path, optional
         That file names of the study are relative to.
+    case : Case, optional
+        In place of the one that the study names.
 
     Raises
     ------
@@ -90,7 +95,7 @@ def check(study: Study, folder: Path | None, workers: int, announce: Announce = 
     plan = Plan(study)
     names = chosen(study.responses, study.mode, study.name)
     _check_goal(study, names)
-    case_toml = _case_toml(study, folder)
+    case_toml = _case_toml(study, folder, case)
     first = _first_model(study, plan, case_toml)
     warnings = _try_ends(study, plan, case_toml)
     seconds, columns, size = _probe(study, first, names, announce)
@@ -119,7 +124,7 @@ def check(study: Study, folder: Path | None, workers: int, announce: Announce = 
     return Ready(study, plan, case_toml, names, headings, estimate, first)
 
 
-def _case_toml(study: Study, folder: Path | None) -> str:
+def _case_toml(study: Study, folder: Path | None, case: Case | None) -> str:
     """Return the study's case with its fixed changes, complete."""
     from lambda_core.batch.values import written
     from lambda_core.case.case_io import apply_overrides, load_case
@@ -127,8 +132,9 @@ def _case_toml(study: Study, folder: Path | None) -> str:
     from lambda_core.discovery.manager import registry
     from lambda_core.system.law_packages import with_packages
 
-    local = folder / study.case if folder is not None else Path(study.case)
-    case = load_case(local if local.is_file() else study.case)
+    if case is None:
+        local = folder / study.case if folder is not None else Path(study.case)
+        case = load_case(local if local.is_file() else study.case)
     changes = [f"{path}={written(value)}" for path, value in study.set.items()]
     return standalone_toml(with_packages(apply_overrides(case, changes) if changes else case, registry()))
 
@@ -256,6 +262,11 @@ def _probe(
     found = solve(resolved, kernels_of(resolved))
     columns = method_columns(found, names)
     seconds = time.perf_counter() - start
+    if asks_currents(names) and study.mode == "quasi-static":
+        static_values(resolved, names)  # compiles or loads the circuit; not timed
+        start = time.perf_counter()
+        static_values(resolved, names)
+        seconds += time.perf_counter() - start
     if study.mode == "quasi-static":
         return seconds, columns, 0.0
     run = estimate_run(resolved, {}, announce)

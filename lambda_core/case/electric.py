@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Literal
@@ -9,7 +10,7 @@ from typing import Any, Literal
 from pydantic import PrivateAttr, ValidationInfo, model_validator
 
 from lambda_core.case.option import Section, option
-from lambda_core.case.signals import read_table
+from lambda_core.case.signals import read_numbered
 from lambda_core.domain.roles import DEFAULT_MODELS
 from lambda_core.domain.units import (
     Capacitance,
@@ -68,9 +69,10 @@ class Series(Section):
             raise ValueError("give either points or file")
         if self.points is not None:
             rows = tuple(_point(text) for text in self.points)
+            check_series(rows, '"points"', range(1, len(rows) + 1), "entry")
         else:
-            rows = read_table(Path((info.context or {}).get("folder") or ".") / str(self.file), "voltage")
-        check_series(rows, self.file or "points")
+            rows, lines = read_numbered(Path((info.context or {}).get("folder") or ".") / str(self.file), "voltage")
+            check_series(rows, f'"{self.file}"', lines)
         self._rows = rows
         return self
 
@@ -91,24 +93,32 @@ def _point(text: str) -> tuple[float, float]:
     return parse(time, "time"), parse(volts, "voltage")
 
 
-def check_series(rows: tuple[tuple[float, float], ...], name: str) -> None:
+def check_series(rows: tuple[tuple[float, float], ...], name: str, numbers: Sequence[int], word: str = "line") -> None:
     """Refuse a measured series that is too short, runs backwards, or has gaps.
+
+    Parameters
+    ----------
+    rows : tuple of (time [s], value)
+    name : str
+        Of the series, for people.
+    numbers : sequence of int
+        Where each row stands, as a `word` with this number.
 
     Raises
     ------
     ValueError
-        With a sentence that names the file and the line.
+        With a sentence that names the series and the row.
     """
     if len(rows) < 3:
-        raise ValueError(f'"{name}": a series needs at least three rows')
+        raise ValueError(f"{name}: a series needs at least three rows")
     steps = [later[0] - earlier[0] for earlier, later in pairwise(rows)]
     usual = sorted(steps)[len(steps) // 2]
-    for number, step in enumerate(steps, start=3):
+    for number, step in zip(numbers[1:], steps, strict=True):
         if step <= 0.0:
-            raise ValueError(f'"{name}" line {number}: the times must increase')
+            raise ValueError(f"{name} {word} {number}: the times must increase")
         if step > _GAP * usual:
             raise ValueError(
-                f'"{name}" line {number}: a gap of {step:.4g} s where the rows are {usual:.4g} s apart; '
+                f"{name} {word} {number}: a gap of {step:.4g} s where the rows are {usual:.4g} s apart; "
                 "cut the series there, or fill the gap"
             )
 
@@ -160,7 +170,9 @@ class Film(Section):
     )
     seals: Capacitance = option("0 pF", "of seals and shields between the rings, beside that", ge=0.0)
     ball_permittivity: float | None = option(
-        None, "relative permittivity of balls that insulate (silicon nitride: about 8); absent: they conduct", gt=1.0
+        None,
+        "relative permittivity of balls that insulate; absent: 8 for balls of silicon nitride, all others conduct",
+        gt=1.0,
     )
 
 

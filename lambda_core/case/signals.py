@@ -161,26 +161,32 @@ def read_table(path: Path, quantity: str) -> tuple[tuple[float, float], ...]:
     ValueError
         With a sentence naming the file and the line.
     """
+    return read_numbered(path, quantity)[0]
+
+
+def read_numbered(path: Path, quantity: str) -> tuple[tuple[tuple[float, float], ...], tuple[int, ...]]:
+    """Read a CSV file as :func:`read_table` does; return its rows, and the line of the file that each stands in."""
     try:
-        lines = [row for row in csv.reader(read_text(path, _LARGEST_TABLE).splitlines()) if row]
+        reader = csv.reader(read_text(path, _LARGEST_TABLE).splitlines())
+        numbered = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "is not UTF-8 text"
         raise ValueError(f'cannot read "{path}": {reason}') from None
-    headers = [_HEADER.match(cell) for cell in lines[0]] if lines else []
+    headers = [_HEADER.match(cell) for cell in numbered[0][1]] if numbered else []
     if len(headers) != 2 or headers[0] is None or headers[1] is None:
         raise ValueError(f'"{path}": the first line must name both columns with units, like "time [s],value [N]"')
     units = (headers[0][2], headers[1][2])
-    if len(lines) > _MOST_POINTS + 1:
-        raise ValueError(f'"{path}" has {len(lines) - 1} points: at most {_MOST_POINTS}')
+    if len(numbered) > _MOST_POINTS + 1:
+        raise ValueError(f'"{path}" has {len(numbered) - 1} points: at most {_MOST_POINTS}')
     rows = []
-    for number, cells in enumerate(lines[1:], start=2):
+    for number, cells in numbered[1:]:
         if len(cells) != 2:
             raise ValueError(f'"{path}" line {number}: expected two columns, found {len(cells)}')
         try:
             rows.append((parse(f"{cells[0]} {units[0]}", "time"), parse(f"{cells[1]} {units[1]}", quantity)))
         except ValueError as error:
             raise ValueError(f'"{path}" line {number}: {error}') from None
-    return tuple(rows)
+    return tuple(rows), tuple(number for number, _ in numbered[1:])
 
 
 if TYPE_CHECKING:

@@ -84,13 +84,13 @@ def map_text(found: RiskMap) -> str:
     rates = found.grid("discharges_per_s")
     metal = found.grid("metal_share")
     columns = found.temperatures_degC
-    rows = [f"{'1/min':>9}" + "".join(f"{f'{value:.4g} C':>7}" for value in columns)]
+    rows = [f"{'1/min':>9}" + "".join(f"{f'{value:.4g} degC':>10}" for value in columns)]
     for speed, row, touching in zip(found.speeds_rpm, rates, metal, strict=True):
-        rows.append(f"{speed:9.5g}" + "".join(f"{_rate(*cell):>7}" for cell in zip(row, touching, strict=True)))
+        rows.append(f"{speed:9.5g}" + "".join(f"{_rate(*cell):>10}" for cell in zip(row, touching, strict=True)))
     return "\n".join(
         [
             line("source", found.source),
-            line("map", f"{len(found.points)} points", f"{found.simulated_s:g} s each", f"{found.wall_s:.3g} s in all"),
+            line("map", f"{len(found.points)} points", f"{found.span} each", f"{found.wall_s:.3g} s in all"),
             "",
             "discharges through the bearing per second (metal: asperities short it; -: no equilibrium)",
             *rows,

@@ -111,10 +111,18 @@ def simulate(
 
     Raises
     ------
+    UsageError
+        When fewer than two samples are left.
     SolverError
         When the circuit cannot be solved.
     """
     options = bearing.options
+    last, first = contacts.time.size, 0
+    if settled is not None:
+        last = marched(contacts.time, reach(options.source)) + 1
+        first = int(np.searchsorted(contacts.time, settled))
+        if last - first < 2:
+            raise UsageError(f"{contacts.origin}: too short: fewer than two samples are left from {settled:.4g} s on")
     electric, circuit = films(contacts, options), circuit_of(options, bearing.geometry)
     begin, end = float(contacts.time[0]), float(contacts.time[-1])
     laws = film_laws(bearing.laws, bearing.contexts, announce)
@@ -127,16 +135,9 @@ def simulate(
     )
     source = corners(options.source, begin, end + reach(options.source), contacts.turned)
     rest = one_period(options.source, begin, contacts.turned)
-    last, first = contacts.time.size, 0
-    started, spent = time.perf_counter(), 0.0
-    if settled is not None:
-        last = marched(contacts.time, reach(options.source)) + 1
-        first = int(np.searchsorted(contacts.time, settled))
-        if last - first < 2:
-            raise UsageError(f"{contacts.origin}: too short: nothing is left from {settled:.4g} s on")
-        if first > 0:
-            network.advance(electric.part(slice(0, first + 1)), source, rest=rest)
-        spent = float(electric.time[first] - begin)
+    started, spent = time.perf_counter(), float(electric.time[first] - begin)
+    if first > 0:
+        network.advance(electric.part(slice(0, first + 1)), source, rest=rest)
     rows = slice(first, last)
     recorded = (np.inf, -np.inf) if window is None else window
     found = network.advance(electric.part(rows), source, recorded, rest if first == 0 else UNCHARGED)

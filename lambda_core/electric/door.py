@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from lambda_core.case.case import Case
     from lambda_core.electric.circuit_run import Simulation
     from lambda_core.electric.inversion import FilmOutcome
-    from lambda_core.electric.risk_map import RiskMap
     from lambda_core.system.bearing import BearingModel
 
 
@@ -99,63 +98,6 @@ def write_discharges(simulation: Simulation, path: str | Path, *, overwrite: boo
 
     check_discharges_file(path, overwrite=overwrite)
     return write(simulation, Path(path))
-
-
-def electric_map(
-    source: str | Path | Mapping[str, Any] | Case,
-    overrides: Iterable[str] = (),
-    *,
-    speed: str | None = None,
-    temperature: str = "20 degC, 110 degC",
-    points: str = "20x10",
-    out: str | Path | None = None,
-    overwrite: bool = False,
-    announce: Callable[[str], None] | None = None,
-) -> RiskMap:
-    """Compute bearing currents over speed and temperature on quasi-static films.
-
-    Parameters
-    ----------
-    source, overrides
-        The case, as for :func:`check`.
-    speed : str, optional
-        First and last speed of the inner ring, "500 rpm, 10000 rpm", even in logarithm; default: from a tenth to twice
-        the largest speed of the case.
-    temperature : str
-        First and last temperature of oil and parts.
-    points : str
-        Speeds times temperatures.
-    out : path-like, optional
-        Every number in a CSV file.
-    overwrite : bool
-        Replace a file that stands there.
-    announce : callable, optional
-        Called with a sentence before something is compiled, and now and then with how far it is.
-
-    Returns
-    -------
-    RiskMap
-        ``text()`` is the table of discharges, ``picture()`` is for :func:`draw`.
-
-    Raises
-    ------
-    UsageError, CaseError, SolverError
-        With a sentence about the map, the case, or about why no point has a solution.
-    """
-    from lambda_core.case.case_io import apply_overrides
-    from lambda_core.electric.event_files import check_target
-    from lambda_core.electric.risk_map import axes, risk_map
-    from lambda_core.system.cases import case_of
-    from lambda_core.system.law_context import max_speed
-
-    if out is not None:
-        check_target(Path(out), overwrite, "the map", (".csv",))
-    case = apply_overrides(case_of(source), list(overrides))
-    speeds, temperatures = axes(speed, temperature, points, max_speed(model_of(case)))
-    found = risk_map(case, speeds, temperatures, announce=announce)
-    if out is not None:
-        found.write(Path(out))
-    return found
 
 
 def film_from_outside(

@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from lambda_core.case.electric import check_series
-from lambda_core.case.signals import read_table
+from lambda_core.case.signals import read_numbered
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError, UsageError
@@ -202,17 +202,17 @@ def read_measured(path: Path, frequency: float | None) -> FloatArray:
         With a sentence naming the file and the line.
     """
     try:
-        head = path.read_text(encoding="utf-8-sig").splitlines()[:1]
-        impedance = bool(head) and "Ohm" in head[0]
-        rows = read_table(path, "resistance" if impedance else "capacitance")
-        check_series(rows, path.name)
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+        impedance = "Ohm" in next((line for line in lines if line.strip()), "")
+        rows, numbers = read_numbered(path, "resistance" if impedance else "capacitance")
+        check_series(rows, f'"{path.name}"', numbers)
     except (OSError, ValueError) as error:
         raise UsageError(
             str(error) if isinstance(error, ValueError) else f'cannot read "{path}": {error.strerror}'
         ) from None
     values = np.array([value for _, value in rows])
     if not np.all(values > 0.0):
-        line = int(np.argmax(values <= 0.0)) + 2
+        line = numbers[int(np.argmax(values <= 0.0))]
         raise UsageError(f'"{path}" line {line}: a capacitance or impedance must be greater than 0')
     if not impedance:
         return values

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from pydantic import Field
 
-from lambda_core.case.electric import Inverter, Sine, Step
+from lambda_core.case.electric import Electric, Inverter, Sine, Step
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.electric import columns as L
 from lambda_core.electric.circuit import bearing_capacitance, impedance, voltage_ratio
@@ -20,6 +20,8 @@ from lambda_core.system.resolve_electric import assumed
 
 if TYPE_CHECKING:
     from lambda_core.electric.circuit_run import Simulation
+    from lambda_core.electric.electrified import Electrified
+    from lambda_core.electric.events import Events
     from lambda_core.electric.march import Circuit
 
 
@@ -95,10 +97,9 @@ def outcome_of(simulation: Simulation) -> Outcome:
     names = [f"{frequency:g} Hz" for frequency in _FREQUENCIES]
     total, length = simulation.march.total, simulation.duration
     some = bool(through.any())
-    extremes = simulation.march.extremes
     return Outcome(
         case=simulation.case,
-        source=source_words(simulation),
+        source=source_words(simulation.options),
         films=contacts.origin,
         simulated_s=length,
         speed_rpm=simulation.speed * 30.0 / math.pi,
@@ -108,7 +109,7 @@ def outcome_of(simulation: Simulation) -> Outcome:
         rotor_capacitance_pF=1e12 * rotor_capacitance(circuit, float(capacitance.mean())),
         shorted_share=float(contacts.shorted.mean()),
         bearing_voltage_ratio=voltage_ratio(circuit, float(capacitance.mean())),
-        bearing_voltage_V=[float(np.nanmin(extremes[:, 0])), float(np.nanmax(extremes[:, 1]))],
+        bearing_voltage_V=voltage_range(simulation),
         impedance_kOhm=dict(zip(names, (1e-3 * np.abs(meter)).tolist(), strict=True)),
         impedance_phase_deg=dict(zip(names, np.degrees(np.angle(meter)).tolist(), strict=True)),
         discharges=int(through.sum()),
@@ -130,7 +131,7 @@ def outcome_of(simulation: Simulation) -> Outcome:
         seed=simulation.options.seed,
         wall_per_simulated_second=simulation.wall / length,
         limits=list(LIMITS),
-        assumptions=assumptions(simulation),
+        assumptions=assumptions(simulation.bearing, simulation.events),
     )
 
 
@@ -142,6 +143,14 @@ def rotor_capacitance(circuit: Circuit, capacitance: float) -> float:
     whole = circuit.rings + capacitance
     behind = whole * circuit.coating / (whole + circuit.coating) if circuit.insulated else whole
     return circuit.winding + circuit.rotor + circuit.twins * whole + behind
+
+
+def voltage_range(simulation: Simulation) -> list[float]:
+    """Return the smallest and the largest bearing voltage [V]: between discharges, and at which they began."""
+    low, high = simulation.march.extremes.T
+    began = simulation.events.bearing_voltage
+    every = np.concatenate([low, high, began])
+    return [float(np.fmin.reduce(every)), float(np.fmax.reduce(every))]
 
 
 def unloaded_share(simulation: Simulation) -> float:
@@ -172,9 +181,9 @@ def charge_residual(simulation: Simulation) -> float:
     return float(rest) / whole if whole > 0.0 else 0.0
 
 
-def source_words(simulation: Simulation) -> str:
+def source_words(options: Electric) -> str:
     """Say what feeds the circuit."""
-    source = simulation.options.source
+    source = options.source
     if isinstance(source, Inverter):
         return (
             f"two-level inverter, dc link {source.dc_link:g} V, {1e-3 * source.switching_frequency:g} kHz, "
@@ -187,34 +196,43 @@ def source_words(simulation: Simulation) -> str:
     return f"measured series, {len(source.rows)} rows"
 
 
-def assumptions(simulation: Simulation) -> list[str]:
-    """Return what the options leave to defaults that no measurement of this machine stands behind."""
-    options, found = simulation.options, []
+def assumptions(bearing: Electrified, events: Events | None = None) -> list[str]:
+    """Return what the options leave to defaults that no measurement of this machine stands behind.
+
+    Parameters
+    ----------
+    events : Events, optional
+        What broke down, for the share of it that the floor of breakdown decided.
+    """
+    options, found = bearing.options, []
     written = options.machine.model_fields_set
     for name, words in (("winding_rotor", "C_wr"), ("rotor_frame", "C_rf")):
         if name not in written:
             found.append(f"{words} is {1e12 * getattr(options.machine, name):g} pF: an order of size, not this machine")
     if options.machine.other_bearings is None:
-        found.append("the machine has one more bearing like this, of the same capacitance at every moment")
+        found.append(
+            "the machine has one more bearing like this, of the same capacitance at every moment, whose films never "
+            "break down: every discharge goes through this one"
+        )
     if options.film.surroundings is None:
         found.append("between the rings there is air outside the balls")
     if options.film.seals == 0.0:
         found.append("seals are left out")
     if options.cage is None:
         found.append("the cage does not conduct")
-    found += assumed(simulation.bearing.laws)
+    found += assumed(bearing.laws)
     if options.film.ball_permittivity is not None:
         found.append("balls insulate: no film breaks down, field lines beside the Hertzian areas are left out")
         return found
-    ball = simulation.bearing.contexts[0].ball
+    ball = bearing.contexts[0].ball
     if _CERAMIC.search(ball.name):
         found.append(
             f"balls of {ball.name} are computed as conductors: electric.film.ball_permittivity makes them insulate"
         )
     least = options.breakdown.least_voltage
     floor = f"no film breaks down below {least:g} V"
-    if simulation.events.time.size:
-        share = float(np.mean(np.abs(simulation.events.contact_voltage) < 1.001 * least))
+    if events is not None and events.time.size:
+        share = float(np.mean(np.abs(events.contact_voltage) < 1.001 * least))
         floor += f": {100.0 * share:.0f} % of the breakdowns are at it" + (
             ", not at what the law says" if share else ""
         )

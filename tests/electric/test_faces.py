@@ -109,50 +109,6 @@ def test_command(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert "exists" in capsys.readouterr().err
 
 
-def test_map(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    """Four points: hot and slow is metal; what discharges has a breakdown voltage; file and answer agree."""
-    arguments = [
-        "electric-map",
-        "6208-axial-1300",
-        "--speed",
-        "500 rpm, 4000 rpm",
-        "--temperature",
-        "30 degC, 100 degC",
-    ]
-    arguments += ["--points", "2x2", "--set", "electric.duration=4 ms", "--quiet"]
-    assert main([*arguments, "--json", "--out", str(tmp_path / "m.csv"), "--draw", str(tmp_path)]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert [point["temperature_degC"] for point in found["points"][:2]] == pytest.approx([30.0, 100.0])
-    assert found["speeds_rpm"] == pytest.approx([500.0, 4000.0])
-    assert found["points"][1]["metal_share"] > 0.1
-    films = [point["film_um"] for point in found["points"]]
-    assert films[0] > films[1]
-    assert films[2] > films[0]
-    for point in found["points"]:
-        assert (point["breakdown_voltage_V"] is None) == (point["discharges_per_s"] == 0.0)
-    rows = list(csv.reader((tmp_path / "m.csv").open()))
-    assert len(rows) == 5
-    assert float(rows[4][rows[0].index("film_um")]) == films[3]
-    assert len(list(tmp_path.glob("*electric-map*"))) == 2
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["--points", "20"], "write speeds times temperatures"),
-        (["--points", "999x999"], "at most 10000"),
-        (["--speed", "500 rpm"], "write the first and the last one"),
-        (["--speed", "500, 900"], "has no unit"),
-        (["--speed", "900 rpm, 500 rpm"], "the first is larger than the last"),
-        (["--temperature", "20 degC, 30 bar"], "is not a unit of temperature"),
-        (["--out", "map.xlsx"], "the map is written as .csv"),
-    ],
-)
-def test_mistakes_in_a_map_are_named(arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["electric-map", "6208-axial-1300", "--quiet", *arguments]) == 2
-    assert words in " ".join(capsys.readouterr().err.split())
-
-
 def test_densities_are_over_the_mean_area_of_one_raceway() -> None:
     """Films are in series: one current goes through the contacts of the inner and then of the outer raceway.
 
@@ -179,3 +135,13 @@ def test_what_is_read_is_not_written_over(combined_run: Result, capsys: pytest.C
 def test_counts_without_end_are_refused(change: str, words: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["electric", "6208-axial-1300", "--set", change]) in (2, 3)
     assert words in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("duration", ["1 ns", "10 us", "0.1 ms"])
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+def test_short_spans(duration: str, combined_run: Result) -> None:
+    """Shorter than the samples of a run: told; a case computes at least one position of the balls."""
+    with pytest.raises(UsageError, match="too short"):
+        api.electric(combined_run.path, [f"electric.duration={duration}"])
+    found = api.electric("6208-axial-1300", [f"electric.duration={duration}"]).outcome
+    assert found.bearing_voltage_V[0] < 0.0 < found.bearing_voltage_V[1]

@@ -51,6 +51,7 @@ def test_starved_bearing_is_recognised(tmp_path: Path, capsys: pytest.CaptureFix
             "time [s],capacitance [pF]\n0,200\n1,-3\n2,200\n",
             "line 3: a capacitance or impedance must be greater than 0",
         ),
+        ("time [s],capacitance [pF]\n\n0,200\n\n1,-3\n2,200\n", "line 5: a capacitance or impedance must be"),
         ("time [s],capacitance [pF]\n0,2\n1,2\n2,2\n", "belongs to no film"),
         ("time,capacitance\n0,2\n1,2\n2,2\n", "must name both columns with units"),
         ("time [s],impedance [kOhm]\n0,2\n1,2\n2,2\n", "say at which frequency"),

@@ -94,6 +94,11 @@ def test_series_is_repeated(tmp_path: Path) -> None:
         ({"sine": {"frequency": "1 kHz"}}, "electric.sine.amplitude", "is required"),
         ({"inverter": {"dc_link": "800 A"}}, "electric.inverter.dc_link", "is not a unit of voltage"),
         ({"inverter": {}, "step": {"amplitude": "1 V"}}, "electric", "inverter and step are both sources"),
+        (
+            {"series": {"points": ["0 s, 1 V", "1 s, 1 V", "1 s, 2 V"]}},
+            "electric.series",
+            '"points" entry 3: the times',
+        ),
         ({"series": {"points": ["0 s 1 V"]}}, "electric.series", "write a time and a voltage"),
         ({"grounding": {"shunt": "1 Ohm"}}, "electric.grounding", "bridges an insulation"),
         ({"series": {}}, "electric.series", "give either points or file"),
@@ -112,6 +117,8 @@ def test_mistakes_are_named(electric: dict[str, object], where: str, words: str)
     [
         ("time [s],voltage [V]\n0,1\n1,2\n2,1\n3,1\n90,1\n", "line 6: a gap of 87 s"),
         ("time [s],voltage [V]\n0,1\n1,2\n1,1\n", "line 4: the times must increase"),
+        ("time [s],voltage [V]\n\n0,1\n  \n1,2\n\n1,1\n", "line 7: the times must increase"),
+        ("\ntime [s],voltage [V]\n\n0,1\n1,x\n2,2\n", "line 5"),
         ("time [s],voltage [V]\n0,1\n1,2\n", "at least three rows"),
         ("time,voltage\n0,1\n1,2\n2,3\n", "must name both columns with units"),
         ("time [s],voltage [A]\n0,1\n1,2\n2,3\n", "is not a unit of voltage"),

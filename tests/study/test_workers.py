@@ -85,7 +85,7 @@ def test_a_scheduler_that_does_not_answer_is_named(
     path = write(MAP.replace("points = 3", "points = 2"))
     with pytest.raises(UsageError, match="no dask scheduler answers at"):
         api.study_run(path, tmp_path / "map", executor="tcp://127.0.0.1:9")
-    with pytest.raises(UsageError, match='"slurm" is not a place to work; there are: processes, dask'):
+    with pytest.raises(UsageError, match='"slurm" is not a place to work; there are: processes, here, dask'):
         api.study_run(path, tmp_path / "other", executor="slurm")
 
 

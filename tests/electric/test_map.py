@@ -1,0 +1,170 @@
+"""The map over speed and temperature: a study with workers, that goes on after a kill to the same bits."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import signal
+import sqlite3
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from lambda_cli.main import main
+
+from lambda_core import api
+from lambda_core.batch.current_map import map_of
+from lambda_core.domain.errors import UsageError
+from lambda_core.electric.current_numbers import UNITS
+
+if TYPE_CHECKING:
+    from conftest import Warm
+
+CASE = "6208-axial-1300"
+CHANGES = ["loads.radial=2 kN", "loads.axial=0 N", "electric.duration=4 ms", "electric.seed=7"]
+SPAN: dict[str, str] = {"speed": "500 rpm, 4000 rpm", "temperature": "30 degC, 100 degC", "points": "8x2"}
+POINTS = 16
+PROGRAM = "from lambda_cli.__main__ import program; program()"
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a map that this process computed."""
+    folder = tmp_path_factory.mktemp("map") / "alone"
+    api.electric_map(CASE, CHANGES, **SPAN, folder=folder, executor="here")
+    return folder
+
+
+def numbers(folder: Path) -> list[dict[str, Any]]:
+    return [{name: row[name] for name in (*UNITS, "state")} for row in api.study_table(folder).rows()]
+
+
+def test_map(capsys: pytest.CaptureFixture[str], tmp_path: Path, alone: Path) -> None:
+    """Hot and slow is metal; what discharges has a breakdown voltage; file, answer and study agree."""
+    assert main(["electric-map", str(alone), "--quiet", "--json", "--out", str(tmp_path / "m.csv")]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["speeds_rpm"] == pytest.approx([500.0 * 8.0 ** (k / 7) for k in range(8)])
+    assert found["temperatures_degC"] == pytest.approx([30.0, 100.0])
+    assert (found["seed"], found["simulated_s"]) == (7, 0.004)
+    assert found["points"][1]["metal_share"] > 0.1
+    films = [point["film_um"] for point in found["points"]]
+    assert films[0] > films[1]
+    assert films[-2] > films[2] > films[0]
+    for point in found["points"]:
+        assert (point["breakdown_voltage_V"] is None) == (point["discharges_per_s"] == 0.0)
+    rows = list(csv.reader((tmp_path / "m.csv").open()))
+    assert rows[0][:2] == ["speed_rpm", "temperature_degC"]
+    assert len(rows) == POINTS + 1
+    assert [float(row[rows[0].index("film_um")]) for row in rows[1:]] == films == [n["film_um"] for n in numbers(alone)]
+    assert main(["electric-map", str(alone), "--quiet", "--draw", str(tmp_path)]) == 0
+    text = capsys.readouterr().out
+    assert "30 degC" in text
+    assert "metal" in text
+    assert len(list(tmp_path.glob("*electric-map*"))) == 2
+    assert main(["study", "show", str(alone), "--csv"]) == 0
+    assert "discharges_per_s [1/s]" in capsys.readouterr().out
+
+
+def test_point_is_what_the_circuit_of_its_case_gives(alone: Path) -> None:
+    """The events behind a point: those of the circuit at three positions of the balls, with the map's seed."""
+    from lambda_core.electric.circuit_run import simulate
+    from lambda_core.electric.contacts import contacts_of_equilibria, equilibria
+    from lambda_core.electric.current_numbers import PHASES, numbers_of
+    from lambda_core.electric.electrified import of_model
+
+    model = api.check(CASE, [*CHANGES, "operation.speed=500 rpm", "lubricant.temperature=30 degC"])
+    simulation = simulate(contacts_of_equilibria(equilibria(model, PHASES), 0.004), of_model(model))
+    assert simulation.events.time.size > 100
+    assert numbers_of(simulation).model_dump() == {name: numbers(alone)[0][name] for name in UNITS}
+
+
+def test_any_number_of_workers_gives_the_same_bits(alone: Path, tmp_path: Path) -> None:
+    found = api.electric_map(CASE, CHANGES, **SPAN, folder=tmp_path / "two", workers=2)
+    assert numbers(tmp_path / "two") == numbers(alone)
+    assert found.points == map_of(alone).points
+    one = {**SPAN, "points": "1x1"}
+    same, other = (api.electric_map(CASE, [*CHANGES[:3], f"electric.seed={n}"], **one, executor="here") for n in (7, 8))
+    assert same.points[0] == found.points[0]
+    assert other.points[0].film_um == found.points[0].film_um
+    assert other.points[0] != found.points[0]
+
+
+def done(folder: Path) -> int:
+    try:
+        return api.study_status(folder).done
+    except (UsageError, sqlite3.Error):
+        return 0
+
+
+def test_killed_map_goes_on_to_the_same_bits(alone: Path, tmp_path: Path, warm: Warm) -> None:
+    """Killed with its workers when some points are there, continued by another command and number of workers."""
+    folder = tmp_path / "killed"
+    options = [part for change in CHANGES for part in ("--set", change)]
+    options += [part for name, value in SPAN.items() for part in (f"--{name}", value)]
+    map_ = warm.start(
+        f"import os; os.setsid(); {PROGRAM}", "electric-map", CASE, *options, "--folder", str(folder), "--quiet",
+        "--executor", "here",
+    )  # fmt: skip
+    end = time.monotonic() + 120.0
+    while not 0 < done(folder) < POINTS and map_.poll() is None:
+        assert time.monotonic() < end
+        time.sleep(0.01)
+    os.killpg(map_.pid, signal.SIGKILL)
+    map_.wait()
+    before = done(folder)
+    found = api.electric_map(folder, executor="here")
+    assert 0 < before < api.study_status(folder).done == POINTS
+    assert numbers(folder) == numbers(alone)
+    assert found.points == map_of(alone).points
+
+
+def test_map_refuses_what_is_none(tmp_path: Path, alone: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["electric-map", str(alone), "--set", "electric.seed=3", "--quiet"]) == 2
+    assert "is a map already" in capsys.readouterr().err
+    assert main(["electric-map", CASE, "--folder", str(alone), "--points", "1x1", "--quiet"]) == 2
+    assert "already holds a study" in capsys.readouterr().err
+    parameters = [{"path": "operation.speed", "values": ["500 rpm"]}]
+    study = {"name": "s", "case": CASE, "responses": ["max_load_N"], "parameters": parameters}
+    api.study_run(study, tmp_path / "s", executor="here")
+    assert main(["electric-map", str(tmp_path / "s"), "--quiet"]) == 2
+    assert "is no map of bearing currents" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--points", "20"], "write speeds times temperatures"),
+        (["--points", "0x3"], "write speeds times temperatures"),
+        (["--points", "999x999"], "at most 10000"),
+        (["--speed", "500 rpm"], "write the first and the last one"),
+        (["--speed", "500, 900"], "has no unit"),
+        (["--speed", "900 rpm, 500 rpm"], "the first is larger than the last"),
+        (["--speed", "900 rpm, 900 rpm"], "need two different ends"),
+        (["--temperature", "20 degC, 30 bar"], "is not a unit of temperature"),
+        (["--out", "map.xlsx"], "the map is written as .csv"),
+    ],
+)
+def test_mistakes_in_a_map_are_named(arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["electric-map", CASE, "--quiet", *arguments]) == 2
+    assert words in " ".join(capsys.readouterr().err.split())
+
+
+def test_runs_of_workers_have_the_events_of_a_single_run(tmp_path: Path) -> None:
+    """A dynamic study on two workers: the table of discharges of each run is that of the run alone, bit for bit."""
+    common = {"solver.duration": "0.02 s", "electric.seed": 3, "loads.radial": "2 kN", "loads.axial": "0 N"}
+    study = {
+        "name": "s", "case": CASE, "mode": "dynamic", "responses": ["discharges_per_s", "bearing_voltage_V"],
+        "set": common, "parameters": [{"path": "operation.speed", "values": ["2750 rpm", "2000 rpm"]}],
+    }  # fmt: skip
+    api.study_run(study, tmp_path / "s", workers=2)
+    row = api.study_table(tmp_path / "s").rows()[0]
+    changes = [f"{path}={value}" for path, value in common.items()]
+    run, worked = api.run(CASE, changes, out=tmp_path / "run.h5"), api.result(tmp_path / "s" / row["file"])
+    assert run.discharges()["time"].size > 50
+    for name, values in run.discharges().items():
+        assert values.tobytes() == worked.discharges()[name].tobytes(), name
+    outcome = api.electric(run.path).outcome
+    assert row["discharges_per_s"] == outcome.discharges_per_s > 0.0
+    assert row["bearing_voltage_V"] == max(map(abs, outcome.bearing_voltage_V))
