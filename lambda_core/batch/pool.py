@@ -5,6 +5,8 @@ A director needs nothing but :class:`concurrent.futures.Executor`; any other one
 
 from __future__ import annotations
 
+import atexit
+import gc
 import multiprocessing
 import os
 import signal
@@ -90,8 +92,9 @@ def _nothing() -> None:
 
 
 def _begin() -> None:
-    """Prepare a worker: Ctrl+C is for the director, and a worker does not outlive it."""
+    """Prepare a worker: Ctrl+C is for the director, a worker does not outlive it, and ends at once when it is done."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    atexit.register(gc.freeze)
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()

@@ -48,7 +48,7 @@ STATES = (
     State("start", ("check", CASE), 0.3),
     State("catalogue", ("check", CASE), 0.7),
     State("compiling, with an empty cache", ("quasistatic", CASE), 0.6, "cache/catalogue-*"),
-    State("equilibrium and loading of compiled code", ("quasistatic", CASE, *SLOW), 1.3),
+    State("equilibrium and loading of compiled code", ("quasistatic", CASE, *SLOW), 1.0),
     State("a record of minutes", ("run", CASE, *SLOW, "--out", "r.h5"), 0.3, "r.h5"),
     State("6016 from 500 rpm to rest in 7 ms", ("run", CASE, *STOP, "--out", "r.h5"), 0.3, "r.h5"),
     State("standstill under axial load", ("run", CASE, "--set", "operation.speed=0 rpm", "--set",

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -17,6 +19,14 @@ def test_c2_4_ctrl_c_is_answered_within_a_second(state: str, tmp_path: Path) -> 
     (found,) = measure(tmp_path, (state,), signal.SIGINT).values()
     assert found.code == INTERRUPTED, found.said
     assert found.wall < 1.0
+
+
+@pytest.mark.parametrize("begin", ["import lambda_cli.main", "from lambda_core.batch.pool import _begin; _begin()"])
+def test_c2_4_an_end_does_not_look_for_cycles_in_all_that_was_compiled(begin: str) -> None:
+    """Command line and workers of studies: half a second each, after the last word."""
+    code = f"import atexit, gc; atexit.register(lambda: print(gc.get_freeze_count() > 1000)); {begin}"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+    assert done.stdout.strip() == "True"
 
 
 def test_d11_a_bearing_at_rest_stops_when_asked(tmp_path: Path) -> None:
