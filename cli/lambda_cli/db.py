@@ -215,6 +215,24 @@ def export_rows(
 
 
 @app.command()
+def accept(json: JsonOption = False) -> None:
+    """Accept your own catalogue as it is now, after you have changed it with another tool.
+
+    Every row has a digest, so that a change that no command here has made is named and its file left out until then.
+    """
+    from lambda_db.paths import user_database
+    from lambda_db.user import accept as seal
+
+    found = seal(user_database())
+    if json:
+        print_json(kind="accept", path=str(user_database()), differences=found)
+        return
+    for difference in found:
+        typer.echo(difference)
+    typer.echo(f"accepted: {len(found)} differences in {user_database()}")
+
+
+@app.command()
 def check(json: JsonOption = False) -> None:
     """Look for rows that contradict themselves or each other; exit 3 when one cannot be used."""
     from dataclasses import asdict

@@ -13,11 +13,11 @@ from sqlalchemy import Connection
 
 from lambda_db.engine import file_uri
 from lambda_db.models import Base
-from lambda_db.seed_tables import CHILDREN, SEED_TABLES
+from lambda_db.seal import ChangedError, check_seal
+from lambda_db.seed_tables import CHILDREN, VIEWED
 from lambda_db.soundness import ADVICE, UNREADABLE, DamagedError, check_sound, is_damage, reason_of
 
 log = logging.getLogger("lambda_db")
-VIEWED = (*SEED_TABLES, "candidate")
 
 
 def _same(columns: dict[str, str], theirs: str) -> str:
@@ -43,7 +43,7 @@ def view_statement(table: str) -> str:
 
 
 def attach_user(connection: Connection, path: Path, schema_version: int) -> bool:
-    """Overlay the user's database; a damaged or unreadable one is reported and left out.
+    """Overlay the user's database; a damaged, changed or unreadable one is reported and left out.
 
     Returns
     -------
@@ -62,12 +62,13 @@ def attach_user(connection: Connection, path: Path, schema_version: int) -> bool
                 if found != schema_version:
                     raise VersionMismatch(_other_version(found, schema_version))
                 check_sound(connection, "user", VIEWED)
+                check_seal(connection, "user")
                 for table in VIEWED:
                     connection.exec_driver_sql(view_statement(table))
-            except (*UNREADABLE, VersionMismatch, DamagedError):
+            except (*UNREADABLE, VersionMismatch, DamagedError, ChangedError):
                 detach_user(connection)
                 raise
-        except VersionMismatch as error:
+        except (VersionMismatch, ChangedError) as error:
             trouble = str(error)
             break
         except DamagedError as error:

@@ -14,8 +14,7 @@ from lambda_db.models import Base
 from lambda_db.paths import user_database
 from lambda_db.records import Row, describe, key_columns, parse_key, same_key, table_of
 from lambda_db.seed_tables import CHILDREN, SEED_TABLES
-from lambda_db.soundness import UNREADABLE
-from lambda_db.user import open_user_database, unwritable
+from lambda_db.user import changing
 
 
 @dataclass
@@ -56,14 +55,8 @@ def remove_row(catalogue: SqlCatalogue, table: str, cells: Mapping[str, object])
     path = user_database()
     if not path.exists():
         raise _refused(_why_none(catalogue, table, key))
-    engine = open_user_database(path)
-    try:
-        with engine.begin() as connection:
-            report = _remove(connection, catalogue, table, key, path)
-    except UNREADABLE as error:
-        raise unwritable(path, error) from error
-    finally:
-        engine.dispose()
+    with changing(path) as connection:
+        report = _remove(connection, catalogue, table, key, path)
     catalogue.refresh()
     return report
 

@@ -39,3 +39,5 @@ CHILDREN: dict[str, tuple[str, dict[str, str], tuple[str, ...]]] = {
     "lubricant_property": ("lubricant", {"name": "lubricant"}, ("lubricant", "name")),
     "lubricant_parameter": ("lubricant", {"name": "lubricant"}, ("lubricant", "role", "model")),
 }
+# All of them with what is derived from them: what a database of rows has.
+VIEWED = (*SEED_TABLES, "candidate")

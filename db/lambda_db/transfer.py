@@ -22,8 +22,7 @@ from lambda_db.records import Row, columns_of, describe, parse_row, same_key, ta
 from lambda_db.references import Known, known_names, reference_problems
 from lambda_db.seed_files import Record, read_path
 from lambda_db.seed_tables import CHILDREN, SEED_TABLES
-from lambda_db.soundness import UNREADABLE
-from lambda_db.user import open_user_database, unwritable
+from lambda_db.user import changing
 
 
 @dataclass
@@ -67,9 +66,8 @@ def import_rows(
     """
     path = user_database()
     report = ImportReport(path)
-    engine = open_user_database(path)
     try:
-        with engine.begin() as connection:
+        with changing(path) as connection:
             _write(connection, records, known_names(catalogue.connection), report, replace)
             if report.refused and not keep_good:
                 raise _RollBack
@@ -77,10 +75,6 @@ def import_rows(
         good = sum(report.added.values()) + sum(report.replaced.values())
         rest = [Problem("", f"nothing was written; --keep-good takes the {good} good rows")] if good else []
         raise CatalogueError("import", [*report.refused, *rest]) from None
-    except UNREADABLE as error:
-        raise unwritable(path, error) from error
-    finally:
-        engine.dispose()
     catalogue.refresh()
     return report
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from sqlalchemy import Connection, Engine
@@ -11,33 +12,81 @@ from sqlalchemy.exc import DatabaseError
 from lambda_core.domain.errors import CatalogueError, Problem
 from lambda_db.engine import file_uri, sqlite_engine
 from lambda_db.models import Base
-from lambda_db.overlay import VIEWED
+from lambda_db.seal import ChangedError, check_seal, create_seal, differences, renew_seal
+from lambda_db.seed_tables import VIEWED
 from lambda_db.soundness import ADVICE, UNREADABLE, DamagedError, check_sound, is_damage, reason_of
 
 # Steps from version n to n + 1; the newest schema is Base.metadata itself.
 MIGRATIONS: dict[int, Callable[[Connection], None]] = {
     1: lambda connection: Base.metadata.tables["suffix"].create(connection),
+    2: create_seal,
 }
-SCHEMA_VERSION = 2
+SCHEMA_VERSION = 3
 
 
-def open_user_database(path: Path) -> Engine:
-    """Open the user's database for writing, creating or migrating it.
+@contextmanager
+def changing(path: Path) -> Iterator[Connection]:
+    """Change the user's database in one transaction, made or brought up to date before, sealed at its end.
 
     Raises
     ------
     CatalogueError
-        If the file is damaged, read-only or of a newer version.
+        If the file is damaged, changed by somebody else, read-only or of a newer version.
+    """
+    engine = open_user_database(path)
+    try:
+        with engine.begin() as connection:
+            yield connection
+            renew_seal(connection)
+    except UNREADABLE as error:
+        raise unwritable(path, error) from error
+    finally:
+        engine.dispose()
+
+
+def accept(path: Path) -> list[str]:
+    """Seal the user's database as it is now, however it was changed; return which rows differ from the seal before.
+
+    Raises
+    ------
+    CatalogueError
+        If there is none, or the file is damaged, read-only or of a newer version.
+    """
+    if not path.is_file():
+        raise CatalogueError(
+            str(path), [Problem("", "you have no catalogue of your own: db add and db import make it")]
+        )
+    engine = open_user_database(path, changed=True)
+    try:
+        with engine.begin() as connection:
+            found = differences(connection, "main")
+            renew_seal(connection)
+    except UNREADABLE as error:
+        raise unwritable(path, error) from error
+    finally:
+        engine.dispose()
+    return found
+
+
+def open_user_database(path: Path, *, changed: bool = False) -> Engine:
+    """Open the user's database for writing, creating or migrating it; with `changed` also one that others changed.
+
+    Raises
+    ------
+    CatalogueError
+        If the file is damaged, changed by somebody else, read-only or of a newer version.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         engine = sqlite_engine(file_uri(path, "rwc"), "BEGIN IMMEDIATE", pragmas=("journal_mode = WAL",))
         with engine.begin() as connection:
-            _bring_up_to_date(connection, path)
+            _bring_up_to_date(connection, path, changed=changed)
     except OSError as error:
         raise CatalogueError(str(path), [Problem("", f"cannot be created: {error.strerror}")]) from error
     except DamagedError as error:
         raise _damaged(path, str(error)) from error
+    except ChangedError as error:
+        raise CatalogueError(str(path), [Problem("", f"cannot be written: {error}")]) from error
     except UNREADABLE as error:
         raise unwritable(path, error) from error
     return engine
@@ -57,17 +106,20 @@ def unwritable(path: Path, error: DatabaseError | UnicodeDecodeError) -> Catalog
     return CatalogueError(str(path), [Problem("", f"cannot be written: {reason}")])
 
 
-def _bring_up_to_date(connection: Connection, path: Path) -> None:
+def _bring_up_to_date(connection: Connection, path: Path, *, changed: bool) -> None:
     found = connection.exec_driver_sql("PRAGMA user_version").scalar_one()
     if found > SCHEMA_VERSION:
         message = f"was written by a newer version of this program (schema {found}, this one knows {SCHEMA_VERSION})"
         raise CatalogueError(str(path), [Problem("", message)])
     if found == 0:
         Base.metadata.create_all(connection)
+        create_seal(connection)
     else:
         for version in range(found, SCHEMA_VERSION):
             MIGRATIONS[version](connection)
         check_sound(connection, "main", VIEWED)
+        if not changed:
+            check_seal(connection, "main")
     connection.exec_driver_sql(f"PRAGMA user_version = {SCHEMA_VERSION}")
 
 

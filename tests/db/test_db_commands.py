@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import sqlite3
 from pathlib import Path
 from typing import Any
 
@@ -178,3 +180,18 @@ def test_help_lists_the_commands(capsys: pytest.CaptureFixture[str]) -> None:
     assert code == 0
     for name in ("search", "show", "add", "import", "export", "check"):
         assert name in out
+
+
+def test_a_catalogue_edited_by_hand_is_accepted(
+    capsys: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture, own_data: Path
+) -> None:
+    assert run(capsys, *ADD)[0] == 0
+    with contextlib.closing(sqlite3.connect(own_data / "catalogue.sqlite")) as connection, connection:
+        connection.execute("UPDATE bearing SET width_mm = 19")
+    assert run(capsys, "db", "show", "6208", "--maker", "FAG")[:2] == (3, "")
+    assert "bearing 6208 FAG is changed; if that is right: lambda-bearing db accept" in caplog.text
+    assert data(capsys, "db", "accept")["differences"] == ["bearing 6208 FAG is changed"]
+    assert data(capsys, "db", "show", "6208", "--maker", "FAG")["values"]["width"]["value"] == 19.0
+    code, out, err = run(capsys, "db", "accept")
+    assert (code, err) == (0, "")
+    assert out.startswith("accepted: 0 differences in ")

@@ -196,11 +196,12 @@ def test_a_newer_schema_is_left_alone(catalogue: SqlCatalogue, caplog: pytest.Lo
 
 
 def test_an_older_schema_is_migrated(catalogue: SqlCatalogue) -> None:
-    """Version 1 knew no table of suffixes."""
+    """Version 1 knew no table of suffixes, version 2 no seal."""
     add_row(catalogue, "bearing", ROW)
     catalogue.close()
     with sqlite3.connect(user_database()) as connection:
         connection.execute("DROP TABLE suffix")
+        connection.execute("DROP TABLE seal")
         connection.execute("PRAGMA user_version = 1")
     again = open_catalogue()
     assert again.bearing("6208", "NSK").layer == "user"
@@ -247,3 +248,48 @@ def test_a_read_only_file_gives_a_clear_message(unprivileged_folder: Path) -> No
             os.seteuid(0)
         reader.close()
         data.chmod(0o755)
+
+
+def _edit(statement: str) -> None:
+    with contextlib.closing(sqlite3.connect(user_database())) as connection, connection:
+        connection.execute(statement)
+
+
+@pytest.mark.parametrize(
+    ("statement", "told"),
+    [
+        ("UPDATE bearing SET width_mm = 19", "bearing 6208 NSK is changed"),
+        ("DELETE FROM bearing", "bearing 6208 NSK is gone"),
+        ("UPDATE bearing SET maker = 'NSL'", "bearing 6208 NSK is gone, bearing 6208 NSL is new"),
+        ("UPDATE seal SET digest = replace(digest, '0', '1')", "is changed"),
+    ],
+)
+def test_c3_a_row_changed_by_others_is_named_until_it_is_accepted(
+    statement: str, told: str, catalogue: SqlCatalogue, caplog: pytest.LogCaptureFixture
+) -> None:
+    add_row(catalogue, "bearing", ROW)
+    catalogue.close()
+    _edit(statement)
+    again = open_catalogue()
+    (said,) = [record.getMessage() for record in caplog.records]
+    assert told in said
+    assert str(user_database()) in said
+    assert "lambda-bearing db accept" in said
+    assert again.bearing("6208", "NSK").layer == "core"
+    with pytest.raises(CatalogueError, match="changed, but not by this program"):
+        add_row(again, "bearing", ROW | {"designation": "X9"})
+    assert user.accept(user_database())
+    again.refresh()
+    assert again.has_user_rows
+    add_row(again, "bearing", ROW | {"designation": "X9"})
+    assert user.accept(user_database()) == []
+    again.close()
+
+
+def test_nothing_is_accepted_of_a_damaged_catalogue(catalogue: SqlCatalogue) -> None:
+    with pytest.raises(CatalogueError, match="no catalogue of your own"):
+        user.accept(user_database())
+    user_database().parent.mkdir(exist_ok=True)
+    user_database().write_bytes(b"not a database, but long enough to be read as one" * 10)
+    with pytest.raises(CatalogueError, match="the file is damaged"):
+        user.accept(user_database())
