@@ -1,18 +1,18 @@
 """The one door: everything that a face, a script or a plugin may ask of the program.
 
-What stands behind a name is imported when the name is first asked for.
+What stands behind a name is imported when the name is first asked for. The imports below are for type checkers and
+readers, and they are the list of the names: this module reads them in its own text.
 """
 
 from __future__ import annotations
 
+import re
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.batch.current_map import electric_map
-    from lambda_core.batch.run_queue import QueuedRun, RunQueue
-    from lambda_core.batch.scheduler import StudyProgress
-    from lambda_core.batch.studies import StudyStatus
     from lambda_core.batch.study_files import init_study, study_examples
     from lambda_core.batch.study_runs import (
         study_check,
@@ -22,6 +22,22 @@ if TYPE_CHECKING:
         study_status,
         study_table,
     )
+    from lambda_core.discovery.manager import use_plugin
+    from lambda_core.discovery.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins
+    from lambda_core.domain.errors import CaseError, LambdaError, UsageError
+    from lambda_core.electric.door import check_discharges_file, electric, film_from_outside, write_discharges
+    from lambda_core.report.pictures import animate, draw, report, view, view_all, view_stem, views
+    from lambda_core.run.answers import cite, compare, result, side_by_side, summary
+    from lambda_core.run.duty_cycle import duty
+    from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
+    from lambda_core.run.speed_curve import stribeck, stribeck_picture
+    from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, save, schema
+    from lambda_core.system.checking import check, describe, problems, resolve
+    from lambda_core.thermal.temperatures import thermal, thermal_pictures, warm_up
+if TYPE_CHECKING:  # what the faces build on, and the classes that calls take and return
+    from lambda_core.batch.run_queue import QueuedRun, RunQueue
+    from lambda_core.batch.scheduler import StudyProgress
+    from lambda_core.batch.studies import StudyStatus
     from lambda_core.case.cards import FieldCard, Kind, field_card
     from lambda_core.case.case import Case
     from lambda_core.case.case_writer import save_text
@@ -31,91 +47,38 @@ if TYPE_CHECKING:
     from lambda_core.case.signals import SIGNAL_KINDS
     from lambda_core.catalogue.designation import Designation, read_designation
     from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue, LubricantRow, MaterialRow
-    from lambda_core.discovery.manager import registry, switch_off, use_plugin
-    from lambda_core.discovery.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins
+    from lambda_core.discovery.manager import registry, switch_off
     from lambda_core.discovery.registry import Registry
     from lambda_core.discovery.survey import CheckCard, ModelCard, Verdict
-    from lambda_core.domain.errors import CaseError, LambdaError, UsageError
-    from lambda_core.electric.door import (
-        check_discharges_file,
-        electric,
-        film_from_outside,
-        write_discharges,
-    )
-    from lambda_core.report.pictures import animate, draw, report, view, view_all, view_stem, views
     from lambda_core.results.reader import Result
     from lambda_core.results.run_status import Status, process_identity, this_process
     from lambda_core.results.side_by_side import SideBySide
     from lambda_core.results.summary import Summary
-    from lambda_core.run.answers import cite, compare, result, side_by_side, summary
-    from lambda_core.run.duty_cycle import duty
     from lambda_core.run.estimate import Estimate
     from lambda_core.run.progress import Progress
-    from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
-    from lambda_core.run.speed_curve import stribeck, stribeck_picture
     from lambda_core.system.bearing import BearingModel, Geometry
-    from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, save, schema
-    from lambda_core.system.checking import check, describe, problems, resolve
     from lambda_core.system.describe import ValueReport, value_reports
     from lambda_core.system.oil_table import oil_table
     from lambda_core.system.operating_limits import operating_warnings
-    from lambda_core.thermal.temperatures import thermal, thermal_pictures, warm_up
 
-# Where each name is at home.
-_CALLS = {
-    "domain.errors": "CaseError LambdaError UsageError",
-    "discovery.manager": "use_plugin",
-    "discovery.packages": "check_plugins new_plugin plugin_faults plugin_model plugins",
-    "system.cases": "builtin_cases case catalogue draft init_case save schema",
-    "system.checking": "check describe problems resolve",
-    "run.simulation": "cross_check estimate iterate quasistatic resume run warmup",
-    "run.duty_cycle": "duty",
-    "run.answers": "cite compare result side_by_side summary",
-    "run.speed_curve": "stribeck stribeck_picture",
-    "thermal.temperatures": "thermal thermal_pictures warm_up",
-    "electric.door": "check_discharges_file electric film_from_outside write_discharges",
-    "batch.current_map": "electric_map",
-    "batch.study_files": "init_study study_examples",
-    "batch.study_runs": "study_check study_resume study_run study_schema study_status study_table",
-    "report.pictures": "animate draw report view view_all view_stem views",
-}
-# What the faces build on, and the classes that calls take and return.
-_PARTS = {
-    "case.cards": "FieldCard Kind field_card",
-    "case.case": "Case",
-    "case.case_writer": "save_text",
-    "case.draft": "Draft",
-    "case.modelling": "Models",
-    "case.parts": "InlineMaterial",
-    "case.signals": "SIGNAL_KINDS",
-    "catalogue.designation": "Designation read_designation",
-    "catalogue.protocol": "BearingRow CageRow Catalogue LubricantRow MaterialRow",
-    "discovery.manager": "registry switch_off",
-    "discovery.registry": "Registry",
-    "discovery.survey": "CheckCard ModelCard Verdict",
-    "system.bearing": "BearingModel Geometry",
-    "system.describe": "ValueReport value_reports",
-    "system.oil_table": "oil_table",
-    "system.operating_limits": "operating_warnings",
-    "results.reader": "Result",
-    "results.side_by_side": "SideBySide",
-    "results.run_status": "Status process_identity this_process",
-    "results.summary": "Summary",
-    "run.estimate": "Estimate",
-    "run.progress": "Progress",
-    "batch.run_queue": "QueuedRun RunQueue",
-    "batch.scheduler": "StudyProgress",
-    "batch.studies": "StudyStatus",
-}
-__all__ = sorted(" ".join(_CALLS.values()).split())
-_HOME = {name: room for part in (_PARTS, _CALLS) for room, names in part.items() for name in names.split()}
+
+def _declared() -> list[dict[str, str]]:
+    """Return the names of each block above with the modules where they are at home."""
+    blocks = Path(__file__).read_text(encoding="utf-8").split("\nif TYPE_CHECKING:")[1:]
+    imports = [re.findall(r"^    from (\S+) import (\([^)]*\)|.*)", block, re.MULTILINE) for block in blocks]
+    return [{name: room for room, names in block for name in re.findall(r"\w+", names)} for block in imports]
+
+
+_CALLS, _PARTS = _declared()
+_HOME = _CALLS | _PARTS
+__all__ = sorted(_CALLS)
 
 
 def __getattr__(name: str) -> Any:
     """Import what is asked for, once."""
     if name not in _HOME:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    found = globals()[name] = getattr(import_module(f"lambda_core.{_HOME[name]}"), name)
+    found = globals()[name] = getattr(import_module(_HOME[name]), name)
     return found
 
 
