@@ -10,6 +10,7 @@ import typer
 from lambda_cli.options import CaseArgument, ExecutorOption, ForceOption, JsonOption, SetOption, WorkersOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.files import check_folder
 
 SourceArgument = Annotated[
     str, typer.Argument(metavar="CASE|RESULT", help="Case file, name of a built-in case, or result file of a run.")
@@ -113,6 +114,8 @@ def risk_map(
     """
     from lambda_core import api
 
+    if draw is not None:
+        check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
         found = api.electric_map(
             source,

@@ -9,6 +9,7 @@ import typer
 
 from lambda_cli.options import CaseArgument, JsonOption, SetOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+from lambda_core.domain.files import check_folder
 
 SpeedsOption = Annotated[
     list[str] | None,
@@ -36,6 +37,8 @@ def stribeck(
     from lambda_core import api
 
     chosen = [_rpm(text) for text in speeds or ()]
+    if draw is not None:
+        check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
         found = api.stribeck(case, changes or (), speeds_rpm=chosen, points=points, announce=speaker.say)
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text())

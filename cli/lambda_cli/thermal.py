@@ -9,6 +9,7 @@ import typer
 
 from lambda_cli.options import JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+from lambda_core.domain.files import check_folder
 
 TransientOption = Annotated[
     str | None,
@@ -39,6 +40,8 @@ def thermal(
     from lambda_core import api
     from lambda_core.domain.errors import PartialResultError
 
+    if draw is not None:
+        check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
         if transient is None:
             steady = api.thermal(source, changes or (), announce=speaker.say)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from lambda_cli.options import JsonOption, Units, UnitsOption
+from lambda_core.domain.files import check_folder
 
 if TYPE_CHECKING:
     from lambda_core.views.chart import ViewData
@@ -44,6 +45,8 @@ def view(
         return
     sources, name = _sorted_out(words or [])
     chosen = dict(_pairs(options or []))
+    if not as_json:
+        check_folder(out, made=True)
     data = [api.view(sources, name, chosen)] if name else list(_all(sources))
     if as_json:
         plain = [one.as_dict() for one in data]

@@ -85,7 +85,9 @@ def study_run(
         As :func:`study_check`, or when the folder holds a study already.
     """
     from lambda_core.batch.studies import prepare, start
+    from lambda_core.domain.files import check_folder
 
+    check_folder(Path(folder or "."), made=True)
     ready = prepare(source, workers, announce)
     if announce is not None:
         announce(ready.estimate.text())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import stat
 from pathlib import Path
+from tempfile import NamedTemporaryFile
 
 from lambda_core.domain.errors import UsageError
 
@@ -39,6 +40,37 @@ def check_target(path: Path) -> Path:
     if kind:
         raise UsageError(f'cannot write "{path}": it is {kind}, and only regular files are written')
     return path
+
+
+def check_folder(folder: Path, target: Path | None = None, *, made: bool = False) -> Path:
+    """Return a folder that takes files, tried with one that goes again: before the work whose result it is to hold.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        The folder.
+    target : pathlib.Path, optional
+        What is to be written into it, for the sentence; default: the folder itself.
+    made : bool
+        The folder is made where it does not stand yet; then the nearest one above it is tried.
+
+    Raises
+    ------
+    UsageError
+        When it does not exist, is read-only, or of a kind that takes no new file (/proc).
+    """
+    target, place = target or folder, folder.absolute()
+    try:
+        while made and not place.exists():
+            place = place.parent
+        if not place.is_dir():
+            reason = "is no folder" if place.exists() else "does not exist"
+            raise UsageError(f"cannot write {target}: the folder {place} {reason}")
+        with NamedTemporaryFile(prefix=".lambda-bearing-", dir=place):
+            pass
+    except OSError as error:
+        raise UsageError(f"cannot write {target}: the folder {place} takes no file ({error.strerror})") from None
+    return folder
 
 
 def read_bytes(path: Path, largest: int = LARGEST_TEXT) -> bytes:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import h5py
 import numpy as np
 
+from lambda_core.domain import files
 from lambda_core.domain.errors import UsageError
 from lambda_core.electric.circuit import bearing_capacitance
 from lambda_core.results.circuit_rows import DISCHARGES
@@ -33,8 +34,8 @@ def check_target(
         raise UsageError(f'"{path}": {what} is written as {" or ".join(endings)}')
     if path.exists() and not overwrite:
         raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
-    if not path.absolute().parent.is_dir():
-        raise UsageError(f"cannot write {path}: the folder {path.absolute().parent} does not exist")
+    if not files.check_target(path).exists():
+        files.check_folder(path.absolute().parent, path)
 
 
 def write(simulation: Simulation, path: Path) -> Path:

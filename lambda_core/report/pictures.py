@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.batch.study_runs import study_status
 from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
+from lambda_core.domain.files import check_folder, check_target
 from lambda_core.run.answers import result
 from lambda_core.system.checking import resolve
 
@@ -285,11 +285,8 @@ def _refuse_existing(path: Path, overwrite: bool) -> None:
     """Say before the work what would stop it at its end."""
     if path.exists() and not overwrite:
         raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
-    folder = path.absolute().parent
-    if not folder.is_dir():
-        raise UsageError(f"cannot write {path}: the folder {folder} does not exist")
-    if not os.access(folder, os.W_OK):
-        raise UsageError(f"cannot write {path}: the folder {folder} is not writable")
+    if not check_target(path).exists():
+        check_folder(path.absolute().parent, path)
 
 
 def subject_of(source: str | PathLike[str] | Sequence[str | PathLike[str]]) -> tuple[Any, Subject]:

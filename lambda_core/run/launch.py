@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
-from lambda_core.domain.files import check_target
+from lambda_core.domain.files import check_folder, check_target
 from lambda_core.laws.kernels import sources_key
 from lambda_core.results.opening import ResultError
 from lambda_core.results.provenance import Provenance, differences, model_data
@@ -101,11 +100,7 @@ def destination(model: BearingModel, out: Path | None, force: bool) -> Path:
         check_target(path)
         if path.exists() and not force:
             raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
-    folder = path.absolute().parent
-    if not folder.is_dir():
-        raise UsageError(f"cannot write {path}: the folder {folder} does not exist")
-    if not os.access(folder, os.W_OK | os.X_OK):
-        raise UsageError(f"cannot write {path}: the folder {folder} is not writable")
+    check_folder(path.absolute().parent, path)
     return path
 
 

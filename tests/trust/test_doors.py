@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import os
 import shutil
+import stat
 import subprocess
 import sys
 from collections.abc import Callable
@@ -45,9 +46,14 @@ def odd_files(folder: Path) -> dict[str, Path]:
     os.mkfifo(folder / "pipe")
     (folder / "folder").mkdir()
     (folder / "link").symlink_to(folder / "pipe")
-    return {"a pipe": folder / "pipe", "a folder": folder / "folder", "a device": Path(os.devnull)} | {
-        "pipe": folder / "link"
-    }
+    found = {"a pipe": folder / "pipe", "a folder": folder / "folder", "pipe": folder / "link"}
+    if os.geteuid() == 0:  # a null device of the test's own: the system's is nobody's to lose
+        try:
+            os.mknod(folder / "null", 0o666 | stat.S_IFCHR, os.makedev(1, 3))
+        except OSError:  # a container without that right
+            return found
+        found["a device"] = folder / "null"
+    return found
 
 
 @pytest.mark.skipif(os.name == "nt", reason="pipes and devices of POSIX")
@@ -62,6 +68,52 @@ def test_c2_1_only_regular_files_are_written(tmp_path: Path, capsys: pytest.Capt
         assert main(["report", CASE, "--out", str(path), "--force"]) == 2, path
         assert "has a bug" not in capsys.readouterr().err
         assert (path.stat().st_mode, path.stat().st_ino) == (before.st_mode, before.st_ino)
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="only root makes devices")
+def test_c2_1_a_device_of_the_tests_own_is_among_them(tmp_path: Path) -> None:
+    try:
+        os.mknod(tmp_path / "probe", 0o666 | stat.S_IFCHR, os.makedev(1, 3))
+    except OSError as error:
+        pytest.skip(f"no devices can be made here: {error.strerror}")
+    assert "a device" in odd_files(tmp_path)
+
+
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="a folder that takes no new file")
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["run", CASE, "--out", "/proc/x.h5"],
+        ["report", "RESULT", "--out", "/proc/x.html"],
+        ["animate", "RESULT", "--out", "/proc/x.gif"],
+        ["view", "RESULT", "--out", "/proc/x"],
+        ["study", "run", "s.toml", "--out", "/proc/x/y"],
+        ["electric-map", CASE, "--out", "/proc/x.csv"],
+        ["electric-map", CASE, "--draw", "/proc/x"],
+        ["thermal", CASE, "--draw", "/proc/x"],
+        ["stribeck", CASE, "--draw", "/proc/x"],
+        ["reproduce", "table4", "--out", "/proc/x"],
+        ["init", "mine", "--out", "/proc/x.toml"],
+        ["db", "export", "/proc/x.toml"],
+    ],
+    ids=" ".join,
+)
+def test_a_place_that_takes_no_file_is_refused_before_the_work(
+    arguments: list[str], original: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def worked(*_: object, **__: object) -> None:
+        raise AssertionError("the work has begun")
+
+    for place in (
+        "run.launch.solve",
+        "solver.drivers.equilibrium.solve",
+        "report.page.run_report",
+        "discovery.shown.data_of",
+    ):
+        monkeypatch.setattr(f"lambda_core.{place}", worked)
+    assert main([str(original) if word == "RESULT" else word for word in arguments]) == 2
+    assert "/proc" in (said := capsys.readouterr().err)
+    assert "cannot" in said
 
 
 def test_c2_3_nothing_is_imported_from_the_working_directory(tmp_path: Path) -> None:
