@@ -6,8 +6,9 @@ from typing import Any
 
 from lambda_db.derive import Printed, RankedDesign, candidates, grade_of, relative_rounding
 
-# Conformities that are assumed where nobody prints groove radii.
-INNER_CONFORMITY, OUTER_CONFORMITY = 0.52, 0.53
+# Conformities that are assumed where nobody prints groove radii: below the largest that the rating standards allow,
+# 0.52 and 0.53, between the printed pairs 0.5125/0.525 (6319) and 0.52/0.53 (6208) of Syla et al. 2026.
+INNER_CONFORMITY, OUTER_CONFORMITY = 0.515, 0.525
 DERIVED, ASSUMED_GROOVES = "derived", "conformity-assumed"  # keys of the built-in sources
 Row = dict[str, Any]
 

@@ -182,8 +182,9 @@ class Surface(Section):
     """Roughness of the rolling surfaces."""
 
     roughness: SmallLength = option(
-        "0.1 um",
+        "0.16 um",
         "composite rms roughness sigma of ball and raceway",
-        reference="Wingertszahn et al. 2023, Lubricants 11, 369, use 0.10 and 0.16 um",
+        reference="raceways of Wingertszahn et al. 2023, Lubricants 11, 369 (0.10 and 0.16 um); ISO 281's kappa = "
+        "Lambda^1.3 means 0.15 um in catalogue bearings",
         gt=0.0,
     )

@@ -213,7 +213,7 @@ def _settings(case: Case, ledger: Ledger) -> None:
     ledger.given("lubricant.temperature", lubricant.temperature, "temperature")
     for section, name, quantity, sentence in (
         (lubricant, "oil_level", "length", "oil level at the centre of the lowest ball"),
-        (lubricant, "starvation", "", "contacts fully flooded"),
+        (lubricant, "starvation", "", "films fully flooded: no starvation is given"),
         (surface, "roughness", "small_length", "composite roughness sigma {}"),
     ):
         value, prefix = getattr(section, name), "surface" if section is surface else "lubricant"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from pydantic import ValidationError
@@ -13,6 +13,7 @@ from lambda_core.domain.errors import LambdaError, unknown_name
 from lambda_core.domain.roles import ELECTRIC_ROLES, ROLES
 from lambda_core.laws.calls import plain_call
 from lambda_core.system.bearing import ChosenLaw, ElectricModel
+from lambda_core.system.law_defaults import default_sentences
 from lambda_core.system.law_packages import law_called
 from lambda_core.system.ledger import Ledger
 
@@ -83,17 +84,5 @@ def _arcs_can_burn(options: Electric, law: ChosenLaw, ledger: Ledger) -> None:
 
 
 def assumed(laws: Mapping[str, ChosenLaw]) -> list[str]:
-    """Return what the laws leave to defaults that are assumptions, a sentence per law."""
-    found = []
-    for role, law in laws.items():
-        written = law.parameters.model_dump(mode="json")
-        keys = [key for key, origin in law.origins.items() if origin == "default" and _is_assumed(law, key)]
-        if keys:
-            listed = ", ".join(f"{key.replace('_', ' ')} {written[key]}" for key in keys)
-            found.append(f"{role} {law.model.name}: {listed} (defaults of the law)")
-    return found
-
-
-def _is_assumed(law: ChosenLaw, key: str) -> bool:
-    extra: Mapping[str, Any] | Any = type(law.parameters).model_fields[key].json_schema_extra
-    return isinstance(extra, dict) and extra.get("status") in ("assumed", "unconfirmed")
+    """Return what the laws leave to defaults, a sentence per value."""
+    return [sentence for role, law in laws.items() for sentence in default_sentences(role, law)]

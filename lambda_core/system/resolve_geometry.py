@@ -22,7 +22,8 @@ LARGEST_INTERFERENCE = 0.007
 # Shoulder diameters differ by 1.21 ball diameters: mean of catalogue shoulders, the same figure from
 # which missing inner geometry is derived.
 SHOULDER_SPREAD = 1.21
-CONFORMITY_INNER, CONFORMITY_OUTER = 0.52, 0.53
+# ISO 76 and ISO 281 rate grooves up to 0.52 and 0.53; what is made lies below, as in the catalogue's estimates.
+CONFORMITY_INNER, CONFORMITY_OUTER = 0.515, 0.525
 # From a thousandth of the smallest bearing made to ten times the largest: beyond, a unit is wrong.
 LEAST_LENGTH, MOST_LENGTH = 1e-6, 100.0  # [m]
 SIZES = ("bore_diameter", "outside_diameter", "width")

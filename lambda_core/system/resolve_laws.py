@@ -18,6 +18,7 @@ from lambda_core.domain.installed import OWN
 from lambda_core.domain.roles import CAGE, DEFAULT_MODELS, MOTION_ROLES
 from lambda_core.laws.law import Law
 from lambda_core.system.bearing import ChosenLaw
+from lambda_core.system.law_defaults import default_sentences, short
 from lambda_core.system.law_packages import law_called
 from lambda_core.system.ledger import Ledger, Status
 
@@ -260,18 +261,16 @@ class LawResolver:
         return found
 
     def _explain(self, laws: Mapping[str, Mapping[str, ChosenLaw]]) -> None:
-        """Turn defaults and weak lubricant data into sentences, one per model."""
+        """Turn defaults and weak lubricant data into sentences, one per value, with source and grade."""
         for element, roles in laws.items():
             for role, law in roles.items():
                 self._record(element, role, law)
                 written = law.parameters.model_dump(mode="json")
-                defaults = [k for k in law.origins if law.origins[k] == "default" and _is_assumed(law, k)]
-                if defaults:
-                    listed = ", ".join(f"{key} {_short(written[key])}" for key in defaults)
-                    self.ledger.assume(f"{role} {law.model.name}: {listed} (defaults of the model)")
+                for sentence in default_sentences(role, law):
+                    self.ledger.assume(sentence)
                 for key, origin in law.origins.items():
                     if origin.endswith(_WEAK):
-                        self.ledger.assume(f"{role} {law.model.name}: {key} {_short(written[key])}, {origin}")
+                        self.ledger.assume(f"{role} {law.model.name}: {key} {short(written[key])}, {origin}")
 
     def _record(self, element: str, role: str, law: ChosenLaw) -> None:
         source = law.model.distribution or "built-in"
@@ -284,14 +283,3 @@ class LawResolver:
             status: Status = "given" if origin == "case" else "default" if origin == "default" else weak
             plain: float | str = value if isinstance(value, int | float | str) else str(value)
             self.ledger.record(f"forces.{element}.parameters.{role}.{key}", plain, "", origin, status)
-
-
-def _is_assumed(law: ChosenLaw, name: str) -> bool:
-    """Say whether a default is an assumption: neither published nor a numerical regularisation, and not absent."""
-    extra = type(law.parameters).model_fields[name].json_schema_extra
-    status = extra.get("status") if isinstance(extra, dict) else None
-    return status not in ("published", "numerical") and getattr(law.parameters, name) is not None
-
-
-def _short(value: object) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)

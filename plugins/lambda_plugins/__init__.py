@@ -37,8 +37,8 @@ _LAWS: dict[str, dict[str, str]] = {
         "none": "thermal_correction:none",
     },
     "supply": {
-        "constant": "supply:constant",
         "skf-replenishment": "supply:skf_replenishment",
+        "constant": "supply:constant",
         "inlet-distance": "supply:inlet_distance",
         "oil-layer": "supply:oil_layer",
     },
@@ -63,13 +63,13 @@ _LAWS: dict[str, dict[str, str]] = {
         "none": "elastic_hysteresis:none",
     },
     "asperity_load": {
-        "zhou-hoeprich": "mixed_friction:zhou_hoeprich",
         "spikes-olver": "mixed_friction:spikes_olver",
+        "zhou-hoeprich": "mixed_friction:zhou_hoeprich",
         "none": "mixed_friction:none",
     },
     "boundary_friction": {
-        "cubic": "mixed_friction:cubic",
         "micro-slip": "mixed_friction:micro_slip",
+        "cubic": "mixed_friction:cubic",
         "coulomb-regularised": "mixed_friction:coulomb_regularised",
     },
     "cage_contact": {

@@ -55,9 +55,10 @@ class Skf(SharedLoss):
         le=2e-3,
     )
     edition: Annotated[Literal["2008", "2018"], BeforeValidator(_year)] = parameter(
-        "2008",
+        "2018",
         "edition of the catalogue: 2008 has the square law alone, 2018 adds a viscous term and weights V_M by 0.4",
-        source="SKF; the second form is not confirmed from its original",
+        source=f"SKF; 2018 with V_M from SKF's chart, +-{UNCERTAINTY:.0%}; not confirmed from its original",
+        status="unconfirmed",
     )
     k_z: float = parameter(3.1, "geometry constant K_Z", source="SKF: deep groove ball bearings 3.1", gt=0.0)
 
@@ -143,8 +144,9 @@ def power_factors(parameters: SharedLoss, context: Context) -> tuple[float, floa
     "skf-catalogue",
     Skf,
     role_api=2,
-    reference="SKF, Das Waelzlagerhandbuch fuer Studenten (2008); Syla et al. 2026, Lubricants 14, 154, eq. 40",
-    validity="oil bath, horizontal shaft; V_M must be read from SKF's chart for the oil level",
+    reference="SKF, Rolling bearings, catalogue 17000 EN (2018), chapter Friction; edition of 2008: Syla et al. 2026, "
+    "Lubricants 14, 154, eq. 40",
+    validity="oil bath, horizontal shaft; V_M from SKF's chart, read within 15 %",
     prepare=prepare_skf,
 )
 def skf_catalogue(
@@ -152,8 +154,9 @@ def skf_catalogue(
 ) -> int:
     """SKF's drag torque in an oil bath, on each ball by its immersion.
 
-    M_drag = V_M K_ball d_m^5 n^2: SKF, Das Waelzlagerhandbuch fuer Studenten (2008); Syla et al. 2026, eq. 40. The
-    viscous term of the 2018 edition is optional (not confirmed from its original).
+    M_drag = 0.4 V_M K_ball d_m^5 n^2 and a viscous term: SKF, Rolling bearings, catalogue 17000 EN (2018), chapter
+    Friction (the second form not confirmed from its original). Edition of 2008: V_M K_ball d_m^5 n^2 alone, Syla et
+    al. 2026, eq. 40.
     """
     wet = immersion(azimuth, par.bath)
     orbit = v_orbit / par.orbit

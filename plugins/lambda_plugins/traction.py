@@ -31,9 +31,10 @@ class ReeEyring(LimitedShear):
     """Parameters of Ree-Eyring traction."""
 
     tau_eyring: Annotated[float, Quantity("pressure")] = parameter(
-        "6 MPa",
+        "8 MPa",
         "Eyring stress, from which the film departs from Newtonian flow",
-        source="4-8 MPa for bearing oils (common values, original not seen)",
+        source="upper end of 4-8 MPa for bearing oils (common values, original not seen): nearest to SKF's mu_EHL of "
+        "0.05 in mineral oils, of which it makes 0.037",
         status="unconfirmed",
         published_range=("4 MPa", "8 MPa"),
         gt=0.0,

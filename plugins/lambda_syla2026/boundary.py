@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
+from lambda_syla2026.parameters import laws
 from lambda_syla2026.workshop import Answer, Job, Workshop
 
 CRITERIA = ("S", "T")
@@ -75,6 +76,8 @@ class Setting:
             # A shaft on two bearings does not rock about the loaded balls of one.
             "bodies.inner_ring.tilt_y=locked",
             "bodies.inner_ring.tilt_z=locked",
+            # Laws of the blind set, whatever the defaults are.
+            *laws(),
             *self.extra,
         )
 

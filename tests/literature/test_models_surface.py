@@ -74,7 +74,9 @@ def lever(geometry: Geometry, angle: float) -> float:
 @cache
 def vibration(ring: str, *choice: str, duration: float = 0.3, tilts: str = "locked") -> Vibration:
     own = [f"forces.ball_{ring}.{item}" for item in choice]
-    still = ["gravity.z=0 m/s2", f"bodies.inner_ring.tilt_y={tilts}", f"bodies.inner_ring.tilt_z={tilts}"]
+    # Oil below alone would rock the ring: no bath.
+    bare = ["gravity.z=0 m/s2", "models.fluid_drag=none"]
+    still = [*bare, f"bodies.inner_ring.tilt_y={tilts}", f"bodies.inner_ring.tilt_z={tilts}"]
     model = api.check("6208-axial-700", [*own, *still, f"output.interval={INTERVAL} s"])
     engine = BearingEngine(model)
     done = engine.advance(duration)

@@ -100,10 +100,11 @@ def inner_control(one: Ball) -> float:
 
 
 def weak(ring: str, stress: str) -> tuple[str, ...]:
-    """Return changes that leave hardly any friction at one ring."""
+    """Return changes that leave hardly any friction at one ring: film alone, and a weak one there."""
     return (
         f"forces.ball_{ring}.parameters.traction.tau_eyring={stress}",
         f"forces.ball_{ring}.parameters.traction.limit_ratio=0.006",
+        "models.asperity_load=none",
     )
 
 

@@ -76,6 +76,7 @@ def test_epicyclic_speed_in_the_limit_of_small_contacts(outer: float) -> None:
     for load in (2000, 200, 20):
         overrides = (
             *SYMMETRIC, "models.rolling_resistance=none", "models.elastic_hysteresis=none", f"loads.axial={load} N",
+            "models.asperity_load=none",
             "operation.speed=300 rpm",
         )  # fmt: skip
         if outer:

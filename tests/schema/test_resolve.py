@@ -120,7 +120,7 @@ def test_every_value_has_an_origin() -> None:
     model = model_of("6208-axial-700")
     assert origin(model, "bearing.ball_diameter")[1:] == ("published", "Syla et al. 2026, Lubricants 14, 154, Table 6")
     assert origin(model, "lubricant.temperature") == (313.15, "given", "case")
-    assert origin(model, "surface.roughness") == (1e-7, "assumed", "default")
+    assert origin(model, "surface.roughness") == (1.6e-7, "assumed", "default")
     assert origin(model, "bodies.inner_ring.mass")[1] == "derived"
     assert origin(model, "materials.balls.youngs_modulus")[0] == 210e9
     assert all(value.source for value in model.values)
@@ -129,8 +129,8 @@ def test_every_value_has_an_origin() -> None:
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({}, "composite roughness sigma 0.1 um"),
-        ({"surface": {"roughness": "0.1 um"}}, None),
+        ({}, "composite roughness sigma 0.16 um"),
+        ({"surface": {"roughness": "0.16 um"}}, None),
     ],
 )
 def test_what_is_written_is_no_assumption(changes: dict[str, Any], sentence: str | None) -> None:
@@ -142,7 +142,7 @@ def test_parameter_precedence_case_then_lubricant_then_default() -> None:
     def law(element: str, **changes: Any) -> ChosenLaw:
         return model_of("6319-cp10-1500", **changes).laws[element]["traction"]
 
-    assert law("ball_inner").parameters.tau_eyring == 6e6  # type: ignore[attr-defined]
+    assert law("ball_inner").parameters.tau_eyring == 8e6  # type: ignore[attr-defined]
     assert law("ball_inner").origins["tau_eyring"].startswith("lubricant FVA3A (")
     general = {"traction": {"tau_eyring": "5 MPa"}}
     own = {"ball_outer": {"parameters": {"traction": {"tau_eyring": "4 MPa"}}}}
@@ -416,7 +416,7 @@ class TestHash:
         assert out.stdout.strip() == case_hash(model_of("6319-cp10-1500"))
 
     def test_spelling_and_name_do_not_count(self) -> None:
-        same = {"name": "other", "description": "x", "loads": {"radial": "16000 N"}, "surface": {"roughness": "100 nm"}}
+        same = {"name": "other", "description": "x", "loads": {"radial": "16000 N"}, "surface": {"roughness": "160 nm"}}
         assert case_hash(model_of("6319-cp10-1500", **same)) == case_hash(model_of("6319-cp10-1500"))
 
     @pytest.mark.parametrize(
@@ -519,7 +519,9 @@ class TestForeignModels:
         assert origin(model, "forces.ball_inner.models.asperity_load")[2] == "third-party 0.1"
 
     def test_default_without_a_status_is_an_assumption(self, rows: Catalogue) -> None:
-        assert "asperity_load loose: share 0.25 (defaults of the model)" in self.resolved(rows).assumptions
+        assert (
+            "asperity_load loose: share 0.25, default (no source is named; assumed)" in self.resolved(rows).assumptions
+        )
 
     def test_unknown_parameter_is_refused_although_the_plugin_ignores_it(self, rows: Catalogue) -> None:
         with pytest.raises(CaseError, match=r'parameters\.asperity_load\.shaer +"shaer" is not a known parameter'):
