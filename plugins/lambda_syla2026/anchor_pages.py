@@ -46,6 +46,10 @@ def _tables(found: Anchors) -> tuple[Table, ...]:
          number(p.ratio, 2))
         for p in found.stribeck
     )  # fmt: skip
+    rated = tuple(
+        (r.series, str(r.bearings), *(_with_range(spread) for spread in (r.contacts, r.whole, r.skf, r.skf_whole)))
+        for r in found.rated
+    )
     chosen = tuple((path, value or "-", source) for path, value, source in P.anchored_set())
     tables = [
         Table("torque over SKF's less one [%]", head, spread),
@@ -56,16 +60,25 @@ def _tables(found: Anchors) -> tuple[Table, ...]:
             ("1/min", "torque", "boundary", "SKF", "ratio"),
             curve,
         ),
+        Table(
+            "loss at SKF's printed reference speeds over q_r A_r of ISO 15312: median (90 % of the bearings)",
+            ("series", "bearings", "contacts", "with drag", "SKF's model", "SKF's with drag"),
+            rated,
+        ),
         Table("anchored parameter set: what differs from the blind one", ("option", "value", "source"), chosen),
     ]
     return tuple(table for table in tables if table.rows)
+
+
+def _with_range(spread: list[float]) -> str:
+    return f"{spread[0]:.2f} ({spread[1]:.2f} to {spread[2]:.2f})"
 
 
 def _stribeck_chart(found: Anchors) -> ViewData:
     """Torque over speed beside SKF's, and its boundary part."""
     speed = np.array([p.speed_rpm for p in found.stribeck])
     series = (
-        Series("quasi-static, anchored", speed, np.array([p.torque_Nmm for p in found.stribeck]), "line", "total"),
+        Series("quasi-static", speed, np.array([p.torque_Nmm for p in found.stribeck]), "line", "total"),
         Series("of it on asperities", speed, np.array([p.boundary_Nmm for p in found.stribeck]), "line", "inner"),
         Series("SKF", speed, np.array([p.skf_Nmm for p in found.stribeck]), "points", "reference"),
     )

@@ -87,6 +87,28 @@ def anchor(model: BearingModel) -> Numbers:
     return {**own, **parts, "torque": sum(own.values()), "skf": sum(parts.values())}
 
 
+def rated(model: BearingModel) -> Numbers:
+    """Return the loss of the equilibrium, SKF's, and the heat that ISO 15312 lets the bearing give up [W]."""
+    from lambda_core.batch.job import kernels_of
+    from lambda_core.discovery.manager import registry
+    from lambda_core.run.compare_methods import comparison_inputs
+    from lambda_core.solver.drivers.equilibrium import solve
+    from lambda_core.thermal import iso15312
+
+    found, g = solve(model, kernels_of(model)), model.geometry
+    losses = dict(zip(LOSSES, found.losses.tolist(), strict=True))
+    table = registry().method("skf").evaluate(comparison_inputs(found, stiffness=False))
+    skf = {row.name: 1e-3 * found.relative_speed * row.value for row in table.rows if row.group == "friction"}
+    area = iso15312.reference_area(g.bore_diameter, g.outside_diameter, g.width)
+    return {
+        "contacts": sum(losses.values()) - losses["drag"],
+        "drag": losses["drag"],
+        "skf": skf["rolling"] + skf["sliding"],
+        "skf drag": skf["drag"],
+        "heat": iso15312.heat_flow_density(area) * area,
+    }
+
+
 def capacitance(model: BearingModel) -> Numbers:
     """Contacts of the quasi-static solution, means over the loaded balls, and the analytical capacitance beside."""
     from lambda_core.batch.job import kernels_of
@@ -211,6 +233,7 @@ STATIC: Mapping[str, Callable[[BearingModel], Numbers]] = {
     "friction": friction,
     "skf": skf,
     "anchor": anchor,
+    "rated": rated,
     "capacitance": capacitance,
     "axial resonance": axial_resonance,
 }

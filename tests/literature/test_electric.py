@@ -85,7 +85,7 @@ def test_first_breakdown() -> None:
 
     Lubricants 2024, 12(1), 1, table A1; its text could not be read: type, oil and temperature are unknown. The
     Hertzian areas printed there (5.0 to 5.7 mm2) are near those of a 6205 (4.6 to 6.5 mm2 here, both raceways), so
-    this is a 6205 with the oil of the built-in case at 40 degC, 0.1 um and the defaults of the law; nothing is fitted. It
+    this is a 6205 with the oil of the built-in case at 40 degC, 0.1 um and the law's defaults; nothing is fitted. It
     gives 1.3 V at 2000 1/min (published median 3.0 V) and 21 V at 7000 1/min (2.75 V): the published voltages hardly
     depend on speed, the computed film of 0.43 and 0.79 um at one temperature does.
     """
@@ -103,7 +103,7 @@ def test_first_breakdown_at_own_temperatures() -> None:
 
     Thermal network of the program with its defaults (pillow block in still air of 20 degC): oil at 48 to 55 degC at
     2000, 83 to 95 degC at 7000 1/min. The median films are then 0.30 to 0.40 and 0.23 to 0.31 um. With the defaults of
-    the law and a composite roughness of 0.1 um all points are at the floor of 0.5 V per film: 1.0 V, three times below the
+    the law and a composite roughness of 0.1 um all points are at the floor of 0.5 V per film: 1.0 V, a third of the
     published medians of 3.0 and 2.75 V. With 0.05 um, of which no measurement is known here, and the lower of the two
     published strengths, 15 V/um for slow changes, the medians are 3.7 V at 2000 and 1.5 V at 7000 1/min, factors of
     1.2 and 1.9. This shows that the law can be right, not that it is: a roughness of 0.03 or 0.1 um or 30 V/um are as

@@ -72,3 +72,8 @@ def test_samples_stay_inside_the_ranges_and_are_the_same_every_time() -> None:
 def test_another_law_leaves_the_parameters_of_the_blind_one_out() -> None:
     model = api.check(POINTS[0].case, P.changes(P.with_law("elastic_hysteresis", "houpert")))
     assert model.laws["ball_inner"]["elastic_hysteresis"].model.name == "houpert"
+
+
+@pytest.mark.parametrize("point", POINTS, ids=lambda point: point.case)
+def test_the_anchored_set_is_what_any_case_gets(point) -> None:  # type: ignore[no-untyped-def]
+    assert case_hash(api.check(point.case, P.changes(P.anchored()))) == case_hash(api.check(point.case))

@@ -30,7 +30,7 @@ def test_c2_4_an_end_does_not_look_for_cycles_in_all_that_was_compiled(begin: st
 
 
 def test_d11_a_bearing_at_rest_stops_when_asked(tmp_path: Path) -> None:
-    """Standstill under axial load takes thousands of seconds a simulated second: in the time of the processor."""
+    """Standstill with smoothed friction takes thousands of seconds a simulated second: in the time of the processor."""
     (found,) = measure(tmp_path, ("standstill",), signal.SIGTERM).values()
     assert found.code == INTERRUPTED, found.said
     assert found.processor < 2.0

@@ -1,0 +1,93 @@
+"""The loss at SKF's printed reference speeds over the heat that ISO 15312 lets a bearing give up.
+
+A reference speed is the speed at which a bearing under 5 % of its static rating, in a mineral oil of 12 mm2/s to the
+middle of the lowest ball, reaches 70 degC in surroundings of 20 degC. So the loss there should be q_r A_r.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.results.record import Record
+from lambda_core.thermal import iso15312
+from lambda_syla2026.workshop import ANCHOR, Answer, Job, Workshop
+
+SERIES = ("60", "62", "63", "64", "618", "619")
+OIL = "mineral-vg32"  # 12 mm2/s at 70 degC
+BAR = (0.8, 1.25)
+
+
+class Rated(Record):
+    """Losses over q_r A_r of one series, or of all: median, and the range that holds 90 % of the bearings."""
+
+    series: str
+    bearings: int
+    contacts: list[float] = Field(description="median, 5 % and 95 % of the loss without drag")
+    whole: list[float] = Field(description="the same with SKF's drag of an oil bath")
+    skf: list[float] = Field(description="the same of SKF's friction model without drag")
+    skf_whole: list[float] = Field(description="the same of SKF's friction model with drag")
+
+
+def rated_speeds(workshop: Workshop) -> tuple[list[Rated], int]:
+    """Return all bearings together and each series, and how many have no answer.
+
+    No answer: the catalogue does not decide the inner geometry, or SKF's model has no constants of the series.
+    """
+    plans = _plans()
+    answers = workshop.all([Job(ANCHOR, changes, "rated") for _, changes in plans])
+    named = [(series, a) for (series, _), a in zip(plans, answers, strict=True) if a.state == "done"]
+    found = [_rated(name, [a for series, a in named if name in ("all", series)]) for name in ("all", *SERIES)]
+    return [each for each in found if each.bearings], len(plans) - len(named)
+
+
+def _plans() -> list[tuple[str, tuple[str, ...]]]:
+    """Return series and case of every SKF bearing with a printed reference speed."""
+    from lambda_core.discovery.manager import registry
+
+    found = []
+    for row in registry().catalogue().bearings("SKF", 10_000):
+        if row.layer != "core" or row.series not in SERIES or row.reference_speed is None or row.static_rating is None:
+            continue
+        changes = (
+            f"bearing.designation={row.designation}",
+            f"bearing.maker={row.maker}",
+            f"loads.radial={iso15312.LOAD_SHARE * row.static_rating.value:.6g} N",
+            f"operation.speed={row.reference_speed.value * 30.0 / math.pi:.6g} rpm",
+            f"lubricant.name={OIL}",
+            "lubricant.temperature=70 degC",
+        )
+        found.append((row.series, changes))
+    return sorted(found)
+
+
+def _rated(series: str, answers: list[Answer]) -> Rated:
+    def spread(*names: str) -> list[float]:
+        ratios = [sum(answer[name] for name in names) / answer["heat"] for answer in answers]
+        return np.quantile(ratios, (0.5, 0.05, 0.95)).tolist() if ratios else []
+
+    return Rated(
+        series=series,
+        bearings=len(answers),
+        contacts=spread("contacts"),
+        whole=spread("contacts", "drag"),
+        skf=spread("skf"),
+        skf_whole=spread("skf", "skf drag"),
+    )
+
+
+def rated_bars(found: list[Rated]) -> list[str]:
+    """Say whether the median lies inside the bar, without drag and with it."""
+    if not found:
+        return []
+    first, lines = found[0], []
+    for what, spread in (("of the contacts", first.contacts), ("with SKF's drag", first.whole)):
+        median, low, high = spread
+        verdict = "met" if BAR[0] <= median <= BAR[1] else "missed"
+        lines.append(
+            f"{verdict}: {first.bearings} bearings at SKF's reference speeds, loss {what} over ISO 15312's heat: "
+            f"median {median:.2f}, 90 % within {low:.2f} to {high:.2f}, bar {BAR[0]:g} to {BAR[1]:g}"
+        )
+    return lines
