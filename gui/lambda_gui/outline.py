@@ -125,6 +125,9 @@ class Node:
         return (*base, "models", self.role), (*base, "parameters", self.role)
 
 
+_WATCHING = ("observers", "events")  # sections whose options are those of plugins
+
+
 def outline(markers: tuple[str, ...] = ()) -> list[Node]:
     """Return the top nodes of the tree of a case with these markers."""
     return [
@@ -137,9 +140,16 @@ def outline(markers: tuple[str, ...] = ()) -> list[Node]:
         _lubricant(),
         _form("depth", "Modelling depth", ("depth",)),
         _form("solver", "Solver", ("solver",)),
-        _form("output", "Outputs", ("output",)),
+        _output(),
         _electric(),
     ]
+
+
+def _output() -> Node:
+    node = _form("output", "Outputs", ("output",))
+    node.help += "; observers and events of plugins are written in the file"
+    node.in_file = [(name,) for name in _WATCHING]
+    return node
 
 
 def _bearing() -> Node:
@@ -196,7 +206,10 @@ def _forces() -> Node:
                 children=[_role(element, role) for role in roles],
             )
         )
-    return Node("forces", "Force elements", "every contact and the model that fills each role", children=nodes)
+    node = Node("forces", "Force elements", "every contact and the model that fills each role", children=nodes)
+    node.help += "; those between bodies are written in the file"
+    node.in_file = [("elements",)]
+    return node
 
 
 def _role(element: str, role: str) -> Node:
@@ -277,7 +290,7 @@ def _group(table: Keys) -> Group:
 
 def _case_fields() -> list[str]:
     """Return the options that stand before the first table of the file."""
-    return [name for name in plain_fields(()) if name != "parameters"]
+    return [name for name in plain_fields(()) if name not in ("parameters", *_WATCHING)]
 
 
 def table_model(table: Keys) -> type[BaseModel]:

@@ -10,7 +10,7 @@ from pydantic import PrivateAttr, model_validator
 
 from lambda_core.case.electric import Electric
 from lambda_core.case.modelling import Depth, Forces, Models, Output, Parameters, Solver
-from lambda_core.case.motion import Bodies, Gravity, Loads, Marker, Operation
+from lambda_core.case.motion import BetweenBodies, Bodies, Gravity, Loads, Marker, Operation
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import Bearing, Lubricant, Materials, Surface
 from lambda_core.case.thermal import Thermal
@@ -41,6 +41,7 @@ class Case(Section):
     models: Models = option({}, "model by role")
     parameters: Parameters = option({}, "parameters by role, for every force element with that role")
     forces: Forces = option({}, "models and parameters of single force elements")
+    elements: dict[str, BetweenBodies] = option({}, "force elements between bodies, beside those of the bearing")
     gravity: Gravity = option({}, "acceleration of gravity")
     depth: Depth = option({}, "modelling depth")
     solver: Solver = option({}, "integrator and averages")

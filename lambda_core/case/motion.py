@@ -193,3 +193,12 @@ class Marker(Section):
     x: Length = option("0 mm", "position in the body's frame, axial")
     y: Length = option("0 mm", "position in the body's frame, horizontal at t = 0")
     z: Length = option("0 mm", "position in the body's frame, vertical at t = 0")
+
+
+class BetweenBodies(Section):
+    """A force element between two bodies, or a body and the ground, beside those of the bearing."""
+
+    law: str = option("bushing", "law of the role force_element", min_length=1)
+    first: str = option("ground", 'body or marker at one end; "ground" is what stands still', min_length=1)
+    second: str = option(description="body or marker at the other end, on which the law's force acts", min_length=1)
+    parameters: dict[str, Any] = option({}, "parameters of the law")

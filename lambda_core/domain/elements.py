@@ -20,6 +20,8 @@ POCKETS = {"ball_cage": "balls and cage pockets"}
 NEIGHBOURS = {"ball_ball": "neighbouring balls, where there is no cage"}
 LANDS = {"cage_inner": "cage and inner ring's land", "cage_outer": "cage and outer ring's land"}
 OIL = {"fluid_drag": "oil on the balls"}
+# Force elements of plugins, each under a name of its own in the section [elements] of a case.
+LINKS = {"elements": "between two bodies, or a body and the ground"}
 # Parts of an electric circuit; no force elements.
 FILMS = {"film_inner": "films of the inner raceway", "film_outer": "films of the outer raceway"}
 ELEMENTS = RACEWAYS | POCKETS | NEIGHBOURS | LANDS | OIL

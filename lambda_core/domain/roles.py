@@ -240,6 +240,20 @@ ROLES: dict[str, Role] = {
             sign_of="v_orbit",
         ),
         Role(
+            "force_element",
+            "force between two bodies, or a body and the ground, beside those of the bearing",
+            _arguments(
+                "t f time [s]; place a of the second point seen from the first, inertial axes [m]; "
+                "tilt a of the second body's axis against the first's, as a vector of rotation, inertial axes [rad]; "
+                "v_rel a velocity of the second point against the first body [m/s]; "
+                "omega_rel a angular velocity of the second body against the first [rad/s]; par a parameters; "
+                "out A force on the second body at its point [N] (3), couple on it [N m] (3), inertial axes"
+            ),
+            ("force[3] [N]", "couple[3] [N m]"),
+            tuple(elements.LINKS),
+            section="elements",
+        ),
+        Role(
             "permittivity",
             "relative permittivity of the oil",
             _arguments(
@@ -331,6 +345,7 @@ DEFAULT_MODELS: dict[str, str] = {
     "boundary_friction": "micro-slip",
     "cage_contact": "spherical-pocket",
     "fluid_drag": "skf-catalogue",
+    "force_element": "bushing",
     "permittivity": "bode",
     "capacitance": "schneider",
     "surface": "none",

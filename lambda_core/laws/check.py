@@ -24,7 +24,7 @@ from lambda_core.laws.jit.reach import raises
 from lambda_core.laws.kernels import CompiledKernel, compile_kernel, kernel_reach
 from lambda_core.laws.law import Law
 from lambda_core.laws.par import flat_kernel, make_par, par_layout
-from lambda_core.laws.probe import draw, trial_context
+from lambda_core.laws.probe import WRENCHES, draw, trial_context
 
 RTOL = 1e-9  # machine code against plain Python: a few roundings of exp and pow
 _CELLS = (1, 5, 9)
@@ -213,7 +213,7 @@ def _by_meaning(role: Role, outputs: tuple[FloatArray, ...]) -> Iterator[tuple[i
     """Yield (index of the meaning in role.outputs, values)."""
     if role.elementwise:
         yield from enumerate(outputs)
-    elif role.name == "cage_contact":
+    elif role.name in WRENCHES:
         yield from ((0, outputs[0][:3]), (1, outputs[0][3:]))
     else:
         yield from ((index, outputs[0][index : index + 1]) for index in range(len(role.outputs)))

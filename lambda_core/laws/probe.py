@@ -67,6 +67,9 @@ RANGES: dict[str, Range] = {
     "h_min": Range(1e-9, 1e-5, log=True),
     "Lambda": Range(1e-3, 30.0, log=True, zero=True),
     "r": Range(-1e-3, 1e-3),
+    "t": Range(0.0, 10.0),
+    "place": Range(-1e-3, 1e-3),
+    "tilt": Range(-1e-2, 1e-2),
     "v_rel": Range(-1.0, 1.0),
     "omega_rel": Range(-1000.0, 1000.0),
     "v_orbit": Range(-30.0, 30.0),
@@ -86,14 +89,17 @@ RANGES: dict[str, Range] = {
     "V": Range(0.1, 1000.0, log=True),
 }
 
-VECTORS = ("r", "v_rel", "omega_rel")  # arrays of three components, not of cells
+VECTORS = ("r", "place", "tilt", "v_rel", "omega_rel")  # arrays of three components, not of cells
+
+
+WRENCHES = ("cage_contact", "force_element")  # roles whose output is two vectors
 
 
 def output_size(role: Role, cells: int) -> int:
     """Return the length of each output array."""
     if role.elementwise:
         return cells
-    return 6 if role.name == "cage_contact" else len(role.outputs)
+    return 6 if role.name in WRENCHES else len(role.outputs)
 
 
 def draw(role: Role, par: FloatArray, cells: int, generator: Generator) -> list[Any]:

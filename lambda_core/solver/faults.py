@@ -6,7 +6,7 @@ from lambda_core.solver.layout import helper
 from lambda_core.solver.records import RACEWAY_ROLES
 
 # Roles as a fault names them.
-ROLES = (*RACEWAY_ROLES, "cage_contact", "fluid_drag")
+ROLES = (*RACEWAY_ROLES, "cage_contact", "fluid_drag", "force_element")
 (
     NORMAL_CONTACT,
     DAMPING,
@@ -25,6 +25,7 @@ ROLES = (*RACEWAY_ROLES, "cage_contact", "fluid_drag")
     SURFACE,
     CAGE_CONTACT,
     FLUID_DRAG,
+    FORCE_ELEMENT,
 ) = range(len(ROLES))
 
 

@@ -54,11 +54,12 @@ RacewayLaws: Any = namedtuple("RacewayLaws", R.RACEWAY_ROLES)  # type: ignore[mi
 
 
 class Laws(NamedTuple):
-    """All kernels of the model: tables of their addresses, read with raceway_laws, guide_law and drag_law."""
+    """All kernels of the model: tables of their addresses, read with raceway_laws, guide_law, drag_law, link_law."""
 
     raceways: Any  # int64 (sets of laws, roles of a raceway contact)
     guides: Any  # int64 (laws, 1): of pockets, of balls with each other, of lands
     drag: Any  # int64 (laws, 1)
+    links: Any  # int64 (laws, 1): of force elements between bodies
 
 
 class Losses(NamedTuple):
@@ -129,6 +130,7 @@ raceway_laws_t = types.NamedTuple([_law_t(role) for role in R.RACEWAY_ROLES], Ra
 raceway_laws = reader(raceway_laws_t)
 guide_law = reader(_law_t("cage_contact"))
 drag_law = reader(_law_t("fluid_drag"))
+link_law = reader(_law_t("force_element"))
 laws_t = types.NamedUniTuple(TABLE, len(Laws._fields), Laws)
 # One contact: (raceway, kinematics, laws, par, system, grid, cells, scratch, contact, wrench) -> status
 wrench_sig = i8(
@@ -150,6 +152,7 @@ class Bundle(NamedTuple):
     rows: Any  # ROW (rows,)
     raceways: Any  # RACEWAY (raceways,)
     lands: Any  # LAND (stations,)
+    links: Any  # LINK (force elements between bodies,)
     laws: Any  # Laws
     wrench: Any  # pointer: wrench of one raceway contact
     tangent: Any  # pointer: its derivative
@@ -164,6 +167,7 @@ class Bundle(NamedTuple):
     scratch: Any  # SCRATCH (1,)
     shared: Any  # (12 bodies,) the whole shared state
     bodies_now: Any  # BODY_STATE (bodies,): the same memory
+    ground: Any  # BODY_STATE (1,): at rest
     shared_rates: Any  # (12 bodies,) its time derivative
     body_rates: Any  # BODY_STATE (bodies,): the same memory
     body_wrenches: Any  # WRENCH (bodies,) of all contacts
@@ -176,6 +180,7 @@ _TYPES = {
     "rows": table_t(R.ROW),
     "raceways": table_t(R.RACEWAY),
     "lands": table_t(R.LAND),
+    "links": table_t(R.LINK),
     "laws": laws_t,
     "wrench": types.FunctionType(wrench_sig),
     "tangent": types.FunctionType(tangent_sig),
@@ -190,6 +195,7 @@ _TYPES = {
     "scratch": table_t(R.SCRATCH),
     "shared": array1,
     "bodies_now": table_t(R.BODY_STATE),
+    "ground": table_t(R.BODY_STATE),
     "shared_rates": array1,
     "body_rates": table_t(R.BODY_STATE),
     "body_wrenches": table_t(R.WRENCH),

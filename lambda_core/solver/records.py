@@ -204,6 +204,15 @@ LAND = record(
     ("viscosity", f8),  # of the oil [Pa s]
     ("parameters", i8, (2,)),
 )
+LINK = record(
+    ("number", i8),  # its row in the table of links
+    ("first", i8),  # body, -1 for the ground
+    ("second", i8),  # body
+    ("law", i8),  # row of Laws.links
+    ("first_place", f8, (3,)),  # of its points, in the frames of the bodies [m]
+    ("second_place", f8, (3,)),
+    ("parameters", i8, (2,)),
+)
 
 # ---- Loads and motions over time.
 SIGNAL = record(("value", f8), ("rate", f8), ("acceleration", f8))
@@ -259,6 +268,7 @@ SCRATCH = record(
     ("contact", CONTACT, (2,)),
     ("wrench", WRENCH, (2,)),
     ("on_ring", WRENCH),
+    ("on_ground", WRENCH),
     ("guide", GUIDE),
     ("at_rest", GUIDE),
     ("out", f8, (64,)),  # results of scalar laws

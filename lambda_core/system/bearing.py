@@ -192,6 +192,19 @@ class Marker:
     position: tuple[float, float, float]  # in the body's frame, that of the inertial axes at t = 0 [m]
 
 
+ELEMENT_PREFIX = "elements."  # of force elements between bodies, where the laws of a model name them
+
+
+@dataclass(frozen=True)
+class Link:
+    """A force element between two points on two bodies; its law stands among the model's laws as "elements.NAME"."""
+
+    first: BodyName | None  # None: the ground
+    first_place: tuple[float, float, float]  # in the body's frame, that of the inertial axes at t = 0 [m]
+    second: BodyName
+    second_place: tuple[float, float, float]
+
+
 @dataclass(frozen=True)
 class BearingModel:
     """Everything that a run needs, SI, immutable.
@@ -218,6 +231,8 @@ class BearingModel:
         The circuit that a run computes beside the motion; it does not act on the motion.
     observers, events : mapping of str to ChosenObserver, ChosenEvent
         What plugins write of a run, and what they look out for, by name.
+    links : mapping of str to Link
+        Force elements between bodies beside those of the bearing, by name.
     values : tuple of ResolvedValue
         Every frozen number with its origin.
     """
@@ -253,3 +268,4 @@ class BearingModel:
     electric: ElectricModel | None = None
     observers: Mapping[str, ChosenObserver] = field(default_factory=dict)
     events: Mapping[str, ChosenEvent] = field(default_factory=dict)
+    links: Mapping[str, Link] = field(default_factory=dict)

@@ -50,6 +50,7 @@ from lambda_core.system.resolve_designation import resolve_designation
 from lambda_core.system.resolve_electric import resolve_electric
 from lambda_core.system.resolve_geometry import check_clearance, resolve_geometry, with_clearance
 from lambda_core.system.resolve_laws import LawResolver, ModelSource
+from lambda_core.system.resolve_links import resolve_links
 from lambda_core.system.resolve_materials import resolve_lubricant, resolve_material
 from lambda_core.system.resolve_thermal import check_thermal
 from lambda_core.system.resolve_watch import WatchSource, resolve_events, resolve_observers
@@ -106,6 +107,7 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
     _settings(case, ledger)
     guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")
     laws = LawResolver(case, registry, lubricant, guidance, ledger).resolve() if lubricant else {}
+    between, more = resolve_links(case, registry, ledger)
     electric = resolve_electric(case.electric.inlined(), registry, ledger) if case.electric else None
     observers, events = resolve_observers(case, registry, ledger), resolve_events(case, registry, ledger)
     if bare is None or cage_row is None or oil is None:
@@ -141,7 +143,7 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
         outer_ring=resolve_body("outer_ring", case, inertias["outer_ring"]),
         cage=cage,
         cage_body=resolve_body("cage", case, inertias["cage"]),
-        laws=laws,
+        laws={**laws, **more},
         depth=Depth(case.depth.cage, case.depth.strips, case.depth.rows),
         solver=solver,
         output=Output(case.output.interval or 0.0, case.output.checkpoint_interval),
@@ -149,7 +151,7 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
         assumptions=tuple(ledger.assumptions),
         case_toml=standalone_toml(with_packages(written, registry)),
         plugins=_distributions(
-            {**laws, "electric": electric.laws if electric else {}}, [*observers.values(), *events.values()]
+            {**laws, **more, "electric": electric.laws if electric else {}}, [*observers.values(), *events.values()]
         ),
         markers={name: Marker(m.body, (m.x, m.y, m.z)) for name, m in case.markers.items()},
         thermal=case.thermal if case.operation.temperatures == "computed" else None,
@@ -158,6 +160,7 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
         electric=electric,
         observers=observers,
         events=events,
+        links=between,
     )
 
 
@@ -317,7 +320,7 @@ def case_hash(model: BearingModel) -> str:
         silent |= {"thermal", "mounting"}
     if model.electric is None:
         silent |= {"electric"}
-    absent = [name for name in ("observers", "events") if not getattr(model, name)]  # as before there were any
+    absent = [name for name in ("observers", "events", "links") if not getattr(model, name)]  # as before there were any
     names = [f.name for f in dataclasses.fields(model) if f.name not in (*silent, *absent)]
     data = {name: _plain(getattr(model, name)) for name in names}
     text = json.dumps(data, sort_keys=True, separators=(",", ":"))

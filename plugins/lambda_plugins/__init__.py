@@ -79,6 +79,9 @@ _LAWS: dict[str, dict[str, str]] = {
         "ball-ball": "cage_contact:ball_ball",
         "none": "cage_contact:none",
     },
+    "force_element": {
+        "bushing": "force_element:bushing",
+    },
     "fluid_drag": {
         "skf-catalogue": "fluid_drag:skf_catalogue",
         "schaeffler-catalogue": "fluid_drag:schaeffler_catalogue",

@@ -72,6 +72,7 @@ def test_every_option_of_a_case_is_described(path: str) -> None:
     name = _described(path)
     keyed = {"parameters": "`parameters.ROLE.NAME`", "markers": "`markers.NAME.body`"}
     keyed |= {"observers": "`observers.NAME.PARAMETER`", "events": "`events.NAME.action`"}
+    keyed["elements"] = "`elements.NAME.law`"
     assert keyed.get(name, f"| `{name}` |") in text, f"{path} ({name})"
 
 

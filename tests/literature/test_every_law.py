@@ -64,6 +64,7 @@ CHECKED: dict[str, tuple[str, str]] = {
     "fluid_drag/schaeffler-catalogue": (LOSSES, "test_schaeffler_idle_torque_of_the_6319"),
     "fluid_drag/sphere-drag": (LOSSES, "test_standard_drag_curve"),
     "fluid_drag/none": NOTHING,
+    "force_element/bushing": (CLOSED, "test_bushing_is_hooke_and_newton_along_each_axis"),
     "permittivity/bode": (LUBRICANT, "test_bode_permittivity"),
     "permittivity/constant": (CLOSED, "test_constant_permittivity_is_what_was_given"),
     "capacitance/schneider": (CAPACITANCE, "test_schneider_factor"),

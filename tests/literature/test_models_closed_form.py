@@ -154,6 +154,20 @@ def test_constant_permittivity_is_what_was_given() -> None:
     assert list(eps) == [2.31, 2.31]
 
 
+def test_bushing_is_hooke_and_newton_along_each_axis() -> None:
+    """F = F_0 - k r - c v and M = -k_t phi - c_t omega, axis by axis; exact."""
+    options = {
+        "stiffness_x": "2 N/um", "stiffness_y": "3 N/um", "damping_z": "40 N s/m", "preload_x": "5 N",
+        "tilt_stiffness": "6 N m/mrad", "tilt_damping": "0.7 N m s/rad", "spin_damping": "0.01 N m s/rad",
+    }  # fmt: skip
+    found = evaluate(
+        "force_element/bushing", options, t=3.0, place=[1e-6, 2e-6, 3e-6], tilt=[0.0, 1e-3, -2e-3],
+        v_rel=[1.0, 2.0, 3.0], omega_rel=[10.0, 20.0, 30.0],
+    )  # fmt: skip
+    expected = [5.0 - 2.0, -6.0, -120.0, -0.1, -6.0 - 14.0, 12.0 - 21.0]
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+
+
 SOLID = {"semi_a": 1e-3, "semi_b": 1e-4, "R_x": 5e-3, "R_y": 0.1}
 OIL = {"E_eff": STEEL, "eta0": 0.1, "alpha_p": 2e-8, "beta": 0.05, "k_oil": 0.13}
 NOTHING: dict[str, dict[str, Any]] = {

@@ -40,11 +40,12 @@ laws = L.Laws(
         law("cage_outer", "cage_contact"),
     ],
     [law("fluid_drag", "fluid_drag")],
+    [law(f"elements.{name}", "force_element") for name in model.links],
 )
 kinds = {
-    "system": R.SYSTEM, "bodies": R.BODY, "rows": R.ROW, "raceways": R.RACEWAY, "lands": R.LAND, "terms": R.TERM,
-    "inputs": R.INPUTS, "scratch": R.SCRATCH, "bodies_now": R.BODY_STATE, "body_rates": R.BODY_STATE,
-    "body_wrenches": R.WRENCH, "ball_wrenches": R.WRENCH,
+    "system": R.SYSTEM, "bodies": R.BODY, "rows": R.ROW, "raceways": R.RACEWAY, "lands": R.LAND, "links": R.LINK,
+    "terms": R.TERM, "inputs": R.INPUTS, "scratch": R.SCRATCH, "bodies_now": R.BODY_STATE, "body_rates": R.BODY_STATE,
+    "ground": R.BODY_STATE, "body_wrenches": R.WRENCH, "ball_wrenches": R.WRENCH,
 }
 arrays = {name: given[name] for name in given["arrays"]}
 arrays |= {name: np.frombuffer(given[name].tobytes(), kind).copy() for name, kind in kinds.items()}
@@ -63,7 +64,7 @@ np.savez(sys.argv[2], dydt=rows, rates=powers)
 
 
 @pytest.mark.parametrize(
-    "name", ["every body free", "no cage", "ring-guided cage", "other laws", "cells", "wavy raceways"]
+    "name", ["every body free", "no cage", "ring-guided cage", "other laws", "cells", "wavy raceways", "force elements"]
 )
 def test_right_hand_side(name: str, tmp_path: Path) -> None:
     """Rounding only: sums over cells are taken in another order when they are compiled."""

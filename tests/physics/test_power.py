@@ -31,7 +31,17 @@ LOADS = (
     "loads.outer_ring.force_z=300 N", "loads.outer_ring.moment_y=5 N m", "loads.cage.force_x=2 N",
     "bodies.inner_ring.unbalance=50 g mm", "bodies.cage.unbalance=20 g mm", "gravity.x=3 m/s2", "gravity.y=-5 m/s2",
 )  # fmt: skip
+LINKS = (
+    "markers.edge.body=outer_ring", "markers.edge.x=20 mm", "markers.edge.y=90 mm",
+    "markers.end.body=inner_ring", "markers.end.x=-50 mm", "markers.end.z=10 mm",
+    "elements.bush.first=edge", "elements.bush.second=end", "elements.bush.parameters.stiffness_x=3 N/um",
+    "elements.bush.parameters.stiffness_y=1 N/um", "elements.bush.parameters.damping_z=50 N s/m",
+    "elements.bush.parameters.tilt_stiffness=2 N m/mrad", "elements.bush.parameters.spin_damping=0.01 N m s/rad",
+    "elements.spring.second=cage", "elements.spring.parameters.stiffness_z=0.1 N/um",
+    "elements.spring.parameters.preload_x=20 N",
+)  # fmt: skip
 MODELS: dict[str, tuple[str, ...]] = {
+    "force elements": (TIGHT, *ALL_FREE, *LINKS),
     "default": (TIGHT,),
     "every body free": (TIGHT, *ALL_FREE),
     "no cage": (TIGHT, "depth.cage=false"),

@@ -33,7 +33,7 @@ _PARTS = 10  # of the way of an elastic contact, each half as long as the next: 
 
 
 @helper
-def _turning_body(body):
+def turning_body(body):
     """Return axis and angular velocity of a body, inertial."""
     ay, az = body.tilt[0], body.tilt[1]
     wy, wz = body.tilt_velocity[0], body.tilt_velocity[1]
@@ -43,7 +43,7 @@ def _turning_body(body):
 
 
 @helper
-def _write_frame(axis, phi, g):
+def write_frame(axis, phi, g):
     """Write axis, radial and tangential unit vectors of a body at angle phi about its axis."""
     ax, ay, az = axis
     c1 = 1.0 + ax
@@ -64,8 +64,8 @@ def _project(v, g):
 @helper
 def pocket_state(ball, cage, j, row, g):
     """Write position and velocity of the row's ball j relative to its pocket, in the pocket's frame."""
-    axis, omega = _turning_body(cage)
-    _write_frame(axis, cage.angle + 2.0 * math.pi * (j - row.first_ball) / row.balls, g)
+    axis, omega = turning_body(cage)
+    write_frame(axis, cage.angle + 2.0 * math.pi * (j - row.first_ball) / row.balls, g)
     c, s = math.cos(ball.azimuth), math.sin(ball.azimuth)
     # Ball from the cage's centre.
     d = subtract((ball.x, ball.radius * c, ball.radius * s), cage.position)
@@ -79,9 +79,9 @@ def pocket_state(ball, cage, j, row, g):
 @helper
 def land_state(cage, ring, offset, g):
     """Write the position of a station of the cage's axis relative to the ring's, and its velocity."""
-    axis, omega = _turning_body(cage)
-    ring_axis, ring_omega = _turning_body(ring)
-    _write_frame(ring_axis, 0.0, g)
+    axis, omega = turning_body(cage)
+    ring_axis, ring_omega = turning_body(ring)
+    write_frame(ring_axis, 0.0, g)
     station = scale(offset, axis)
     store(g.origin, scale(offset, ring_axis))
     e = add(subtract(cage.position, ring.position), station)

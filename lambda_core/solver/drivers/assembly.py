@@ -88,6 +88,7 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: O
         scratch=np.zeros(1, R.SCRATCH),
         shared=now.view(np.float64),
         bodies_now=now,
+        ground=np.zeros(1, R.BODY_STATE),
         shared_rates=rates.view(np.float64),
         body_rates=rates,
         body_wrenches=np.zeros(bodies, R.WRENCH),

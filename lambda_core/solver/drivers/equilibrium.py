@@ -22,7 +22,7 @@ from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.assembly import Assembly, assemble
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
-from lambda_core.solver.drivers.law_inputs import RACEWAYS, guides
+from lambda_core.solver.drivers.law_inputs import RACEWAYS, guides, links
 from lambda_core.solver.drivers.tables import INNER, OUTER
 from lambda_core.solver.entry import Core, core
 from lambda_core.solver.faults import ROLES
@@ -300,6 +300,8 @@ def fault_sentence(assembly: Assembly, time: float | None = None) -> str:
     ball, which = int(fault.ball), int(fault.place)
     if role == "fluid_drag":
         element = "fluid_drag"
+    elif role == "force_element":
+        element = links(assembly.model)[which]
     elif role == "cage_contact":
         element = {0: "cage_inner", 1: "cage_outer"}.get(which, guides(assembly.model)[0])
     else:
@@ -313,7 +315,7 @@ def fault_sentence(assembly: Assembly, time: float | None = None) -> str:
     else:
         what = f"returned status {status}: {model.errors.get(status, 'not declared')}"
     place = element.replace("_", " - ") + (f", t = {time:.6g} s" if time is not None else "")
-    if element not in ("cage_inner", "cage_outer"):
+    if element not in ("cage_inner", "cage_outer") and role != "force_element":
         place = f"ball {ball + 1}, {place}"
     inputs = ", ".join(f"{v:.6g}" for v in fault.inputs)
     return f"{model.label} {what} ({place}; inputs {inputs})"

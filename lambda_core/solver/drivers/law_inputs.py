@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lambda_core.laws.context import Oil
-from lambda_core.system.bearing import BearingModel
+from lambda_core.system.bearing import ELEMENT_PREFIX, BearingModel
 
 RACEWAYS = ("ball_inner", "ball_outer")  # in the order of the table of raceways
 Oils = tuple[Oil, Oil]  # the oil as the rheology of each of these contacts has it
@@ -12,6 +12,11 @@ Oils = tuple[Oil, Oil]  # the oil as the rheology of each of these contacts has 
 def oil_of(oils: Oils, element: str) -> Oil:
     """Return the oil that a force element takes: the inner contact's where there is no raceway."""
     return oils[RACEWAYS.index(element)] if element in RACEWAYS else oils[0]
+
+
+def links(model: BearingModel) -> tuple[str, ...]:
+    """Return the force elements between bodies in the solver's order, as the laws of a model name them."""
+    return tuple(f"{ELEMENT_PREFIX}{name}" for name in model.links)
 
 
 def guides(model: BearingModel) -> tuple[str, str, str]:

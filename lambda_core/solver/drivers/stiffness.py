@@ -26,7 +26,8 @@ def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
 
     The balls follow: K = -(F_qq - F_qb F_bb^-1 F_bq), the Schur complement of the Jacobian of the contact forces
     F over the axial and radial positions b of the balls, q the ring's displacement and tilt. Centrifugal force and
-    the azimuths of the balls stand still, friction is left out, as are elastic supports of the ring.
+    the azimuths of the balls stand still, friction is left out, as are elastic supports of the ring and force elements
+    beside the bearing.
 
     Parameters
     ----------
@@ -45,7 +46,7 @@ def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
     found = equilibrium.assembly
     model = found.model
     dofs = {**model.inner_ring.dofs, **dict.fromkeys(_FREED, DofState("free"))}
-    freed = dataclasses.replace(model, inner_ring=dataclasses.replace(model.inner_ring, dofs=dofs))
+    freed = dataclasses.replace(model, inner_ring=dataclasses.replace(model.inner_ring, dofs=dofs), links={})
     assembly = assemble(freed, found.kernels, found.frame, found.oils)
     _forces_slope(assembly, _moved(equilibrium, assembly))
     try:

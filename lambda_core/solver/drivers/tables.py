@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import DOFS
+from lambda_core.domain.elements import BODIES, DOFS
 from lambda_core.domain.hertz import ball_raceway_radii
 from lambda_core.laws.context import Oil
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
-from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, oil_of
+from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame, build_context, effective_modulus, prepare
 
@@ -34,6 +34,7 @@ class Tables(NamedTuple):
     rows: Any
     raceways: Any
     lands: Any
+    links: Any
     par: FloatArray
 
 
@@ -72,13 +73,14 @@ def build_tables(model: BearingModel, frame: ContactFrame, oils: Oils) -> Tables
     raceways = _raceways(model, frame, oils, parameters)
     rows, lands = _rows(model, oils[0], parameters), _lands(model, oils[0], parameters)
     rows[0]["drag"] = parameters.add("fluid_drag", "fluid_drag")
+    between = _links(model, parameters)
     system = np.zeros(1, R.SYSTEM)
     s = system[0]
     s["balls"], s["gravity"] = model.geometry.ball_count, model.gravity
     s["roll_floor"], s["slip_floor"] = ROLL_FLOOR, SLIP_FLOOR
     s["surfaces"] = int(raceways["surface_on"].any())
     s["friction_on"], s["guides_on"] = 1, 1
-    return Tables(system, _bodies(model), rows, raceways, lands, parameters.all())
+    return Tables(system, _bodies(model), rows, raceways, lands, between, parameters.all())
 
 
 def _bodies(model: BearingModel) -> Any:
@@ -149,3 +151,15 @@ def _lands(model: BearingModel, oil: Oil, parameters: _Parameters) -> Any:
             offset = side * (0.5 * model.cage.width)
             stations.append((CAGE, (INNER, OUTER)[number], number, 1 + number, offset, oil.viscosity, span))
     return np.array(stations, R.LAND)
+
+
+def _links(model: BearingModel, parameters: _Parameters) -> Any:
+    """Return the force elements between bodies."""
+    found = np.zeros(len(model.links), R.LINK)
+    for i, (record, element, link) in enumerate(zip(found, links(model), model.links.values(), strict=True)):
+        record["number"] = record["law"] = i
+        record["first"] = -1 if link.first is None else list(BODIES).index(link.first)
+        record["second"] = list(BODIES).index(link.second)
+        record["first_place"], record["second_place"] = link.first_place, link.second_place
+        record["parameters"] = parameters.add(element, "force_element")
+    return found

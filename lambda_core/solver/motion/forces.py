@@ -7,6 +7,7 @@ import math
 from lambda_core.solver.layout import NB, helper, losses_of, running_of
 from lambda_core.solver.motion.equations import ball_rates, body_rates
 from lambda_core.solver.motion.force_elements import cage_forces, clear_forces, drag_force, land_forces, raceway_forces
+from lambda_core.solver.motion.links import link_forces
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.records import BALL
 from lambda_core.solver.vec import dot, increase, turning
@@ -102,6 +103,8 @@ def evaluate(t, y, bundle, dydt, rates, want):
         return 0
     want = min(want, 1)
     if system.guides_on == 1 and _guides(balls, bundle, running, want) != 1:
+        return 0
+    if link_forces(t, bundle, running) != 1:
         return 0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]

@@ -21,6 +21,7 @@ from lambda_core.solver.contact.raceway_columns import raceway_columns
 from lambda_core.solver.layout import BPSI, NB, NS, helper
 from lambda_core.solver.motion.block_rows import ball_block, body_rows, force_map, shared_rows
 from lambda_core.solver.motion.force_elements import drag_force
+from lambda_core.solver.motion.links import link_columns
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.motion.steps import add_slope, ball_step
 from lambda_core.solver.records import BALL
@@ -122,6 +123,8 @@ def jacobian(t, y, bundle, bl):
                 return 0
     bl.shared[:, :, :] = 0.0
     if system.guides_on == 1 and land_columns(bundle, bl) != 1:
+        return 0
+    if link_columns(t, bundle, bl) != 1:
         return 0
     for r in range(bundle.rows.size):
         for j in range(bl.reach.first[r], bl.reach.first[r + 1]):

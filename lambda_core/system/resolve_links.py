@@ -1,0 +1,95 @@
+"""Force elements of a case between bodies: their ends, their laws, their parameters."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pydantic import ValidationError
+
+from lambda_core.case.motion import BetweenBodies
+from lambda_core.case.problems import problems
+from lambda_core.domain.elements import BODIES, BodyName
+from lambda_core.domain.errors import LambdaError, unknown_name
+from lambda_core.system.bearing import ELEMENT_PREFIX, ChosenLaw, Link
+from lambda_core.system.ledger import Ledger
+
+if TYPE_CHECKING:
+    from lambda_core.case.case import Case
+    from lambda_core.system.resolve_laws import ModelSource
+
+ROLE = "force_element"
+GROUND = "ground"
+_CENTRE = (0.0, 0.0, 0.0)
+End = tuple[BodyName | None, tuple[float, float, float]]
+
+
+def resolve_links(
+    case: Case, registry: ModelSource, ledger: Ledger
+) -> tuple[dict[str, Link], dict[str, dict[str, ChosenLaw]]]:
+    """Return the force elements by name, and their laws as the model names them; complete unless there are problems."""
+    links: dict[str, Link] = {}
+    laws: dict[str, dict[str, ChosenLaw]] = {}
+    for name, element in case.elements.items():
+        where = f"elements.{name}"
+        first, second = (
+            _end(case, element.first, f"{where}.first", ledger),
+            _end(case, element.second, f"{where}.second", ledger),
+        )
+        law = _law(element, where, registry, ledger)
+        if first is None or second is None or law is None:
+            continue
+        if second[0] is None:
+            ledger.problem(f"{where}.second", "the ground does not move: write it as first, the body as second")
+        elif first[0] == second[0]:
+            ledger.problem(f"{where}.second", f"both ends are on one body, {second[0]}")
+        else:
+            links[name] = Link(first[0], first[1], second[0], second[1])
+            laws[f"{ELEMENT_PREFIX}{name}"] = {ROLE: law}
+    return links, laws
+
+
+def _end(case: Case, name: str, where: str, ledger: Ledger) -> End | None:
+    """Return the body and the place that a name stands for, None with a problem in the ledger."""
+    if name == GROUND:
+        return None, _CENTRE
+    place = _CENTRE
+    body = next((each for each in BODIES if each == name), None)
+    if body is None and name in case.markers:
+        marker = case.markers[name]
+        body, place = marker.body, (marker.x, marker.y, marker.z)
+    if body is None:
+        ledger.problem(where, unknown_name("body or marker", name, [GROUND, *BODIES, *case.markers]))
+        return None
+    if body == "cage" and not case.depth.cage:
+        ledger.problem(where, "there is no cage: depth.cage is false")
+        return None
+    return body, place
+
+
+def _law(element: BetweenBodies, where: str, registry: ModelSource, ledger: Ledger) -> ChosenLaw | None:
+    try:
+        chosen = registry.model(ROLE, element.law)
+    except LambdaError as error:
+        ledger.problem(f"{where}.law", str(error))
+        return None
+    fields = list(chosen.parameters.model_fields)
+    foreign = [key for key in element.parameters if key not in fields]
+    for key in foreign:
+        ledger.problem(f"{where}.parameters.{key}", unknown_name(f"parameter of {ROLE} {chosen.name}", key, fields))
+    if foreign:
+        return None
+    try:
+        parameters = chosen.parameters.model_validate(element.parameters)
+    except ValidationError as error:
+        for problem in problems(error, chosen.parameters, element.parameters):
+            ledger.problem(f"{where}.parameters.{problem.where}", f"{ROLE} {chosen.name}: {problem.message}")
+        return None
+    ledger.record(f"{where}.law", chosen.name, "", chosen.distribution or "built-in", "given")
+    for key, value in parameters.model_dump(mode="json").items():
+        plain = value if isinstance(value, int | float | str) else str(value)
+        given = key in element.parameters
+        ledger.record(
+            f"{where}.parameters.{key}", plain, "", "case" if given else "default", "given" if given else "default"
+        )
+    origins = {key: "case" if key in element.parameters else "default" for key in fields}
+    return ChosenLaw(chosen, parameters, origins)
