@@ -31,7 +31,7 @@ _WHERE: dict[type[BaseModel], str] = {
     parts.InlineMaterial: "PART is `inner`, `outer`, `balls` or `cage`: a table in place of a catalogue name.",
     motion.BodyLoads: "BODY is `inner_ring`, `outer_ring` or `cage`.",
     motion.Marker: "NAME is yours.",
-    motion.BetweenBodies: "NAME is yours. The opposite of what the law writes acts on the first body at the same point.",
+    motion.BetweenBodies: "NAME is yours. What the law writes acts on the second body, its opposite on the first.",
     modelling.ForceElement: f"ELEMENT is {', '.join(f'`{name}`' for name in ELEMENTS)}. What stands here comes before "
     "`models` and `parameters` of the whole bearing.",
     motion.Translation: "Also for `y` and `z`, of every body.",
