@@ -46,7 +46,7 @@ def test_no_array_is_read_by_a_constant_that_stands_for_a_name() -> None:
 
 def test_roles_are_declared_once() -> None:
     assert {place.split(":")[0] for place in found('"elastic_hysteresis"', CORE)} == {"lambda_core/domain/roles.py"}
-    assert len(found(r"FloatArray = NDArray", OURS)) == 1
+    assert len(found(r"FloatArray = N[D]Array", OURS)) == 1
 
 
 def test_processes_are_started_in_few_places() -> None:
