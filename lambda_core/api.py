@@ -31,7 +31,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.run.duty_cycle import duty
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.run.speed_curve import stribeck, stribeck_picture
-    from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, save, schema
+    from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, machines, save, schema
     from lambda_core.system.checking import check, describe, problems, resolve
     from lambda_core.thermal.temperatures import thermal, thermal_pictures, warm_up
 if TYPE_CHECKING:  # what the faces build on, and the classes that calls take and return

@@ -46,9 +46,12 @@ def init(
     force: ForceOption = False,
 ) -> None:
     """Write a commented case file to start from."""
+    from lambda_db.recent import remember
+
     from lambda_core import api
 
     target = api.init_case(name, start, out, overwrite=force, bearing=bearing, machine=machine)
+    remember(target)
     typer.echo(f"wrote {target}; next: lambda-bearing check {target}", err=True)
 
 
@@ -56,8 +59,11 @@ def check(
     case: CaseArgument, changes: SetOption = None, as_json: JsonOption = False, units: UnitsOption = Units.SI
 ) -> None:
     """Say what a case is, what it assumes, and everything that is wrong with it."""
+    from lambda_db.recent import remember
+
     from lambda_core import api
 
+    remember(case)
     try:
         report = api.describe(api.check(case, changes or ()))
     except api.CaseError as error:

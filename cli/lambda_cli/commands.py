@@ -41,6 +41,7 @@ def _load(target: str) -> Any:
 COMMANDS: dict[str, tuple[str, str]] = {
     "init": ("lambda_cli.case:init", "Write a commented case file to start from."),
     "check": ("lambda_cli.case:check", "Say what a case is, what it assumes, and everything that is wrong with it."),
+    "recent": ("lambda_cli.recent:recent", "List the case files worked on last."),
     "schema": ("lambda_cli.case:schema", "Print the JSON schema of case files, for editors."),
     "run": ("lambda_cli.run:run", "Run a case and write its result."),
     "resume": ("lambda_cli.resume:resume", "Go on with an interrupted run."),

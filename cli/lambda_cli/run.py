@@ -44,8 +44,11 @@ def run(
     is; lambda-bearing resume FILE goes on. Exit codes: 0 converged, 3 invalid case, 4 the
     solver failed, 5 not converged or stopped early (the reason is printed), 130 interrupted.
     """
+    from lambda_db.recent import remember
+
     from lambda_core import api
 
+    remember(case)
     model = api.check(case, [*(changes or ()), *limits(duration, max_wall)])
     with talk(progress, quiet) as speaker:
         for line in api.describe(model).headline:

@@ -6,13 +6,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lambda_db.recent import remember
 from textual.app import App
 
 from lambda_core import api
 from lambda_core.domain.errors import LambdaError
 from lambda_gui import recovery
 from lambda_gui.builder import BuilderScreen
-from lambda_gui.dialogs import EMPTY, Ask, AskText, OpenCase
+from lambda_gui.dialogs import EMPTY, MACHINE, Ask, AskText, OpenCase
 
 if TYPE_CHECKING:
     from lambda_core.api import Draft
@@ -28,14 +29,19 @@ class CaseApp(App[None]):
         return screen
 
     def open(self, source: str) -> None:
-        """Work on a case file, a copy of a built-in case, or ("") an empty model."""
+        """Work on a case file, a copy of a built-in case, what is usual in a machine, or ("") an empty model."""
         try:
-            draft = api.draft(source or None)
+            if source.startswith(MACHINE):
+                draft = api.draft(machine=source.removeprefix(MACHINE))
+            else:
+                draft = api.draft(source or None)
         except LambdaError as error:
             self.notify(str(error), severity="error", timeout=10)
             if not any(isinstance(screen, BuilderScreen) for screen in self.screen_stack):
                 self._open(None)
             return
+        if draft.path is not None:
+            remember(draft.path)
         self._open(draft)
 
     def _open(self, draft: Draft | None, then: Callable[[], None] | None = None) -> None:
@@ -151,6 +157,7 @@ class CaseApp(App[None]):
         except LambdaError as error:
             self.notify(f'{error}. Nothing is lost: save elsewhere with "Save as".', severity="error", timeout=12)
             return
+        remember(written)
         builder.saved()
         self.notify(f"saved {written}", timeout=3)
         if then is not None:

@@ -11,6 +11,9 @@ from lambda_core.api import Case
 from lambda_core.domain.option_tree import field_at, option_paths
 from lambda_gui.builder import BuilderScreen
 
+# The options that are changed most often; where words fit them as well as others they come first.
+_USUAL = ("loads.radial", "loads.axial", "operation.speed", "lubricant.temperature")
+_AHEAD = 1.5
 _LINE = 70  # characters that fit under a hit on a narrow screen
 
 
@@ -41,6 +44,7 @@ class OptionSearch(Provider):
         for path, spoken, about in self._options:
             score = max(matcher.match(path), matcher.match(spoken), 0.8 * matcher.match(about))
             if score > 0.0:
+                score *= _AHEAD if path in _USUAL else 1.0
                 go = partial(self.screen.go_to, tuple(path.split(".")))
                 yield Hit(score, matcher.highlight(path), go, help=gist(about))
 
@@ -48,7 +52,7 @@ class OptionSearch(Provider):
         """Yield the options that are changed most often."""
         if not isinstance(self.screen, BuilderScreen):
             return
-        for path in ("loads.radial", "loads.axial", "operation.speed", "lubricant.temperature"):
+        for path in _USUAL:
             info = field_at(Case, path)
             go = partial(self.screen.go_to, tuple(path.split(".")))
             yield DiscoveryHit(path, go, help=gist(info.description or "") if info is not None else "")

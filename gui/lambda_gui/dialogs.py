@@ -77,11 +77,18 @@ class AskText(ModalScreen[str | None]):
 
 
 EMPTY = ""
+MACHINE = "machine:"  # what stands before the name of a machine to start from
 _NAMES = 18  # columns for the names of cases; what is longer is wrapped
 
 
+def _short(folder: Path) -> str:
+    """Return a folder as people write it, from home where it is there."""
+    home = Path.home()
+    return f"~/{folder.relative_to(home)}" if folder.is_relative_to(home) else str(folder)
+
+
 class OpenCase(ModalScreen[str | None]):
-    """Which case to work on: "" for an empty one, a file, or a built-in name; None when left with Esc."""
+    """Which case to work on: "" for an empty one, a file, a machine, a built-in name; None when left with Esc."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "dismiss(None)", "Back"),
@@ -111,12 +118,16 @@ class OpenCase(ModalScreen[str | None]):
 
     def on_mount(self) -> None:
         """Offer everything."""
+        from lambda_db.recent import recent_cases
+
         from lambda_core import api
 
         self._offers = [(EMPTY, "empty model", "start from nothing")]
-        for file in sorted(self._folder.glob("*.toml")):
-            if not file.name.startswith(".") and file.name != "pyproject.toml":
-                self._offers.append((str(file), file.name, f"in {self._folder.name or self._folder}"))
+        here = [f for f in sorted(self._folder.glob("*.toml")) if f.name[0] != "." and f.name != "pyproject.toml"]
+        self._offers += [(str(file), file.name, f"in {self._folder.name or self._folder}") for file in here]
+        known = {file.resolve() for file in here}
+        self._offers += [(str(f), f.name, f"recent, in {_short(f.parent)}") for f in recent_cases() if f not in known]
+        self._offers += [(f"{MACHINE}{name}", name, text) for name, text in api.machines().items()]
         self._offers += [(name, name, text) for name, text in api.builtin_cases().items()]
         self._filter("")
 

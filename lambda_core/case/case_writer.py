@@ -201,7 +201,7 @@ def _fill(container: Any, values: Mapping[str, Any]) -> None:
 def _update(container: Any, before: Mapping[str, Any], after: Mapping[str, Any]) -> None:
     """Bring a parsed file from what it says (`before`) to `after`, touching only what differs."""
     for key in [key for key in container if key not in after]:
-        container.remove(key)
+        del container[key]
     for key, value in after.items():
         if key in container and key in before and before[key] == value:
             continue
@@ -212,4 +212,4 @@ def _update(container: Any, before: Mapping[str, Any], after: Mapping[str, Any])
         elif key in container:
             container[key] = _item(value)
         else:
-            container.add(key, _item(value))
+            container[key] = _item(value)

@@ -117,8 +117,6 @@ def init_case(
     CaseError
         When `name` cannot be a case's name.
     """
-    from contextlib import closing
-
     from lambda_core.case.case_writer import new_case, write_new
 
     target = Path(path) if path is not None else Path(f"{name}.toml")
@@ -128,6 +126,15 @@ def init_case(
         other = "a bearing" if machine is None else "a machine"
         raise UsageError(f"a new case starts from a case or from {other}, not from both")
     from lambda_core.case.case_io import parse_case
+
+    text = _machine_text(name, machine, bearing)
+    return write_new(parse_case(text, f"case {name}"), text, target, overwrite)
+
+
+def _machine_text(name: str, machine: str | None, bearing: str | None) -> str:
+    """Return the commented case of a bearing in a machine, or in any."""
+    from contextlib import closing
+
     from lambda_core.catalogue.designation import designated
     from lambda_core.system.fresh_case import fresh_case
     from lambda_core.system.machine_templates import GENERAL, MACHINES
@@ -136,8 +143,20 @@ def init_case(
         raise UsageError(unknown_name("machine", machine, MACHINES))
     kind = GENERAL if machine is None else MACHINES[machine]
     with closing(catalogue()) as opened:
-        text = fresh_case(name, *designated(opened, bearing or kind.bearing), kind)
-    return write_new(parse_case(text, f"case {name}"), text, target, overwrite)
+        return fresh_case(name, *designated(opened, bearing or kind.bearing), kind)
+
+
+def machines() -> dict[str, str]:
+    """Return the machines that a case can start from, each with a few words.
+
+    Returns
+    -------
+    dict of str to str
+        Names for :func:`init_case` and :func:`draft`.
+    """
+    from lambda_core.system.machine_templates import MACHINES
+
+    return {name: f"{machine.words}: {machine.bearing} {machine.clearance}" for name, machine in MACHINES.items()}
 
 
 def schema() -> dict[str, Any]:
@@ -153,13 +172,15 @@ def schema() -> dict[str, Any]:
     return case_json_schema()
 
 
-def draft(source: str | Path | None = None) -> Draft:
-    """Open a case for editing: a file, a copy of a built-in case, or one that says nothing yet.
+def draft(source: str | Path | None = None, *, machine: str | None = None) -> Draft:
+    """Open a case for editing: a file, a copy of a built-in case, what is usual in a machine, or nothing yet.
 
     Parameters
     ----------
     source : str or Path, optional
         File or built-in name; None for an empty draft.
+    machine : str, optional
+        Instead of `source`: one of :func:`machines`.
 
     Returns
     -------
@@ -173,8 +194,10 @@ def draft(source: str | Path | None = None) -> Draft:
     CaseError
         When the file is not TOML; any other mistake may stand in a draft.
     """
-    from lambda_core.case.draft import new_draft, open_draft
+    from lambda_core.case.draft import draft_of, new_draft, open_draft
 
+    if machine is not None:
+        return draft_of(_machine_text(machine, machine, None), None)
     return new_draft() if source is None else open_draft(source)
 
 

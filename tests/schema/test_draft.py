@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -185,3 +186,23 @@ def test_replacing_everything_can_be_undone(file: Path) -> None:
     while draft.undo():
         pass
     assert not draft.is_changed()
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {("bearing", "geometry", "ball_count"): 9},
+        {("bearing", "clearance"): None},
+        {("bearing", "fits"): None, ("bearing", "temperatures"): None},
+        {("bearing", "fits", "shaft"): None, ("bearing", "designation"): "6208"},
+        {("bearing",): None},
+        {("bearing", "clearance"): "14 um", ("bearing", "clearance_pick"): None, ("loads", "axial"): "3 N"},
+    ],
+)
+def test_tables_that_go_on_further_down_are_changed_too(changes: dict[tuple[str, ...], object]) -> None:
+    """[bearing.fits] of a machine stands behind [operation]: the file says what the draft does, comments stay."""
+    draft = api.draft(machine="electric-motor")
+    for keys, value in changes.items():
+        draft.set(*keys, value=value)
+    assert tomllib.loads(draft.text()) == draft.tables
+    assert "# two poles at 50 Hz" in draft.text()

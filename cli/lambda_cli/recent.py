@@ -1,0 +1,22 @@
+"""The command recent: the case files that were worked on last."""
+
+from __future__ import annotations
+
+import json
+
+import typer
+
+from lambda_cli.options import JsonOption
+
+
+def recent(as_json: JsonOption = False) -> None:
+    """List the case files that were checked, run, begun or opened last, the newest first."""
+    from lambda_db.recent import recent_cases
+
+    found = [str(path) for path in recent_cases()]
+    if as_json:
+        typer.echo(json.dumps({"version": 1, "cases": found}, indent=2))
+    elif found:
+        typer.echo("\n".join(found))
+    else:
+        typer.echo("no case yet; begin with: lambda-bearing init NAME --machine electric-motor", err=True)

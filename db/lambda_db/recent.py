@@ -1,0 +1,39 @@
+"""Cases that were worked on last: a short list of files in the user's data folder."""
+
+from __future__ import annotations
+
+import json
+import os
+from contextlib import suppress
+from pathlib import Path
+
+from lambda_db.paths import data_folder
+
+_MOST = 20  # files that are kept in mind
+
+
+def _file() -> Path:
+    return data_folder() / "recent.json"
+
+
+def recent_cases() -> list[Path]:
+    """Return the files that were worked on last and still exist, the newest first; an unreadable list is empty."""
+    try:
+        found = json.loads(_file().read_text(encoding="utf-8"))
+        return [path for path in map(Path, found) if path.is_file()]
+    except (OSError, ValueError, TypeError):
+        return []
+
+
+def remember(path: str | Path) -> None:
+    """Put a case file at the head of the list; what is no file is left out, and no failure to write is told."""
+    with suppress(OSError):
+        case = Path(path).resolve()
+        if case.suffix != ".toml" or not case.is_file():
+            return
+        names = [str(known) for known in (case, *(known for known in recent_cases() if known != case))]
+        file = _file()
+        file.parent.mkdir(parents=True, exist_ok=True)
+        fresh = file.with_name(f"recent-{os.getpid()}.json")
+        fresh.write_text(json.dumps(names[:_MOST]), encoding="utf-8")
+        fresh.replace(file)
