@@ -33,6 +33,7 @@ from lambda_core.solver.records import PRESCRIBED
 # Shares of the energy that flows, over the tolerance, which a step may lose.
 _LEAK = 0.4  # for good, twice (scheme and iteration): together a fifth below what a balance may miss
 _SCATTER = 5.0  # with either sign: cancels from step to step but for single events, which this bounds
+_CLOSER = 0.1  # of the floor is left to the iteration: what it leaves looks to the scheme like a loss of its own
 _OF_ONE = 2 * MECHANISMS + RUNNING_SIZE - BESIDE_LOSSES  # losses of one bearing
 _OF_BDF = 0.7  # share of the BDF's error in its distance from the trapezium rule, 2/9 of 2/9 + 1/12
 
@@ -157,8 +158,17 @@ def _residual_work(bundle, mem):
 
 
 @helper
-def _excess(mem, h, energy, share):
-    """Return an energy over what a step may lose: `share` tolerances of what flows, or the floor.
+def _floor(mem, h):
+    """Return the energy that a step may lose although nothing flows [J]: so much per time, however short steps are.
+
+    By the step, a thousand short ones would lose a thousand times as much: more than a light bearing turns slowly by.
+    """
+    return mem.control[0].leak_floor * h / mem.control[0].longest_step
+
+
+@helper
+def _excess(mem, h, energy, share, floor):
+    """Return an energy over what a step may lose: `share` tolerances of what flows, and the floor.
 
     What flows is put in or dissipated, whichever is more, now or on the average so far.
     """
@@ -171,7 +181,7 @@ def _excess(mem, h, energy, share):
     flow = max(lost, now.input_abs)
     if control.time > 0.0:
         flow = max(flow, max(all_lost, so_far.input_abs) / control.time)
-    return abs(energy) / (share * control.tolerance * h * flow + control.leak_floor)
+    return abs(energy) / (share * control.tolerance * h * flow + floor)
 
 
 @helper
@@ -185,7 +195,7 @@ def leak_of_iterate(bundle, mem, h):
     off = abs(power - led)
     for i in range(mem.new.size):
         off += abs(mem.inertia[i] * mem.slope[i] * mem.last_move[i])
-    return _excess(mem, h, h * off, _LEAK)
+    return _excess(mem, h, h * off, _LEAK, _CLOSER * _floor(mem, h))
 
 
 @helper
@@ -241,12 +251,13 @@ def _quadrature(mem, h, losses):
 def leak_of_step(mem, h):
     """Return the energy that the scheme loses in this step, over what a step may lose.
 
-    What is dissipated adds up; errors of quadrature have either sign.
+    What is dissipated adds up; errors of quadrature have either sign, and where a loss jumps no step is short enough.
     """
     losses = mem.rates.size - BESIDE_LOSSES
     # One bearing has two raceways: loops of a length that the compiler knows.
     error = _quadrature(mem, h, _OF_ONE) if losses == _OF_ONE else _quadrature(mem, h, losses)
-    return max(_excess(mem, h, _dissipated(mem, h), _LEAK), _excess(mem, h, error, _SCATTER))
+    lost = _excess(mem, h, _dissipated(mem, h), _LEAK, _floor(mem, h))
+    return max(lost, _excess(mem, h, error, _SCATTER, mem.control[0].leak_floor))
 
 
 @helper

@@ -48,7 +48,7 @@ CONTROL = np.dtype(
         ("factored_gamma", np.float64),  # gamma that the arrow matrix was factored for, 0 when it is out of date [s]
         ("convergence_rate", np.float64),  # of Newton's iteration: change over the change before [-]
         ("tolerance", np.float64),  # of errors, in scales of the states [-]
-        ("leak_floor", np.float64),  # energy that any step may lose [J]
+        ("leak_floor", np.float64),  # energy that the longest step may lose though nothing flows [J]
         ("dissipated_power", np.float64),  # at `time` [W]
         ("sample_interval", np.float64),  # [s]
         ("next_sample", np.float64),  # time of it [s]
@@ -120,7 +120,7 @@ def make_memory(y0: np.ndarray, scale: np.ndarray, tolerance: float, bundle: Any
     inertia = inertias(bundle)
     control = np.zeros(1, dtype=CONTROL)
     control["tolerance"] = tolerance
-    # Differences of one tolerance in every speed are never too much.
+    # Differences of one tolerance in every speed, over the longest step, are never too much.
     control["leak_floor"] = 0.25 * np.sum(inertia * (tolerance * scale) ** 2)
     arrays.update(
         y=y0.copy(),
