@@ -215,7 +215,7 @@ def test_memory_is_flat_over_a_long_run(
             held[turn] = tracemalloc.get_traced_memory()[0]
 
     monkeypatch.setattr("lambda_core.run.session._FLUSH_AFTER", 0.0)
-    monkeypatch.setattr("lambda_core.run.loop._REPORT_AFTER", 0.0)
+    monkeypatch.setattr("lambda_core.run.session._REPORT_AFTER", 0.0)
     tracemalloc.start()
     try:
         result = run(FakeEngine(), provenance(duration=2.1 * TURN), tmp_path / "r.h5", report=look)
