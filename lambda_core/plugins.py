@@ -15,6 +15,7 @@ from lambda_core.views.chart import Arrows, Axis, Field, Mark, Panel, Series, Vi
 from lambda_core.views.method import METHOD_API, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
 from lambda_core.views.observer import EVENT_API, OBSERVER_API, Event, Integral, Number, Observer, Samples
 from lambda_core.views.scene import Scene
+from lambda_core.views.section import SECTION_API, ReportTable, Section
 from lambda_core.views.table import Column, StudyTable
 from lambda_core.views.view import VIEW_API, Figure, Options, RunData, View
 
@@ -27,6 +28,7 @@ __all__ = [
     "OBSERVER_API",
     "OK",
     "ROLE_API",
+    "SECTION_API",
     "VIEW_API",
     "Arrows",
     "Axis",
@@ -54,9 +56,11 @@ __all__ = [
     "Panel",
     "Parameters",
     "Quantity",
+    "ReportTable",
     "RunData",
     "Samples",
     "Scene",
+    "Section",
     "Series",
     "StudyTable",
     "View",

@@ -20,6 +20,7 @@ from lambda_core.laws.par import par_layout
 from lambda_core.laws.parameter import default_fault
 from lambda_core.views.method import METHOD_API, Method
 from lambda_core.views.observer import event_fault, observer_fault
+from lambda_core.views.section import section_fault
 from lambda_core.views.view import view_fault
 
 _NAME = re.compile(r"[a-z0-9]+(?:-[a-z0-9]+)*")
@@ -29,6 +30,7 @@ _KINDS = {
     "lambda_views": "view",
     "lambda_observers": "observer",
     "lambda_events": "event",
+    "lambda_sections": "section",
 }
 
 
@@ -158,6 +160,8 @@ def _fault(entry: Entry) -> str:
         return observer_fault(item) or _name_fault("observer", item.name)
     if entry.hook == "lambda_events":
         return event_fault(item) or _name_fault("event", item.name)
+    if entry.hook == "lambda_sections":
+        return section_fault(item) or _name_fault("section", item.name)
     return view_fault(item) or _name_fault("view", item.name)
 
 

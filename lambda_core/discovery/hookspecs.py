@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from lambda_core.views.chart import ViewData
     from lambda_core.views.observer import Event, Observer
     from lambda_core.views.scene import Scene
+    from lambda_core.views.section import Section
     from lambda_core.views.view import Figure, View
 
 PROJECT = "lambda_core"
@@ -52,6 +53,11 @@ def lambda_observers(register: Callable[[Observer], None]) -> None:
 @hookspec
 def lambda_events(register: Callable[[Event], None]) -> None:
     """Register events, which a run records or ends at: ``register(Event("cage-instability", ...))``."""
+
+
+@hookspec
+def lambda_sections(register: Callable[[Section], None]) -> None:
+    """Register sections of the report of a run: ``register(Section("noise-class", ...))``."""
 
 
 @hookspec(firstresult=True)

@@ -35,6 +35,7 @@ _REGISTERING_HOOKS = (
     "lambda_views",
     "lambda_observers",
     "lambda_events",
+    "lambda_sections",
     "lambda_data",
 )
 

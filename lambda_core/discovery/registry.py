@@ -20,6 +20,7 @@ from lambda_core.domain.roles import ROLES
 from lambda_core.laws.law import Law, LazyLaw, law_of
 from lambda_core.views.method import Method
 from lambda_core.views.observer import Event, Observer
+from lambda_core.views.section import Section
 from lambda_core.views.view import Figure, View
 
 if TYPE_CHECKING:
@@ -50,6 +51,8 @@ class Registry:
         Observers by name.
     events : mapping of str to Event
         Events by name.
+    sections : mapping of str to Section
+        Sections of reports by name.
     data_folders : tuple of (str, pathlib.Path)
         Distribution and folder of catalogue rows.
     """
@@ -76,6 +79,7 @@ class Registry:
         self.views: Mapping[str, View] = _of_kind(collection, "view")
         self.observers: Mapping[str, Observer] = _of_kind(collection, "observer")
         self.events: Mapping[str, Event] = _of_kind(collection, "event")
+        self.sections: Mapping[str, Section] = _of_kind(collection, "section")
         self.data_folders: tuple[tuple[str, Path], ...] = tuple(collection.folders)
 
     def names(self, role: str) -> tuple[str, ...]:

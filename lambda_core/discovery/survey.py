@@ -20,7 +20,7 @@ from lambda_core.domain.roles import DEFAULT_MODELS, ROLE_API, ROLES
 from lambda_core.laws.check import ModelReport, check_model
 from lambda_core.laws.law import Law
 
-Kind = Literal["model", "method", "view", "observer", "event", "data"]
+Kind = Literal["model", "method", "view", "observer", "event", "section", "data"]
 
 
 class ParameterCard(FieldCard):
@@ -113,6 +113,7 @@ def inventory(registry: Registry) -> Inventory:
         ("view", registry.views),
         ("observer", registry.observers),
         ("event", registry.events),
+        ("section", registry.sections),
     )
     for kind, named in kinds:
         for name, item in named.items():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import re
 from dataclasses import dataclass
 from html import escape
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_target
+from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.report.gallery import every
 from lambda_core.report.key_tables import (
@@ -31,7 +33,10 @@ from lambda_core.report.key_tables import (
 from lambda_core.views.chart import ViewData
 from lambda_core.views.method import NotApplicable
 from lambda_core.views.other_units import in_units
+from lambda_core.views.section import ReportTable, content_of
 from lambda_core.views.table import StudyTable
+
+log = logging.getLogger("lambda_core")
 
 if TYPE_CHECKING:
     from lambda_core.results.citation import Citation
@@ -132,6 +137,7 @@ def run_report(registry: Registry, result: Result, cover: Cover = _NO_COVER) -> 
             *watched(summary),
             contacts(summary, units),
         ),
+        sections=_sections(registry, result),
         pictures=[p for p in pictures if p.name not in (*_TRUST, _SKETCH)],
         trust=[p for p in pictures if p.name in _TRUST],
         trust_tables=(convergence(summary, units),),
@@ -176,6 +182,7 @@ def study_report(
         sketch=None,
         figures=figures,
         tables=tuple(tables),
+        sections=[],
         pictures=_pictures(registry, table, "study", cover),
         trust=[],
         trust_tables=(),
@@ -214,6 +221,22 @@ def write_page(text: str, path: Path) -> Path:
 
 
 # -- parts of a page --
+
+
+def _sections(registry: Registry, result: Result) -> list[dict[str, Any]]:
+    """Return what plugins say of a run; one that fails says so in its place."""
+    found = []
+    for section in registry.sections.values():
+        try:
+            parts: tuple[str | ReportTable, ...] = content_of(section, result)
+        except NotApplicable:
+            continue
+        except PluginError as error:
+            log.warning("%s", error)
+            parts = (f"Not shown: {error}.",)
+        source = f"{section.reference} [{section.distribution}]"
+        found.append({"name": section.name, "title": section.title, "parts": parts, "source": source})
+    return found
 
 
 def _render(**context: Any) -> str:
