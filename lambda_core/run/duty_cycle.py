@@ -34,6 +34,7 @@ from lambda_core.system.operating_limits import operating_warnings
 from lambda_core.thermal.temperatures import ready_model
 
 _MOST_PHASES = 1000
+_YEAR = 8766.0  # [h], 365.25 days
 _EXPONENT = 3.0  # of ball bearings: L = (C/P)^3
 
 
@@ -65,6 +66,7 @@ class PhaseResult(Record):
     damage: float | None = Field(description="share of the damage by ISO/TS 16281")
     friction_torque_Nmm: float | None = Field(description="quasi-static, without cage")
     power_loss_W: float
+    energy_loss_kJ: float = Field(description="in one cycle")
     warnings: list[str]
 
 
@@ -81,6 +83,8 @@ class DutyCycle(Record):
     mean_load_N: float | None = Field(description="constant P of equal basic rating life at the mean speed")
     mean_speed_rpm: float
     mean_power_loss_W: float
+    energy_loss_kJ: float = Field(description="of all phases, in one cycle")
+    energy_loss_kWh_per_year: float = Field(description="of a cycle that is repeated without a pause, in 8766 h")
     assumptions: list[str]
 
     def text(self, units: UnitSystem = SI) -> str:
@@ -88,12 +92,17 @@ class DutyCycle(Record):
         force, torque = units.unit("N"), units.unit("N mm")
         head = (
             "phase", "time %", "rpm", f"P {force}", "L10h", "L10rh", "damage %", f"torque {torque}",
-            f"loss {units.unit('W')}",
+            f"loss {units.unit('W')}", "energy kJ",
         )  # fmt: skip
         rows = [head, *(_row(phase, units) for phase in self.phases), _sum_row(self, units)]
         widths = [max(len(row[i]) for row in rows) for i in range(len(head))]
         lines = [f"{self.name}: a cycle of {number(self.cycle_h, 2)} h of {self.case}", ""]
         lines += ["  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]) for row in rows]
+        lines += [
+            "",
+            f"energy   {number(self.energy_loss_kJ)} kJ are lost in a cycle, "
+            f"{number(self.energy_loss_kWh_per_year)} kWh in a year of cycles without a pause",
+        ]
         warned = [f"{phase.name}: {units.sentence(text)}" for phase in self.phases for text in phase.warnings]
         lines += ["", *(f"WARNING  {text}" for text in warned), *(f"assumed  {text}" for text in self.assumptions)]
         return "\n".join(lines)
@@ -134,6 +143,7 @@ def duty(source: str | Path | Mapping[str, Any], *, announce: Callable[[str], No
     total = lives["reference_life_h"]
     phases = [phase.model_copy(update={"damage": _damage(phase, total)}) for phase in alone]
     mean_speed = sum(phase.share * phase.speed_rpm for phase in phases)
+    mean_loss = sum(phase.share * phase.power_loss_W for phase in phases)
     return DutyCycle(
         name=cycle.name,
         case=case.name,
@@ -143,7 +153,9 @@ def duty(source: str | Path | Mapping[str, Any], *, announce: Callable[[str], No
         reference_life_h=finite(total),
         mean_load_N=_mean_load(phases, mean_speed),
         mean_speed_rpm=mean_speed,
-        mean_power_loss_W=sum(phase.share * phase.power_loss_W for phase in phases),
+        mean_power_loss_W=mean_loss,
+        energy_loss_kJ=sum(phase.energy_loss_kJ for phase in phases),
+        energy_loss_kWh_per_year=1e-3 * mean_loss * _YEAR,
         assumptions=list(_ADDED),
     )
 
@@ -203,6 +215,7 @@ def _solved(phase: Phase, case: Case, share: float, announce: Callable[[str], No
         damage=None,
         friction_torque_Nmm=1e3 * loss / speed if turns else None,
         power_loss_W=loss if turns else 0.0,
+        energy_loss_kJ=1e-3 * loss * phase.time if turns else 0.0,
         warnings=operating_warnings(model),
     )
 
@@ -251,6 +264,7 @@ def _row(phase: PhaseResult, units: UnitSystem) -> tuple[str, ...]:
         number(None if phase.damage is None else 100.0 * phase.damage),
         units.number(phase.friction_torque_Nmm, "N mm"),
         units.number(phase.power_loss_W, "W"),
+        number(phase.energy_loss_kJ),
     )
 
 
@@ -265,4 +279,5 @@ def _sum_row(found: DutyCycle, units: UnitSystem) -> tuple[str, ...]:
         "",
         "",
         units.number(found.mean_power_loss_W, "W"),
+        number(found.energy_loss_kJ),
     )

@@ -53,6 +53,10 @@ def test_damages_add(day: DutyCycle) -> None:
     assert (rest.damage, rest.power_loss_W, rest.friction_torque_Nmm) == (0.0, 0.0, None)
     assert sum(phase.damage or 0.0 for phase in day.phases) == pytest.approx(1.0, rel=1e-12)
     assert day.mean_power_loss_W == pytest.approx(0.5 * first.power_loss_W + 0.25 * second.power_loss_W)
+    joule = 12.0 * 3600.0 * first.power_loss_W + 6.0 * 3600.0 * second.power_loss_W
+    assert day.energy_loss_kJ == pytest.approx(1e-3 * joule, rel=1e-12)
+    assert day.energy_loss_kWh_per_year == pytest.approx(joule / 3.6e6 * 365.25, rel=1e-12)
+    assert f"{day.energy_loss_kWh_per_year:.1f} kWh in a year" in day.text()
     assert day.mean_speed_rpm == pytest.approx(0.5 * first.speed_rpm + 0.25 * 3000.0)
 
 
@@ -61,7 +65,7 @@ def phase(share: float, speed: float, load: float) -> PhaseResult:
     life = 1e6 * (10e3 / load) ** 3 / (60.0 * speed) if speed else None
     return PhaseResult(
         name="", share=share, speed_rpm=speed, equivalent_load_N=load, basic_life_h=life, reference_life_h=None,
-        damage=None, friction_torque_Nmm=None, power_loss_W=0.0, warnings=[],
+        damage=None, friction_torque_Nmm=None, power_loss_W=0.0, energy_loss_kJ=0.0, warnings=[],
     )  # fmt: skip
 
 

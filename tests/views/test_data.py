@@ -112,6 +112,19 @@ def test_lambda_is_film_over_roughness_and_pressure_peaks_as_the_summary_says(ra
     assert np.nanmax(highest) == pytest.approx(radial_run.summary().max_pressure_GPa, rel=1e-12)
 
 
+def test_simulation_and_catalogues_stand_on_one_axis(radial_run: Result, combined_run: Result) -> None:
+    summary = radial_run.summary()
+    assert summary.rating is not None
+    panel = data(radial_run, "catalogues").panels[0]
+    assert panel.x.categories == ("simulation", "SKF", "Schaeffler")
+    sums = np.nansum([s.y for s in panel.series], axis=0)
+    expected = [summary.friction_torque_Nmm, summary.rating.skf_torque_Nmm, summary.rating.schaeffler_torque_Nmm]
+    np.testing.assert_allclose(sums, np.array(expected, float), rtol=1e-9)
+    beside = api.view([radial_run, combined_run], "comparison").panels[1]
+    assert [s.name for s in beside.series] == ["simulation", "SKF", "Schaeffler"]
+    assert series(beside, "SKF").y[0] == summary.rating.skf_torque_Nmm
+
+
 def test_friction_adds_up_and_its_mean_is_the_summarys(radial_run: Result) -> None:
     summary = radial_run.summary()
     panel = data(radial_run, "friction-breakdown").panels[0]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -44,6 +45,15 @@ def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
     ]
     panels = (
         Panel("friction torque", which, Axis("friction torque", "N mm", low=0.0), tuple(stacks), stacked=True),
+        Panel(
+            "simulation beside catalogues",
+            which,
+            Axis("friction torque", "N mm", low=0.0),
+            tuple(
+                Series(name, places, column(values), "bars", group=group)
+                for group, (name, values) in enumerate(_beside(summaries))
+            ),
+        ),
         Panel("load on the inner ring", AZIMUTH, Axis("load", "kN", low=0.0), _loads(runs, names)),
         bars("largest pressure", "pressure", "GPa", [s.max_pressure_GPa for s in summaries]),
         bars("smallest film", "minimum film", "um", [s.min_film_um for s in summaries]),
@@ -59,6 +69,13 @@ def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
     if open_ends:
         notes.append(f"not converged: {', '.join(open_ends)}")
     return ViewData("comparison", "Comparison of results", ", ".join(names), panels, 2, tuple(notes))
+
+
+def _beside(summaries: Sequence[Any]) -> Iterator[tuple[str, list[float | None]]]:
+    """Yield the friction torques of the simulations, and of the catalogues for the same cases."""
+    yield "simulation", [s.friction_torque_Nmm for s in summaries]
+    for name, field in (("SKF", "skf_torque_Nmm"), ("Schaeffler", "schaeffler_torque_Nmm")):
+        yield name, [getattr(s.rating, field, None) for s in summaries]
 
 
 def _loads(runs: Sequence[RunData], names: Sequence[str]) -> tuple[Series, ...]:

@@ -1,0 +1,57 @@
+"""A run beside the catalogue methods, on one axis."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from lambda_core.plugins import Axis, NotApplicable, Options, Panel, RunData, Series, View, ViewData
+from lambda_plugins.views.common import averaging, source
+
+# Mechanisms of the simulation under the words of catalogues.
+_PARTS = (
+    ("rolling", ("rolling", "hysteresis")),
+    ("sliding", ("sliding", "spin", "boundary")),
+    ("drag", ("drag",)),
+    ("cage and the rest", ("cage", "damping", "support")),
+)
+
+
+def catalogues(run: RunData, options: Options) -> ViewData:
+    """Friction torque of the simulation by parts, and what SKF's and Schaeffler's models say for the same point."""
+    summary = run.summary()
+    rating, total = summary.rating, summary.friction_torque_Nmm
+    if rating is None or total is None:
+        raise NotApplicable("the catalogue methods do not answer this case, or nothing turns")
+    others = [
+        (name, value)
+        for name, value in (("SKF", rating.skf_torque_Nmm), ("Schaeffler", rating.schaeffler_torque_Nmm))
+        if value is not None
+    ]
+    if not others:
+        raise NotApplicable("neither SKF's nor Schaeffler's model knows this bearing")
+    places = np.arange(1.0 + len(others))
+    found = summary.friction_breakdown_Nmm
+    series = []
+    for group, (name, mechanisms) in enumerate(_PARTS):
+        values = np.full(places.size, math.nan)
+        values[0] = sum(v or 0.0 for key, v in found.items() if key.split("_")[0] in mechanisms)
+        series.append(Series(name, places, values, "bars", group=group))
+    whole = np.array([math.nan, *(value for _, value in others)])
+    series.append(Series("whole", places, whole, "bars", "reference"))
+    panel = Panel(
+        f"simulation {total:.4g} N mm, {', '.join(f'{name} {value:.4g}' for name, value in others)}",
+        Axis("", categories=("simulation", *(name for name, _ in others))),
+        Axis("friction torque", "N mm", low=0.0),
+        tuple(series),
+        stacked=True,
+    )
+    notes = (
+        f"simulation: mean over {averaging(run).words}; catalogues: loads and speed of the start, no cage",
+        "rolling: rolling resistance and hysteresis; sliding: slip, spin and asperities",
+    )
+    return ViewData("catalogues", "Simulation beside catalogues", source(run), (panel,), 1, notes)
+
+
+VIEWS = (View("catalogues", "friction torque beside SKF's and Schaeffler's models", "result", catalogues, view_api=1),)
