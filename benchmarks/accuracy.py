@@ -12,9 +12,9 @@ from benchmarks.handle import Handle
 from lambda_core.domain.channels import LOSSES
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers import tables
-from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.observation import observe
+from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.entry import core
 
 # How close a run has to come to the reference to count, and how well its energy has to balance.
@@ -108,8 +108,8 @@ def trajectory_totals(handle: Handle, times: FloatArray, states: FloatArray, at:
     running[1:] = np.cumsum(0.5 * np.diff(times)[:, None] * (rates[1:] + rates[:-1]), axis=0)
     powers = tables.running(running)
     picked = [min(int(np.searchsorted(times, t - 1e-12)), times.size - 1) for t in at]
-    stored = observe(core(), handle.assembly, times[picked], np.ascontiguousarray(states[picked]))["stored_energy"]
-    angles = [_angles(handle.assembly, times[k], states[k]) for k in picked]
+    stored = observe(core(), handle.context, times[picked], np.ascontiguousarray(states[picked]))["stored_energy"]
+    angles = [_angles(handle.context, times[k], states[k]) for k in picked]
     return [
         Totals(
             float(times[k]),
@@ -124,10 +124,10 @@ def trajectory_totals(handle: Handle, times: FloatArray, states: FloatArray, at:
     ]
 
 
-def _angles(assembly: Assembly, t: float, y: FloatArray) -> tuple[float, float]:
+def _angles(context: SolverContext, t: float, y: FloatArray) -> tuple[float, float]:
     """Return cage and inner ring angle relative to the outer ring [rad]."""
-    channels = observe(core(), assembly, np.array([t]), np.ascontiguousarray(y).reshape(1, -1))
+    channels = observe(core(), context, np.array([t]), np.ascontiguousarray(y).reshape(1, -1))
     inner, outer, cage = (float(angle) for angle in channels["body_spin_angle"][0])
-    if not assembly.model.depth.cage:
+    if not context.model.depth.cage:
         cage = float(np.mean(channels["ball_azimuth"][0]))
     return cage - outer, inner - outer

@@ -22,15 +22,15 @@ _PARTS = ("rhs", "jacobian", "factor", "solve")
 def measure(effort: Effort) -> Section:
     """Time the parts of a step with one bearing and with more, all at the states of the single one."""
     start = solve(MIDDLE.model())
-    times, states = trajectory(start.assembly.model, start, _STATES)
+    times, states = trajectory(start.context.model, start, _STATES)
     counts = BEARINGS_QUICK if effort.quick else BEARINGS
     costs, shared = [], []
     for count in counts:
-        assembly = on_a_shaft(start.assembly, [0.0] * count)
-        same = np.array([together(start.assembly, [y] * count) for y in states])
-        cost = unit_costs(Handle(assembly), times, same)
+        context = on_a_shaft(start.context, [0.0] * count)
+        same = np.array([together(start.context, [y] * count) for y in states])
+        cost = unit_costs(Handle(context), times, same)
         costs.append([1e6 * cost[name] for name in _PARTS])
-        shared.append(assembly.bundle.active.size)
+        shared.append(context.bundle.active.size)
     rows: list[tuple[Cell, ...]] = [
         (count, n, *cost, *(value / one / count for value, one in zip(cost, costs[0], strict=True)))
         for count, n, cost in zip(counts, shared, costs, strict=True)

@@ -105,7 +105,7 @@ def measure(effort: Effort) -> Section:
             for model, start, found in zip(models, starts, repeats, strict=True):
                 found.append(passage(model, start, horizon))
         parts = [
-            unit_costs(Handle(start.assembly), *trajectory(model, start, 2))
+            unit_costs(Handle(start.context), *trajectory(model, start, 2))
             for model, start in zip(models, starts, strict=True)
         ]
     cost = [wall(found) / found[0].simulated for found in repeats]

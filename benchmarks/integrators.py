@@ -43,8 +43,8 @@ class Problem:
     def __init__(self, model: BearingModel, start: Equilibrium, end: float) -> None:
         self.end = end
         self.max_step = model.solver.max_step
-        self.scale = start.assembly.scale
-        self.handle = Handle(start.assembly)
+        self.scale = start.context.scale
+        self.handle = Handle(start.context)
         self.initial = initial_state(start)
         self.evaluations = self.jacobians = 0
 

@@ -60,7 +60,7 @@ def measure(effort: Effort) -> Section:
         model = api.check(MIDDLE.case, (f"depth.strips={strips}", f"depth.rows={number_of_rows}"))
         start = solve(model)
         times, states = trajectory(model, start, effort.pick(2, _STATES))
-        handle = Handle(start.assembly)
+        handle = Handle(start.context)
         cost = unit_costs(handle, times, states)
         if (number_of_rows, strips) == DEFAULT_GRID:
             costs = cost

@@ -53,7 +53,7 @@ class PeerRun:
 
 def stiffness(start: Equilibrium) -> float:
     """Return K of Q = K delta^1.5 [N/m^1.5], the mean of inner and outer contact: Exudyn takes one for both."""
-    raceways = start.assembly.bundle.raceways[["radius_x", "radius_y", "modulus"]].tolist()
+    raceways = start.context.bundle.raceways[["radius_x", "radius_y", "modulus"]].tolist()
     return float(np.mean([stiffness_constant(x, y, e) for x, y, e in raceways]))
 
 
@@ -63,7 +63,7 @@ def exudyn_run(start: Equilibrium, step: float, duration: float, *, modified_new
     from exudyn.machines import CreateBallBearing, GetBallBearingData
     from exudyn.utilities import InertiaCylinder, MarkerBodyRigid, SensorBody, SensorObject
 
-    model = start.assembly.model
+    model = start.context.model
     g = model.geometry
     speed = model.inner_ring.dofs["spin"].motion.terms[0].values[0]
     orbit = 0.5 * speed * (1.0 - g.ball_diameter / g.pitch_diameter)

@@ -30,7 +30,7 @@ def _cost(model: BearingModel, effort: Effort) -> tuple[dict[str, float], float,
     horizon = Horizon(0.0, 1.0)
     repeats = [passage(model, start, horizon) for _ in range(effort.repeats)]
     times, states = trajectory(model, start, _STATES)
-    parts = unit_costs(Handle(start.assembly), times, states)
+    parts = unit_costs(Handle(start.context), times, states)
     one = repeats[0]
     return parts, wall(repeats) / one.simulated, one.statistics["steps"] / one.simulated
 

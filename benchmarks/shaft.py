@@ -14,15 +14,14 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
-from lambda_core.solver.drivers.assembly import Assembly
-from lambda_core.solver.integrator.blocks import make_blocks
+from lambda_core.solver.drivers.solver_context import SolverContext
 
 SHAFT = 0
 _OWN = 2  # bodies of a bearing beside the shaft
 _SIGNALS = 12  # of a body
 
 
-def on_a_shaft(single: Assembly, places: Sequence[float]) -> Assembly:
+def on_a_shaft(single: SolverContext, places: Sequence[float]) -> SolverContext:
     """Return the tables of one bearing at each axial place [m]; inertia, loads and supports of the shaft add up.
 
     The cages' and outer rings' states begin and end at the places, as the balls' do.
@@ -41,10 +40,10 @@ def on_a_shaft(single: Assembly, places: Sequence[float]) -> Assembly:
         shared_rates=rates.view(np.float64), body_rates=rates, body_wrenches=np.zeros(bodies, R.WRENCH),
         ball_wrenches=np.zeros(balls, R.WRENCH),
     )  # fmt: skip
-    return replace(single, bundle=bundle, blocks=make_blocks(bundle), scale=together(single, [single.scale] * count))
+    return replace(single, bundle=bundle, scale=together(single, [single.scale] * count))
 
 
-def together(single: Assembly, states: Sequence[FloatArray]) -> FloatArray:
+def together(single: SolverContext, states: Sequence[FloatArray]) -> FloatArray:
     """Return the state of bearings side by side from those of single ones; the shaft's is the first one's."""
     n, active = L.NB * int(single.bundle.system["balls"][0]), single.bundle.active
     shaft = states[0][n:][active < L.NS]

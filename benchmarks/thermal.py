@@ -66,7 +66,7 @@ def _ratio(row: BearingRow) -> Ratio:
     total, g = sum(losses.values()), model.geometry
     area = iso15312.reference_area(g.bore_diameter, g.outside_diameter, g.width)
     emitted = iso15312.heat_flow_density(area) * area
-    oil = equilibrium.assembly.oil
+    oil = equilibrium.context.oil
     return Ratio(row.series, (total - losses["drag"]) / emitted, total / emitted, oil.viscosity / oil.density)
 
 

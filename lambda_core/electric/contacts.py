@@ -178,7 +178,7 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
     from lambda_core.solver.sampling import CONTACT_CHANNELS
     from lambda_core.system.time_functions import initial
 
-    model = found[0].assembly.model
+    model = found[0].context.model
     z, phases = model.geometry.ball_count, len(found)
     orbit = float(np.mean([e.orbit for e in found]))
     inner, outer = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))

@@ -100,7 +100,7 @@ def static_numbers(found: Equilibrium, kernels: Any) -> CurrentNumbers:
     from lambda_core.electric.electrified import of_model
     from lambda_core.solver.drivers.equilibrium import solve
 
-    model = found.assembly.model
+    model = found.context.model
     bearing = of_model(model)
     others = [solve(model, kernels, phase=k / PHASES) for k in range(1, PHASES)]
     return numbers_of(simulate(contacts_of_equilibria([found, *others], bearing.options.duration), bearing))

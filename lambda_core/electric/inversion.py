@@ -126,15 +126,15 @@ class FilmModel:
         value = dict(zip(CONTACT_CHANNELS, each.contacts[ball, index].tolist(), strict=True))
         if value["load"] <= 0.0:
             return float(value["capacitance"])
-        raceway: Any = each.assembly.bundle.raceways[index]
+        raceway: Any = each.context.bundle.raceways[index]
         modulus, radius_x, oil = float(raceway["modulus"]), float(raceway["radius_x"]), raceway["oil"]
-        law, out = each.assembly.kernels.compiled[f"ball_{ring}", "capacitance"].dispatcher, np.zeros(1)
+        law, out = each.context.kernels.compiled[f"ball_{ring}", "capacitance"].dispatcher, np.zeros(1)
         status = law(
             value["capacitance_hertz"] / scale, value["film_central"] * scale, value["semi_axis_a"],
             value["semi_axis_b"], radius_x, float(raceway["radius_y"]),
             float(oil["viscosity"]) * abs(value["entrainment"]) / (modulus * radius_x), float(oil["alpha_p"]) * modulus,
             value["load"] / (modulus * radius_x**2), self._bulk[ring],
-            each.assembly.parameters(f"ball_{ring}", "capacitance"), out,
+            each.context.parameters(f"ball_{ring}", "capacitance"), out,
         )  # fmt: skip
         if status != 1:
             raise SolverError(f"the law of capacitance of ball - {ring} refuses a film of {scale:.3g} times the case's")
@@ -143,16 +143,16 @@ class FilmModel:
 
 def _bulk_permittivity(each: Equilibrium, ring: str) -> float:
     """Return the relative permittivity of the oil at no pressure and its temperature."""
-    element, assembly = f"ball_{ring}", each.assembly
-    oil: Any = assembly.bundle.raceways[RINGS.index(ring)]["oil"]
+    element, context = f"ball_{ring}", each.context
+    oil: Any = context.bundle.raceways[RINGS.index(ring)]["oil"]
     pressure, temperature = np.zeros(1), np.full(1, float(oil["temperature"]))
     ln_eta, density, found = np.zeros(1), np.zeros(1), np.zeros(1)
-    laws = assembly.kernels.compiled
+    laws = context.kernels.compiled
     laws[element, "rheology"].dispatcher(
-        pressure, temperature, assembly.parameters(element, "rheology"), ln_eta, density
+        pressure, temperature, context.parameters(element, "rheology"), ln_eta, density
     )
     law = laws[element, "permittivity"].dispatcher
-    law(pressure, temperature, density, assembly.parameters(element, "permittivity"), found)
+    law(pressure, temperature, density, context.parameters(element, "permittivity"), found)
     return float(found[0])
 
 
@@ -170,7 +170,7 @@ def film_from_series(
     uncertainty : float
         Standard deviation of the measured capacitance, relative; ds/s = -(dC/C)/(d ln C/d ln h).
     """
-    model = found[0].assembly.model
+    model = found[0].context.model
     values = read_measured(path, frequency)
     bearing = of_model(model)
     film = bearing.options.film

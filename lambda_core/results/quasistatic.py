@@ -71,7 +71,7 @@ def quasistatic_of(found: Equilibrium) -> QuasiStatic:
     """Put an equilibrium into the units of the interface."""
     from lambda_core.system.describe import headline
 
-    model = found.assembly.model
+    model = found.context.model
     channels = {name: found.contacts[:, :, i] for i, name in enumerate(CONTACT_CHANNELS)}
     load = channels["load"]
     carrying = load > CARRYING * load.max()
@@ -112,13 +112,13 @@ def quasistatic_of(found: Equilibrium) -> QuasiStatic:
 
 def _azimuths(found: Equilibrium) -> FloatArray:
     """Return the azimuth of each ball, shape (Z,) [rad]."""
-    count = found.assembly.model.geometry.ball_count
+    count = found.context.model.geometry.ball_count
     azimuths: FloatArray = found.state[: L.NB * count].reshape(count, L.NB)[:, L.BPSI]
     return azimuths
 
 
 def _ratio(found: Equilibrium) -> float:
     """Return orbital over inner ring speed, both against the outer ring."""
-    model = found.assembly.model
+    model = found.context.model
     inner, outer = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
     return (found.orbit - outer) / (inner - outer) if inner != outer else math.nan

@@ -63,10 +63,10 @@ def comparison_inputs(
     from lambda_core.solver.drivers.stiffness import stiffness_matrix
     from lambda_core.system.law_context import build_context, prepare
 
-    assembly = equilibrium.assembly
-    model, oil = assembly.model, assembly.oil
+    context = equilibrium.context
+    model, oil = context.model, context.oil
     laws = model.laws["ball_inner"]
-    context = build_context(model, "ball_inner", assembly.frame, oil)
+    inner = build_context(model, "ball_inner", context.frame, oil)
     permittivity, rheology = laws["permittivity"], laws["rheology"]
     return method_inputs(
         model,
@@ -74,9 +74,9 @@ def comparison_inputs(
         state=equilibrium_state(equilibrium, stiffness_matrix(equilibrium) if stiffness else None),
         permittivity=permittivity_over_pressure(
             permittivity.model,
-            prepare(permittivity, context),
+            prepare(permittivity, inner),
             rheology.model,
-            prepare(rheology, context),
+            prepare(rheology, inner),
             oil.temperature,
         ),
         contamination=contamination,

@@ -140,7 +140,7 @@ def _trajectories(model: BearingModel, start: Equilibrium, duration: float) -> C
     lost, end = _lost(engine), engine.time
     grid = np.append(times[times < end], end)
     same, fine = (integrate(start, grid, tolerance * share) for share in (1.0, _FINER))
-    unit = tolerance * start.assembly.scale
+    unit = tolerance * start.context.scale
     apart, theirs = ((found - fine.states[:-1]) / unit for found in (states[: grid.size - 1], same.states[:-1]))
     held = np.ones(apart.shape, dtype=bool)
     held[:, : L.NB * gripped.shape[1]] = np.repeat(gripped[: grid.size - 1], L.NB, axis=1)

@@ -80,8 +80,8 @@ def integrate(
         from sksundae.cvode import CVODE
     except ImportError:
         raise UsageError('CVODE comes with the extra "sundials": pip install "lambda-bearing[sundials]"') from None
-    assembly = equilibrium.assembly
-    handle, size = Handle(assembly), assembly.size
+    context = equilibrium.context
+    handle, size = Handle(context), context.size
 
     def right_hand_side(t: float, y: FloatArray, out: FloatArray) -> int:
         return 0 if handle.slope_and_rates(t, y, out) == 1 else 1  # 1: CVODE tries a shorter step
@@ -90,20 +90,20 @@ def integrate(
         # Nothing depends on the integrals, and Newton's method needs no slopes of theirs to find them.
         return 0 if handle.jacobian(t, y, out) == 1 else 1
 
-    powers = L.power_count(assembly.bundle)
+    powers = L.power_count(context.bundle)
     solver = CVODE(
         right_hand_side,
         method="BDF",
         rtol=0.0,  # errors are controlled on absolute scales, as in our integrator
-        atol=tolerance * np.concatenate([assembly.scale, np.full(powers, _ENERGY)]),
+        atol=tolerance * np.concatenate([context.scale, np.full(powers, _ENERGY)]),
         max_order=max_order,
-        max_step=assembly.model.solver.max_step,
+        max_step=context.model.solver.max_step,
         max_num_steps=_STEPS,
         **({} if own_jacobian else {"jacfn": jacobian}),
     )
     found = solver.solve(times, np.concatenate([initial_state(equilibrium), np.zeros(powers)]))
     if not found.success:
-        fault = assembly.bundle.scratch[0].fault.role >= 0
-        reason = fault_sentence(assembly, float(found.t[-1])) if fault else found.message
+        fault = context.bundle.scratch[0].fault.role >= 0
+        reason = fault_sentence(context, float(found.t[-1])) if fault else found.message
         raise SolverError(f"CVODE gave up at t = {found.t[-1]:.6g} s: {reason}")
     return CvodeRun(found.t, found.y[:, :size], found.y[:, size:], int(found.nfev), int(found.njev))

@@ -123,7 +123,7 @@ def _call(dispatcher: Any, signature: Any) -> Any:
     """Return the machine code of one signature as a Python callable.
 
     A dispatcher would work out the types of its arguments at every call, a millisecond for the bundle; here they are
-    always the same, made by lambda_core.solver.drivers.assembly.
+    always the same, made by lambda_core.solver.drivers.solver_context.
     """
     return dispatcher.get_compile_result(signature).entry_point
 

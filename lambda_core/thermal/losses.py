@@ -115,7 +115,7 @@ class Losses:
 
 def point_of(found: Equilibrium) -> Point:
     """Return the point of an equilibrium."""
-    model, oil = found.assembly.model, found.assembly.oil
+    model, oil = found.context.model, found.context.oil
     channel = {name: found.contacts[:, :, i] for i, name in enumerate(CONTACT_CHANNELS)}
     carrying = channel["load"] > CARRYING * channel["load"].max()
     films, parameters = channel["film_central"][carrying], channel["film_parameter"][carrying]
@@ -135,8 +135,8 @@ def point_of(found: Equilibrium) -> Point:
 
 def contact_conductances(found: Equilibrium) -> tuple[float, float]:
     """Return the conductance between the balls and each ring through all contacts, inner and outer [W/K]."""
-    model = found.assembly.model
-    ball, oil = model.ball_material, found.assembly.oil
+    model = found.context.model
+    ball, oil = model.ball_material, found.context.oil
     total = [0.0, 0.0]
     for i, ring in enumerate((model.inner_material, model.outer_material)):
         mean = 2.0 / (1.0 / ball.thermal_conductivity + 1.0 / ring.thermal_conductivity)

@@ -184,7 +184,7 @@ def axial_resonance(model: BearingModel) -> Numbers:
 
 def _held_by_centrifugal_force(found: Equilibrium) -> tuple[float, float]:
     """Return the axial natural frequencies of an unloaded ball and of the cage on all unloaded balls [Hz]."""
-    model = found.assembly.model
+    model = found.context.model
     geometry, cage = model.geometry, model.cage_body
     mass = model.ball_material.density * math.pi / 6.0 * geometry.ball_diameter**3
     force = mass * 0.5 * geometry.pitch_diameter * found.orbit**2

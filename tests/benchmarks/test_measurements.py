@@ -26,18 +26,18 @@ def start() -> Equilibrium:
 
 
 def test_the_handle_computes_what_the_solver_computes() -> None:
-    assembly, y = start().assembly, initial_state(start())
+    context, y = start().context, initial_state(start())
     expected, got = np.zeros(y.size), np.zeros(y.size)
-    assert core().evaluate(0.0, y, assembly.bundle, expected, np.zeros(L.power_count(assembly.bundle)), 0) == 1
-    assert Handle(assembly).slope(0.0, y, got) == 1
+    assert core().evaluate(0.0, y, context.bundle, expected, np.zeros(L.power_count(context.bundle)), 0) == 1
+    assert Handle(context).slope(0.0, y, got) == 1
     np.testing.assert_array_equal(got, expected)
 
 
 def test_the_dense_jacobian_is_the_slope_of_the_right_hand_side() -> None:
-    handle, y = Handle(start().assembly), initial_state(start())
+    handle, y = Handle(start().context), initial_state(start())
     jacobian, up, down = np.zeros((y.size, y.size)), np.zeros(y.size), np.zeros(y.size)
     assert handle.jacobian(0.0, y, jacobian) == 1
-    direction = start().assembly.scale * np.random.default_rng(1).uniform(-1.0, 1.0, y.size) * 1e-5
+    direction = start().context.scale * np.random.default_rng(1).uniform(-1.0, 1.0, y.size) * 1e-5
     handle.slope(0.0, y + direction, up)
     handle.slope(0.0, y - direction, down)
     change, predicted = 0.5 * (up - down), jacobian @ direction
@@ -47,8 +47,8 @@ def test_the_dense_jacobian_is_the_slope_of_the_right_hand_side() -> None:
 def test_integrators_agree_on_the_losses() -> None:
     """Two integrators, two ways to sum up losses: the same power, the same cage speed."""
     pytest.importorskip("sksundae")
-    ours = passage(start().assembly.model, start(), Horizon(0.0, 1.0), samples=False)
-    problem = Problem(start().assembly.model, start(), ours.simulated)
+    ours = passage(start().context.model, start(), Horizon(0.0, 1.0), samples=False)
+    problem = Problem(start().context.model, start(), ours.simulated)
     other = cvode(problem, 1e-3, "dense", own_jacobian=False)
     first, last = trajectory_totals(problem.handle, other.times, other.states, (0.0, problem.end))
     theirs = Outcome.of(first, first, last)

@@ -66,11 +66,11 @@ def test_analytical_capacitance_from_the_equilibrium(solved: Solver, load: int, 
 
 def _spring_constant(equilibrium: Equilibrium) -> float:
     """Ball and both raceways in series with the (fitted) Hertz constants of the case's own law [N/m^1.5]."""
-    model = equilibrium.assembly.model
+    model = equilibrium.context.model
     g, ball, ring = model.geometry, model.ball_material, model.inner_material
     e_eff = reduced_modulus(ball.youngs_modulus, ball.poisson_ratio, ring.youngs_modulus, ring.poisson_ratio)
     compliance = 0.0
-    angles = equilibrium.assembly.frame.angles
+    angles = equilibrium.context.frame.angles
     for groove, angle, inner in ((g.groove_radius_inner, angles[0], True), (g.groove_radius_outer, angles[1], False)):
         radii = ball_raceway_radii(g.ball_diameter, g.pitch_diameter, groove, angle, inner=inner)
         out = np.empty(4)
@@ -93,7 +93,7 @@ def _spring_constant(equilibrium: Equilibrium) -> float:
 def test_loads_after_the_specification(solved: Solver, case: str, overrides: tuple[str, ...]) -> None:
     """Ball loads and displacement under radial and combined load: ISO/TS 16281 with the same Hertz constants."""
     equilibrium = solved(case, overrides)
-    g = equilibrium.assembly.model.geometry
+    g = equilibrium.context.model.geometry
     state = equilibrium_state(equilibrium)
     radial, axial = carried_load(state)
     expected = specification_equilibrium(

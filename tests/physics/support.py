@@ -14,14 +14,13 @@ from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES
 from lambda_core.solver import layout as L
-from lambda_core.solver.drivers.assembly import Assembly, assemble
 from lambda_core.solver.drivers.compiled_laws import Kernels, derive_oils
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.observation import observe
+from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.entry import core
 from lambda_core.solver.integrator import memory as M
-from lambda_core.solver.integrator.arrow import make_factors
 from lambda_core.solver.integrator.blocks import Blocks
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel
@@ -63,12 +62,12 @@ class Machine:
 
     model: BearingModel
     angle: float = 0.0  # contact angle at which the contacts' radii are frozen [rad]
-    assembly: Assembly = field(init=False)
+    context: SolverContext = field(init=False)
 
     def __post_init__(self) -> None:
         kernels = Kernels(self.model)
         frame = ContactFrame((self.angle, self.angle), (1000.0, 1000.0))
-        self.assembly = assemble(self.model, kernels, frame, derive_oils(self.model, kernels, frame))
+        self.context = assemble(self.model, kernels, frame, derive_oils(self.model, kernels, frame))
 
     @property
     def count(self) -> int:
@@ -77,11 +76,11 @@ class Machine:
     @property
     def active(self) -> NDArray[np.int64]:
         """Indices of the free shared states in the flat (3, 12) array."""
-        return np.asarray(self.assembly.bundle.active)
+        return np.asarray(self.context.bundle.active)
 
     def constant(self, name: str) -> FloatArray:
         """Return a constant by its name in the records: of the row of balls, or of each raceway or body."""
-        bundle = self.assembly.bundle
+        bundle = self.context.bundle
         for table in (bundle.system, bundle.rows):
             if name in table.dtype.names:
                 return np.array(table[name][0])
@@ -106,10 +105,10 @@ class Machine:
         return State(balls, shared)
 
     def evaluate(self, y: FloatArray, t: float = 0.0, want: int = 1) -> Evaluation:
-        bundle = self.assembly.bundle
+        bundle = self.context.bundle
         dydt, rates = np.full(y.size, np.nan), np.zeros(L.power_count(bundle))
         ok = core().evaluate(t, y, bundle, dydt, rates, want)
-        assert ok == 1, fault_sentence(self.assembly)
+        assert ok == 1, fault_sentence(self.context)
         losses = dict(zip(LOSSES, rates[: -L.BESIDE_LOSSES].tolist(), strict=True))
         bodies, balls = (w.view(np.float64).reshape(-1, 6).copy() for w in (bundle.body_wrenches, bundle.ball_wrenches))
         powers = running(rates)
@@ -117,7 +116,7 @@ class Machine:
 
     def observe(self, y: FloatArray, t: float = 0.0) -> dict[str, FloatArray]:
         """Return every channel at one state, first axis dropped."""
-        channels = observe(core(), self.assembly, np.array([t]), y.reshape(1, -1))
+        channels = observe(core(), self.context, np.array([t]), y.reshape(1, -1))
         return {name: values[0] for name, values in channels.items()}
 
     def stored(self, y: FloatArray, t: float = 0.0) -> float:
@@ -126,15 +125,15 @@ class Machine:
 
     def jacobian(self, y: FloatArray, t: float = 0.0) -> FloatArray:
         """Return the block-arrow Jacobian as a dense matrix."""
-        bundle, blocks = self.assembly.bundle, self.assembly.blocks
+        bundle, blocks = self.context.bundle, self.context.blocks
         self.evaluate(y, t, want=0)
-        assert core().jacobian(t, y, bundle, blocks) == 1, fault_sentence(self.assembly)
+        assert core().jacobian(t, y, bundle, blocks) == 1, fault_sentence(self.context)
         return dense(blocks)
 
     @contextmanager
     def frictionless(self) -> Iterator[None]:
         """Leave only the normal forces of the raceways (of a model whose cage contacts are none)."""
-        system = self.assembly.bundle.system[0]
+        system = self.context.bundle.system[0]
         system["friction_on"] = 0
         try:
             yield
@@ -144,7 +143,7 @@ class Machine:
     def shared_state(self, y: FloatArray, t: float) -> FloatArray:
         """Return the whole shared state (3, 12), prescribed motions included."""
         self.evaluate(y, t, want=0)
-        return np.array(self.assembly.bundle.shared).reshape(3, L.NS)
+        return np.array(self.context.bundle.shared).reshape(3, L.NS)
 
 
 def dense(blocks: Blocks) -> FloatArray:
@@ -166,7 +165,7 @@ def dense(blocks: Blocks) -> FloatArray:
 def time_function(m: Machine, kind: str, body: int, component: int, t: float) -> FloatArray:
     """Return value and two derivatives of a load or motion at time t, as compiled code sees them."""
     m.evaluate(m.vector(m.at_rest()), t, want=0)
-    return np.array(m.assembly.bundle.inputs[kind][body, component].tolist())
+    return np.array(m.context.bundle.inputs[kind][body, component].tolist())
 
 
 @dataclass(frozen=True)
@@ -184,21 +183,20 @@ class Motion:
 
 def integrate(m: Machine, y: FloatArray, duration: float, tolerance: float, samples: int = 100) -> Motion:
     """Integrate from any state, sampled at equal intervals from 0 on."""
-    a = m.assembly
-    return integrate_tables(a.bundle, a.blocks, a.scale, y, duration, tolerance, samples)
+    a = m.context
+    return integrate_tables(a, y, duration, tolerance, samples)
 
 
-def integrate_tables(
-    bundle: L.Bundle, blocks: Blocks, scale: FloatArray, y: FloatArray, duration: float, tolerance: float, samples: int
-) -> Motion:
-    """Integrate what the tables of a bundle describe."""
-    mem = M.make_memory(y, scale, tolerance, bundle, samples + 8)
+def integrate_tables(context: SolverContext, y: FloatArray, duration: float, tolerance: float, samples: int) -> Motion:
+    """Integrate what tables describe."""
+    bundle, blocks, factors = context.bundle, context.blocks, context.factors
+    mem = M.make_memory(y, context.scale, tolerance, bundle, samples + 8)
     interval = duration / samples
     control = mem.control
     control["step"], control["shortest_step"], control["longest_step"] = 1e-9, 1e-16, interval
     control["sample_interval"] = interval
     mem.count["stale"] = 1
-    compiled, factors = core(), make_factors(blocks.reach, bundle.active.size)
+    compiled = core()
     while control["time"][0] < duration:
         status = compiled.advance(
             compiled.evaluate_pointer, compiled.jacobian_pointer, duration, 10_000, bundle, blocks, factors, mem

@@ -11,7 +11,7 @@ import pytest
 from benchmarks.shaft import SHAFT, on_a_shaft, together
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.solver import layout as L
-from lambda_core.solver.drivers.assembly import Assembly
+from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.entry import core
 
 from .support import Machine, dense, integrate, integrate_tables
@@ -24,7 +24,7 @@ class Shaft:
 
     single: Machine
     places: tuple[float, ...]
-    assembly: Assembly
+    context: SolverContext
 
     @property
     def balls(self) -> int:
@@ -33,7 +33,7 @@ class Shaft:
     def states(self, *each: FloatArray) -> FloatArray:
         """Return the state from those of single bearings, brought to their places."""
         moved = [self._at(state, place) for state, place in zip(each, self.places, strict=True)]
-        return together(self.single.assembly, moved)
+        return together(self.single.context, moved)
 
     def _at(self, state: FloatArray, place: float) -> FloatArray:
         moved, n = state.copy(), L.NB * self.single.count
@@ -44,7 +44,7 @@ class Shaft:
 
     def evaluate(self, y: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return dy/dt, the forces on the balls (all, 6) and on the bodies (all, 6)."""
-        dydt, bundle = np.full(y.size, np.nan), self.assembly.bundle
+        dydt, bundle = np.full(y.size, np.nan), self.context.bundle
         assert core().evaluate(0.0, y, bundle, dydt, np.zeros(L.power_count(bundle)), 1) == 1
         forces = (bundle.ball_wrenches, bundle.body_wrenches)
         balls, bodies = (each.view(np.float64).reshape(-1, 6).copy() for each in forces)
@@ -53,7 +53,7 @@ class Shaft:
 
 def shaft(single: Machine, places: Sequence[float]) -> Shaft:
     """Lay a bearing at each place."""
-    return Shaft(single, tuple(places), on_a_shaft(single.assembly, places))
+    return Shaft(single, tuple(places), on_a_shaft(single.context, places))
 
 
 @pytest.mark.parametrize("name", ["default", "ring-guided cage", "no cage", "other laws"])
@@ -88,7 +88,7 @@ def test_the_jacobian_of_several_bearings(places: tuple[float, ...]) -> None:
     """Without friction nothing is left out: differences to 0.3 %, as for one bearing (test_jacobian)."""
     m = machine(*MODELS["every body free"], "models.cage_contact=none")
     several = shaft(m, places)
-    bundle, blocks, scale = several.assembly.bundle, several.assembly.blocks, several.assembly.scale
+    bundle, blocks, scale = several.context.bundle, several.context.blocks, several.context.scale
     y = several.states(*(random_state(m, 4 + i, "rolling") for i in range(len(places))))
     bundle.system[0]["friction_on"] = 0
     several.evaluate(y)
@@ -106,7 +106,7 @@ def test_the_jacobian_of_several_bearings(places: tuple[float, ...]) -> None:
 def test_the_blocks_of_a_ball_hold_its_own_bodies_alone() -> None:
     """Six bearings take six times the room of one; only the matrix of the shared states grows faster."""
     m = machine(*MODELS["default"])
-    one, six = m.assembly.blocks, shaft(m, [0.0] * 6).assembly.blocks
+    one, six = m.context.blocks, shaft(m, [0.0] * 6).context.blocks
     for name in ("a", "b", "c", "parts"):
         assert getattr(six, name).size == 6 * getattr(one, name).size
     assert six.reach.bodies.tolist() == [[SHAFT, 1 + 2 * i, 2 + 2 * i] for i in range(6)]
@@ -121,7 +121,7 @@ def test_bearings_side_by_side_move_as_one_does(count: int) -> None:
     m = machine(*MODELS["default"])
     several, y, tolerance, end, n = shaft(m, [0.0] * count), random_state(m, 0, "rolling"), 1e-4, 2e-4, L.NB * m.count
     alone = integrate(m, y, end, tolerance, 1).states[-1, :n]
-    tables, start = several.assembly, several.states(*[y] * count)
-    moved = integrate_tables(tables.bundle, tables.blocks, tables.scale, start, end, tolerance, 1).states[-1]
+    tables, start = several.context, several.states(*[y] * count)
+    moved = integrate_tables(tables, start, end, tolerance, 1).states[-1]
     for i in range(count):
-        assert np.abs((moved[n * i : n * (i + 1)] - alone) / m.assembly.scale[:n]).max() < 20.0 * tolerance
+        assert np.abs((moved[n * i : n * (i + 1)] - alone) / m.context.scale[:n]).max() < 20.0 * tolerance

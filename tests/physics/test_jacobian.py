@@ -16,7 +16,7 @@ def differences(m: Machine, y: FloatArray) -> FloatArray:
     dense = np.zeros((y.size, y.size))
     for i in range(y.size):
         step = np.zeros(y.size)
-        step[i] = 1e-5 * m.assembly.scale[i]
+        step[i] = 1e-5 * m.context.scale[i]
 
         def at(k: float, step: FloatArray = step) -> FloatArray:
             return m.evaluate(y + k * step, want=0).dydt
@@ -27,14 +27,14 @@ def differences(m: Machine, y: FloatArray) -> FloatArray:
 
 def scaled(m: Machine, matrix: FloatArray) -> FloatArray:
     """Return the matrix in units of the states' scales: all entries are rates [1/s]."""
-    s = m.assembly.scale
+    s = m.context.scale
     return np.array(matrix * s[None, :] / s[:, None])
 
 
 def neighbours(m: Machine) -> np.ndarray:
     """Mark the entries that couple two balls: there are none but of touching balls without a cage."""
     of = np.repeat(np.arange(m.count), L.NB)
-    mark = np.zeros((m.assembly.size, m.assembly.size), dtype=bool)
+    mark = np.zeros((m.context.size, m.context.size), dtype=bool)
     mark[: of.size, : of.size] = of[:, None] != of[None, :]
     return mark
 

@@ -70,7 +70,7 @@ def test_right_hand_side(name: str, tmp_path: Path) -> None:
     """Rounding only: sums over cells are taken in another order when they are compiled."""
     m, time = machine(*MODELS[name]), 2e-3
     states = np.array([random_state(m, seed, mode) for seed, mode in enumerate(("rolling", "sliding"))])
-    bundle = m.assembly.bundle
+    bundle = m.context.bundle
     arrays = {
         name: values if values.dtype.names is None else np.frombuffer(values.tobytes(), np.uint8)
         for name, values in bundle._asdict().items()
@@ -98,6 +98,6 @@ def test_right_hand_side(name: str, tmp_path: Path) -> None:
     for y, dydt, rates in zip(states, plain["dydt"], plain["rates"], strict=True):
         ours = m.evaluate(y, time)
         # per kind of state: accelerations of balls and of bodies differ by orders of magnitude
-        scale = np.abs(ours.dydt) + 1e-6 * m.assembly.scale * np.abs(ours.dydt / m.assembly.scale).max()
+        scale = np.abs(ours.dydt) + 1e-6 * m.context.scale * np.abs(ours.dydt / m.context.scale).max()
         assert np.all(np.abs(dydt - ours.dydt) <= 1e-9 * scale)
         assert rates[: len(ours.losses)] == pytest.approx(list(ours.losses.values()), rel=1e-9, abs=1e-12)

@@ -10,8 +10,8 @@ import pytest
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.solver import layout as L
-from lambda_core.solver.drivers.assembly import assemble
 from lambda_core.solver.drivers.equilibrium import Equilibrium, _continue, solve
+from lambda_core.solver.drivers.solver_context import assemble
 from lambda_core.solver.drivers.stiffness import stiffness_matrix
 from lambda_core.solver.entry import core
 from lambda_core.system.bearing import DofState, TimeFunction
@@ -24,17 +24,17 @@ STEPS = (2e-8, 2e-8, 2e-8, 3e-7, 3e-7)  # [m, rad]: well inside the contacts' co
 
 def load_at(found: Equilibrium, displacement: FloatArray) -> FloatArray:
     """Return force and moment that hold the inner ring at `displacement`, balls re-solved without friction."""
-    model = found.assembly.model
+    model = found.context.model
     dofs = dict(model.inner_ring.dofs)
     for name, value in zip(NAMES, displacement, strict=True):
         dofs[name] = DofState("prescribed", TimeFunction.constant(float(value)))
     held = dataclasses.replace(model, inner_ring=dataclasses.replace(model.inner_ring, dofs=dofs))
-    assembly = assemble(held, found.assembly.kernels, found.assembly.frame, found.assembly.oils)
+    context = assemble(held, found.context.kernels, found.context.frame, found.context.oils)
     count = model.geometry.ball_count
-    state = np.zeros(assembly.size)
+    state = np.zeros(context.size)
     state[: L.NB * count] = found.state[: L.NB * count]
-    _continue(core(), assembly, state, friction=False)
-    bundle = assembly.bundle
+    _continue(core(), context, state, friction=False)
+    bundle = context.bundle
     bundle.system[0]["friction_on"], bundle.system[0]["guides_on"] = 0, 0
     assert core().evaluate(0.0, state, bundle, np.zeros(state.size), np.zeros(L.power_count(bundle)), 1) == 1
     felt: FloatArray = np.delete(bundle.body_wrenches.view(np.float64)[:6], 3)
@@ -43,8 +43,8 @@ def load_at(found: Equilibrium, displacement: FloatArray) -> FloatArray:
 
 def without_friction(found: Equilibrium) -> Equilibrium:
     """Return the equilibrium of normal forces alone, where differences and matrix are of the same state."""
-    _continue(core(), found.assembly, found.state, friction=False)
-    ring = found.assembly.bundle.bodies_now[0]
+    _continue(core(), found.context, found.state, friction=False)
+    ring = found.context.bundle.bodies_now[0]
     (x, y, z), (ay, az) = ring.position.tolist(), ring.tilt.tolist()
     return dataclasses.replace(found, displacement=(x, y, z, -az, ay))
 

@@ -61,14 +61,14 @@ def test_steps_of_time_resolve_the_waves(waves: int, expected: float) -> None:
     changes = ("forces.ball_outer.models.surface=waviness", f"forces.ball_outer.parameters.surface.waves={waves}")
     m = machine(*changes)
     speed = 1500.0 * math.pi / 30.0 * 0.5 * (1.0 - 30.0 / 147.5)
-    assert longest_step(m.assembly) == pytest.approx(expected / (4.0 * speed), rel=0.01)
-    assert longest_step(machine().assembly) == math.inf
+    assert longest_step(m.context) == pytest.approx(expected / (4.0 * speed), rel=0.01)
+    assert longest_step(machine().context) == math.inf
 
 
 def test_steps_of_time_see_a_short_wave_on_a_long_one() -> None:
     def step(*choice: str) -> float:
         options = (f"parameters.surface.{option}" for option in choice)
-        return longest_step(machine("models.surface=waviness", *options).assembly)
+        return longest_step(machine("models.surface=waviness", *options).context)
 
     short = 'harmonics=[{ waves = 100, amplitude = "20 nm" }]'
     alone = step("waves=100", "amplitude=20 nm")
@@ -80,7 +80,7 @@ def test_a_narrow_defect_is_not_stepped_over() -> None:
     """0.2 mm long on a raceway of 177.5 mm: at least ten steps from edge to edge."""
     m = machine("forces.ball_outer.models.surface=defect", "forces.ball_outer.parameters.surface.width=0.2 mm")
     speed = 1500.0 * math.pi / 30.0 * 0.5 * (1.0 - 30.0 / 147.5)
-    assert longest_step(m.assembly) < 0.1 * (0.2 / 88.75) / speed
+    assert longest_step(m.context) < 0.1 * (0.2 / 88.75) / speed
 
 
 def unmapped(azimuth, contact_angle, par, out):  # type: ignore[no-untyped-def]
@@ -117,7 +117,7 @@ def test_a_view_inside_the_contact_sees_the_same_surface() -> None:
     state.shared[0, L.STHETA] = 0.3
     state.balls[:, L.BVT], state.balls[:, L.BWX] = 2.0, 150.0
     y = m.vector(state)
-    field = contact_field(m.assembly, state.balls[0], m.shared_state(y, 0.0)[0], "inner")
+    field = contact_field(m.context, state.balls[0], m.shared_state(y, 0.0)[0], "inner")
     pressure, nominal = (float(each.observe(y)["max_pressure"][0, 0]) for each in (m, machine(*STILL)))
     assert float(field.pressure.max()) == pytest.approx(pressure, rel=0.01)
     assert pressure != pytest.approx(nominal, rel=1e-3)

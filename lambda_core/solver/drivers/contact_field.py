@@ -19,9 +19,9 @@ from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.code_files import compiled_sources
 from lambda_core.solver.contact import cell_probe as probe
-from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.contact_grid import unit_grid
 from lambda_core.solver.drivers.equilibrium import fault_sentence
+from lambda_core.solver.drivers.solver_context import SolverContext
 
 
 @dataclass(frozen=True)
@@ -97,13 +97,13 @@ def contact_state(sample: Mapping[str, FloatArray], ball: int, ring: str) -> tup
 
 
 def contact_field(
-    assembly: Assembly, ball: FloatArray, ring: FloatArray, which: str, strips: int = 61, rows: int = 41
+    context: SolverContext, ball: FloatArray, ring: FloatArray, which: str, strips: int = 61, rows: int = 41
 ) -> ContactField:
     """Run the contact pipeline of one ball and one ring on a fine grid.
 
     Parameters
     ----------
-    assembly : Assembly
+    context : SolverContext
         Of the equilibrium that the run started from.
     ball, ring : float64[:], shapes (9,) and (12,)
         States (lambda_core.solver.layout).
@@ -115,7 +115,7 @@ def contact_field(
     SolverError
         When the bodies do not touch, or a law refuses.
     """
-    index, bundle, kernels = RINGS.index(which), assembly.bundle, assembly.kernels
+    index, bundle, kernels = RINGS.index(which), context.bundle, context.kernels
     raceway: Any = bundle.raceways[index]
     grid = unit_grid(strips, rows)
     cells, scratch = np.zeros((2, L.CELL_ROWS, grid.shape[1])), np.zeros_like(bundle.scratch)
@@ -129,7 +129,7 @@ def contact_field(
         raise SolverError(f"the ball does not touch the {which} ring at this moment")
     if status != 1:
         bundle.scratch["fault"] = scratch["fault"]
-        raise SolverError(fault_sentence(assembly))
+        raise SolverError(fault_sentence(context))
     contact, its = scratch[0].contact[0], L.Cells(cells[0], *cells[0])
     places, a, b = L.Grid(*grid), float(contact.semi_axis_a), float(contact.semi_axis_b)
 
@@ -137,7 +137,7 @@ def contact_field(
         return values[: strips * rows].reshape(strips, rows).copy()
 
     element = f"ball_{which}"
-    pars = {name: assembly.parameters(element, name) for name in ("rheology", "permittivity")}
+    pars = {name: context.parameters(element, name) for name in ("rheology", "permittivity")}
     ln_eta, density, permittivity = np.zeros((3, grid.shape[1]))
     inlet = np.full(grid.shape[1], float(raceway.oil.temperature))
     pressure = its.pressure.copy()
@@ -146,7 +146,7 @@ def contact_field(
         law = kernels.compiled[element, "permittivity"].dispatcher
         status = law(pressure, inlet, density, pars["permittivity"], permittivity)
     if status != 1:
-        raise SolverError(f"{assembly.model.laws[element]['permittivity'].model.label} returned status {status}")
+        raise SolverError(f"{context.model.laws[element]['permittivity'].model.label} returned status {status}")
     return ContactField(
         load=float(contact.load + contact.damping_force),
         film=float(contact.film_central),

@@ -13,17 +13,16 @@ from lambda_core.domain.channels import CHANNELS, LOSSES, SHORTED
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
-from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.compiled_laws import Announce
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION, Advance
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, solve
 from lambda_core.solver.drivers.observation import Scratch, channels_of
+from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import CAGE, running
 from lambda_core.solver.drivers.time_tables import FORCE, MOMENT
 from lambda_core.solver.entry import core
 from lambda_core.solver.integrator import memory
-from lambda_core.solver.integrator.arrow import make_factors
 from lambda_core.solver.sampling import CONTACT_CHANNELS
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel
@@ -87,33 +86,22 @@ class BearingEngine:
         self.model = model
         self._equilibrium = equilibrium or solve(model, announce=announce, strict=False)
         self._core = core(announce)
-        self._assembly = self._equilibrium.assembly
-        self.external_load = _room_for_load(self._assembly) if pushed else np.zeros(0)
+        self._context = self._equilibrium.context
+        self.external_load = _room_for_load(self._context) if pushed else np.zeros(0)
         self._balls = model.geometry.ball_count
         start = initial_state(self._equilibrium)
-        active = self._assembly.bundle.active
-        self._factors = make_factors(self._assembly.blocks.reach, active.size)
         self._memory = memory.make_memory(
-            start, self._assembly.scale, model.solver.tolerance, self._assembly.bundle, _CAPACITY
+            start, self._context.scale, model.solver.tolerance, self._context.bundle, _CAPACITY
         )
         self.sample_interval = model.output.interval or 2.0 * math.pi / self._cage_speed() / SAMPLES_PER_REVOLUTION
         control, count = self._memory.control, self._memory.count
-        control["longest_step"] = min(model.solver.max_step, longest_step(self._assembly))
+        control["longest_step"] = min(model.solver.max_step, longest_step(self._context))
         control["step"] = np.minimum(_FIRST_STEP, control["longest_step"])
         control["shortest_step"] = _SMALLEST_STEP
         control["sample_interval"] = self.sample_interval
         count["stale"] = 1
-        self._handle = self._core.make_context(
-            self._core.evaluate_pointer,
-            self._core.jacobian_pointer,
-            self._core.advance_pointer,
-            self._core.observe_pointer,
-            self._assembly.bundle,
-            self._assembly.blocks,
-            self._factors,
-            self._memory,
-        )
-        self._scratch = Scratch.of(1, self._assembly)
+        self._handle = self._context.handle(self._memory)
+        self._scratch = Scratch.of(1, self._context)
         self._start_angles = self._angles()
         self._start_energy = self._stored(0.0, start)
         self._drained: list[dict[str, FloatArray]] = []
@@ -132,7 +120,7 @@ class BearingEngine:
     @property
     def kernel_keys(self) -> dict[str, str]:
         """Hash of everything each kernel reaches."""
-        return self._assembly.kernels.keys()
+        return self._context.kernels.keys()
 
     def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
         """Integrate until `time` >= `until` [s] or `pause` says so; samples gather in the buffer meanwhile."""
@@ -148,7 +136,7 @@ class BearingEngine:
         if status in (Status.OK, Status.UNFINISHED, Status.BUFFER_FULL):
             return Advance(True, "")
         if status == Status.REFUSED:
-            return Advance(False, fault_sentence(self._assembly, self.time))
+            return Advance(False, fault_sentence(self._context, self.time))
         return Advance(False, f"the time step fell below {_SMALLEST_STEP:g} s at t = {self.time:.6g} s")
 
     def samples(self) -> dict[str, FloatArray]:
@@ -211,11 +199,11 @@ class BearingEngine:
     def state(self) -> dict[str, NDArray[np.float64]]:
         """Return everything that a continuation needs: memory, Jacobian blocks, factors."""
         parts: dict[str, NDArray[np.float64]] = {}
-        for prefix, group in (("memory", self._memory), ("factors", self._factors)):
+        for prefix, group in (("memory", self._memory), ("factors", self._context.factors)):
             for name, array in zip(group._fields, group, strict=True):
                 parts[f"{prefix}.{name}"] = np.array(array, copy=True)
         for name in ("a", "b", "c", "d", "shared", "parts"):
-            parts[f"blocks.{name}"] = getattr(self._assembly.blocks, name).copy()
+            parts[f"blocks.{name}"] = getattr(self._context.blocks, name).copy()
         parts["start"] = np.array([*self._start_angles, self._start_energy])
         return parts
 
@@ -227,7 +215,7 @@ class BearingEngine:
         SolverError
             When the state is of another model.
         """
-        groups = {"memory": self._memory, "factors": self._factors, "blocks": self._assembly.blocks}
+        groups = {"memory": self._memory, "factors": self._context.factors, "blocks": self._context.blocks}
         for key, saved in state.items():
             if key == "start":
                 self._start_angles, self._start_energy = (float(saved[0]), float(saved[1])), float(saved[2])
@@ -253,7 +241,7 @@ class BearingEngine:
 
     def _angles(self) -> tuple[float, float]:
         """Return cage angle (mean of the balls when there is no cage) and inner spin angle, to the outer ring [rad]."""
-        bundle = self._assembly.bundle
+        bundle = self._context.bundle
         bodies, tail = np.zeros(bundle.bodies.size, R.BODY_STATE), L.NB * self._balls
         bodies.view(np.float64)[bundle.active] = self._memory.y[tail:]
         inner, outer, cage = (float(angle) for angle in bodies["angle"])
@@ -263,17 +251,17 @@ class BearingEngine:
 
     def _observe(self, times: FloatArray, states: FloatArray) -> dict[str, FloatArray]:
         """Return every channel at n points: channel -> array, first axis is time."""
-        scratch = Scratch.of(times.size, self._assembly)
+        scratch = Scratch.of(times.size, self._context)
         ok = self._core.sample(self._handle, times, states, SHORTED, *scratch)
-        return channels_of(ok, self._assembly, times, states, scratch)
+        return channels_of(ok, self._context, times, states, scratch)
 
 
-def _room_for_load(assembly: Assembly) -> FloatArray:
-    """Add constant loads on the inner ring to the time functions of an assembly; returns a view of their values."""
+def _room_for_load(context: SolverContext) -> FloatArray:
+    """Add constant loads on the inner ring to the time functions of an context; returns a view of their values."""
     rows = np.zeros(5, R.TERM)
     rows["signal"], rows["kind"] = [FORCE, FORCE + 1, FORCE + 2, MOMENT + 1, MOMENT + 2], R.CONSTANT
-    assembly.bundle = assembly.bundle._replace(terms=np.concatenate([assembly.bundle.terms, rows]))
-    load: FloatArray = assembly.bundle.terms["value"][-rows.size :]
+    context.bundle = context.bundle._replace(terms=np.concatenate([context.bundle.terms, rows]))
+    load: FloatArray = context.bundle.terms["value"][-rows.size :]
     return load
 
 
@@ -282,18 +270,18 @@ def initial_state(equilibrium: Equilibrium) -> FloatArray:
 
     The cage stands centred on the balls and turns with them; its pockets are where the balls are.
     """
-    assembly = equilibrium.assembly
-    model = assembly.model
+    context = equilibrium.context
+    model = context.model
     z = model.geometry.ball_count
     y = equilibrium.state.copy()
     balls = y[: L.NB * z].view(R.BALL)
     balls["velocity"][:, 2] = equilibrium.orbit * balls["radius"]
     if model.depth.cage:
-        bodies = np.zeros(assembly.bundle.bodies.size, R.BODY_STATE)
+        bodies = np.zeros(context.bundle.bodies.size, R.BODY_STATE)
         shared, cage = bodies.view(np.float64), bodies[CAGE : CAGE + 1]
-        shared[assembly.bundle.active] = y[L.NB * z :]
+        shared[context.bundle.active] = y[L.NB * z :]
         cage.view(np.float64)[:] = 0.0
         cage["position"][0, 0] = float(np.mean(balls["x"]))
         cage["angle"], cage["spin"] = balls["azimuth"][0], equilibrium.orbit
-        y[L.NB * z :] = shared[assembly.bundle.active]
+        y[L.NB * z :] = shared[context.bundle.active]
     return y

@@ -20,13 +20,12 @@ from lambda_core.domain.elements import DOFS
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
-from lambda_core.solver.drivers.assembly import Assembly, assemble
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, guides, links
+from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.tables import INNER, OUTER
 from lambda_core.solver.entry import Core, core
 from lambda_core.solver.faults import ROLES
-from lambda_core.solver.integrator.arrow import make_factors
 from lambda_core.solver.statics.continuation import STATIC_REPORT
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel
@@ -65,7 +64,7 @@ class Equilibrium:
         False where only the normal forces are in equilibrium and the balls roll kinematically.
     """
 
-    assembly: Assembly
+    context: SolverContext
     state: FloatArray
     contacts: FloatArray
     losses: FloatArray
@@ -108,33 +107,33 @@ def solve(
     compiled = core(announce)
     state: FloatArray | None = None
     for _ in range(_FRAME_ITERATIONS):
-        assembly = assemble(model, kernels, frame, oils)
+        context = assemble(model, kernels, frame, oils)
         if state is None:
-            state = first_state(assembly, phase)
-        _continue(compiled, assembly, state, friction=False)
-        contacts, _ = _contacts(compiled, assembly, state)
+            state = first_state(context, phase)
+        _continue(compiled, context, state, friction=False)
+        contacts, _ = _contacts(compiled, context, state)
         new = _frame_of(contacts, frame)
         change = max(abs(a - b) for a, b in zip(new.angles, frame.angles, strict=True))
         frame = new
         if change < _FRAME_TOLERANCE:
             break
-    assembly = assemble(model, kernels, frame, oils)
+    context = assemble(model, kernels, frame, oils)
     assert state is not None
-    _continue(compiled, assembly, state, friction=False)
-    _roll(assembly, state)
+    _continue(compiled, context, state, friction=False)
+    _roll(context, state)
     smooth, converged = state.copy(), True
     try:
-        report = _continue(compiled, assembly, state, friction=True)
+        report = _continue(compiled, context, state, friction=True)
     except SolverError:
         if strict:
             raise
         state, converged, report = smooth, False, np.zeros(1, dtype=STATIC_REPORT)
         report["orbit"] = smooth[L.BVT] / smooth[L.BR]
-    contacts, losses = _contacts(compiled, assembly, state)
-    inner, outer = assembly.bundle.bodies_now[INNER], assembly.bundle.bodies_now[OUTER]
+    contacts, losses = _contacts(compiled, context, state)
+    inner, outer = context.bundle.bodies_now[INNER], context.bundle.bodies_now[OUTER]
     x, y, z, tilt_y, tilt_z = (float(v) for v in (*inner.position, -inner.tilt[1], inner.tilt[0]))
     return Equilibrium(
-        assembly,
+        context,
         state,
         contacts,
         losses,
@@ -166,9 +165,9 @@ def free_contact_angle(model: BearingModel) -> float:
     return math.acos(max(-1.0, min(1.0, 1.0 - 0.5 * max(g.clearance, 0.0) / distance)))
 
 
-def first_state(assembly: Assembly, phase: float = 0.0) -> FloatArray:
+def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
     """Return balls evenly spaced, one of them lowest (moved on by `phase` pitches), the inner ring in contact."""
-    model = assembly.model
+    model = context.model
     g = model.geometry
     z = g.ball_count
     force = [initial(f) for f in model.inner_ring.force]
@@ -193,22 +192,22 @@ def first_state(assembly: Assembly, phase: float = 0.0) -> FloatArray:
                 bodies["position"][b, d] = move[d]
         if body.dofs["spin"].mode == "free":
             bodies["spin"][b] = initial(body.dofs["spin"].motion)
-    y = np.zeros(assembly.size)
+    y = np.zeros(context.size)
     balls = y[: L.NB * z].view(R.BALL)
     balls["x"] = 0.5 * (bodies["position"][INNER, 0] + bodies["position"][OUTER, 0])
     balls["radius"] = 0.5 * g.pitch_diameter
     balls["azimuth"] = [-0.5 * math.pi + 2.0 * math.pi * (j + phase) / z for j in range(z)]
-    y[L.NB * z :] = bodies.view(np.float64)[assembly.bundle.active]
-    _roll(assembly, y)
+    y[L.NB * z :] = bodies.view(np.float64)[context.bundle.active]
+    _roll(context, y)
     return y
 
 
-def _roll(assembly: Assembly, y: FloatArray) -> None:
+def _roll(context: SolverContext, y: FloatArray) -> None:
     """Set orbital speeds and spins to pure rolling at the frozen contact angle, in place."""
-    model = assembly.model
+    model = context.model
     g = model.geometry
     inner, outer = (initial(b.dofs["spin"].motion) for b in (model.inner_ring, model.outer_ring))
-    angle = float(np.mean(assembly.frame.angles))
+    angle = float(np.mean(context.frame.angles))
     lever = 0.5 * g.ball_diameter * math.cos(angle)
     v_inner, v_outer = inner * (0.5 * g.pitch_diameter - lever), outer * (0.5 * g.pitch_diameter + lever)
     spin = (v_outer - v_inner) / g.ball_diameter
@@ -217,14 +216,13 @@ def _roll(assembly: Assembly, y: FloatArray) -> None:
     balls["spin"] = spin * math.cos(angle), -spin * math.sin(angle), 0.0
 
 
-def _continue(compiled: Core, assembly: Assembly, state: FloatArray, *, friction: bool) -> StaticReport:
+def _continue(compiled: Core, context: SolverContext, state: FloatArray, *, friction: bool) -> StaticReport:
     """Run the continuation from `state`, in place; returns its report."""
-    system = assembly.bundle.system[0]
+    system = context.bundle.system[0]
     system["friction_on"], system["guides_on"] = int(friction), 0
     report, last = np.zeros(1, dtype=STATIC_REPORT), np.zeros(state.size)
-    balls = assembly.model.geometry.ball_count
+    balls = context.model.geometry.ball_count
     trust, held = np.ones(balls), np.zeros(balls, dtype=np.int64)
-    factors = make_factors(assembly.blocks.reach, assembly.bundle.active.size)
     status = Status.UNFINISHED
     while (
         status == Status.UNFINISHED and report["iterations"][0] < _MAX_ITERATIONS[friction]
@@ -232,11 +230,11 @@ def _continue(compiled: Core, assembly: Assembly, state: FloatArray, *, friction
         status = compiled.solve_static(
             compiled.evaluate_pointer,
             compiled.jacobian_pointer,
-            assembly.bundle,
-            assembly.blocks,
-            factors,
+            context.bundle,
+            context.blocks,
+            context.factors,
             state,
-            1.0 / assembly.scale,
+            1.0 / context.scale,
             last,
             trust,
             held,
@@ -245,7 +243,7 @@ def _continue(compiled: Core, assembly: Assembly, state: FloatArray, *, friction
         )
     system["friction_on"], system["guides_on"] = 1, 1
     if status == Status.REFUSED:
-        raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(assembly)}")
+        raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(context)}")
     if status != Status.OK:
         raise SolverError(_no_equilibrium(report, friction=friction))
     return report
@@ -264,20 +262,20 @@ def _no_equilibrium(report: StaticReport, *, friction: bool) -> str:
     )
 
 
-def _contacts(compiled: Core, assembly: Assembly, state: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _contacts(compiled: Core, context: SolverContext, state: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return contact channels (Z, 2, 16) and losses (16,) [W] at a state."""
-    z, bundle, powers = assembly.model.geometry.ball_count, assembly.bundle, L.power_count(assembly.bundle)
+    z, bundle, powers = context.model.geometry.ball_count, context.bundle, L.power_count(context.bundle)
     contacts, rates = np.zeros((1, z, 2, 16)), np.zeros((1, powers))
     system = bundle.system[0]
     system["guides_on"] = 0
     ok = compiled.observe(
         np.zeros(1), state.reshape(1, -1), bundle, compiled.evaluate_pointer, SHORTED, contacts, np.zeros((1, z, 3)),
         np.zeros((1, 2, 3)), np.zeros((1, powers + 2)), np.zeros((1, bundle.shared.size)), rates,
-        np.zeros(assembly.size),
+        np.zeros(context.size),
     )  # fmt: skip
     system["guides_on"] = 1
     if ok != 1:
-        raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(assembly)}")
+        raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(context)}")
     return contacts[0], rates[0, : -L.BESIDE_LOSSES].copy()
 
 
@@ -291,9 +289,9 @@ def _frame_of(contacts: FloatArray, before: ContactFrame) -> ContactFrame:
     return ContactFrame((angles[0], angles[1]), (loads[0], loads[1]))
 
 
-def fault_sentence(assembly: Assembly, time: float | None = None) -> str:
+def fault_sentence(context: SolverContext, time: float | None = None) -> str:
     """Say which kernel refused, where, and with what inputs."""
-    fault = assembly.bundle.scratch[0].fault
+    fault = context.bundle.scratch[0].fault
     if fault.role < 0:
         return "the time step became too small"
     role = ROLES[fault.role]
@@ -301,12 +299,12 @@ def fault_sentence(assembly: Assembly, time: float | None = None) -> str:
     if role == "fluid_drag":
         element = "fluid_drag"
     elif role == "force_element":
-        element = links(assembly.model)[which]
+        element = links(context.model)[which]
     elif role == "cage_contact":
-        element = {0: "cage_inner", 1: "cage_outer"}.get(which, guides(assembly.model)[0])
+        element = {0: "cage_inner", 1: "cage_outer"}.get(which, guides(context.model)[0])
     else:
         element = RACEWAYS[max(which, 0)]
-    model = assembly.model.laws[element][role].model
+    model = context.model.laws[element][role].model
     status = int(fault.status)
     if status == 1:
         what = "returned a number that is not finite"

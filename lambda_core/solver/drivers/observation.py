@@ -11,8 +11,8 @@ from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
-from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.equilibrium import fault_sentence
+from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.entry import Core
 from lambda_core.solver.sampling import CONTACT_CHANNELS
@@ -30,22 +30,22 @@ class Scratch(NamedTuple):
     dydt: FloatArray
 
     @classmethod
-    def of(cls, n: int, assembly: Assembly) -> Scratch:
+    def of(cls, n: int, context: SolverContext) -> Scratch:
         """Allocate for `n` samples."""
-        z, powers = assembly.model.geometry.ball_count, L.power_count(assembly.bundle)
+        z, powers = context.model.geometry.ball_count, L.power_count(context.bundle)
         shapes = (
-            (n, z, int(assembly.bundle.rows["raceways"].max()), 16),
+            (n, z, int(context.bundle.rows["raceways"].max()), 16),
             (n, z, 3),
             (n, 2, 3),
             (n, powers + 2),
-            (n, assembly.bundle.shared.size),
+            (n, context.bundle.shared.size),
             (n, powers),
-            (assembly.size,),
+            (context.size,),
         )
         return cls(*(np.zeros(shape) for shape in shapes))
 
 
-def observe(core_: Core, assembly: Assembly, times: FloatArray, states: FloatArray) -> dict[str, FloatArray]:
+def observe(core_: Core, context: SolverContext, times: FloatArray, states: FloatArray) -> dict[str, FloatArray]:
     """Return every channel at given states.
 
     Parameters
@@ -58,18 +58,18 @@ def observe(core_: Core, assembly: Assembly, times: FloatArray, states: FloatArr
     SolverError
         When a kernel refuses, with its name.
     """
-    scratch = Scratch.of(times.size, assembly)
-    ok = core_.observe(times, states, assembly.bundle, core_.evaluate_pointer, SHORTED, *scratch)
-    return channels_of(ok, assembly, times, states, scratch)
+    scratch = Scratch.of(times.size, context)
+    ok = core_.observe(times, states, context.bundle, core_.evaluate_pointer, SHORTED, *scratch)
+    return channels_of(ok, context, times, states, scratch)
 
 
 def channels_of(
-    ok: int, assembly: Assembly, times: FloatArray, states: FloatArray, scratch: Scratch
+    ok: int, context: SolverContext, times: FloatArray, states: FloatArray, scratch: Scratch
 ) -> dict[str, FloatArray]:
     """Return what was written about samples by the names of the channels."""
     if ok != 1:
-        raise SolverError(fault_sentence(assembly))
-    n, z = times.size, assembly.model.geometry.ball_count
+        raise SolverError(fault_sentence(context))
+    n, z = times.size, context.model.geometry.ball_count
     contacts, pockets, lands, extra, flat, rates, _ = scratch
     bodies = flat.view(R.BODY_STATE)
     balls = np.ascontiguousarray(states[:n, : L.NB * z]).view(R.BALL)

@@ -17,9 +17,7 @@ from numba.core.errors import NumbaExperimentalFeatureWarning
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.solver import layout as L
-from lambda_core.solver.drivers.assembly import Assembly
-from lambda_core.solver.entry import core
-from lambda_core.solver.integrator.arrow import make_factors
+from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.integrator.handle import handle_t
 from lambda_core.solver.integrator.memory import make_memory
 
@@ -107,19 +105,15 @@ class Handle:
 
     Parameters
     ----------
-    assembly : Assembly
+    context : SolverContext
         Of the model; its workspaces are used.
     """
 
-    def __init__(self, assembly: Assembly) -> None:
-        self.assembly = assembly
-        self.size = n = assembly.size
-        bundle, solver = assembly.bundle, core()
-        self._memory = make_memory(np.zeros(n), assembly.scale, 1.0, bundle, capacity=1)
-        self._handle = solver.make_context(
-            solver.evaluate_pointer, solver.jacobian_pointer, solver.advance_pointer, solver.observe_pointer,
-            bundle, assembly.blocks, make_factors(assembly.blocks.reach, bundle.active.size), self._memory,
-        )  # fmt: skip
+    def __init__(self, context: SolverContext) -> None:
+        self.context = context
+        self.size = n = context.size
+        self._memory = make_memory(np.zeros(n), context.scale, 1.0, context.bundle, capacity=1)
+        self._handle = context.handle(self._memory)
 
     def slope(self, t: float, y: FloatArray, out: FloatArray) -> int:
         """Write dy/dt, shapes (n,); returns 1, or 0 where a kernel refused. `y` may be anything that can be read."""
@@ -138,7 +132,7 @@ class Handle:
 
     def rates(self, times: FloatArray, states: FloatArray) -> FloatArray:
         """Return the rates of the running integrals, shape (times, powers) [W, rad/s, m]."""
-        out = np.zeros((times.size, L.power_count(self.assembly.bundle)))
+        out = np.zeros((times.size, L.power_count(self.context.bundle)))
         if _compiled(_rates)(times, np.ascontiguousarray(states), out, self._handle) != 1:
             raise RuntimeError("a kernel refused a state that an integrator had accepted")
         return out

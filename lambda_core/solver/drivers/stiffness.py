@@ -9,8 +9,8 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
-from lambda_core.solver.drivers.assembly import Assembly, assemble
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
+from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.entry import core
 from lambda_core.system.bearing import DofState
 
@@ -43,14 +43,14 @@ def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
     ----------
     Jones 1960, J. Basic Eng. 82, 309; de Mul, Vree and Maas 1989, J. Tribol. 111, 142 (the same elimination).
     """
-    found = equilibrium.assembly
+    found = equilibrium.context
     model = found.model
     dofs = {**model.inner_ring.dofs, **dict.fromkeys(_FREED, DofState("free"))}
     freed = dataclasses.replace(model, inner_ring=dataclasses.replace(model.inner_ring, dofs=dofs), links={})
-    assembly = assemble(freed, found.kernels, found.frame, found.oils)
-    _forces_slope(assembly, _moved(equilibrium, assembly))
+    context = assemble(freed, found.kernels, found.frame, found.oils)
+    _forces_slope(context, _moved(equilibrium, context))
     try:
-        matrix = _eliminated(assembly)
+        matrix = _eliminated(context)
     except np.linalg.LinAlgError:
         raise SolverError(f"{model.name}: no stiffness matrix: a ball is held by nothing but its own inertia") from None
     # Contact forces are conservative at frozen radii: what is not symmetric is noise of the Jacobian's differences.
@@ -58,30 +58,30 @@ def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
     return tuple(tuple(float(value) for value in row) for row in matrix)
 
 
-def _moved(equilibrium: Equilibrium, assembly: Assembly) -> FloatArray:
+def _moved(equilibrium: Equilibrium, context: SolverContext) -> FloatArray:
     """Return the equilibrium's state in the layout of the freed ring."""
-    count = assembly.model.geometry.ball_count
-    shared = np.zeros(assembly.bundle.shared.size)
-    shared[equilibrium.assembly.bundle.active] = equilibrium.state[L.NB * count :]
+    count = context.model.geometry.ball_count
+    shared = np.zeros(context.bundle.shared.size)
+    shared[equilibrium.context.bundle.active] = equilibrium.state[L.NB * count :]
     shared[list(_STATES)] = _SIGNS * np.array(equilibrium.displacement)
-    return np.concatenate([equilibrium.state[: L.NB * count], shared[assembly.bundle.active]])
+    return np.concatenate([equilibrium.state[: L.NB * count], shared[context.bundle.active]])
 
 
-def _forces_slope(assembly: Assembly, state: FloatArray) -> None:
-    """Fill the assembly's blocks with the Jacobian of the normal forces alone."""
-    compiled, bundle = core(), assembly.bundle
+def _forces_slope(context: SolverContext, state: FloatArray) -> None:
+    """Fill the context's blocks with the Jacobian of the normal forces alone."""
+    compiled, bundle = core(), context.bundle
     system = bundle.system[0]
     system["friction_on"], system["guides_on"] = 0, 0
     rates = np.zeros(L.power_count(bundle))
     ok = compiled.evaluate(0.0, state, bundle, np.zeros(state.size), rates, 0)
-    if ok != 1 or compiled.jacobian(0.0, state, bundle, assembly.blocks) != 1:
-        raise SolverError(f"the stiffness matrix failed: {fault_sentence(assembly)}")
+    if ok != 1 or compiled.jacobian(0.0, state, bundle, context.blocks) != 1:
+        raise SolverError(f"the stiffness matrix failed: {fault_sentence(context)}")
     system["friction_on"], system["guides_on"] = 1, 1
 
 
-def _eliminated(assembly: Assembly) -> FloatArray:
+def _eliminated(context: SolverContext) -> FloatArray:
     """Return the stiffness left when the balls' positions are eliminated, shape (5, 5)."""
-    blocks, body = assembly.blocks, assembly.model.inner_ring
+    blocks, body = context.blocks, context.model.inner_ring
     columns, rows = blocks.index[list(_STATES)], blocks.index[list(_RATES)]
     own = blocks.reach.index[0]  # the inner ring is the first body that a ball touches, too
     own_columns, own_rows = own[list(_STATES)], own[list(_RATES)]

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from lambda_core.solver.drivers.assembly import Assembly
+from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.system.law_context import max_speed
 
 _PLACES = 20_000  # azimuths at which a surface is looked at: 20 um apart on a raceway of 130 mm
@@ -14,30 +14,30 @@ _STEPS = 4.0  # per length over which the surface changes, 25 per wave
 _COUNTS = 0.01  # share of the steepest slope from which on a single harmonic has to be resolved
 
 
-def longest_step(assembly: Assembly) -> float:
+def longest_step(context: SolverContext) -> float:
     """Return the longest step of time that resolves the raceways' surfaces [s]; inf for nominal raceways.
 
     The length over which a surface changes is its height over its slope: 1/k of a radian for k waves, and 1/k of every
     harmonic that has 1 % of the slope, for a short wave on a long one. Balls pass it with the speed of the cage
     relative to the ring, at most (1 + D_w/d_m)/2 of the highest planned speed.
     """
-    model = assembly.model
+    model = context.model
     ratio = model.geometry.ball_diameter / model.geometry.pitch_diameter
     longest = math.inf
     for i, element in enumerate(("ball_inner", "ball_outer")):
-        if assembly.bundle.raceways[i]["surface_on"] == 0:
+        if context.bundle.raceways[i]["surface_on"] == 0:
             continue
         passing = 0.5 * (1.0 + (ratio if i == 0 else -ratio)) * max_speed(model)
-        width = _shortest(assembly, element, assembly.frame.angles[i])
+        width = _shortest(context, element, context.frame.angles[i])
         if passing > 0.0:
             longest = min(longest, width / (_STEPS * passing))
     return longest
 
 
-def _shortest(assembly: Assembly, element: str, angle: float) -> float:
+def _shortest(context: SolverContext, element: str, angle: float) -> float:
     """Return the angle over which the surface, or one of its harmonics, changes [rad]; inf where it is flat."""
-    law = assembly.kernels.compiled[element, "surface"].dispatcher
-    par = assembly.parameters(element, "surface")
+    law = context.kernels.compiled[element, "surface"].dispatcher
+    par = context.parameters(element, "surface")
     found = np.zeros((_PLACES, 3))
     for azimuth, out in zip(np.linspace(-math.pi, math.pi, _PLACES), found, strict=True):
         law(azimuth, angle, par, out)

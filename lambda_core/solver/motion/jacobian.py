@@ -2,9 +2,9 @@
 
 Each ball couples only to itself and to the bodies:
 
-    J = [[A_1,           B_1],
-         [     ...       ...],
-         [C_1, ..., C_Z,  D ]]
+    J = [ [ A_1,           B_1 ],
+          [      ...       ... ],
+          [ C_1, ..., C_Z,  D  ] ]
 
 B and C hold the columns and rows of the bodies that the ball touches (:mod:`lambda_core.solver.integrator.reach`).
 

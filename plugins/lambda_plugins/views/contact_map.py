@@ -25,8 +25,8 @@ from lambda_core.plugins import (
 from lambda_plugins.views.common import source
 
 if TYPE_CHECKING:
-    from lambda_core.solver.drivers.assembly import Assembly
     from lambda_core.solver.drivers.contact_field import ContactField
+    from lambda_core.solver.drivers.solver_context import SolverContext
 
 _STRIPS, _ROWS = 61, 41
 _ARROWS = (9, 5)  # across and along rolling
@@ -91,21 +91,21 @@ def _field(run: RunData, sample: dict[str, FloatArray], ball: int, ring: str) ->
     from lambda_core.solver.drivers.equilibrium import solve
 
     try:
-        assembly = solve(api.resolve(parse_case(run.case_toml, str(run.path)))).assembly
-        _refuse_other_physics(run, assembly, ring)
-        return contact_field(assembly, *contact_state(sample, ball, ring), ring, _STRIPS, _ROWS)
+        context = solve(api.resolve(parse_case(run.case_toml, str(run.path)))).context
+        _refuse_other_physics(run, context, ring)
+        return contact_field(context, *contact_state(sample, ball, ring), ring, _STRIPS, _ROWS)
     except (CaseError, SolverError) as error:
         raise NotApplicable(f"the contact cannot be computed again: {error}") from None
 
 
-def _refuse_other_physics(run: RunData, assembly: Assembly, ring: str) -> None:
+def _refuse_other_physics(run: RunData, context: SolverContext, ring: str) -> None:
     """Refuse a map of other physics than the run's: catalogue or laws of the contact may have changed since."""
     from lambda_core.results.provenance import differences, model_data
 
-    element, keys = f"ball_{ring}", assembly.kernels.keys()
+    element, keys = f"ball_{ring}", context.kernels.keys()
     changed = [
         path
-        for path in differences(run.model, model_data(assembly.model))
+        for path in differences(run.model, model_data(context.model))
         if path.startswith((f"laws.{element}.", *_INPUTS))
     ]
     then = run.kernel_keys

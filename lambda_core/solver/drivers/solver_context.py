@@ -1,8 +1,8 @@
-"""From a resolved model to the arrays and pointers that compiled code works on."""
+"""The one vessel between a resolved model and its results: the arrays and pointers that compiled code works on."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,9 @@ from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils
 from lambda_core.solver.drivers.tables import build_tables
 from lambda_core.solver.drivers.time_tables import build_times
 from lambda_core.solver.entry import core
+from lambda_core.solver.integrator.arrow import make_factors
 from lambda_core.solver.integrator.blocks import make_blocks
+from lambda_core.solver.integrator.memory import Memory
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame
 
@@ -38,16 +40,30 @@ def state_scales(model: BearingModel, active: NDArray[np.int64]) -> FloatArray:
 
 
 @dataclass
-class Assembly:
-    """Everything compiled code needs for one model at one contact frame."""
+class SolverContext:
+    """Everything compiled code needs for one model at one contact frame.
+
+    Equilibrium, motion, stiffness and other integrators all take it, and work in its memory one after another.
+    """
 
     model: BearingModel
     kernels: Kernels
     oils: Oils
     frame: ContactFrame
     bundle: L.Bundle
-    blocks: Any
     scale: FloatArray
+    blocks: Any = field(init=False)
+    factors: Any = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.blocks = make_blocks(self.bundle)
+        self.factors = make_factors(self.blocks.reach, self.bundle.active.size)
+
+    def handle(self, memory: Memory) -> Any:
+        """Return what leads to all of it and to the integrator's memory, which compiled code takes as one argument."""
+        c = core()
+        pointers = (c.evaluate_pointer, c.jacobian_pointer, c.advance_pointer, c.observe_pointer)
+        return c.make_context(*pointers, self.bundle, self.blocks, self.factors, memory)
 
     def parameters(self, element: str, role: str) -> FloatArray:
         """Return the parameters of a raceway's law, a view of what compiled code reads."""
@@ -66,7 +82,7 @@ class Assembly:
         return int(self.scale.size)
 
 
-def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> Assembly:
+def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> SolverContext:
     """Build the bundle for given frozen contact angles and mean loads."""
     terms, table, active = build_times(model)
     grid = unit_grid(model.depth.strips, model.depth.rows)
@@ -94,4 +110,4 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: O
         body_wrenches=np.zeros(bodies, R.WRENCH),
         ball_wrenches=np.zeros(balls, R.WRENCH),
     )
-    return Assembly(model, kernels, oils, frame, bundle, make_blocks(bundle), state_scales(model, active))
+    return SolverContext(model, kernels, oils, frame, bundle, state_scales(model, active))
