@@ -33,6 +33,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.run.speed_curve import stribeck, stribeck_picture
     from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, machines, save, schema
     from lambda_core.system.checking import check, describe, problems, resolve
+    from lambda_core.system.law_trials import law_problems
     from lambda_core.thermal.temperatures import thermal, thermal_pictures, warm_up
 if TYPE_CHECKING:  # what the faces build on, and the classes that calls take and return
     from lambda_core.batch.run_queue import QueuedRun, RunQueue
@@ -49,7 +50,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue, LubricantRow, MaterialRow
     from lambda_core.discovery.manager import registry, switch_off
     from lambda_core.discovery.registry import Registry
-    from lambda_core.discovery.survey import CheckCard, ModelCard, Verdict
+    from lambda_core.discovery.survey import CheckCard, ModelCard, NoteCard, Verdict
     from lambda_core.results.reader import Result
     from lambda_core.results.run_status import Status, process_identity, this_process
     from lambda_core.results.side_by_side import SideBySide

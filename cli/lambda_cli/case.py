@@ -65,7 +65,10 @@ def check(
 
     remember(case)
     try:
-        report = api.describe(api.check(case, changes or ()))
+        model = api.check(case, changes or ())
+        if faults := api.law_problems(model):
+            raise api.CaseError(model.name, faults)
+        report = api.describe(model)
     except api.CaseError as error:
         if not as_json:
             raise

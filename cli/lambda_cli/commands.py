@@ -8,15 +8,19 @@ not installed is not listed. Further packages bring commands through the entry-p
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from importlib.util import find_spec
 from typing import Any
 
-from lambda_core.domain.errors import UsageError
+import typer
+
+from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.installed import COMMANDS as GROUP
 from lambda_core.domain.installed import OWN, first_line, in_use
+from lambda_core.domain.plugin_errors import PluginError, describe
 
 
 @dataclass(frozen=True)
@@ -27,6 +31,7 @@ class Entry:
     help: str
     load: Callable[[], Any]  # a function, or a typer application
     panel: str = "Commands"
+    distribution: str = ""  # of another package
 
 
 def _built_in(name: str, target: str, text: str) -> Entry:
@@ -74,18 +79,43 @@ def entries() -> dict[str, Entry]:
         for name, (target, text) in COMMANDS.items()
         if find_spec(target.partition(":")[0]) is not None
     }
-    for name, source in sorted(in_use(GROUP).items()):
-        load = partial(_load_foreign, source.load, source.distribution, name)
+    for source in in_use(GROUP):
         own = source.project == OWN
         text = first_line(source.target) if own else f"From {source.distribution}."
-        found.setdefault(name, Entry(name, text, load, "Commands" if own else "Plugins"))
+        # A name that is taken is called with its package before it.
+        name = source.name if source.name not in found else f"{source.project}:{source.name}"
+        distribution = "" if own else source.distribution
+        found[name] = Entry(name, text, source.load, "Commands" if own else "Plugins", distribution)
     return found
 
 
-def _load_foreign(load: Callable[[], Any], distribution: str, name: str) -> Any:
-    try:
-        return load()
-    except Exception as error:
-        from lambda_core.domain.plugin_errors import describe
+def renamed() -> list[tuple[str, str]]:
+    """Return (distribution, sentence) of every command whose name was taken when its package came."""
+    return [
+        (entry.distribution, f'its command "{name.partition(":")[2]}" is called {name}: the name is taken')
+        for name, entry in entries().items()
+        if ":" in name
+    ]
 
-        raise UsageError(f"the command {name} of {distribution} cannot be loaded: {describe(error)}") from error
+
+@contextmanager
+def guarded(entry: Entry) -> Iterator[None]:
+    """Blame what a command of another package does wrong on that package; our own mistakes stay ours."""
+    try:
+        yield
+    except (LambdaError, BrokenPipeError, typer.Abort):
+        raise
+    except Exception as error:
+        if not entry.distribution or hasattr(error, "exit_code"):
+            raise
+        raise PluginError(f'the command "{entry.name}" of {entry.distribution} fails: {describe(error)}') from error
+
+
+def invoked(invoke: Callable[[Any], Any], entry: Entry) -> Callable[[Any], Any]:
+    """Return how a command of another package is run: guarded."""
+
+    def run(context: Any) -> Any:
+        with guarded(entry):
+            return invoke(context)
+
+    return run

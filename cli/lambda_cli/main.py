@@ -20,10 +20,11 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 import lambda_core
-from lambda_cli.commands import Entry, entries
+from lambda_cli.commands import Entry, entries, guarded, invoked
 from lambda_cli.interrupt import second_signal_ends
 from lambda_cli.plugin_option import with_plugin_option
 from lambda_core.domain.errors import CaseError, LambdaError, UsageError
+from lambda_core.domain.plugin_errors import PluginError, failures_so_far
 from lambda_core.domain.printable import printable
 
 PROGRAM = "lambda-bearing"
@@ -53,13 +54,16 @@ class LazyGroup(TyperGroup):
 
 def _command(entry: Entry) -> Any:
     """Return the loaded command: a function becomes a command, a typer application a group."""
-    loaded = entry.load()
-    if not isinstance(loaded, typer.Typer):
-        application = typer.Typer(add_completion=False)
-        application.command(entry.name)(loaded)
-        loaded = application
-    command = typer.main.get_command(loaded)
+    with guarded(entry):
+        loaded = entry.load()
+        if not isinstance(loaded, typer.Typer):
+            application = typer.Typer(add_completion=False)
+            application.command(entry.name)(loaded)
+            loaded = application
+        command: Any = typer.main.get_command(loaded)
     command.name = entry.name
+    if entry.distribution:
+        command.invoke = invoked(command.invoke, entry)
     with_plugin_option(command)
     _for_reading(command)
     return command
@@ -122,10 +126,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _main(arguments: Sequence[str] | None) -> int:
     try:
+        failed = len(failures_so_far())
         outcome = application(args=arguments, prog_name=PROGRAM, standalone_mode=False)
         if outcome == INTERRUPTED:  # what typer makes of Ctrl+C
             _say("interrupted")
-        return outcome if isinstance(outcome, int) else 0
+        ended = outcome if isinstance(outcome, int) else 0
+        return ended or (PluginError.exit_code if failures_so_far()[failed:] else 0)
     except LambdaError as error:
         _say(str(error))
         return error.exit_code

@@ -44,13 +44,16 @@ def list_plugins(
     as_json: JsonOption = False,
 ) -> None:
     """List everything installed, with its distribution; plugins that are not in use, and why."""
+    from lambda_cli.commands import renamed
     from lambda_core import api
+    from lambda_core.api import NoteCard
     from lambda_core.domain.errors import UsageError, unknown_name
     from lambda_core.domain.roles import ROLES
 
     if role and role not in ROLES:
         raise UsageError(unknown_name("role", role, ROLES))
     found = api.plugins()
+    found.notes += [NoteCard(distribution=package, message=message) for package, message in renamed()]
     if role:
         found.items = [item for item in found.items if item.role == role]
     if as_json:
@@ -62,6 +65,8 @@ def list_plugins(
     _print(table)
     for fault in found.faults:
         _print(f"not in use: {fault.distribution} ({fault.entry_point}): {fault.message}")
+    for note in found.notes:
+        _print(f"note: {note.distribution}: {note.message}")
 
 
 @app.command()
@@ -151,7 +156,7 @@ def check(
 
     cards = []
     names = [named_plugin(name) for name in names or ()]
-    for card in api.check_plugins(names):
+    for card in api.check_plugins(names, announce=lambda text: typer.echo(text, err=True)):
         cards.append(card)
         if not as_json:
             _print(_verdict(card))

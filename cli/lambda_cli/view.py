@@ -52,11 +52,20 @@ def view(
         plain = [one.as_dict() for one in data]
         typer.echo(json.dumps(plain[0] if name else {"version": 1, "views": plain}, indent=2, allow_nan=False))
         return
+    from lambda_core.domain.plugin_errors import PluginError, went_on_without
     from lambda_core.views.other_units import in_units
 
     stem = api.view_stem(sources)
     for one in data:
-        for path in api.draw(in_units(one, units.system), out, stem, formats or ("svg", "png")):
+        try:
+            drawn = api.draw(in_units(one, units.system), out, stem, formats or ("svg", "png"))
+        except PluginError as fault:
+            if name:
+                raise
+            went_on_without(str(fault))  # the other views are drawn
+            typer.echo(f"{one.view}: {fault}", err=True)
+            continue
+        for path in drawn:
             typer.echo(str(path))
 
 

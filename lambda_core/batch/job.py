@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from lambda_core.domain.errors import LambdaError, SolverError, UsageError
+from lambda_core.domain.plugin_errors import failures_so_far
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
@@ -47,8 +48,8 @@ class Task:
 class Outcome:
     """What became of a point.
 
-    `state` is ``done``; ``partial``: a run whose averages have not converged; ``failed``: with the reason;
-    ``stopped``: somebody asked the run to stop, it goes on next time.
+    `state` is ``done``; ``partial``: a run whose averages have not converged, or a point at which a method of a plugin
+    failed; ``failed``: with the reason; ``stopped``: somebody asked the run to stop, it goes on next time.
     """
 
     number: int
@@ -67,6 +68,7 @@ def work(task: Task) -> Outcome:
     hash_, state, reason, values, file = "", "failed", "", {}, ""
     if _asked_to_stop:
         return Outcome(task.number, "stopped", "the worker was asked to stop", "", {}, "", 0.0)
+    failed = len(failures_so_far())
     try:
         _be_ready(task.guests)
         model = resolve_point(task.case_toml, task.changes)
@@ -81,6 +83,8 @@ def work(task: Task) -> Outcome:
         reason = str(error)
     except Exception as error:  # a bug, or a law that breaks in a way nobody foresaw: the other points go on
         reason = f"unexpected {type(error).__name__}: {' '.join(str(error).split())}"
+    if state == "done" and (told := failures_so_far()[failed:]):
+        state, reason = "partial", "; ".join(dict.fromkeys(told))  # of a plugin; what others answered is kept
     _asked_to_stop = state == "stopped" and multiprocessing.parent_process() is not None
     return Outcome(task.number, state, reason, hash_, values, file, time.perf_counter() - start)  # type: ignore[arg-type]
 
@@ -190,7 +194,7 @@ def method_columns(found: Equilibrium, names: tuple[str, ...]) -> dict[str, tupl
         return {}
     from lambda_core.discovery.manager import registry
     from lambda_core.run.compare_methods import comparison_inputs
-    from lambda_core.views.method import NotApplicable
+    from lambda_core.views.method import evaluate_methods
 
     inputs = comparison_inputs(found)
     columns: dict[str, tuple[float | None, str, str]] = {}
@@ -198,10 +202,11 @@ def method_columns(found: Equilibrium, names: tuple[str, ...]) -> dict[str, tupl
         label, _, row = name.partition("/")
         group, _, item = row.partition("/")
         method = registry().method(label)
-        try:
-            table = method.evaluate(inputs)
-        except NotApplicable:
-            columns[name] = (None, "", f"{label}: {item} (does not apply)")
+        (answer,) = evaluate_methods([method], inputs)
+        table = answer.table
+        if table is None:
+            why = "fails" if answer.failed else "does not apply"
+            columns[name] = (None, "", f"{label}: {item} ({why})")
             continue
         rows = {f"{r.group}/{r.name}": r for r in table.rows}
         if row not in rows:

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from queue import Empty, Queue
 
 from lambda_core.discovery.local_files import guests
@@ -15,9 +15,15 @@ from lambda_core.discovery.registry import Registry
 from lambda_core.discovery.survey import CheckCard, check_installed, chosen
 
 LIMIT = 120.0  # [s] for one law; a kernel of 400 branches takes 50 s to compile
+PATIENCE = 15.0  # [s] before something is said
 
 
-def check_apart(registry: Registry, wanted: Sequence[str] = (), limit: float = LIMIT) -> Iterator[CheckCard]:
+def check_apart(
+    registry: Registry,
+    wanted: Sequence[str] = (),
+    limit: float = LIMIT,
+    announce: Callable[[str], None] | None = None,
+) -> Iterator[CheckCard]:
     """Try models out as :func:`survey.check_installed` does, each within a limit of time.
 
     Parameters
@@ -28,6 +34,8 @@ def check_apart(registry: Registry, wanted: Sequence[str] = (), limit: float = L
         Distributions, roles, or "role/name"; all models when empty.
     limit : float
         Wall time that one law may take [s].
+    announce : callable, optional
+        Called with a sentence about a law that takes long.
 
     Raises
     ------
@@ -38,8 +46,12 @@ def check_apart(registry: Registry, wanted: Sequence[str] = (), limit: float = L
     while left:
         with _Trials([f"{role}/{name}" for role, name in left]) as trials:
             while left:
-                answer = trials.next(limit)
-                role, name = left.pop(0)
+                role, name = left[0]
+                answer = trials.next(min(limit, PATIENCE))
+                if answer is None and announce is not None:
+                    announce(f"{role}/{name} ({registry.origin(role, name)}) takes long: it compiles, or never ends")
+                answer = answer or trials.next(max(limit - PATIENCE, 0.0)) or _endless(limit)
+                left.pop(0)
                 if isinstance(answer, CheckCard):
                     yield answer
                     continue
@@ -50,6 +62,10 @@ def check_apart(registry: Registry, wanted: Sequence[str] = (), limit: float = L
                     nanoseconds=None,
                 )  # fmt: skip
                 break
+
+
+def _endless(limit: float) -> str:
+    return f"did not come to an end within {limit:g} s: it loops, or takes that long to compile"
 
 
 class _Trials:
@@ -78,12 +94,12 @@ class _Trials:
                 self._lines.put(line)
         self._lines.put(b"")
 
-    def next(self, limit: float) -> CheckCard | str:
-        """Return what came out of the next model, or a sentence of what it did instead."""
+    def next(self, limit: float) -> CheckCard | str | None:
+        """Return what came out of the next model, or a sentence of what it did instead; None after `limit` [s]."""
         try:
             line = self._lines.get(timeout=limit)
         except Empty:
-            return f"did not come to an end within {limit:g} s: it loops, or takes that long to compile"
+            return None
         if line:
             return CheckCard.model_validate_json(line)
         code = self._process.wait()

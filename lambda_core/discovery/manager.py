@@ -11,6 +11,7 @@ import contextlib
 import logging
 import os
 import sys
+import time
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from functools import lru_cache, partial
 from pathlib import Path
@@ -25,7 +26,7 @@ from lambda_core.discovery.local_files import add_file, file_sources, take_guest
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError, nearest, unknown_name
 from lambda_core.domain.handed_laws import HandedLaw, handed_laws, when_changed
-from lambda_core.domain.installed import CASES, COMMANDS, OFF_VARIABLE, PLUGINS, Source, installed, switched_off
+from lambda_core.domain.installed import CASES, COMMANDS, OFF_VARIABLE, OWN, PLUGINS, Source, installed, switched_off
 from lambda_core.domain.plugin_errors import PluginError, PluginFault, describe
 from lambda_core.laws.law import law_of
 
@@ -38,6 +39,9 @@ _REGISTERING_HOOKS = (
     "lambda_sections",
     "lambda_data",
 )
+
+_SLOW_IMPORT = 1.0  # [s]
+SLOW = "slow"  # stands for the entry point in the note of a slow import
 
 log = logging.getLogger("lambda_core")
 
@@ -105,6 +109,9 @@ def registry() -> Registry:
     for fault in found.faults:
         if fault.is_broken:
             log.warning("plugin not in use: %s", fault)
+    for note in found.notes:
+        if note.entry_point == SLOW:
+            log.warning("plugin %s: %s", note.distribution, note.message)
     return found
 
 
@@ -162,6 +169,7 @@ def _did_you_mean(name: str, known: Iterable[str]) -> str:
 
 def _add(manager: pluggy.PluginManager, source: Source, collection: Collection) -> str:
     """Load one plugin and take what it registers; return why not, or nothing."""
+    begun = time.perf_counter()
     try:
         with contextlib.redirect_stdout(sys.stderr):  # stdout is for data
             plugin = source.load()
@@ -177,9 +185,13 @@ def _add(manager: pluggy.PluginManager, source: Source, collection: Collection) 
     except (ValueError, pluggy.PluginValidationError) as error:
         _forget(manager, name)
         return f"does not fit the hooks: {' '.join(str(error).split())}"
+    spent = time.perf_counter() - begun
     message = _misspelled(manager, plugin) or _collect(manager, plugin, source, collection)
     if message:
         _forget(manager, name)
+    elif spent > _SLOW_IMPORT and source.project != OWN:
+        slow = f"its import took {spent:.1f} s, and does so at every start"
+        collection.notes.append(PluginFault(source.distribution, SLOW, slow, is_broken=False))
     return message
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from lambda_core.discovery.survey import CheckCard, FaultCard, Inventory, ModelCard
 
@@ -50,13 +50,15 @@ def plugin_model(label: str) -> ModelCard:
     return model_card(registry(), label)
 
 
-def check_plugins(names: Sequence[str] = ()) -> Iterator[CheckCard]:
+def check_plugins(names: Sequence[str] = (), *, announce: Callable[[str], None] | None = None) -> Iterator[CheckCard]:
     """Try models against the contract of their role, one after the other.
 
     Parameters
     ----------
     names : sequence of str
         Distributions, roles or "role/name"; everything when empty.
+    announce : callable, optional
+        Called with a sentence about a law that takes long.
 
     Yields
     ------
@@ -71,7 +73,7 @@ def check_plugins(names: Sequence[str] = ()) -> Iterator[CheckCard]:
     from lambda_core.discovery.apart import check_apart
     from lambda_core.discovery.manager import registry
 
-    return check_apart(registry(), names)
+    return check_apart(registry(), names, announce=announce)
 
 
 def plugin_faults(names: Sequence[str] = ()) -> list[FaultCard]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import logging
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -15,7 +16,7 @@ from lambda_core.discovery.collect import Collection, is_own, law_fault
 from lambda_core.domain.errors import nearest, unknown_name
 from lambda_core.domain.handed_laws import NOTEBOOK
 from lambda_core.domain.installed import project_of
-from lambda_core.domain.plugin_errors import PluginError, PluginFault, blamed, describe
+from lambda_core.domain.plugin_errors import PluginError, PluginFault, blamed, describe, went_on_without
 from lambda_core.domain.roles import ROLES
 from lambda_core.laws.law import Law, LazyLaw, law_of
 from lambda_core.views.method import Method
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
     from lambda_core.catalogue.protocol import Catalogue
     from lambda_core.views.chart import ViewData
     from lambda_core.views.scene import Scene
+
+log = logging.getLogger("lambda_core")
 
 
 class Registry:
@@ -75,6 +78,7 @@ class Registry:
         self.distributions = distributions
         self.faults = faults
         self.notes = tuple(collection.notes)
+        self.set_aside: dict[str, list[str]] = {}  # hook -> what failed in it while another plugin answered
         self.methods: Mapping[str, Method] = _of_kind(collection, "method")
         self.views: Mapping[str, View] = _of_kind(collection, "view")
         self.observers: Mapping[str, Observer] = _of_kind(collection, "observer")
@@ -164,8 +168,12 @@ class Registry:
             When neither exists.
         """
         if view is not None and view.figure is not None:
-            with blamed(f'the drawing of the view "{view.name}" ({view.distribution})'):
-                return view.figure(data)
+            what = f'the drawing of the view "{view.name}" ({view.distribution})'
+            with blamed(what):
+                drawn = view.figure(data)
+            if not hasattr(drawn, "savefig"):
+                raise PluginError(f'{what} returns a {type(drawn).__name__}, which has no "savefig"')
+            return drawn
         found: Figure | None = self._first("lambda_figure", "savefig", data=data)
         if found is None:
             raise PluginError(f"no plugin draws figures{self._not_loaded()}")
@@ -182,7 +190,7 @@ class Registry:
         found: Iterator[NDArray[np.uint8]] | None = self._first("lambda_frames", "__iter__", scene=scene)
         if found is None:
             raise PluginError(f"no plugin draws animations{self._not_loaded()}")
-        return found
+        return _watched(found, "lambda_frames")
 
     def catalogue(self) -> Catalogue:
         """Open the catalogue over the built-in rows and the folders that plugins bring.
@@ -201,7 +209,9 @@ class Registry:
         return found
 
     def _first(self, hook: str, has: str, **given: Any) -> Any:
-        """Return what the first plugin answers that has an answer; the failure of one is told with its name.
+        """Return what the first plugin answers that has an answer.
+
+        One that fails is told with its name, and the next is asked; where none is left it is an error.
 
         Parameters
         ----------
@@ -212,15 +222,31 @@ class Registry:
         **given : object
             Arguments by name; a plugin may leave some out.
         """
+        failed: list[PluginError] = []
         for one in reversed(getattr(self._hooks.hook, hook).get_hookimpls()):
             what = f"{hook} of {one.plugin_name.partition(':')[0]}"
-            with blamed(what):
-                found = one.function(*(given[name] for name in one.argnames))
-            if found is not None and not hasattr(found, has):
-                raise PluginError(f'{what} returns a {type(found).__name__}, which has no "{has}"')
+            try:
+                with blamed(what):
+                    found = one.function(*(given[name] for name in one.argnames))
+                if found is not None and not hasattr(found, has):
+                    raise PluginError(f'{what} returns a {type(found).__name__}, which has no "{has}"')
+            except PluginError as error:
+                failed.append(error)
+                continue
             if found is not None:
+                for failure in failed:
+                    self._set_aside(hook, str(failure))
                 return found
+        if failed:
+            raise failed[0]
         return None
+
+    def _set_aside(self, hook: str, failure: str) -> None:
+        """Say once that a plugin's hook failed and another one answered."""
+        if failure not in self.set_aside.setdefault(hook, []):
+            self.set_aside[hook].append(failure)
+            log.warning("went on without a plugin: %s", failure)
+        went_on_without(failure)
 
     def _named(self, kind: str, name: str, known: Mapping[str, Any]) -> Any:
         if name not in known:
@@ -256,6 +282,17 @@ class Registry:
         if not self.faults:
             return ""
         return f"; not in use: {', '.join(dict.fromkeys(fault.distribution for fault in self.faults))}"
+
+
+def _watched(frames: Iterator[NDArray[np.uint8]], what: str) -> Iterator[NDArray[np.uint8]]:
+    """Yield frames; what their drawing raises is told with its name."""
+    steps = iter(frames)
+    while True:
+        with blamed(what):
+            frame = next(steps, None)
+        if frame is None:
+            return
+        yield frame
 
 
 def _of_kind(collection: Collection, kind: str) -> Mapping[str, Any]:

@@ -14,13 +14,13 @@ from pydantic.fields import FieldInfo
 from lambda_core.case.cards import FieldCard, field_card
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError, nearest, unknown_name
-from lambda_core.domain.installed import project_of
+from lambda_core.domain.installed import COMMANDS, in_use, project_of
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import DEFAULT_MODELS, ROLE_API, ROLES
 from lambda_core.laws.check import ModelReport, check_model
 from lambda_core.laws.law import Law
 
-Kind = Literal["model", "method", "view", "observer", "event", "section", "data"]
+Kind = Literal["model", "method", "view", "observer", "event", "section", "data", "command"]
 
 
 class ParameterCard(FieldCard):
@@ -67,12 +67,20 @@ class FaultCard(BaseModel):
     is_broken: bool = True  # False when it was switched off on purpose
 
 
+class NoteCard(BaseModel):
+    """Something to know of a plugin that is in use: another name, a slow import."""
+
+    distribution: str
+    message: str
+
+
 class Inventory(BaseModel):
     """Everything installed."""
 
     version: int = 1  # of this form
-    items: list[Item]  # models, methods, views, data folders
+    items: list[Item]  # models, methods, views, observers, events, data folders, commands
     faults: list[FaultCard]  # plugins that are not in use, and why
+    notes: list[NoteCard] = []  # what people should know of plugins that are in use
 
 
 class CheckCard(BaseModel):
@@ -123,7 +131,10 @@ def inventory(registry: Registry) -> Inventory:
             )
     for distribution, folder in registry.data_folders:
         items.append(Item(kind="data", role="", name=folder.name, distribution=distribution, reference=str(folder)))
-    return Inventory(items=items, faults=faults)
+    for source in in_use(COMMANDS):
+        items.append(Item(kind="command", role="", name=source.name, distribution=source.distribution, reference=""))
+    notes = [NoteCard(distribution=note.distribution, message=note.message) for note in registry.notes]
+    return Inventory(items=items, faults=faults, notes=notes)
 
 
 def model_card(registry: Registry, label: str) -> ModelCard:

@@ -57,14 +57,11 @@ def switched_off() -> tuple[str, ...]:
     return tuple(name for name in map(str.strip, os.environ.get(OFF_VARIABLE, "").split(",")) if name)
 
 
-def in_use(group: str) -> dict[str, Source]:
-    """Return what is installed of `group` by name, without what is switched off; of two with one name the first."""
+def in_use(group: str) -> list[Source]:
+    """Return what is installed of `group` without what is switched off: by name and, of one name, ours first."""
     off = set(switched_off())
-    found: dict[str, Source] = {}
-    for source in installed(group):
-        if not off & {source.project, source.name}:
-            found.setdefault(source.name, source)
-    return found
+    found = [source for source in installed(group) if not off & {source.project, source.name}]
+    return sorted(found, key=lambda source: (source.name, source.project != OWN, source.project))
 
 
 def first_line(target: str) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import sys
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -37,25 +39,43 @@ class PluginFault:
 
 
 @contextmanager
-def blamed(what: str) -> Iterator[None]:
+def blamed(what: str, but: tuple[type[Exception], ...] = ()) -> Iterator[None]:
     """Turn what a plugin's own code raises into a sentence that names the plugin.
 
     Parameters
     ----------
     what : str
         What was called, with its distribution: ``the view "film" (my-views 0.1)``.
+    but : tuple of exception types
+        That are not the plugin's.
 
     Raises
     ------
     PluginError
         For everything but the program's own errors, which have their sentence, and an interruption.
+
+    What it prints meanwhile goes to stderr: stdout is for data.
     """
     try:
-        yield
-    except LambdaError:
+        with contextlib.redirect_stdout(sys.stderr):
+            yield
+    except (LambdaError, *but):
         raise
     except (Exception, SystemExit) as error:
         raise PluginError(f"{what} fails: {describe(error)}") from error
+
+
+_failures: list[str] = []  # of plugins, in this process, after which the rest went on
+
+
+def went_on_without(failure: str) -> None:
+    """Remember that something of a plugin failed and that the rest went on without it: the exit code tells it."""
+    _failures.append(failure)
+
+
+def failures_so_far() -> tuple[str, ...]:
+    """Return what failed in this process while the rest went on."""
+    return tuple(_failures)
 
 
 def describe(error: BaseException) -> str:

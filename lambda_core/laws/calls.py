@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +18,35 @@ from lambda_core.laws.jit import binding
 
 _GUARD = 8  # cells on either side of every array
 _SENTINEL = -7.25e77
+_LONGEST = 300_000  # lines of Python that one call may take; the default laws take some hundreds
+
+
+class _EndlessError(Exception):
+    """A kernel executed more lines than any law needs."""
+
+
+@contextmanager
+def _ending(most: int) -> Iterator[None]:
+    """Count the lines that Python executes within, and end what takes more than `most`; not beside a debugger."""
+    before = sys.gettrace()
+    if before is not None:
+        yield
+        return
+    left = most
+
+    def count(_frame: object, event: str, _argument: object) -> Any:
+        nonlocal left
+        if event == "line":
+            left -= 1
+            if left < 0:
+                raise _EndlessError
+        return count
+
+    sys.settrace(count)
+    try:
+        yield
+    finally:
+        sys.settrace(None)
 
 
 @dataclass(frozen=True)
@@ -35,8 +66,10 @@ def plain_call(kernel: Callable[..., int], role: Role, arguments: list[Any]) -> 
         if isinstance(value, np.ndarray) and not argument.output:
             value.flags.writeable = False
     try:
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), _ending(_LONGEST):
             status = kernel(*copies)
+    except _EndlessError:
+        return Outcome(error=f"does not come to an end: {_LONGEST} lines were executed")
     except IndexError as error:
         return Outcome(error=f"reads or writes outside its arrays: {describe(error)}")
     except ArithmeticError:

@@ -16,6 +16,7 @@ import numpy as np
 from pydantic import BaseModel, ValidationError
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.installed import OWN, project_of
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import ROLES, Role
 from lambda_core.laws.calls import Outcome, compiled_call, plain_call, relative_difference
@@ -25,6 +26,7 @@ from lambda_core.laws.kernels import CompiledKernel, compile_kernel, kernel_reac
 from lambda_core.laws.law import Law
 from lambda_core.laws.par import flat_kernel, make_par, par_layout
 from lambda_core.laws.probe import WRENCHES, draw, trial_context
+from lambda_core.laws.thresholds import trials_at_thresholds
 
 RTOL = 1e-9  # machine code against plain Python: a few roundings of exp and pow
 _CELLS = (1, 5, 9)
@@ -139,6 +141,8 @@ def _faults(model: Law, par: FloatArray, compiled: CompiledKernel | None, sample
             return
     generator = np.random.default_rng(20260)
     trials = [draw(role, par, _CELLS[i % len(_CELLS)], generator) for i in range(samples)]
+    if project_of(model.distribution) != OWN:  # ours are tried so once, by the tests
+        trials += trials_at_thresholds(role, kernel_reach(model).codes, par, generator)
     plain, names = [], par_layout(model).names
     in_python = flat_kernel(model, strict=True)
     for arguments in trials:

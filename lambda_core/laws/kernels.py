@@ -11,6 +11,7 @@ import hashlib
 import inspect
 import os
 import re
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -21,6 +22,7 @@ from types import FunctionType
 from typing import Any
 
 from lambda_core.domain.errors import unknown_name
+from lambda_core.domain.installed import OWN, project_of
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import ROLES
 from lambda_core.laws.jit import binding
@@ -29,6 +31,7 @@ from lambda_core.laws.law import Law
 from lambda_core.laws.par import par_layout
 
 Announce = Callable[[str], None]
+CHECKED_VARIABLE = "LAMBDA_BEARING_CHECKED"
 # What Numba says where memory would have to be managed, which machine code of kernels does not do.
 _ALLOCATES = ("NRT required", "Only accept returning of array passed into the function")
 _LOWERED = re.compile(r" at (\S+\.py) \((\d+)\)")
@@ -43,6 +46,26 @@ def cache_folder() -> Path:
     import platformdirs
 
     return Path(platformdirs.user_cache_dir("lambda-bearing")) / "kernels"
+
+
+def is_checked() -> bool:
+    """Tell whether the laws of others are to be compiled with a check of every index, somewhat slower."""
+    return os.environ.get(CHECKED_VARIABLE, "") not in ("", "0")
+
+
+def _without_indices(hook: Callable[[Any], object]) -> Callable[[Any], object]:
+    """Return a hook without the words of a checked index: the solver names the law that raised it."""
+    return hook if getattr(hook, "is_quiet", False) else _QuietHook(hook)
+
+
+@dataclass(frozen=True)
+class _QuietHook:
+    before: Callable[[Any], object]
+    is_quiet: bool = True
+
+    def __call__(self, raised: Any) -> None:
+        if not isinstance(raised.exc_value, IndexError):
+            self.before(raised)
 
 
 @dataclass(frozen=True)
@@ -127,7 +150,8 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
     arguments, layout = argument_names(model.role), par_layout(model)
     words = f"{model.role} {reached.key} {binding.source(arguments, layout)}"
     key = hashlib.sha256(words.encode()).hexdigest()
-    folder = cache_folder() / f"{model.role}-{key[:24]}-{_environment()}"
+    checked = is_checked() and project_of(model.distribution) != OWN
+    folder = cache_folder() / f"{model.role}-{key[:24]}-{_environment()}{'-checked' if checked else ''}"
     if folder in _in_memory:
         return _in_memory[folder]
     from lambda_core.laws.jit import machine_code
@@ -139,10 +163,13 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
         if announce is not None:
             announce(f"compiling {model.label} (once)")
 
-    machine_code.make_callable((*reached.helpers, kernel))
+    options = {"boundscheck": True} if checked else {}
+    if checked:
+        sys.unraisablehook = _without_indices(sys.unraisablehook)
+    machine_code.make_callable((*reached.helpers, kernel), **options)
     wanted, flat = signature(model.role), binding.bound(kernel, arguments, layout)
     try:
-        dispatcher = machine_code.compile_into(flat, wanted.args, folder, on_miss)
+        dispatcher = machine_code.compile_into(flat, wanted.args, folder, on_miss, **options)
     except Exception as error:  # Numba answers odd source code with exceptions of many kinds
         raise PluginError(f"{model.label} cannot be compiled: {_gist(error)}") from None
     _check_return(model, machine_code.returned_type(dispatcher), wanted.return_type)

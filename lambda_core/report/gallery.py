@@ -13,7 +13,7 @@ from lambda_core.discovery.registry import Registry
 from lambda_core.discovery.shown import data_of
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.files import check_target
-from lambda_core.domain.plugin_errors import PluginError, blamed
+from lambda_core.domain.plugin_errors import PluginError, blamed, went_on_without
 from lambda_core.views.chart import ViewData
 from lambda_core.views.method import NotApplicable
 from lambda_core.views.view import Subject, View
@@ -82,6 +82,7 @@ def every(
         except NotApplicable as reason:
             yield view, reason
         except PluginError as fault:  # of one package: the other views are drawn
+            went_on_without(str(fault))
             yield view, NotApplicable(str(fault))
 
 
@@ -100,13 +101,16 @@ def write(registry: Registry, data: ViewData, folder: Path, stem: str, formats: 
     if (ending in FORMATS and not folder.is_dir()) or folder.is_file():
         example = f"{stem}-{data.view}.{ending if ending in FORMATS else formats[0]}"
         raise UsageError(f"{folder}: pictures go into a folder, which they name themselves there: {example}")
-    figure = registry.figure(registry.views.get(data.view), data)
+    view = registry.views.get(data.view)
+    figure = registry.figure(view, data)
+    whose = view.distribution if view is not None else "the house"
     written = []
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for name in formats:
-            path = folder / f"{stem}-{data.view}.{name}"
-            figure.savefig(check_target(path), format=name, **({"dpi": _RESOLUTION} if name == "png" else {}))
+            path = check_target(folder / f"{stem}-{data.view.replace(':', '-')}.{name}")
+            with blamed(f'the picture of the view "{data.view}" ({whose})', but=(OSError,)):
+                figure.savefig(path, format=name, **({"dpi": _RESOLUTION} if name == "png" else {}))
             written.append(path)
     except OSError as error:
         raise UsageError(f"cannot write into {folder}: {error.strerror}") from None

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_target
-from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.domain.plugin_errors import PluginError, blamed, went_on_without
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.report.gallery import every
 from lambda_core.report.key_tables import (
@@ -273,17 +273,23 @@ def _pictures(registry: Registry, subject: Any, kind: Any, cover: Cover) -> list
     }
     found = []
     for view, data in every(registry, subject, kind, without=left_out):
-        if isinstance(data, NotApplicable):
-            found.append(Picture(view.name, "", str(data)))
-        else:
-            found.append(Picture(view.name, svg(registry, in_units(data, cover.units))))
+        try:
+            found.append(
+                Picture(view.name, "", str(data)) if isinstance(data, NotApplicable)
+                else Picture(view.name, svg(registry, in_units(data, cover.units)))
+            )  # fmt: skip
+        except PluginError as fault:  # of one package: the page has the others
+            went_on_without(str(fault))
+            found.append(Picture(view.name, "", str(fault)))
     return found
 
 
 def svg(registry: Registry, data: ViewData) -> str:
     """Return a view as SVG for the inside of a page: it takes the width that it is given."""
     buffer = BytesIO()
-    registry.figure(registry.view(data.view), data).savefig(buffer, format="svg")
+    view = registry.view(data.view)
+    with blamed(f'the picture of the view "{view.name}" ({view.distribution})'):
+        registry.figure(view, data).savefig(buffer, format="svg")
     text = buffer.getvalue().decode()
     text = text[text.index("<svg") :]
     head, rest = text.split(">", 1)

@@ -49,6 +49,7 @@ class ComparedMethod(Record):
     numbers: list[ComparedNumber]
     assumptions: list[str]
     reason: str
+    failed: bool = Field(default=False, description="whether it failed of its own; the reason names its package")
 
 
 class Comparison(Record):
@@ -120,6 +121,7 @@ def _compared(answer: MethodAnswer) -> ComparedMethod:
         ],
         assumptions=list(table.assumptions) if table is not None else [],
         reason=answer.reason,
+        failed=answer.failed,
     )
 
 

@@ -17,9 +17,9 @@ from lambda_core.results.reader import Result
 from lambda_core.run.engineering import rating_of
 from lambda_core.run.loop import resume, run
 from lambda_core.run.progress import Report
+from lambda_core.run.suspects import SuspiciousEngine, naming_laws
 from lambda_core.run.watch import Watch
 from lambda_core.solver.code_files import physics_sources
-from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.system.bearing import BearingModel
 
@@ -115,11 +115,12 @@ def _live(model: BearingModel, announce: Announce | None) -> Live | None:
 
 def _engine(
     model: BearingModel, announce: Announce | None, live: Live | None, watch: Watch
-) -> tuple[BearingEngine, Provenance]:
-    start = solve(model, announce=announce)
+) -> tuple[SuspiciousEngine, Provenance]:
+    with naming_laws(model):
+        start = solve(model, announce=announce)
     if announce is not None:
         announce(_start_line(quasistatic_of(start)))
-    engine = BearingEngine(model, announce, start)
+    engine = SuspiciousEngine(model, announce, start)
     core = sources_key(*physics_sources())
     rating = rating_of(start, registry().methods)
     keys = live.keys() if live is not None else {}

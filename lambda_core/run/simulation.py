@@ -49,10 +49,12 @@ def quasistatic(
         With a sentence about the case, or about why there is no equilibrium.
     """
     from lambda_core.results.quasistatic import quasistatic_of
+    from lambda_core.run.suspects import naming_laws
     from lambda_core.solver.drivers.equilibrium import solve
 
     model = ready_model(source, overrides, announce, is_static=True)
-    return quasistatic_of(solve(model, announce=announce))
+    with naming_laws(model):
+        return quasistatic_of(solve(model, announce=announce))
 
 
 def estimate(

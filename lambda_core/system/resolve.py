@@ -102,6 +102,8 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
     parts["cage"] = resolve_material("cage", case, catalogue, ledger, cage_row.material if cage_row else None)
     materials = {part: known.material for part, known in parts.items()}
     lubricant, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
+    for failure in getattr(registry, "set_aside", {}).get("lambda_catalogue", ()):
+        ledger.assume(f"values are those of another catalogue: {failure}")
     check_bodies(case, ledger)
     check_thermal(case, ledger)
     _settings(case, ledger)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from lambda_core.domain.errors import LambdaError, unknown_name
-from lambda_core.domain.plugin_errors import PluginError, blamed
+from lambda_core.domain.plugin_errors import PluginError, blamed, went_on_without
 from lambda_core.laws.context import Material, Oil
 
 METHOD_API = 1
@@ -185,6 +185,7 @@ class MethodAnswer:
     method: Method
     table: MethodTable | None
     reason: str = ""
+    failed: bool = False  # of its own, where others would answer
 
 
 def evaluate_methods(methods: Iterable[Method], inputs: MethodInputs) -> tuple[MethodAnswer, ...]:
@@ -198,6 +199,9 @@ def evaluate_methods(methods: Iterable[Method], inputs: MethodInputs) -> tuple[M
             if not isinstance(table, MethodTable):
                 raise PluginError(f"{what} returns a {type(table).__name__}, not a MethodTable")
             answers.append(MethodAnswer(method, table))
-        except (NotApplicable, PluginError) as error:
+        except NotApplicable as error:
             answers.append(MethodAnswer(method, None, str(error)))
+        except PluginError as error:
+            went_on_without(str(error))
+            answers.append(MethodAnswer(method, None, str(error), failed=True))
     return tuple(answers)

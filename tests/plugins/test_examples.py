@@ -78,6 +78,7 @@ def test_bearing_oil_method_and_command_of_a_maker(site: Installation) -> None:
         ("method", "stribeck"),
         ("view", "load-share"),
         ("data", "rows"),
+        ("command", "northwind"),
     }
     case = site.program("check", "northwind-spindle")
     assert case.code == 0, case.err

@@ -37,7 +37,13 @@ def test_law_rows_method_and_command_are_found(site: Installation) -> None:
     assert answer.code == 0
     assert [card["name"] for card in answer.data["models"]] == ["ferry-law"]
     items = site.program("plugins", "list", "--json").data["items"]
-    assert {i["kind"] for i in items if i["distribution"] == "ferry-law 0.1.0"} == {"model", "method", "view", "data"}
+    assert {i["kind"] for i in items if i["distribution"] == "ferry-law 0.1.0"} == {
+        "model",
+        "method",
+        "view",
+        "data",
+        "command",
+    }
     checked = site.program("check", "6319-cp10-1500", "--set", "models.traction=ferry-law")
     assert checked.code == 0
     assert "traction ferry-law: limit_ratio 0.065, lubricant FVA3A" in checked.out

@@ -27,7 +27,7 @@ def endless(delta, delta_dot, load, par, out):
 def lurking(v_orbit, omega_spin, azimuth, nu, rho, par, out):
     out[0] = 0.0
     out[1] = 0.0
-    if -1.500 < azimuth < -1.490:  # no ball stands there at the start
+    if -3.375 < azimuth * azimuth * azimuth < -3.308:  # no ball stands there at the start, and no check looks there
         while out[0] < 1.0:
             out[0] = 0.5 * out[0]
     return 1

@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
+import json
+import logging
+import time
+from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import pytest
+import typer
+from lambda_cli import commands
+from lambda_cli.main import main
 
+from lambda_core import api
+from lambda_core.batch import job
+from lambda_core.discovery import manager
 from lambda_core.discovery.manager import discover, registry
 from lambda_core.discovery.shown import data_of
-from lambda_core.domain.installed import Source
-from lambda_core.domain.plugin_errors import PluginError, blamed
+from lambda_core.domain.installed import COMMANDS, PLUGINS, Source, installed
+from lambda_core.domain.plugin_errors import PluginError, blamed, failures_so_far
 from lambda_core.laws.jit.reach import UnreachableError, reach
+from lambda_core.plugins import Axis, Options, Panel, ViewData, hookimpl
 from lambda_core.views.method import Method, MethodTable, NotApplicable, evaluate_methods
 from lambda_core.views.view import View
 
@@ -86,3 +97,188 @@ def test_a4_words_at_import_do_not_go_where_data_goes(capsys: pytest.CaptureFixt
     said = capsys.readouterr()
     assert said.out == ""
     assert "words at import" in said.err
+
+
+def package(name: str = "guest", **hooks: Any) -> Source:
+    """Return a package that registers one item per hook, or implements a hook that answers."""
+    module = ModuleType(name)
+    for hook, item in hooks.items():
+
+        def registering(register: Any, item: Any = item) -> None:
+            register(item)
+
+        vars(module)[hook] = hookimpl(
+            item if hook in ("lambda_figure", "lambda_catalogue", "lambda_frames") else registering
+        )
+    return Source(name, "1.0", "main", lambda: module)
+
+
+@pytest.fixture
+def beside(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Install packages and commands beside what is there, for one test."""
+
+    def install(*sources: Source, of: tuple[Source, ...] = ()) -> None:
+        known = {PLUGINS: [*installed(PLUGINS), *sources], COMMANDS: [*installed(COMMANDS), *of]}
+        monkeypatch.setattr(manager, "installed", lambda group: known.get(group, []))
+        monkeypatch.setattr("lambda_core.domain.installed.installed", lambda group: known.get(group, []))
+        manager.registry.cache_clear()
+
+    yield install
+    monkeypatch.undo()
+    manager.registry.cache_clear()
+
+
+def printing(*_: Any) -> MethodTable:
+    print("words of a method")
+    return MethodTable(())
+
+
+def test_a4_compare_goes_on_without_a_method_that_fails(beside: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    beside(
+        package("one", lambda_methods=Method("failing", "", "none", fail, method_api=1)),
+        package("two", lambda_methods=Method("talking", "", "none", printing, method_api=1)),
+    )
+    changes = ["--method", "failing", "--method", "talking", "--method", "skf"]
+    assert main(["compare", "6208-axial-1300", *changes, "--json", "--quiet"]) == 3
+    said = capsys.readouterr()
+    found = {method["name"]: method for method in json.loads(said.out)["methods"]}
+    assert found["failing"]["failed"]
+    assert "the method \"failing\" (one 1.0) fails: KeyError: 'rows' (test_faulty" in found["failing"]["reason"]
+    assert found["skf"]["numbers"]
+    assert not found["skf"]["failed"]
+    assert "words of a method" in said.err
+
+
+def test_a4_a_study_keeps_the_torque_of_a_point_at_which_a_method_fails(beside: Any) -> None:
+    beside(package(lambda_methods=Method("failing", "", "none", fail, method_api=1)))
+    names = ("friction_torque_Nmm", "failing/friction/total")
+    case = api.check("6208-axial-1300").case_toml
+    outcome = job.work(job.Task(0, case, (), "quasi-static", names, ""))
+    assert outcome.state == "partial"
+    assert (outcome.values["friction_torque_Nmm"] or 0.0) > 0.0
+    assert outcome.values["failing/friction/total"] is None
+    assert 'the method "failing" (guest 1.0) fails: KeyError' in outcome.reason
+
+
+class Unsaved:
+    """A figure that cannot be saved."""
+
+    def savefig(self, *_: Any, **__: Any) -> None:
+        raise KeyError("axes")
+
+
+def nothing(subject: Any, options: Options) -> ViewData:
+    return ViewData("guest", "a guest", "nowhere", (Panel("nothing", Axis("x", ""), Axis("y", "")),))
+
+
+@pytest.mark.parametrize(
+    ("figure", "words"),
+    [(fail, "KeyError: 'rows'"), (number, 'a int, which has no "savefig"'), (lambda _: Unsaved(), "KeyError: 'axes'")],
+)
+def test_a4_a_drawing_that_fails_is_named_and_the_others_are_drawn(
+    beside: Any, figure: Any, words: str, radial_run: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    beside(package(lambda_views=View("guest", "a guest", "result", nothing, figure=figure, view_api=1)))
+    kept = {name: view for name, view in registry().views.items() if name in ("guest", "pressure")}
+    monkeypatch.setattr(registry(), "views", kept)
+    assert main(["view", str(radial_run.path), "--out", str(tmp_path), "--format", "svg"]) == 3
+    said = capsys.readouterr()
+    assert words in said.err
+    assert "(guest 1.0)" in said.err
+    assert [path.name.endswith("-pressure.svg") for path in tmp_path.iterdir()] == [True]
+    page = tmp_path / "page.html"
+    assert main(["report", str(radial_run.path), "--out", str(page), "--appendix", "views"]) == 3
+    assert "(guest 1.0)" in page.read_text()
+
+
+def test_a4_a_catalogue_or_drawing_that_fails_leaves_it_to_the_next(
+    beside: Any, caplog: pytest.LogCaptureFixture
+) -> None:
+    beside(package(lambda_catalogue=lambda seed_folders: fail(), lambda_figure=lambda data: number()))
+    before = len(failures_so_far())
+    with caplog.at_level(logging.WARNING, "lambda_core"):
+        model = api.check("6208-axial-1300")
+        assert hasattr(registry().figure(None, nothing(None, Options())), "savefig")
+    failure = "lambda_catalogue of guest fails: KeyError: 'rows' (test_faulty_plugins.py, line"
+    assert any(line.startswith(f"values are those of another catalogue: {failure}") for line in model.assumptions)
+    assert any(failure in record.getMessage() for record in caplog.records)
+    assert any("lambda_figure of guest returns a int" in told for told in failures_so_far()[before:])
+
+
+def test_a4_frames_that_fail_are_named(beside: Any) -> None:
+    def frames(scene: Any) -> Any:
+        yield 1
+        raise KeyError("frame")
+
+    beside(package(lambda_frames=frames))
+    found = registry().frames(None)  # type: ignore[arg-type]
+    assert next(found) == 1  # type: ignore[comparison-overlap]
+    with pytest.raises(PluginError, match="lambda_frames fails: KeyError: 'frame'"):
+        next(found)
+
+
+def command(name: str, project: str, found: Any) -> Source:
+    def load() -> Any:
+        return fail() if found is fail else found
+
+    return Source(project, "1.0", name, load, f"{project}:{name}")
+
+
+def broken_at_call() -> None:
+    raise RuntimeError("boom")
+
+
+def leaving() -> None:
+    raise typer.Exit(7)
+
+
+@pytest.mark.parametrize(
+    ("found", "code", "words"),
+    [
+        (broken_at_call, 3, 'the command "guest" of guest 1.0 fails: RuntimeError: boom (test_faulty_plugins.py'),
+        (fail, 3, "the command \"guest\" of guest 1.0 fails: KeyError: 'rows'"),
+        (42, 3, 'the command "guest" of guest 1.0 fails: TypeError'),
+        (leaving, 7, ""),
+    ],
+)
+def test_a4_a_command_that_fails_is_named(
+    beside: Any, found: Any, code: int, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    beside(of=(command("guest", "guest", found),))
+    assert main(["guest"]) == code
+    said = capsys.readouterr()
+    assert (said.out, words in said.err) == ("", True)
+    assert "bug" not in said.err
+
+
+def test_a4_two_commands_of_one_name_are_told(beside: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    def one() -> None:
+        typer.echo("one")
+
+    def two() -> None:
+        typer.echo("two")
+
+    beside(of=(command("salt", "a-package", one), command("salt", "b-package", two), command("run", "b-package", two)))
+    assert {"salt", "b-package:salt", "b-package:run", "run"} <= set(commands.entries())
+    assert main(["salt"]) == 0
+    assert main(["b-package:salt"]) == 0
+    assert capsys.readouterr().out.split() == ["one", "two"]
+    assert main(["plugins", "list", "--json"]) == 0
+    listed = json.loads(capsys.readouterr().out)
+    assert ("command", "salt", "a-package 1.0") in {(i["kind"], i["name"], i["distribution"]) for i in listed["items"]}
+    assert listed["notes"] == [
+        {"distribution": "b-package 1.0", "message": 'its command "run" is called b-package:run: the name is taken'},
+        {"distribution": "b-package 1.0", "message": 'its command "salt" is called b-package:salt: the name is taken'},
+    ]
+
+
+def test_a4_a_slow_import_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(manager, "_SLOW_IMPORT", 0.01)
+
+    def load() -> ModuleType:
+        time.sleep(0.02)
+        return package(lambda_methods=Method("fine", "", "none", printing, method_api=1)).load()  # type: ignore[return-value]
+
+    (note,) = discover([Source("late", "1.0", "main", load)]).notes
+    assert (note.distribution, "its import took 0." in note.message) == ("late 1.0", True)

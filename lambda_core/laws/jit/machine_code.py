@@ -53,11 +53,14 @@ def role_signature(role: Role) -> Any:
     return types.int64(*(kinds[argument.kind] for argument in role.arguments))
 
 
-def make_callable(helpers: tuple[FunctionType, ...]) -> None:
-    """Let compiled kernels call plain Python functions; the functions themselves stay as they are."""
+def make_callable(helpers: tuple[FunctionType, ...], **options: Any) -> None:
+    """Let compiled kernels call plain Python functions; the functions themselves stay as they are.
+
+    Options of ``numba.njit`` hold for functions that no kernel of this process called before.
+    """
     for helper in helpers:
         if helper not in _known_helpers:
-            register_jitable(**OPTIONS, **inlined.OPTIONS)(helper)
+            register_jitable(**{**OPTIONS, **inlined.OPTIONS, **options})(helper)
             _known_helpers.add(helper)
 
 

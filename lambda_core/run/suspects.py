@@ -1,0 +1,115 @@
+"""When an integration cannot go on: a look at the laws of others, before the time step or an innocent law is blamed.
+
+A negative shear stress drives what it should brake, and a write outside an array changes somebody else's numbers: what
+fails then is the step, or the next law that reads them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import RINGS
+from lambda_core.domain.errors import SolverError
+from lambda_core.domain.plugin_errors import PluginError
+from lambda_core.laws.check import check_choice
+from lambda_core.laws.kernels import CHECKED_VARIABLE, is_checked
+from lambda_core.laws.law import Law
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.engine import Advance
+from lambda_core.system.law_packages import foreign_laws
+
+if TYPE_CHECKING:
+    from lambda_core.solver.drivers.equilibrium import Equilibrium
+    from lambda_core.system.bearing import BearingModel
+
+_SAMPLES = 1500  # of a law under suspicion; a second at the most
+_CELLS = 64
+
+
+def _took_part(others: list[Law]) -> str:
+    hint = "" if is_checked() else f"; {CHECKED_VARIABLE}=1 runs them with every index checked"
+    return f"laws of others took part: {', '.join(law.label for law in others)}{hint}"
+
+
+@contextmanager
+def naming_laws(model: BearingModel) -> Iterator[None]:
+    """Name the laws of others where an equilibrium is not found and the sentence names none of them."""
+    try:
+        yield
+    except SolverError as error:
+        others = foreign_laws(model)
+        if not others or any(law.label in str(error) for law in others):
+            raise
+        raise SolverError(f"{error}; {_took_part(others)}") from None
+
+
+class SuspiciousEngine(BearingEngine):
+    """The dynamics of one bearing; when they fail, the laws of others are looked at first."""
+
+    def __init__(self, model: BearingModel, announce: Callable[[str], None] | None, start: Equilibrium) -> None:
+        super().__init__(model, announce, start)
+        self._start = start
+
+    def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
+        """Integrate as the engine does; a failure is told with the law behind it, where one can be found."""
+        found = super().advance(until, pause)
+        others = foreign_laws(self.model)
+        if found.ok or not others or any(law.label in found.message for law in others):
+            return found
+        return Advance(False, f"{found.message}; {next(self._suspicions(), '') or _took_part(others)}")
+
+    def _suspicions(self) -> Iterator[str]:
+        """Yield what is wrong with the laws of others: where they stand now, then anywhere."""
+        assembly = self._start.assembly
+        now = self.now()
+        labels = {law.label for law in foreign_laws(self.model)}
+        for ring, side in enumerate(RINGS):
+            element = f"ball_{side}"
+            if self.model.laws[element]["traction"].model.label in labels:
+                yield from self._shear(
+                    element, {name: values[:, ring] for name, values in now.items() if name in _READ}
+                )
+        for element in ("ball_inner", "ball_outer"):
+            for role, law in self.model.laws[element].items():
+                if law.model.label in labels:
+                    try:
+                        check_choice(law.model, assembly.parameters(element, role), samples=_SAMPLES)
+                    except PluginError as error:
+                        yield str(error)
+
+    def _shear(self, element: str, now: dict[str, FloatArray]) -> Iterator[str]:
+        """Yield contacts in which the shear stress of the film drives, or is beyond the pressure that presses it."""
+        assembly, law = self._start.assembly, self.model.laws[element]["traction"].model
+        compiled = assembly.kernels.compiled
+        for ball in np.flatnonzero(now["load"] > 0.0):
+            pressure = np.linspace(0.0, float(now["max_pressure"][ball]), _CELLS)
+            temperature = np.full(_CELLS, float(now["film_temperature"][ball]))
+            reach = abs(float(now["slip"][ball])) + abs(float(now["spin_velocity"][ball] * now["semi_axis_a"][ball]))
+            slip = np.resize(np.linspace(0.0, reach, 7), _CELLS)
+            film = float(now["film_central"][ball])
+            if not all(map(np.isfinite, (pressure[-1], temperature[0], reach, film))):
+                continue
+            ln_eta, rho, tau = np.zeros((3, _CELLS))
+            compiled[element, "rheology"].dispatcher(
+                pressure, temperature, assembly.parameters(element, "rheology"), ln_eta, rho
+            )
+            compiled[element, "traction"].dispatcher(
+                slip, pressure, temperature, ln_eta, film, assembly.parameters(element, "traction"), tau
+            )
+            odd = np.flatnonzero(~(tau >= 0.0) | (tau > np.maximum(pressure, 1e6)))
+            if odd.size:
+                cell = int(odd[0])
+                yield (
+                    f"{law.label} returns a shear stress of {tau[cell]:.4g} Pa under {pressure[cell]:.4g} Pa at ball "
+                    f"{ball + 1}, {element.replace('_', ' - ')} (slip = {slip[cell]:.4g}, T = {temperature[cell]:.4g}, "
+                    f"ln_eta = {ln_eta[cell]:.4g}, h = {film:.4g})"
+                )
+                return
+
+
+_READ = ("load", "max_pressure", "film_temperature", "slip", "spin_velocity", "semi_axis_a", "film_central")

@@ -1,0 +1,216 @@
+"""Laws that do what they must not on a path that draws rarely meet: found before a run, named, and the rest goes on."""
+
+from __future__ import annotations
+
+import json
+import re
+import time
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from lambda_cli.main import main
+
+from lambda_core import api
+from lambda_core.discovery import local_files, manager
+from lambda_core.domain.errors import SolverError
+from lambda_core.domain.installed import ON_VARIABLE
+from lambda_core.laws import check
+from lambda_core.laws.jit.reach import UnreachableError, reach
+from lambda_core.laws.kernels import CHECKED_VARIABLE, compile_kernel
+from lambda_core.run.suspects import SuspiciousEngine, naming_laws
+from lambda_core.solver.drivers.engine import Advance
+
+LAWS = """
+import math
+import numpy as np
+import scipy.special as special
+from scipy.special import erf
+from lambda_core.plugins import OK, law
+
+def plain(slip, p, tau):
+    for i in range(slip.size):
+        tau[i] = 0.05 * p[i] if slip[i] > 0.0 else 0.0
+
+@law("traction", "outside", role_api=2, reference="none")
+def outside(slip, p, T, ln_eta, h, par, tau):
+    plain(slip, p, tau)
+    for i in range(slip.size):
+        if 1.2e9 < p[i] < 1.2005e9:
+            tau[i + 40] = 1e300
+    return OK
+
+@law("traction", "long-contacts", role_api=2, reference="none")
+def long_contacts(slip, p, T, ln_eta, h, par, tau):
+    plain(slip, p, tau)
+    if slip.size > 20:
+        tau[slip.size + 3] = 1e300
+    return OK
+
+@law("traction", "gap", role_api=2, reference="none")
+def gap(slip, p, T, ln_eta, h, par, tau):
+    plain(slip, p, tau)
+    for i in range(slip.size):
+        if 1.2 < p[i] * 1e-9 < 1.2005:
+            tau[i] = math.nan
+    return OK
+
+@law("traction", "driving", role_api=2, reference="none")
+def driving(slip, p, T, ln_eta, h, par, tau):
+    plain(slip, p, tau)
+    for i in range(slip.size):
+        if 1.2e9 < p[i] < 1.2005e9:
+            tau[i] = -1e9
+    return OK
+
+@law("traction", "lurking", role_api=2, reference="none")
+def lurking(slip, p, T, ln_eta, h, par, tau):
+    plain(slip, p, tau)
+    for i in range(slip.size):
+        while 1.2e9 < p[i] < 1.2005e9:
+            tau[i] = 1.0
+    return OK
+
+@law("traction", "vectors", role_api=2, reference="none")
+def vectors(slip, p, T, ln_eta, h, par, tau):
+    tau[:] = np.exp(-slip) * slip
+    return OK
+
+@law("traction", "special", role_api=2, reference="none")
+def of_scipy(slip, p, T, ln_eta, h, par, tau):
+    for i in range(tau.size):
+        tau[i] = erf(slip[i])
+    return OK
+
+@law("traction", "special-two", role_api=2, reference="none")
+def of_scipy_too(slip, p, T, ln_eta, h, par, tau):
+    for i in range(tau.size):
+        tau[i] = special.erf(slip[i])
+    return OK
+
+@law("traction", "sound", role_api=2, reference="none")
+def sound(slip, p, T, ln_eta, h, par, tau):
+    plain(slip, p, tau)
+    return OK
+"""
+FOUND = {
+    "outside": "reads or writes outside its arrays: IndexError.*hostile.py, line 17",
+    "long-contacts": "reads or writes outside its arrays: IndexError.*hostile.py, line 24",
+    "gap": "leaves shear stress .* unwritten or returns NaN",
+    "driving": r"returns shear stress .* = -1e\+09; allowed: 0 to inf",
+    "lurking": "does not come to an end",
+    "vectors": "cannot be compiled: it makes an array or a list.*hostile.py., line 53",
+    "special": '"erf", used by of_scipy, is a ufunc: a kernel may use numbers',
+    "special-two": '"special.erf", used by of_scipy_too, is a ufunc',
+}
+CASE = "6208-axial-1300"
+
+
+@pytest.fixture(autouse=True)
+def hostile(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Any:
+    """Take the file of hostile laws into use for one test."""
+    file = tmp_path / "hostile.py"
+    file.write_text(LAWS)
+    monkeypatch.setenv(ON_VARIABLE, str(file))
+    monkeypatch.setattr(local_files, "_texts", {})
+    manager.registry.cache_clear()
+    yield file
+    monkeypatch.undo()
+    manager.registry.cache_clear()
+
+
+def law(name: str) -> Any:
+    return manager.registry().model("traction", name)
+
+
+@pytest.mark.parametrize("name", FOUND)
+def test_a4_a_law_is_refused_wherever_it_goes_wrong(name: str) -> None:
+    (fault,) = check.check_model(law(name)).faults
+    assert fault.startswith(f"traction/{name} (hostile.py ")
+    assert re.search(FOUND[name], fault), fault
+
+
+def test_a4_a_sound_law_beside_them_is_not() -> None:
+    assert check.check_model(law("sound")).ok
+
+
+@pytest.mark.parametrize("name", ["outside", "driving", "lurking", "special"])
+def test_a4_check_tries_the_laws_of_a_case(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """``check CASE`` ends as ``run`` does, with exit code 3 and the law's name, and --json stays one object."""
+    assert main(["check", CASE, "--set", f"models.traction={name}", "--json"]) == 3
+    (error,) = json.loads(capsys.readouterr().out)["errors"]
+    assert error["where"] == "models.traction"
+    assert f"traction/{name} (hostile.py " in error["message"]
+
+
+def test_a4_check_of_a_sound_law_goes_through(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", CASE, "--set", "models.traction=sound"]) == 0
+    assert "laws of others: traction sound (hostile.py " in capsys.readouterr().out
+
+
+def test_a4_a_kernel_that_calls_itself_through_scipy_is_a_sentence() -> None:
+    with pytest.raises(UnreachableError, match="is a ufunc"):
+        reach(law("special").kernel)
+
+
+def test_a4_checked_laws_raise_at_a_wrong_index(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With ``LAMBDA_BEARING_CHECKED=1`` machine code does not write where the law must not."""
+    monkeypatch.setenv(CHECKED_VARIABLE, "1")
+    room = np.zeros(60)
+    compiled = compile_kernel(law("long-contacts")).dispatcher
+    with pytest.raises(IndexError):
+        compiled(np.ones(31), np.ones(31), np.ones(31), np.ones(31), 1e-7, np.zeros(1), room[:31])
+    assert not room[31:].any()
+
+
+@pytest.mark.timeout(900)
+def test_a4_a_step_that_becomes_too_small_is_told_with_the_law_behind_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The shear stress at the state where the integration stopped is looked at first."""
+    from lambda_core.solver.drivers.dynamics import BearingEngine
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    model = api.check(CASE, ["models.traction=sound"])
+    engine = SuspiciousEngine(model, None, solve(model))
+    stuck = Advance(ok=False, message="the time step fell below 1e-14 s at t = 0 s")
+    monkeypatch.setattr(BearingEngine, "advance", lambda *_: stuck)
+    assert "laws of others took part: traction/sound (hostile.py " in engine.advance(1.0).message
+    assert CHECKED_VARIABLE in engine.advance(1.0).message
+
+    def drives(slip: Any, p: Any, T: Any, ln_eta: Any, h: float, par: Any, tau: Any) -> int:
+        tau[:] = -0.05 * p
+        return 1
+
+    kernels = engine._start.assembly.kernels.compiled
+    monkeypatch.setitem(kernels, ("ball_inner", "traction"), SimpleNamespace(dispatcher=drives))
+    said = engine.advance(1.0).message
+    assert said.startswith(f"{stuck.message}; traction/sound (hostile.py ")
+    assert "returns a shear stress of -" in said
+    assert "ball - inner (slip = " in said
+
+
+def test_a4_an_equilibrium_that_is_not_found_names_the_laws_of_others() -> None:
+    model = api.check(CASE, ["models.traction=sound"])
+    with pytest.raises(SolverError, match=r"no equilibrium; laws of others took part: traction/sound \(hostile.py"):
+        raise_within(model, "no equilibrium")
+    with pytest.raises(SolverError, match=r"^traction/sound \(.* returned NaN$"):
+        raise_within(model, f"{law('sound').label} returned NaN")
+
+
+def raise_within(model: Any, sentence: str) -> None:
+    with naming_laws(model):
+        raise SolverError(sentence)
+
+
+def test_a4_trying_at_thresholds_takes_a_moment() -> None:
+    """A run that chose the law of a stranger starts a second later at the most."""
+    from lambda_core.laws.par import make_par
+    from lambda_core.laws.probe import trial_context
+
+    sound = law("sound")
+    par = make_par(sound, sound.parameters(), trial_context("ball_inner"))
+    check.check_choice(sound, par)  # compiled by now
+    begun = time.process_time()
+    check.check_choice(sound, par)
+    assert time.process_time() - begun < 1.0
