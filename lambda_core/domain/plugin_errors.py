@@ -59,9 +59,9 @@ def blamed(what: str, but: tuple[type[Exception], ...] = ()) -> Iterator[None]:
     try:
         with contextlib.redirect_stdout(sys.stderr):
             yield
-    except (LambdaError, *but):
-        raise
     except (Exception, SystemExit) as error:
+        if isinstance(error, (LambdaError, *but)):
+            raise
         raise PluginError(f"{what} fails: {describe(error)}") from error
 
 

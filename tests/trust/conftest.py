@@ -11,14 +11,14 @@ from pathlib import Path
 import pytest
 
 LAWS = """
-import numpy as np
+import math
 from lambda_core.plugins import law
 
 
 @law("damping", "endless", role_api=2, reference="none: made to misbehave")
 def endless(delta, delta_dot, load, par, out):
     out[0] = 0.0
-    while out[0] < 1.0:
+    while math.exp(1e4 + out[0]) > 1.0:  # endless in machine code alone: Python's own raises
         out[0] = 0.5 * out[0]
     return 1
 
