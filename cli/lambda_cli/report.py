@@ -32,8 +32,8 @@ def report(
 ) -> None:
     """Write a report: results, views, convergence, inputs with sources, assumptions, references.
 
-    One HTML file without anything from outside, or a PDF (--out x.pdf) where a browser or WeasyPrint is installed, which
-    the extra "pdf" brings.
+    One HTML file without anything from outside, or a PDF (--out x.pdf) where a browser or WeasyPrint is installed;
+    the extra "pdf" brings one.
     """
     from lambda_core import api
 
