@@ -65,7 +65,7 @@ class SuspiciousEngine(BearingEngine):
 
     def _suspicions(self) -> Iterator[str]:
         """Yield what is wrong with the laws of others: where they stand now, then anywhere."""
-        assembly = self._start.assembly
+        context = self._start.context
         now = self.now()
         labels = {law.label for law in foreign_laws(self.model)}
         for ring, side in enumerate(RINGS):
@@ -78,14 +78,14 @@ class SuspiciousEngine(BearingEngine):
             for role, law in self.model.laws[element].items():
                 if law.model.label in labels:
                     try:
-                        check_choice(law.model, assembly.parameters(element, role), samples=_SAMPLES)
+                        check_choice(law.model, context.parameters(element, role), samples=_SAMPLES)
                     except PluginError as error:
                         yield str(error)
 
     def _shear(self, element: str, now: dict[str, FloatArray]) -> Iterator[str]:
         """Yield contacts in which the shear stress of the film drives, or is beyond the pressure that presses it."""
-        assembly, law = self._start.assembly, self.model.laws[element]["traction"].model
-        compiled = assembly.kernels.compiled
+        context, law = self._start.context, self.model.laws[element]["traction"].model
+        compiled = context.kernels.compiled
         for ball in np.flatnonzero(now["load"] > 0.0):
             pressure = np.linspace(0.0, float(now["max_pressure"][ball]), _CELLS)
             temperature = np.full(_CELLS, float(now["film_temperature"][ball]))
@@ -96,10 +96,10 @@ class SuspiciousEngine(BearingEngine):
                 continue
             ln_eta, rho, tau = np.zeros((3, _CELLS))
             compiled[element, "rheology"].dispatcher(
-                pressure, temperature, assembly.parameters(element, "rheology"), ln_eta, rho
+                pressure, temperature, context.parameters(element, "rheology"), ln_eta, rho
             )
             compiled[element, "traction"].dispatcher(
-                slip, pressure, temperature, ln_eta, film, assembly.parameters(element, "traction"), tau
+                slip, pressure, temperature, ln_eta, film, context.parameters(element, "traction"), tau
             )
             odd = np.flatnonzero(~(tau >= 0.0) | (tau > np.maximum(pressure, 1e6)))
             if odd.size:

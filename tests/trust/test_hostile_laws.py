@@ -182,7 +182,7 @@ def test_a4_a_step_that_becomes_too_small_is_told_with_the_law_behind_it(monkeyp
         tau[:] = -0.05 * p
         return 1
 
-    kernels = engine._start.assembly.kernels.compiled
+    kernels = engine._start.context.kernels.compiled
     monkeypatch.setitem(kernels, ("ball_inner", "traction"), SimpleNamespace(dispatcher=drives))
     said = engine.advance(1.0).message
     assert said.startswith(f"{stuck.message}; traction/sound (hostile.py ")
