@@ -7,7 +7,16 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import CaseArgument, ExecutorOption, ForceOption, JsonOption, SetOption, WorkersOption
+from lambda_cli.options import (
+    CaseArgument,
+    ExecutorOption,
+    ForceOption,
+    JsonOption,
+    SetOption,
+    Units,
+    UnitsOption,
+    WorkersOption,
+)
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_folder
@@ -28,6 +37,7 @@ def electric(
     out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Table of discharges, .csv or .h5.")] = None,
     force: ForceOption = False,
     as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
@@ -49,7 +59,7 @@ def electric(
         found = api.electric(source, [*(changes or ()), *overrides], announce=speaker.say)
     if out is not None:
         api.write_discharges(found, out, overwrite=force)
-    typer.echo(found.outcome.model_dump_json(indent=2) if as_json else found.outcome.text())
+    typer.echo(found.outcome.model_dump_json(indent=2) if as_json else units.system.sentence(found.outcome.text()))
 
 
 def film(
@@ -62,6 +72,7 @@ def film(
     frequency: Annotated[str | None, typer.Option("--frequency", metavar="F", help="Of a measured impedance.")] = None,
     uncertainty: Annotated[float, typer.Option("--uncertainty", metavar="SHARE", help="Of the capacitance.")] = 0.02,
     as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
@@ -72,7 +83,7 @@ def film(
         found = api.film_from_outside(
             case, measured, changes or (), frequency=frequency, uncertainty=uncertainty, announce=speaker.say
         )
-    typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
+    typer.echo(found.model_dump_json(indent=2) if as_json else units.system.sentence(found.text()))
 
 
 def risk_map(
@@ -103,6 +114,7 @@ def risk_map(
     ] = None,
     force: ForceOption = False,
     as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
@@ -131,7 +143,7 @@ def risk_map(
             progress=speaker.update,
             announce=speaker.say,
         )
-    typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
+    typer.echo(found.model_dump_json(indent=2) if as_json else units.system.sentence(found.text()))
     if draw is not None:
         for path in api.draw(found.picture(), draw, found.case):
             typer.echo(str(path), err=True)

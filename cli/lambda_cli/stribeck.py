@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import CaseArgument, JsonOption, SetOption
+from lambda_cli.options import CaseArgument, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.files import check_folder
 
@@ -27,6 +27,7 @@ def stribeck(
         typer.Option("--draw", metavar="DIR", help="Also write the picture (svg and png) into this folder."),
     ] = None,
     as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
@@ -41,9 +42,11 @@ def stribeck(
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
         found = api.stribeck(case, changes or (), speeds_rpm=chosen, points=points, announce=speaker.say)
-    typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))
     if draw is not None:
-        for path in api.draw(api.stribeck_picture(found), draw, api.view_stem([str(case)])):
+        from lambda_core.views.other_units import in_units
+
+        for path in api.draw(in_units(api.stribeck_picture(found), units.system), draw, api.view_stem([str(case)])):
             typer.echo(str(path), err=True)
 
 

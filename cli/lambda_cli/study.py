@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from lambda_cli.options import ExecutorOption, ForceOption, JsonOption, WorkersOption
+from lambda_cli.options import ExecutorOption, ForceOption, JsonOption, Units, UnitsOption, WorkersOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.printable import cell_text, printable
 
 if TYPE_CHECKING:
     from lambda_core.api import StudyStatus
+    from lambda_core.domain.unit_systems import UnitSystem
     from lambda_core.views.table import StudyTable
 
 app = typer.Typer(no_args_is_help=True, add_completion=False, help="Many runs: sweeps, samples, maps, searches.")
@@ -122,6 +123,7 @@ def show(
     folder: FolderArgument,
     as_csv: Annotated[bool, typer.Option("--csv", help="Print comma-separated values.")] = False,
     as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
 ) -> None:
     """Print the table of a study: parameters, responses, state of every point."""
     from lambda_core import api
@@ -139,7 +141,7 @@ def show(
     elif as_csv:
         _csv(table)
     else:
-        _print(table)
+        _print(table, units.system)
 
 
 @app.command()
@@ -183,7 +185,7 @@ def _finite(row: dict[str, Any]) -> dict[str, Any]:
     return {key: None if isinstance(v, float) and not math.isfinite(v) else v for key, v in row.items()}
 
 
-def _print(table: StudyTable) -> None:
+def _print(table: StudyTable, units: UnitSystem) -> None:
     """Print what fits a terminal: parts of the friction torque are left to --csv and --json."""
     from rich.console import Console
     from rich.table import Table
@@ -192,16 +194,16 @@ def _print(table: StudyTable) -> None:
     shown = Table(box=None, pad_edge=False, header_style="bold")
     shown.add_column("point", justify="right")
     for column in columns:
-        text = printable(column.label) + (f"\n[{column.unit}]" if column.unit else "")
+        text = printable(column.label) + (f"\n[{units.unit(column.unit)}]" if column.unit else "")
         shown.add_column(text.replace("[", "\\["), justify="right", max_width=14)
     shown.add_column("state")
     for index, row in enumerate(table.rows()):
-        cells = [_cell(row[column.name]) for column in columns]
+        cells = [_cell(row[column.name], column.unit, units) for column in columns]
         shown.add_row(str(index + 1), *cells, row["state"], style="dim" if row["state"] == "failed" else None)
     Console(width=None if sys.stdout.isatty() else 240, highlight=False).print(shown)
 
 
-def _cell(value: float | str | None) -> str:
+def _cell(value: float | str | None, unit: str, units: UnitSystem) -> str:
     if value is None:
         return "-"
-    return printable(value) if isinstance(value, str) else f"{value:.5g}"
+    return printable(units.sentence(value)) if isinstance(value, str) else f"{units.value(value, unit):.5g}"

@@ -13,6 +13,7 @@ from textual.screen import Screen
 
 from lambda_core import api
 from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_gui.builder import BuilderScreen
 from lambda_gui.case_files import CaseApp
 from lambda_gui.commands import OptionSearch
@@ -36,6 +37,8 @@ class BuilderApp(CaseApp):
         Case file or built-in name; without one the builder asks.
     is_alone : bool
         Whether nothing else runs in this process.
+    units : UnitSystem
+        In which numbers that follow and results are shown; files and forms stay as they are written.
     """
 
     TITLE = "lambda-bearing"
@@ -57,8 +60,9 @@ class BuilderApp(CaseApp):
         text-style: bold; background-tint: $foreground 0%; }
     """
 
-    def __init__(self, case: str | None = None, *, is_alone: bool = False) -> None:
+    def __init__(self, case: str | None = None, *, is_alone: bool = False, units: UnitSystem = SI) -> None:
         super().__init__()
+        self.units = units
         self._start = case
         self._is_alone = is_alone
         self.queue = open_queue(self._run_ended)
@@ -266,6 +270,6 @@ class BuilderApp(CaseApp):
         yield SystemCommand("Quit", "leave the builder", self.action_quit)
 
 
-def main(case: str | None = None) -> None:
+def main(case: str | None = None, units: UnitSystem = SI) -> None:
     """Run the builder in this terminal."""
-    BuilderApp(case, is_alone=True).run()
+    BuilderApp(case, is_alone=True, units=units).run()

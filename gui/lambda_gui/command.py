@@ -18,12 +18,25 @@ def gui(
         str, typer.Option("--host", metavar="ADDRESS", help="With --serve: address; others than this machine's warn.")
     ] = "localhost",
     port: Annotated[int, typer.Option("--port", min=1, max=65535, help="With --serve: port.")] = 8000,
+    units: Annotated[
+        str,
+        typer.Option(
+            "--units",
+            metavar="[si|us]",
+            envvar="LAMBDA_BEARING_UNITS",
+            show_envvar=False,
+            help="Units of what is shown.",
+        ),
+    ] = "si",
 ) -> None:
     """Build cases, run them and look at results in the terminal.
 
     Without CASE it offers an empty model, the case files of this folder and the built-in cases. With --serve open
     the address that it prints in a browser; end it with Ctrl+C.
     """
+    from lambda_core.domain.unit_systems import unit_system
+
+    system = unit_system(units)
     if not serve:
         # a server gives the builder a screen of its own kind (TEXTUAL_DRIVER)
         if not (sys.stdin.isatty() and sys.stderr.isatty()) and "TEXTUAL_DRIVER" not in os.environ:
@@ -32,7 +45,7 @@ def gui(
             raise UsageError("the builder needs a terminal; lambda-bearing gui --serve shows it in a browser")
         from lambda_gui.app import main
 
-        main(case)
+        main(case, system)
         return
     from lambda_gui.serve import serve as start
     from lambda_gui.serve import warning
@@ -45,4 +58,5 @@ def gui(
             f"serving the builder at {address} (the address lets in: do not pass it on); end it with Ctrl+C", err=True
         )
 
+    os.environ["LAMBDA_BEARING_UNITS"] = system.name  # each tab is a builder of its own
     start(case, host, port, announce)

@@ -9,9 +9,11 @@ from rich.text import Text
 from textual.widgets import Static
 
 from lambda_gui.checking import Check
+from lambda_gui.shown_units import fact_in_units
 
 if TYPE_CHECKING:
     from lambda_core.api import Estimate
+    from lambda_core.domain.unit_systems import UnitSystem
 
 Fact = tuple[str, str, str]  # name, number, unit
 
@@ -54,9 +56,11 @@ class Derived(Static):
         elif self._check.model is None:
             self.update(self._mistakes(self._check))
         else:
-            geometry = list(_geometry(self._check))
-            warned = self.warnings()
-            numbers = list(_numbers(self._estimate)) if self._estimate else []
+            units: UnitSystem = self.app.units  # type: ignore[attr-defined]
+            geometry = [fact_in_units(fact, units) for fact in _geometry(self._check)]
+            warned = list(map(units.sentence, self.warnings()))
+            found = _numbers(self._estimate) if self._estimate else ()
+            numbers = [fact_in_units(fact, units) for fact in found]
             if self.size.height > len(geometry) + len(numbers) + 1 + 2 * len(warned):
                 told = self._listed(geometry, numbers)
             else:

@@ -14,6 +14,7 @@ from textual.widgets import DataTable, Footer, OptionList, Static
 from textual.widgets.option_list import Option
 
 from lambda_core.domain.errors import LambdaError
+from lambda_core.views.other_units import in_units
 from lambda_gui.charts import notes_text, shape_of, widget_for
 from lambda_gui.dialogs import AskText
 from lambda_gui.export import DIFFERENCES, SUMMARY, ExportScreen
@@ -22,6 +23,7 @@ from lambda_gui.summary_view import summary_view
 from lambda_gui.table_views import differences_view, study_view
 
 if TYPE_CHECKING:
+    from lambda_core.domain.unit_systems import UnitSystem
     from lambda_core.views.chart import ViewData
 
 _LIVE = 2.0  # how often a result that grows is read again [s]
@@ -195,6 +197,11 @@ class ResultsScreen(ExportScreen):
 
     # -- views --
 
+    @property
+    def _units(self) -> UnitSystem:
+        found: UnitSystem = self.app.units  # type: ignore[attr-defined]
+        return found
+
     @work(exclusive=True, group="views")
     async def _fill_views(self) -> None:
         """List the views of one result, of several, or of a study."""
@@ -245,7 +252,8 @@ class ResultsScreen(ExportScreen):
                 self._data = None
                 await self._show_words(paths)
                 return
-            self._data = await self._helper.ask("view", sources=[str(path) for path in paths], name=self._view)
+            data = await self._helper.ask("view", sources=[str(path) for path in paths], name=self._view)
+            self._data = in_units(data, self._units)
         except LambdaError as error:
             self._data = None
             await self._put(Static(Text(str(error), style="bold")))
@@ -257,16 +265,16 @@ class ResultsScreen(ExportScreen):
         """Show what is no picture: summaries, a study, what differs."""
         if self._view == DIFFERENCES:
             beside = await self._helper.ask("differences", sources=[str(path) for path in paths])
-            await self._put(*map(Static, differences_view(beside)))
+            await self._put(*map(Static, differences_view(beside, self._units)))
             self.say()
         elif is_study(paths[0]):
             status, points = await self._helper.ask("study_summary", path=str(paths[0]))
             width = self.query_one("#content", VerticalScroll).size.width - 2
-            await self._put(*map(Static, study_view(status, points, width)))
+            await self._put(*map(Static, study_view(status, points, width, self._units)))
             self.say(f"{status.points} points, {status.mode}")
         else:
             found = [await self._helper.ask("summary", path=str(path)) for path in paths]
-            await self._put(*(Static(summary_view(summary, self.app.theme_variables)) for summary in found))
+            await self._put(*(Static(summary_view(s, self.app.theme_variables, self._units)) for s in found))
             self.say("   ".join(summary.state for summary in found))
 
     def _show_data(self, data: ViewData) -> None:

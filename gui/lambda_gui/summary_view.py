@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 from rich.text import Text
 
-from lambda_core.domain.number_text import interval, number, plus_minus
+from lambda_core.domain.number_text import interval, number
+from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_gui.shown_units import fact_in_units
 
 if TYPE_CHECKING:
     from lambda_core.api import Summary
@@ -27,25 +29,25 @@ def _currents(summary: Summary) -> Sequence[tuple[str, str, str]]:
     )
 
 
-def summary_view(summary: Summary, colours: Mapping[str, str]) -> Text:
+def summary_view(summary: Summary, colours: Mapping[str, str], units: UnitSystem = SI) -> Text:
     """Return what a run found: friction, kinematics, films, capacitance, how far it can be trusted."""
     text = Text()
-    for line in summary.headline.splitlines():
+    for line in units.sentence(summary.headline).splitlines():
         text.append(f"{line}\n", style="dim")
     verdict, style = (
         ("converged", colours["success"])
         if summary.converged
         else (f"not converged, {summary.state}", colours["warning"])
     )
-    torque = plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm)
-    text.append(f"\nfriction torque {torque} N mm", style="bold").append(f"   {verdict}\n", style=style)
+    torque = units.plus_minus(summary.friction_torque_Nmm, summary.friction_torque_ci_Nmm, "N mm")
+    text.append(f"\nfriction torque {torque}", style="bold").append(f"   {verdict}\n", style=style)
     if summary.revolutions_averaged:
         text.append(f"mean over {summary.revolutions_averaged} cage revolutions, 95 % confidence\n", style="dim")
     for reason in summary.reasons:
         text.append(f"  {reason}\n", style=colours["warning"])
     for warning in summary.warnings:
-        text.append("▲ ", style=colours["warning"]).append(f"{warning}\n")
-    _breakdown(text, summary)
+        text.append("▲ ", style=colours["warning"]).append(f"{units.sentence(warning)}\n")
+    _breakdown(text, summary, units)
     x, y, z = (number(value, 2) for value in summary.inner_ring_displacement_um)
     slip = summary.cage_speed_over_epicyclic
     rows: Sequence[tuple[str, str, str]] = (
@@ -66,12 +68,12 @@ def summary_view(summary: Summary, colours: Mapping[str, str]) -> Text:
         ("energy residual", "-" if summary.energy_residual is None else f"{summary.energy_residual:.1e}", "of input"),
         ("wall time", f"{summary.wall_s:.2f}", f"s for {summary.simulated_s:.4g} s"),
     )
-    for label, value, unit in rows:
+    for label, value, unit in (fact_in_units(row, units) for row in rows):
         text.append(f"{label:<{_LABEL}}", style="dim").append(value).append(f" {unit}\n", style="dim")
     if summary.assumptions:
         text.append("\nassumed\n", style="dim")
         for assumption in summary.assumptions:
-            text.append("· ", style="dim").append(f"{assumption}\n")
+            text.append("· ", style="dim").append(f"{units.sentence(assumption)}\n")
     return text
 
 
@@ -90,17 +92,17 @@ def _rated(summary: Summary) -> list[tuple[str, str, str]]:
     ]
 
 
-def _breakdown(text: Text, summary: Summary) -> None:
+def _breakdown(text: Text, summary: Summary, units: UnitSystem) -> None:
     """Append the parts of the friction torque: per ring side by side, then the rest."""
     parts = summary.friction_breakdown_Nmm
-    text.append(f"\n{'N mm':<{_LABEL}}{'inner':>9}{'outer':>9}{'both':>9}\n", style="dim")
+    text.append(f"\n{units.unit('N mm'):<{_LABEL}}{'inner':>9}{'outer':>9}{'both':>9}\n", style="dim")
     for mechanism in dict.fromkeys(name.rpartition("_")[0] for name in parts if name.endswith(("_inner", "_outer"))):
         text.append(f"{mechanism:<{_LABEL}}", style="dim")
         rings = [parts.get(f"{mechanism}_{ring}") for ring in ("inner", "outer")]
         for value in (*rings, sum(part for part in rings if part is not None)):
-            text.append(f"{number(value):>9}")
+            text.append(f"{units.number(value, 'N mm'):>9}")
         text.append("\n")
     for name, value in parts.items():
         if not name.endswith(("_inner", "_outer")):
-            text.append(f"{name:<{_LABEL}}", style="dim").append(f"{number(value):>27}\n")
+            text.append(f"{name:<{_LABEL}}", style="dim").append(f"{units.number(value, 'N mm'):>27}\n")
     text.append("\n")

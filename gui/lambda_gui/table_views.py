@@ -9,6 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from lambda_core.domain.number_text import NONE, number
+from lambda_core.domain.unit_systems import SI, UnitSystem
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -21,18 +22,22 @@ _NUMBER, _STATE, _NAME = 11, 9, 12  # columns of one number, of a state, of a na
 _LARGE = 1e4  # numbers above are rounded to three digits
 
 
-def differences_view(found: SideBySide) -> list[RenderableType]:
+def differences_view(found: SideBySide, units: UnitSystem = SI) -> list[RenderableType]:
     """Return what the cases of several results say differently, and their key numbers, a column for each."""
     inputs = _beside("what differs", found.names)
     for row in found.inputs:
-        inputs.add_row(Text(row.option), *(Text(NONE if value is None else value) for value in row.values))
+        inputs.add_row(
+            Text(row.option), *(Text(NONE if value is None else units.sentence(value)) for value in row.values)
+        )
     if not found.inputs:
         inputs.add_row("nothing: the same inputs", *[""] * len(found.names))
     numbers = _beside("numbers", found.names)
     for entry in found.numbers:
         if any(value is not None for value in entry.values):
-            name = f"{entry.name} [{entry.unit}]" if entry.unit else entry.name
-            numbers.add_row(Text(name), *(NONE if value is None else _short(value) for value in entry.values))
+            name = f"{entry.name} [{units.unit(entry.unit)}]" if entry.unit else entry.name
+            numbers.add_row(
+                Text(name), *(NONE if v is None else _short(units.value(v, entry.unit)) for v in entry.values)
+            )
     return [inputs, Text(), numbers]
 
 
@@ -45,7 +50,7 @@ def _beside(head: str, names: list[str]) -> Table:
     return table
 
 
-def study_view(status: StudyStatus, points: StudyTable, width: int) -> list[RenderableType]:
+def study_view(status: StudyStatus, points: StudyTable, width: int, units: UnitSystem = SI) -> list[RenderableType]:
     """Return where a study stands and its first points; numbers for which there is no room are named.
 
     Parameters
@@ -58,21 +63,23 @@ def study_view(status: StudyStatus, points: StudyTable, width: int) -> list[Rend
     table = Table(box=None, pad_edge=False, header_style="bold", padding=(0, 1, 0, 0))
     for column in shown:
         name = column.label.rpartition("/")[0].replace("/", " ") or column.label
-        table.add_column(Text(f"{name} {column.unit}".strip()), justify="right", width=_NUMBER - 1, overflow="fold")
+        table.add_column(
+            Text(f"{name} {units.unit(column.unit)}".strip()), justify="right", width=_NUMBER - 1, overflow="fold"
+        )
     table.add_column("state", width=_STATE - 1)
     rows = points.rows()
     for row in rows[:_POINTS]:
-        table.add_row(*(Text(_cell(row[column.name])) for column in shown), row["state"])
+        table.add_row(*(Text(_cell(row[column.name], column.unit, units)) for column in shown), row["state"])
     left = [column.name for column in columns[len(shown) :]]
     notes = [f"{len(rows) - _POINTS} points more"] if len(rows) > _POINTS else []
     notes += [f"also asked: {', '.join(left)}"] if left else []
     return [Text(status.text(), style="dim"), Text(), table, Text("\n".join(notes), style="dim")]
 
 
-def _cell(value: float | str | None) -> str:
+def _cell(value: float | str | None, unit: str, units: UnitSystem) -> str:
     if value is None:
         return NONE
-    return value if isinstance(value, str) else _short(value)
+    return units.sentence(value) if isinstance(value, str) else _short(units.value(value, unit))
 
 
 def _short(value: float) -> str:

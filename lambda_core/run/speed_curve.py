@@ -12,6 +12,7 @@ from pydantic import Field
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.loading import CARRYING
+from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.thermal.temperatures import ready_model
 from lambda_core.views.chart import Axis, Mark, Panel, Series, ViewData
@@ -49,18 +50,18 @@ class SpeedCurve(Record):
     film_parameter: list[float] = Field(description="smallest Lambda under load")
     note: str
 
-    def text(self) -> str:
+    def text(self, units: UnitSystem = SI) -> str:
         """Return a table for people."""
-        names = list(self.parts_Nmm)
+        unit, names = "N mm", list(self.parts_Nmm)
         head = ("1/min", "torque", *names, "SKF", "Lambda")
         rows = [
-            (f"{n:.4g}", f"{self.torque_Nmm[i]:.1f}", *(f"{self.parts_Nmm[name][i]:.1f}" for name in names),
-             "-" if self.skf_Nmm[i] is None else f"{self.skf_Nmm[i]:.1f}", f"{self.film_parameter[i]:.2f}")
+            (f"{n:.4g}", *(units.number(v, unit) for v in (self.torque_Nmm[i], *(self.parts_Nmm[k][i] for k in names))),
+             units.number(self.skf_Nmm[i], unit), f"{self.film_parameter[i]:.2f}")
             for i, n in enumerate(self.speeds_rpm)
         ]  # fmt: skip
         widths = [max(len(row[i]) for row in (head, *rows)) for i in range(len(head))]
         lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in (head, *rows)]
-        return "\n".join([self.title, "friction torque over speed [N mm]", *lines, self.note])
+        return "\n".join([self.title, f"friction torque over speed [{units.unit(unit)}]", *lines, self.note])
 
 
 def stribeck(

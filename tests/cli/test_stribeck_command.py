@@ -56,7 +56,13 @@ def test_the_command_prints_and_draws(tmp_path: Path, capsys: pytest.CaptureFixt
     assert printed["speeds_rpm"] == pytest.approx([10.0, 1000.0])
     assert {path.suffix for path in tmp_path.iterdir()} == {".svg", ".png"}
     assert main(["stribeck", CASE, "--points", "2", "--quiet"]) == 0
-    assert "Lambda" in capsys.readouterr().out
+    metric = capsys.readouterr().out
+    assert "Lambda" in metric
+    assert main(["stribeck", CASE, "--points", "2", "--quiet", "--units", "us"]) == 0
+    customary = capsys.readouterr().out
+    assert "friction torque over speed [lbf in]" in customary
+    torques = [float(text.split("\n")[3].split()[1]) for text in (metric, customary)]
+    assert torques[1] == pytest.approx(torques[0] / 112.985, rel=0.01)
 
 
 @pytest.mark.parametrize(

@@ -121,6 +121,10 @@ def test_a_study_from_file_to_table(call: Call, tmp_path: Path, monkeypatch: pyt
     code, out, _ = call("study", "show", "pair")
     assert "friction" in out
     assert out.count("done") == 2
+    code, out, _ = call("study", "show", "pair", "--units", "us")
+    assert "[lbf]" in out
+    assert "[lbf in]" in out
+    assert "1798.5" in out  # 8 kN
     code, out, _ = call("study", "status", "pair")
     assert "2 points, 2 done" in out
     assert call("study", "resume", "pair", "--quiet")[0] == 0
