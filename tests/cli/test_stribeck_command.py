@@ -62,3 +62,16 @@ def test_the_command_prints_and_draws(tmp_path: Path, capsys: pytest.CaptureFixt
     assert "friction torque over speed [lbf in]" in customary
     for torque in printed["torque_Nmm"]:
         assert f" {torque / 112.98483:.3f} " in customary
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--speed", "0 rpm", "--speed", "1 rpm"], "above zero"),
+        (["--speed", "5 rpm"], "two speeds or more"),
+        (["--speed", "5 furlong"], "--speed"),
+    ],
+)
+def test_mistakes_are_named(words: list[str], said: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["stribeck", CASE, *words, "--quiet"]) == 2
+    assert said in capsys.readouterr().err
