@@ -11,7 +11,7 @@ from sqlalchemy import Connection, Engine, func, select, tuple_
 from sqlalchemy.orm import Session
 
 from lambda_core.catalogue.designation import without_suffixes
-from lambda_core.catalogue.protocol import BearingRow, CageRow, ClearanceRow, LubricantRow, MaterialRow
+from lambda_core.catalogue.protocol import BearingRow, CageRow, ClearanceRow, LubricantRow, MaterialRow, Shadow
 from lambda_core.catalogue.suffixes import Suffix
 from lambda_core.domain.errors import CatalogueError, Problem, unknown_name
 from lambda_db import build, rows
@@ -34,6 +34,7 @@ from lambda_db.models import (
 from lambda_db.overlay import attach_user, detach_user
 from lambda_db.paths import user_database
 from lambda_db.search import bearing_query
+from lambda_db.shadows import shadows
 
 Kind = Literal["bearing", "lubricant", "material", "cage", "clearance_class"]
 _NAMED: dict[str, type[Lubricant] | type[Material] | type[Cage]] = {
@@ -62,7 +63,7 @@ def open_catalogue(seed_folders: Sequence[Any] = ()) -> SqlCatalogue:
             raise _error(str(folder), "a plugin brings catalogue rows in it, but it is not a folder")
     path = build.core_database(folders)
     engine = build.in_memory(folders) if path is None else sqlite_engine(file_uri(path, "ro"))
-    return SqlCatalogue(engine)
+    return SqlCatalogue(engine, tuple(folders))
 
 
 def _error(where: str, message: str) -> CatalogueError:
@@ -72,8 +73,9 @@ def _error(where: str, message: str) -> CatalogueError:
 class SqlCatalogue:
     """Catalogue over one read-only connection; implements :class:`lambda_core.catalogue.protocol.Catalogue`."""
 
-    def __init__(self, engine: Engine) -> None:
+    def __init__(self, engine: Engine, plugin_folders: tuple[Path, ...] = ()) -> None:
         self._engine = engine
+        self._plugin_folders = plugin_folders
         self._connection: Connection = engine.connect()
         self._overlaid = False
         self.refresh()
@@ -256,6 +258,10 @@ class SqlCatalogue:
         }[kind]
         with self._session() as session:
             return list(session.scalars(select(column).distinct().order_by(column)))
+
+    def shadows(self) -> tuple[Shadow, ...]:
+        """Return the rows of plugins that stand in front of others."""
+        return shadows(self._plugin_folders)
 
     def close(self) -> None:
         """Release the files behind the catalogue."""

@@ -41,7 +41,18 @@ def check_catalogue(catalogue: SqlCatalogue, models: Registry) -> list[Finding]:
     findings += _references(catalogue)
     findings += _clearances(rows_of(catalogue, "clearance"))
     findings += _lubricants(catalogue, models)
+    findings += _shadows(catalogue, models)
     return findings
+
+
+def _shadows(catalogue: SqlCatalogue, models: Registry) -> Iterator[Finding]:
+    """Name what plugins put in front of rows that were there before."""
+    packages = {str(folder): distribution for distribution, folder in models.data_folders}
+    for each in catalogue.shadows():
+        where = f"{each.table} {' '.join(each.key)}"
+        behind = packages.get(each.over, each.over) or "the built-in catalogue"
+        what = f'makes it "{each.title}", it was "{each.before}"' if each.table == "source" else "puts its own row"
+        yield Finding("warning", where, f"{packages.get(each.folder, each.folder)} {what} in front of {behind}")
 
 
 def _user_file(catalogue: SqlCatalogue) -> Iterator[Finding]:

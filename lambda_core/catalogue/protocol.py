@@ -138,6 +138,17 @@ class LubricantRow(Frozen):
     layer: Literal["core", "plugin", "user"] = "core"
 
 
+class Shadow(Frozen):
+    """A row of a plugin, or the key of a source, that stands in front of another one."""
+
+    table: str  # "lubricant_parameter"
+    key: tuple[str, ...]  # of the row, or of the group of rows that is replaced as a whole
+    folder: str  # where the row in front lies
+    over: str  # where the one behind lies, "" for the built-in rows
+    title: str = ""  # of a source: what it stands for now
+    before: str = ""  # of a source: what it stood for
+
+
 class Catalogue(Protocol):
     """Look-ups that the core needs; an unknown name raises CatalogueError with the nearest ones."""
 
@@ -167,6 +178,9 @@ class Catalogue(Protocol):
 
     def names(self, kind: Literal["bearing", "lubricant", "material", "cage", "clearance_class"]) -> list[str]:
         """Return every valid name of one kind."""
+
+    def shadows(self) -> tuple[Shadow, ...]:
+        """Return the rows of plugins that stand in front of others."""
 
     def close(self) -> None:
         """Release the files behind the catalogue."""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import pluggy
 
 from lambda_core.discovery.collect import Collection, is_own, law_fault
-from lambda_core.domain.errors import nearest, unknown_name
+from lambda_core.domain.errors import CaseError, nearest, unknown_name
 from lambda_core.domain.handed_laws import NOTEBOOK
 from lambda_core.domain.installed import project_of
 from lambda_core.domain.plugin_errors import PluginError, PluginFault, blamed, describe, went_on_without
@@ -195,18 +195,29 @@ class Registry:
     def catalogue(self) -> Catalogue:
         """Open the catalogue over the built-in rows and the folders that plugins bring.
 
-        The caller closes it.
+        The caller closes it. A folder with bad rows is left out, with every one of them named.
 
         Raises
         ------
         PluginError
             When no installed plugin provides one.
         """
-        folders = [folder for _, folder in self.data_folders]
-        found: Catalogue | None = self._first("lambda_catalogue", "bearing", seed_folders=folders)
-        if found is None:
-            raise PluginError(f"no plugin provides a catalogue{self._not_loaded()}")
-        return found
+        folders = list(self.data_folders)
+        while True:
+            try:
+                given = [folder for _, folder in folders]
+                found: Catalogue | None = self._first("lambda_catalogue", "bearing", seed_folders=given)
+            except CaseError as error:
+                bad = next((pair for pair in folders if str(pair[1]) == error.source), None)
+                if bad is None:
+                    raise
+                folders.remove(bad)
+                reasons = "; ".join(f"{problem.where}: {problem.message}" for problem in error.problems)
+                self._set_aside("lambda_data", f"the rows of {bad[0]} are left out: {reasons}")
+                continue
+            if found is None:
+                raise PluginError(f"no plugin provides a catalogue{self._not_loaded()}")
+            return found
 
     def _first(self, hook: str, has: str, **given: Any) -> Any:
         """Return what the first plugin answers that has an answer.

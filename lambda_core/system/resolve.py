@@ -54,6 +54,7 @@ from lambda_core.system.resolve_links import resolve_links
 from lambda_core.system.resolve_materials import resolve_lubricant, resolve_material
 from lambda_core.system.resolve_thermal import check_thermal
 from lambda_core.system.resolve_watch import WatchSource, resolve_events, resolve_observers
+from lambda_core.system.shadowed_data import tell_shadows
 from lambda_core.system.time_functions import highest_frequency, peak, time_function
 from lambda_core.views.observer import Event, Observer
 
@@ -102,8 +103,6 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
     parts["cage"] = resolve_material("cage", case, catalogue, ledger, cage_row.material if cage_row else None)
     materials = {part: known.material for part, known in parts.items()}
     lubricant, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
-    for failure in getattr(registry, "set_aside", {}).get("lambda_catalogue", ()):
-        ledger.assume(f"values are those of another catalogue: {failure}")
     check_bodies(case, ledger)
     check_thermal(case, ledger)
     _settings(case, ledger)
@@ -127,6 +126,8 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
     inertias = _inertias(case, geometry, materials, cage_estimate, ledger)
     _check_spins(case, geometry, ledger)
     solver = _solver(case, geometry, ledger, is_static=is_static)
+    names = (designation, oil.name, *(material.name for material in materials.values()), cage_row.name)
+    tell_shadows(catalogue, registry, (case, names), laws, ledger)
     ledger.check(case.name)
     return BearingModel(
         name=case.name,
