@@ -73,13 +73,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.endstates", description=__doc__)
     parser.add_argument("cases", nargs="*", default=CASES, help="built-in cases, default all")
     parser.add_argument("--against", metavar="PYTHON", help="interpreter of the other version; default: print hashes")
+    parser.add_argument("--recent", action="store_true", help="the other version is one after b7aec9b")
     parser.add_argument("--duration", type=float, default=0.05, help="simulated time of each case [s]")
     options = parser.parse_args(arguments)
     mine = ask(sys.executable, options.cases, options.duration, newer=True)
     if options.against is None:
         print(json.dumps(mine, indent=1))
         return 0
-    theirs = ask(options.against, options.cases, options.duration, newer=False)
+    theirs = ask(options.against, options.cases, options.duration, newer=options.recent)
     wrong = differences(mine, theirs)
     for case, channels in wrong.items():
         both = mine[case].keys() & theirs[case].keys()

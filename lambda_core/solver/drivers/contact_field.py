@@ -97,7 +97,7 @@ def contact_state(sample: Mapping[str, FloatArray], ball: int, ring: str) -> tup
 
 
 def contact_field(
-    context: SolverContext, ball: FloatArray, ring: FloatArray, which: str, strips: int = 61, rows: int = 41
+    context: SolverContext, ball: FloatArray, body: FloatArray, ring: str, strips: int = 61, rows: int = 41
 ) -> ContactField:
     """Run the contact pipeline of one ball and one ring on a fine grid.
 
@@ -105,9 +105,9 @@ def contact_field(
     ----------
     context : SolverContext
         Of the equilibrium that the run started from.
-    ball, ring : float64[:], shapes (9,) and (12,)
-        States (lambda_core.solver.layout).
-    which : str
+    ball, body : float64[:], shapes (9,) and (12,)
+        States of the ball and of the ring (lambda_core.solver.layout).
+    ring : str
         ``inner`` or ``outer``.
 
     Raises
@@ -115,7 +115,7 @@ def contact_field(
     SolverError
         When the bodies do not touch, or a law refuses.
     """
-    index, bundle, kernels = RINGS.index(which), context.bundle, context.kernels
+    index, bundle, kernels = RINGS.index(ring), context.bundle, context.kernels
     raceway: Any = bundle.raceways[index]
     grid = unit_grid(strips, rows)
     cells, scratch = np.zeros((2, L.CELL_ROWS, grid.shape[1])), np.zeros_like(bundle.scratch)
@@ -124,9 +124,9 @@ def contact_field(
     finer = bundle._replace(grid=grid, cells=cells, scratch=scratch)
     probed = compile_host(probe.probe, probe.probe_sig, compiled_sources()).dispatcher
     run = probed.get_compile_result(probe.probe_sig).entry_point  # a dispatcher would work out types, and warn
-    status = run(ball.view(R.BALL), ring.view(R.BODY_STATE), index, finer, losses)
+    status = run(ball.view(R.BALL), body.view(R.BODY_STATE), index, finer, losses)
     if status == -1:
-        raise SolverError(f"the ball does not touch the {which} ring at this moment")
+        raise SolverError(f"the ball does not touch the {ring} ring at this moment")
     if status != 1:
         bundle.scratch["fault"] = scratch["fault"]
         raise SolverError(fault_sentence(context))
@@ -136,7 +136,7 @@ def contact_field(
     def mesh(values: FloatArray) -> FloatArray:
         return values[: strips * rows].reshape(strips, rows).copy()
 
-    element = f"ball_{which}"
+    element = f"ball_{ring}"
     pars = {name: context.parameters(element, name) for name in ("rheology", "permittivity")}
     ln_eta, density, permittivity = np.zeros((3, grid.shape[1]))
     inlet = np.full(grid.shape[1], float(raceway.oil.temperature))

@@ -295,15 +295,15 @@ def fault_sentence(context: SolverContext, time: float | None = None) -> str:
     if fault.role < 0:
         return "the time step became too small"
     role = ROLES[fault.role]
-    ball, which = int(fault.ball), int(fault.place)
+    ball, number = int(fault.ball), int(fault.place)
     if role == "fluid_drag":
         element = "fluid_drag"
     elif role == "force_element":
-        element = links(context.model)[which]
+        element = links(context.model)[number]
     elif role == "cage_contact":
-        element = {0: "cage_inner", 1: "cage_outer"}.get(which, guides(context.model)[0])
+        element = {0: "cage_inner", 1: "cage_outer"}.get(number, guides(context.model)[0])
     else:
-        element = RACEWAYS[max(which, 0)]
+        element = RACEWAYS[max(number, 0)]
     model = context.model.laws[element][role].model
     status = int(fault.status)
     if status == 1:
