@@ -137,23 +137,44 @@ def hidden(folder: Path) -> list[str]:
 
 
 def differences(one: Path, other: Path) -> list[str]:
-    """Return the datasets that differ, states of the machine aside: wall times, checkpoints, who wrote it when."""
+    """Return what differs: datasets of every kind and attributes, and how far and in what state each run is.
+
+    Left out are only wall times, the day, checkpoints, and references from one dataset to another.
+    """
     found: list[str] = []
     with h5py.File(one, "r") as a, h5py.File(other, "r") as b:
-
-        def look(name: str, item: Any) -> None:
-            if not isinstance(item, h5py.Dataset) or name.split("/")[0] in ("restart", "status"):
-                return
-            if name not in b or item.shape != b[name].shape:
+        names: list[list[str]] = [[], []]
+        for file, its in zip((a, b), names, strict=True):
+            file.visit(its.append)
+        found += sorted(set(names[0]) ^ set(names[1]))
+        found += _attributes("", a, b)
+        for name in names[0]:
+            if name not in b or name.split("/")[0] in ("restart", "status"):
+                continue
+            found += _attributes(name, a[name], b[name])
+            if isinstance(a[name], h5py.Dataset) and not _equal(a[name], b[name]):
                 found.append(name)
-            elif item.dtype.kind == "f":
-                if not np.array_equal(item[...], b[name][...], equal_nan=True):
-                    found.append(name)
-            elif name.startswith("inputs/") and "rating" not in name and not np.array_equal(item[...], b[name][...]):
-                found.append(name)
-
-        a.visititems(look)
+    if not found:
+        ends = [api.result(path).status() for path in (one, other)]
+        found += [name for name in ("state", "rows", "message") if getattr(ends[0], name) != getattr(ends[1], name)]
     return found
+
+
+def _attributes(name: str, one: Any, other: Any) -> list[str]:
+    """Return which attributes differ, scales of dimensions and the day aside."""
+    aside = ("DIMENSION_LIST", "REFERENCE_LIST", "created")
+    keys = sorted({*one.attrs, *other.attrs} - {*aside})
+    return [
+        f"{name}@{key}"
+        for key in keys
+        if key not in one.attrs or key not in other.attrs or not np.array_equal(one.attrs[key], other.attrs[key])
+    ]
+
+
+def _equal(one: Any, other: Any) -> bool:
+    if one.shape != other.shape or one.dtype != other.dtype:
+        return False
+    return bool(np.array_equal(one[...], other[...], equal_nan=one.dtype.kind == "f"))
 
 
 def corrupted(seed: int, number: int, folder: Path) -> Said:
