@@ -6,6 +6,7 @@ import difflib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+_PRINTED = 20  # problems of a case; `problems` holds all
 _SHOWN = 24  # of the names that are there, where none is near
 
 
@@ -33,7 +34,7 @@ class UsageError(LambdaError):
 
 
 class CaseError(LambdaError):
-    """A case, catalogue row or plugin choice is invalid; carries every problem at once."""
+    """A case, catalogue row or plugin choice is invalid; carries every problem at once, and prints the first ones."""
 
     exit_code = 3
 
@@ -42,7 +43,8 @@ class CaseError(LambdaError):
         self.problems = tuple(problems)
         count = len(self.problems)
         head = f"{source}: {count} error{'s' if count != 1 else ''}"
-        super().__init__("\n".join([head, *(f"  {problem}" for problem in self.problems)]))
+        rest = [f"  and {count - _PRINTED} more"] if count > _PRINTED else []
+        super().__init__("\n".join([head, *(f"  {problem}" for problem in self.problems[:_PRINTED]), *rest]))
 
 
 class CatalogueError(CaseError):

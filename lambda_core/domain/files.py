@@ -10,6 +10,7 @@ from tempfile import NamedTemporaryFile
 from lambda_core.domain.errors import UsageError
 
 LARGEST_TEXT = 64 * 2**20  # [byte] of a case, a table, a document
+_NUL = "no name of a file holds a NUL character"
 _KINDS = (
     (stat.S_ISDIR, "a folder"),
     (stat.S_ISFIFO, "a pipe"),
@@ -36,6 +37,8 @@ def check_target(path: Path) -> Path:
     UsageError
         For a folder, a device, a pipe or a socket, links to them included: replaced, they would be lost to everybody.
     """
+    if "\0" in str(path):
+        raise UsageError(f'cannot write "{path}": {_NUL}')
     kind = kind_of(path)
     if kind:
         raise UsageError(f'cannot write "{path}": it is {kind}, and only regular files are written')
@@ -81,6 +84,8 @@ def read_bytes(path: Path, largest: int = LARGEST_TEXT) -> bytes:
     OSError
         With a sentence in `strerror`: for what is no regular file, is larger than `largest`, or cannot be read.
     """
+    if "\0" in str(path):
+        raise OSError(0, _NUL)
     # Opening a pipe would wait for its writer.
     with open(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)), "rb") as file:
         mode = os.fstat(file.fileno()).st_mode

@@ -161,7 +161,8 @@ def parse(text: object, quantity: str) -> float:
     units = units_of(quantity)
     first = next(iter(units))
     if isinstance(text, bool) or not isinstance(text, int | float | str):
-        raise ValueError(f'expected a {quantity} with its unit, for example "1 {first}"')
+        article = "an" if quantity[0] in "aeiou" else "a"
+        raise ValueError(f'expected {article} {quantity.replace("_", " ")} with its unit, for example "1 {first}"')
     if isinstance(text, int | float):
         raise ValueError(f'{text:g} has no unit: write "{text:g} {first}" (allowed: {", ".join(units)})')
     if mistake := misread(text, first):

@@ -52,7 +52,14 @@ def opened(path: Path) -> Iterator[h5py.File]:
         except LambdaError:
             raise
         except Exception as error:  # a garbled file misleads h5py into errors of every kind
-            raise ResultError(f"{path} is damaged: {reason(error)}") from None
+            raise ResultError(f"{path} is damaged: {_damage(error)}") from None
+
+
+def _damage(error: Exception) -> str:
+    """Return what is damaged; h5py answers some of it with Python's words for a wrong type."""
+    if isinstance(error, TypeError | AttributeError | AssertionError):
+        return "a part of it is missing, or of another kind"
+    return reason(error)
 
 
 def check_alone(file: h5py.File) -> None:

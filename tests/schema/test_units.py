@@ -56,6 +56,8 @@ def test_reads_si(text: str, quantity: str, expected: float) -> None:
         ("much", "force", "is not a number with a unit"),
         (True, "force", "expected a force with its unit"),
         (None, "force", "expected a force with its unit"),
+        (None, "angle", "expected an angle with its unit"),
+        (None, "rotational_speed", "expected a rotational speed with its unit"),
         ("1.234,5 N", "force", "is not"),
     ],
 )

@@ -120,3 +120,10 @@ def test_a_damaged_root_is_named(
     monkeypatch.setattr(hdf5.h5py.h5f, "open", refuse)
     assert main(["show", str(file)]) == 2
     assert "bad object header chunk size" in capsys.readouterr().err
+
+
+def test_a_part_that_is_missing_is_named_in_words_of_our_own(file: Path) -> None:
+    with h5py.File(file, "r+") as stream:
+        del stream["ring"]
+    with pytest.raises(ResultError, match="is damaged: a part of it is missing, or of another kind"):
+        api.result(file)

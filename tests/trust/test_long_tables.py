@@ -11,7 +11,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.case.case_writer import standalone_toml, tables_toml
-from lambda_core.domain.errors import CaseError
+from lambda_core.domain.errors import CaseError, Problem, UsageError
 
 CASE = "6208-axial-1300"
 
@@ -63,3 +63,19 @@ def test_lists_are_written_as_toml_reads_them(tmp_path: Path) -> None:
     assert found["loads"]["inner_ring"]["force_x"]["terms"] == [
         "1 N", {"kind": "table", "points": [["0 s", "100 N"], ["0.1 ms", "101 N"], ["0.2 ms", "102 N"]]}
     ]  # fmt: skip
+
+
+def test_a_name_with_a_nul_is_refused_in_a_sentence(tmp_path: Path) -> None:
+    table = {"kind": "table", "file": "loads\0.csv"}
+    with pytest.raises(CaseError, match="no name of a file holds a NUL character"):
+        api.check(case_with(table, tmp_path))
+    with pytest.raises(UsageError, match="NUL"):
+        api.run(CASE, ["solver.duration=1 ms"], out="r\0.h5")
+
+
+def test_of_many_problems_the_first_are_printed_and_the_rest_counted() -> None:
+    found = CaseError("case many", [Problem(f"place {number}", "is wrong") for number in range(20_000)])
+    lines = str(found).splitlines()
+    assert (lines[0], lines[-1]) == ("case many: 20000 errors", "  and 19980 more")
+    assert len(lines) == 22
+    assert len(found.problems) == 20_000
