@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from lambda_core.domain.parents import end_with_parent
 from lambda_core.laws.jit.machine_code import Pointer
 from lambda_core.laws.kernels import compile_host, host_folder, host_key
 from lambda_core.solver import layout
@@ -87,6 +88,7 @@ def build(name: str, announce: Callable[[str], None] | None = None) -> Any:
 
 def build_group(names: str) -> None:
     """Compile units, separated by commas, into the cache; the whole work of a process."""
+    end_with_parent()
     gc.disable()  # most of what a compiler makes lives until it ends: looking for the rest takes a sixth of the time
     for name in names.split(","):
         build(name)
@@ -108,7 +110,7 @@ def begin(announce: Callable[[str], None] | None = None) -> None:
         if names:
             command = [sys.executable, "-P", "-W", "ignore", "-c", code, names]
             quiet = subprocess.DEVNULL
-            _workers.append(subprocess.Popen(command, stdin=quiet, stdout=quiet, stderr=quiet))
+            _workers.append(subprocess.Popen(command, stdin=subprocess.PIPE, stdout=quiet, stderr=quiet))
     atexit.register(_stop)
 
 
@@ -116,7 +118,7 @@ def _stop() -> None:
     """End what still compiles: whoever needed it has gone."""
     for worker in _workers:
         worker.terminate()
-        worker.wait()
+        worker.communicate()
 
 
 def _call(dispatcher: Any, signature: Any) -> Any:
@@ -132,6 +134,7 @@ def _load(announce: Callable[[str], None] | None) -> Core:
     begin(announce)
     for worker in _workers:
         worker.wait()
+        worker.communicate()
     _workers.clear()
     built = {name: build(name, announce) for name in UNITS}
     pointers = {

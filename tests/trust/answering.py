@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 CASE = "6208-axial-700"
-SLOW = ("--set", "operation.speed=1.474 rpm")  # one record is 1/40 of a cage turn of 100 s
+SLOW = ("--set", "operation.speed=0.01 rpm")  # one record is 1/40 of a cage turn of four hours
 # Row C2.4: 6016, 5.8 kN, -10 degC, 500 to 0 rpm in 7 ms.
 STOP = (
     "--set", "bearing.designation=6016", "--set", "bearing.maker=SKF", "--set", "loads.axial=5.8 kN",
@@ -29,7 +29,7 @@ mode = "dynamic"
 
 [[parameters]]
 path = "operation.speed"
-values = ["1.474 rpm", "1.5 rpm"]
+values = ["0.01 rpm", "0.011 rpm"]
 """
 _TICK = 1.0 / os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 0.01
 
