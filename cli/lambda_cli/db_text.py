@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import typer
+
+from lambda_cli.talk import columns
+
+_ROOMY = 110  # columns of a terminal from which on notes stand in the table
 
 if TYPE_CHECKING:
     from lambda_db.catalogue import SqlCatalogue
@@ -24,9 +28,10 @@ def _table(*columns: str) -> Table:
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False, header_style="bold")
-    for column in columns:
-        name = column.removesuffix(">")
-        table.add_column(name, justify="right" if column.endswith(">") else "left", overflow="fold")
+    for number, column in enumerate(columns):
+        whole = number == 0  # names are there to be copied
+        side: Literal["left", "right"] = "right" if column.endswith(">") else "left"
+        table.add_column(column.removesuffix(">"), justify=side, overflow="fold", no_wrap=whole)
     return table
 
 
@@ -70,12 +75,15 @@ def list_lubricants(rows: list[LubricantRow], json: bool) -> None:
     if json:
         print_json(kind="lubricants", rows=[lubricant_summary(row) for row in rows])
         return
-    table = _table("name", "base", "nu40>", "nu100 mm2/s>", "alpha40 1/GPa>", "rheology", "note")
+    told = ["note"] if (columns() or _ROOMY) >= _ROOMY else []
+    table = _table("name", "base", "nu40>", "nu100 mm2/s>", "alpha40 1/GPa>", "rheology", *told)
     for row in rows:
         s = lubricant_summary(row)
         numbers = (_number(s[name], 4) for name in ("nu40_mm2s", "nu100_mm2s", "alpha40_per_GPa"))
-        table.add_row(row.name, row.base_type, *numbers, row.rheology, row.note)
+        table.add_row(row.name, row.base_type, *numbers, row.rheology, *([row.note] if told else []))
     _print(table)
+    if not told:
+        _print("what each is: lambda-bearing db show NAME")
 
 
 def show_bearing(catalogue: SqlCatalogue, name: str, row: BearingRow, json: bool) -> None:

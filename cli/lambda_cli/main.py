@@ -45,6 +45,10 @@ class LazyGroup(TyperGroup):
         for entry in self._entries.values():
             self.add_command(TyperCommand(entry.name, help=entry.help, rich_help_panel=entry.panel))
 
+    def get_help_option(self, ctx: Any) -> Any:
+        """Return the option --help, which takes no value."""
+        return _switch(super().get_help_option(ctx))
+
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
         """Find the command by name and load it."""
         name, command, rest = super().resolve_command(ctx, args)
@@ -76,8 +80,17 @@ def _for_reading(command: Any) -> None:
     for parameter in command.params:
         if getattr(parameter, "is_flag", False) and parameter.metavar is None:
             parameter.metavar = ""
+    asked = command.get_help_option
+    command.get_help_option = lambda context: _switch(asked(context))
     for other in getattr(command, "commands", {}).values():
         _for_reading(other)
+
+
+def _switch(option: Any) -> Any:
+    """Return an option without a word for its value."""
+    if option is not None:
+        option.metavar = ""
+    return option
 
 
 application = typer.Typer(cls=LazyGroup, name=PROGRAM, no_args_is_help=True)

@@ -21,8 +21,8 @@ _PARTS = (
 def catalogues(run: RunData, options: Options) -> ViewData:
     """Friction torque of the simulation by parts, and what SKF's and Schaeffler's models say for the same point."""
     summary = run.summary()
-    rating, total = summary.rating, summary.friction_torque_Nmm
-    if rating is None or total is None:
+    rating = summary.rating
+    if rating is None or summary.friction_torque_Nmm is None:
         raise NotApplicable("the catalogue methods do not answer this case, or nothing turns")
     others = [
         (name, value)
@@ -41,14 +41,14 @@ def catalogues(run: RunData, options: Options) -> ViewData:
     whole = np.array([math.nan, *(value for _, value in others)])
     series.append(Series("whole", places, whole, "bars", "reference"))
     panel = Panel(
-        f"simulation {total:.4g} N mm, {', '.join(f'{name} {value:.4g}' for name, value in others)}",
+        "",
         Axis("", categories=("simulation", *(name for name, _ in others))),
         Axis("friction torque", "N mm", low=0.0),
         tuple(series),
         stacked=True,
     )
     notes = (
-        f"simulation: mean over {averaging(run).words}; catalogues: loads and speed of the start, no cage",
+        f"simulation: mean over {averaging(run).words}; catalogues: at the loads and the speed of the start",
         "rolling: rolling resistance and hysteresis; sliding: slip, spin and asperities",
     )
     return ViewData("catalogues", "Simulation beside catalogues", source(run), (panel,), 1, notes)

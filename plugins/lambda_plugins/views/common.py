@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -45,8 +46,12 @@ def averaging(run: RunData) -> Span:
 
 
 def source(run: RunData) -> str:
-    """Return the line that says which run is shown."""
-    return f"{run.title}   {run.headline.splitlines()[-1]}"
+    """Return the line that says which run is shown: case, bearing, loads and speed, oil and clearance."""
+    bearing, conditions, *_ = run.headline.splitlines()
+    parts = re.split(r" {2,}", bearing)
+    loads = [part for part in re.split(r" {3,}", conditions) if part != "cage on" and not part.startswith("strips ")]
+    clearance = next((part.split(" (")[0] for part in parts if part.startswith("clearance ")), "")
+    return "   ".join(filter(None, (f"{run.case}: {run.title}", *loads, parts[-1], clearance)))
 
 
 def require_cage(run: RunData) -> None:

@@ -21,6 +21,7 @@ _WIDTHS = {"plain": 5.0, "plane": 4.8, "polar": 4.6}  # of a panel [inch]
 _HEIGHTS = {"plain": 3.7, "plane": 4.4, "polar": 4.4}
 _ALONE = 8.4  # width of the only panel of a figure [inch]
 _HEAD, _LINE = 0.78, 0.21  # room for title and source, for a line of notes [inch]
+_SOURCE, _NOTE = 10.5, 9.5  # sizes of letters
 _CHARACTER = 0.074  # width of a character of the notes [inch]
 
 
@@ -51,13 +52,14 @@ def draw(data: ViewData) -> Figure:
         widths = [max(_width(line[c], columns) for line in grid if c < len(line)) for c in range(columns)]
         heights = [max(_HEIGHTS[panel.shape] for panel in line) for line in grid]
         width = sum(widths)
-        notes = _wrapped(data.notes, width)
+        notes, sources = _wrapped(data.notes, width), _wrapped((data.source,), width * _NOTE / _SOURCE)
         foot = _LINE * len(notes) + 0.12
-        height = sum(heights) + _HEAD + foot
+        head = _HEAD + _LINE * max(0, len(sources) - 1)
+        height = sum(heights) + head + foot
         figure = HouseFigure(figsize=(width, height), dpi=100, label=f"{data.view} {data.source}")
         FigureCanvasAgg(figure)
         figure.set_layout_engine(
-            "constrained", rect=(0.01, foot / height, 0.98, 1.0 - (_HEAD + foot) / height), w_pad=0.12, h_pad=0.1
+            "constrained", rect=(0.01, foot / height, 0.98, 1.0 - (head + foot) / height), w_pad=0.12, h_pad=0.1
         )
         spec = figure.add_gridspec(rows, columns, width_ratios=widths, height_ratios=heights)
         legends = _legends(data.panels)
@@ -67,9 +69,10 @@ def draw(data: ViewData) -> Figure:
             axes: Any = figure.add_subplot(place, projection="polar" if panel.shape == "polar" else None)
             draw_panel(axes, panel, legend=number in legends)
         figure.text(0.15 / width, 1.0 - 0.14 / height, data.title, va="top", fontsize=15, weight="bold", color=INK)
-        figure.text(0.15 / width, 1.0 - 0.46 / height, data.source, va="top", fontsize=10.5, color=SOFT)
+        for i, line in enumerate(sources):
+            figure.text(0.15 / width, 1.0 - (0.46 + _LINE * i) / height, line, va="top", fontsize=_SOURCE, color=SOFT)
         for i, note in enumerate(notes):
-            figure.text(0.15 / width, (foot - 0.08 - _LINE * i) / height, note, va="top", fontsize=9.5, color=SOFT)
+            figure.text(0.15 / width, (foot - 0.08 - _LINE * i) / height, note, va="top", fontsize=_NOTE, color=SOFT)
     return figure
 
 
