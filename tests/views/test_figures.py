@@ -182,7 +182,7 @@ def test_a_strangers_view_is_drawn_by_the_house_or_by_itself(radial_run: Result)
 def test_views_that_do_not_fit_are_named(changes: dict[str, Any], words: str) -> None:
     from lambda_core.views.view import view_fault
 
-    given: dict[str, Any] = {"name": "x", "title": "t", "subject": "result", "data": len} | changes
+    given: dict[str, Any] = {"name": "x", "title": "t", "subject": "result", "data": len, "view_api": 1, **changes}
     assert words in view_fault(View(**given))
 
 
