@@ -69,15 +69,26 @@ EXCHANGES: tuple[Exchange, ...] = (
     Exchange(
         "supply",
         (
-            Law("constant"),
             Law("skf-replenishment"),
+            Law("constant"),
             Law("inlet-distance", ("parameters.supply.distance=2",), note="inlet meniscus two semi-axes b ahead"),
             Law("oil-layer", ("parameters.supply.layer=0.5 um",), note="a layer of 0.5 um on the track"),
         ),
     ),
     Exchange("contact_temperature", (Law("shear-heating"), Law("isothermal"))),
     Exchange("traction", (Law("ree-eyring"), Law("bair-winer"), Law("newtonian"))),
-    Exchange("rolling_resistance", (Law("biboulet-houpert"), Law("goksem-hargreaves"), Law("none"))),
+    Exchange(
+        "rolling_resistance",
+        (
+            Law("biboulet-houpert"),
+            Law("biboulet-houpert-point"),
+            Law("goksem-hargreaves"),
+            Law("matsuyama"),
+            Law("zhou-hoeprich"),
+            Law("aihara"),
+            Law("none"),
+        ),
+    ),
     Exchange(
         "elastic_hysteresis",
         (
@@ -87,8 +98,8 @@ EXCHANGES: tuple[Exchange, ...] = (
             Law("none"),
         ),
     ),
-    Exchange("asperity_load", (Law("zhou-hoeprich"), Law("spikes-olver"), Law("none")), ROUGH, IN_ROUGH),
-    Exchange("boundary_friction", (Law("cubic"), Law("coulomb-regularised"), Law("micro-slip")), ROUGH, IN_ROUGH),
+    Exchange("asperity_load", (Law("spikes-olver"), Law("zhou-hoeprich"), Law("none")), ROUGH, IN_ROUGH),
+    Exchange("boundary_friction", (Law("micro-slip"), Law("cubic"), Law("coulomb-regularised")), ROUGH, IN_ROUGH),
     Exchange(
         "cage_contact",
         (

@@ -53,7 +53,11 @@ _LAWS: dict[str, dict[str, str]] = {
     },
     "rolling_resistance": {
         "biboulet-houpert": "rolling_resistance:biboulet_houpert",
+        "biboulet-houpert-point": "rolling_fits:biboulet_houpert_point",
         "goksem-hargreaves": "rolling_resistance:goksem_hargreaves",
+        "matsuyama": "rolling_fits:matsuyama",
+        "zhou-hoeprich": "rolling_fits:zhou_hoeprich",
+        "aihara": "rolling_fits:aihara",
         "none": "rolling_resistance:none",
     },
     "elastic_hysteresis": {

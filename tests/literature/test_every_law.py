@@ -16,6 +16,7 @@ CONTACT, LUBRICANT, FRICTION = "test_models_contact", "test_models_lubricant", "
 LOSSES, CAPACITANCE, SURFACE = "test_models_losses", "test_models_capacitance", "test_models_surface"
 CLOSED, MIXED = "test_models_closed_form", "test_models_mixed_friction"
 SUPPLY, FILMS = "test_models_supply", "test_models_films"
+ROLLING = "test_models_rolling"
 BLOW, NOTHING = (CLOSED, "test_a_blow_against_a_guide_lasts_half_a_period"), (CLOSED, "test_none_is_nothing")
 
 # role/name of every law: (module, test) that calls it.
@@ -44,6 +45,10 @@ CHECKED: dict[str, tuple[str, str]] = {
     "traction/newtonian": (CLOSED, "test_newtonian_film_is_couette_flow"),
     "rolling_resistance/biboulet-houpert": (FRICTION, "test_rolling_torque_of_the_6319"),
     "rolling_resistance/goksem-hargreaves": (FRICTION, "test_rolling_torque_of_the_6319"),
+    "rolling_resistance/biboulet-houpert-point": (ROLLING, "test_point_contacts_end_in_houperts_forms"),
+    "rolling_resistance/matsuyama": (ROLLING, "test_matsuyamas_fit"),
+    "rolling_resistance/zhou-hoeprich": (ROLLING, "test_zhou_and_hoeprichs_solved_contacts"),
+    "rolling_resistance/aihara": (ROLLING, "test_aiharas_moment"),
     "rolling_resistance/none": NOTHING,
     "elastic_hysteresis/loss-factor": (FRICTION, "test_loss_factor_is_the_work_on_the_front_half_of_the_contact"),
     "elastic_hysteresis/houpert": (FRICTION, "test_houpert_corresponds_to_published_loss_factors"),

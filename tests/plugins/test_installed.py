@@ -219,7 +219,7 @@ def test_show_says_everything_about_a_model(site: Installation) -> None:
     assert card["parameters"][0]["default"] == "0.07"
     text = site.program("plugins", "show", "traction/ree-eyring").out
     assert "tau_eyring" in text
-    assert "6 MPa" in text
+    assert "8 MPa" in text
     assert "Johnson and Tevaarwerk 1977" in text
 
 
