@@ -45,9 +45,10 @@ def currents_of(result: Result, start: float) -> Currents | None:
     least, largest, farad = (
         circuit[name][inside] for name in ("bearing_voltage_least", "bearing_voltage_largest", "bearing_capacitance")
     )
+    reached = np.concatenate([least, largest, counted["bearing_voltage"]])  # between discharges, and where they began
     return Currents(
         seconds=seconds,
-        bearing_voltage_V=[float(np.nanmin(least)), float(np.nanmax(largest))],
+        bearing_voltage_V=[float(np.nanmin(reached)), float(np.nanmax(reached))],
         bearing_capacitance_pF=[1e12 * float(farad.min()), 1e12 * float(farad.max())],
         discharges_per_s=float(through.sum()) / seconds,
         partial_discharges_per_s=float((~through).sum()) / seconds,
