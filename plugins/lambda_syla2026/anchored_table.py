@@ -15,9 +15,9 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.results.record import Record
 from lambda_syla2026 import parameters as P
 from lambda_syla2026.calibration import ROLES, TAU, TAU_GRID, Calibration, calibration, fitted, torques
+from lambda_syla2026.job_runner import Job, JobResult, JobRunner
 from lambda_syla2026.published import LOADS, POINTS, TABLE_4, mean_absolute_error
 from lambda_syla2026.readings import MECHANISMS
-from lambda_syla2026.workshop import Answer, Job, Workshop
 
 HEAT = "lubricant.temperature"
 LOSS = "parameters.elastic_hysteresis.loss_factor"
@@ -59,16 +59,16 @@ class AnchoredTable(Record):
     bars: list[str]
 
 
-def anchored_table(workshop: Workshop, samples: int) -> AnchoredTable:
+def anchored_table(runner: JobRunner, samples: int) -> AnchoredTable:
     """Run the anchored set and compare; `samples` of the band."""
-    heat = recovered(workshop)
+    heat = recovered(runner)
     at = [{**P.anchored(), HEAT: f"{t:.2f} degC"} for t in heat]
-    runs = workshop.all(_jobs(at, "torque"))
-    still = workshop.all(_jobs(at))
+    runs = runner.all(_jobs(at, "torque"))
+    still = runner.all(_jobs(at))
     torque = np.array(torques(runs))
     offset = torque - torques(still)
-    one = np.array(torques(workshop.all(_jobs([P.anchored()] * len(POINTS))))) + offset
-    low, high = _band(workshop, heat, offset, samples)
+    one = np.array(torques(runner.all(_jobs([P.anchored()] * len(POINTS))))) + offset
+    low, high = _band(runner, heat, offset, samples)
     measured = np.array([point.measured for point in POINTS])
     miss = 100.0 * (torque / measured - 1.0)
     difference = [
@@ -86,9 +86,9 @@ def anchored_table(workshop: Workshop, samples: int) -> AnchoredTable:
         inside_band=int(np.sum((low <= measured) & (measured <= high))),
         parts_Nmm=[{name: run[name] for name in MECHANISMS} for run in runs],
         friction_difference_pct=difference,
-        calibrations=_calibrations(workshop, at, offset),
-        residuals=_residuals(workshop, heat),
-        lambda_row_pct=_lambda_row(workshop, runs),
+        calibrations=_calibrations(runner, at, offset),
+        residuals=_residuals(runner, heat),
+        lambda_row_pct=_lambda_row(runner, runs),
         bars=[],
     )
     return found.model_copy(update={"bars": _bars(found)})
@@ -98,14 +98,14 @@ def _jobs(sets: Sequence[Mapping[str, str | None]], kind: str = "friction") -> l
     return [Job(point.case, P.changes(chosen), kind) for point, chosen in zip(POINTS, sets, strict=True)]
 
 
-def recovered(workshop: Workshop) -> list[float]:
+def recovered(runner: JobRunner) -> list[float]:
     """Return the temperature of each point [degC] at which SKF's model gives the printed SKF row.
 
     Present formula of the drag with the chart's V_M, mu_EHL = 0.05, no boundary share, viscosity of FVA3.
     """
     sets = [{**_EDITION, HEAT: f"{t:g} degC"} for t in _GRID]
     jobs = [Job(point.case, P.changes(chosen), "skf") for point in POINTS for chosen in sets]
-    answers = workshop.all(jobs)
+    answers = runner.all(jobs)
     values = np.array([_full_film(answer) for answer in answers]).reshape(len(POINTS), _GRID.size)
     return [temperature_of(row, printed) for row, printed in zip(values, TABLE_4["SKF"], strict=True)]
 
@@ -115,11 +115,11 @@ def temperature_of(torque: FloatArray, printed: float) -> float:
     return float(np.interp(-np.log(printed), -np.log(torque), _GRID))
 
 
-def _full_film(answer: Answer) -> float:
+def _full_film(answer: JobResult) -> float:
     return answer["rolling"] + answer["sliding"] * _MU_FILM / answer["sliding coefficient"] + answer["drag"]
 
 
-def _band(workshop: Workshop, heat: Sequence[float], offset: FloatArray, count: int) -> tuple[list[float], list[float]]:
+def _band(runner: JobRunner, heat: Sequence[float], offset: FloatArray, count: int) -> tuple[list[float], list[float]]:
     """Return 5 % and 95 % of the torques over the published ranges, temperatures about the recovered ones."""
     own = {path for path, value in P.anchored().items() if value is not None} | set(_OWN_LAWS)
     rows = []
@@ -128,7 +128,7 @@ def _band(workshop: Workshop, heat: Sequence[float], offset: FloatArray, count: 
         shared |= {TAU: sample[TAU], LOSS: _loss(str(sample[LOSS])), "surface.roughness": sample["surface.roughness"]}
         shift = float(str(sample[HEAT]).split()[0]) - CONSTANT
         rows.append([{**P.anchored(), **shared, HEAT: f"{t + shift:.3f} degC"} for t in heat])
-    answers = workshop.all([job for row in rows for job in _jobs(row)])
+    answers = runner.all([job for row in rows for job in _jobs(row)])
     table = [answers[i : i + len(POINTS)] for i in range(0, len(answers), len(POINTS))]
     solved = np.array([torques(row) for row in table if all(answer.state == "done" for answer in row)]) + offset
     low, high = np.percentile(solved, (5.0, 95.0), axis=0)
@@ -146,11 +146,11 @@ def _loss(sampled: str) -> str:
     return f"{LOSS_RANGE[0] * (LOSS_RANGE[1] / LOSS_RANGE[0]) ** share:.6g}"
 
 
-def _calibrations(workshop: Workshop, at: Sequence[Mapping[str, str | None]], offset: FloatArray) -> list[Calibration]:
+def _calibrations(runner: JobRunner, at: Sequence[Mapping[str, str | None]], offset: FloatArray) -> list[Calibration]:
     from scipy.interpolate import CubicSpline
 
     jobs = [job for tau in TAU_GRID for job in _jobs([{**chosen, TAU: f"{tau:g} MPa"} for chosen in at])]
-    grid = np.array(torques(workshop.all(jobs))).reshape(len(TAU_GRID), len(POINTS)) + offset
+    grid = np.array(torques(runner.all(jobs))).reshape(len(TAU_GRID), len(POINTS)) + offset
     pair = tuple(P.entry(f"models.{role}").value for role in ROLES)
     curve = CubicSpline(TAU_GRID, grid)
     unfitted = mean_absolute_error(curve(8.0).tolist())
@@ -158,7 +158,7 @@ def _calibrations(workshop: Workshop, at: Sequence[Mapping[str, str | None]], of
     return [calibration(pair, load, unfitted, fit, curve(fit[0]).tolist()) for load, fit in fits]
 
 
-def _residuals(workshop: Workshop, heat: Sequence[float]) -> list[Residual]:
+def _residuals(runner: JobRunner, heat: Sequence[float]) -> list[Residual]:
     """Return the residuals with the blind set, once with one temperature and once with the recovered ones."""
     choices = {
         f"{CONSTANT:g} degC everywhere": [CONSTANT] * len(POINTS),
@@ -166,7 +166,7 @@ def _residuals(workshop: Workshop, heat: Sequence[float]) -> list[Residual]:
     }
     found = []
     for name, temperatures in choices.items():
-        answers = workshop.all(_jobs([{HEAT: f"{t:.2f} degC"} for t in temperatures]))
+        answers = runner.all(_jobs([{HEAT: f"{t:.2f} degC"} for t in temperatures]))
         own = np.array([answer["torque"] - answer["drag"] for answer in answers])
         found.append(
             Residual(temperatures=name, pct={row: plane_residual(np.array(TABLE_4[row]) / own) for row in UNUSED})
@@ -181,9 +181,9 @@ def plane_residual(ratio: FloatArray) -> float:
     return float(100.0 * np.sqrt(left @ left / (len(POINTS) - terms.shape[1])))
 
 
-def _lambda_row(workshop: Workshop, runs: Sequence[Answer]) -> dict[str, float]:
+def _lambda_row(runner: JobRunner, runs: Sequence[JobResult]) -> dict[str, float]:
     """Return the mean deviation from LaMBDA's row of both sets without drag, as the paper computes."""
-    blind = workshop.all([Job(point.case, P.changes(), "torque") for point in POINTS])
+    blind = runner.all([Job(point.case, P.changes(), "torque") for point in POINTS])
     row = TABLE_4["LaMBDA"]
     return {
         name: float(

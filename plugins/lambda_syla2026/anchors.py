@@ -17,8 +17,8 @@ from pydantic import Field
 
 from lambda_core.results.record import Record
 from lambda_syla2026 import parameters as P
+from lambda_syla2026.job_runner import ANCHOR, Job, JobResult, JobRunner
 from lambda_syla2026.rated_speeds import Rated, rated_bars, rated_speeds
-from lambda_syla2026.workshop import ANCHOR, Answer, Job, Workshop
 
 # Two makers, five series, 25 to 100 mm bore, and the one with printed grooves.
 BEARINGS = (
@@ -116,17 +116,17 @@ def laws_of(parameters: str) -> tuple[str, ...]:
     return P.laws() if parameters == "blind" else ()
 
 
-def anchors(workshop: Workshop, *, quick: bool = False) -> Anchors:
+def anchors(runner: JobRunner, *, quick: bool = False) -> Anchors:
     """Compare; `quick` leaves out other grooves and random cases."""
     rows = [_row(*bearing) for bearing in BEARINGS]
     grooves = [USUAL] if quick else list(GROOVES)
     kinds = [("default", name) for name in grooves] + [("blind", USUAL)]
-    answers = workshop.all([job for kind in kinds for job in _grid(rows, *kind)])
+    answers = runner.all([job for kind in kinds for job in _grid(rows, *kind)])
     count = len(answers) // len(kinds)
     spreads = [_spread(*kind, rows, answers[i * count : (i + 1) * count]) for i, kind in enumerate(kinds)]
-    populations = [] if quick else _populations(workshop)
-    stribeck = _stribeck(workshop)
-    rated, unknown = ([], 0) if quick else rated_speeds(workshop)
+    populations = [] if quick else _populations(runner)
+    stribeck = _stribeck(runner)
+    rated, unknown = ([], 0) if quick else rated_speeds(runner)
     notes = [
         "quasi-static, without cage and drag, SKF's replenishment on both sides; VG 68 at 60 degC",
         "SKF's model is a fit to measurements of its maker: what agrees with it is anchored, not measured",
@@ -166,11 +166,11 @@ def _grid(rows: Sequence[_Row], parameters: str, grooves: str) -> list[Job]:
     ]
 
 
-def _ratio(answer: Answer) -> float:
+def _ratio(answer: JobResult) -> float:
     return answer["torque"] / answer["skf"]
 
 
-def _spread(parameters: str, grooves: str, rows: Sequence[_Row], answers: Sequence[Answer]) -> Spread:
+def _spread(parameters: str, grooves: str, rows: Sequence[_Row], answers: Sequence[JobResult]) -> Spread:
     miss = 100.0 * (np.array([_ratio(answer) for answer in answers]).reshape(len(rows), len(LOADS), len(SPEEDS)) - 1.0)
     flat = miss.ravel()
 
@@ -190,11 +190,11 @@ def _spread(parameters: str, grooves: str, rows: Sequence[_Row], answers: Sequen
     )
 
 
-def _populations(workshop: Workshop) -> list[Population]:
+def _populations(runner: JobRunner) -> list[Population]:
     """Return random bearings, loads, speeds and temperatures against SKF's model, by both sets."""
     kinds = [(name, parameters) for parameters in SETS for name in POPULATIONS]
     plans = [[Job(ANCHOR, (*case, *laws_of(kind[1])), "anchor") for case in random_cases(kind[0])] for kind in kinds]
-    answers = iter(workshop.all([job for plan in plans for job in plan]))
+    answers = iter(runner.all([job for plan in plans for job in plan]))
     found = []
     for (name, parameters), plan in zip(kinds, plans, strict=True):
         ratios = [_ratio(next(answers)) for _ in plan]
@@ -244,7 +244,7 @@ def _log_uniform(draw: Random, low: float, high: float) -> float:
     return math.exp(draw.uniform(math.log(low), math.log(high)))
 
 
-def _stribeck(workshop: Workshop) -> list[Stribeck]:
+def _stribeck(runner: JobRunner) -> list[Stribeck]:
     designation, maker, load = STRIBECK
     case = (f"bearing.designation={designation}", f"bearing.maker={maker}", f"loads.radial={load}")
     jobs = [
@@ -266,7 +266,7 @@ def _stribeck(workshop: Workshop) -> list[Stribeck]:
             skf_Nmm=answer["skf"],
             ratio=_ratio(answer),
         )
-        for speed, answer in zip(STRIBECK_SPEEDS, workshop.all(jobs), strict=True)
+        for speed, answer in zip(STRIBECK_SPEEDS, runner.all(jobs), strict=True)
     ]
 
 

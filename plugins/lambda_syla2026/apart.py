@@ -6,7 +6,7 @@ from pydantic import Field
 
 from lambda_core.results.record import Record
 from lambda_syla2026.boundary import CASE, Setting
-from lambda_syla2026.workshop import Job, Workshop
+from lambda_syla2026.job_runner import Job, JobRunner
 
 SETTING = Setting("A", 5.0)
 FREQUENCY = 8.9  # [Hz]
@@ -22,11 +22,11 @@ class Apart(Record):
     cage_Nmm: float = Field(description="what the cage adds, in the run only")
 
 
-def apart(workshop: Workshop) -> list[Apart]:
+def apart(runner: JobRunner) -> list[Apart]:
     """Run the 6220 of variant A under growing axial excitation and compare."""
     jobs = [Job(CASE, SETTING.changes(), "friction")]
     jobs += [Job(CASE, SETTING.changes(FREQUENCY, a), "torque") for a in ACCELERATIONS]
-    still, *runs = workshop.all(jobs)
+    still, *runs = runner.all(jobs)
     return [
         Apart(
             acceleration_m_per_s2=a,

@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
+from lambda_syla2026.job_runner import Job, JobResult, JobRunner
 from lambda_syla2026.parameters import laws
-from lambda_syla2026.workshop import Answer, Job, Workshop
 
 CRITERIA = ("S", "T")
 # S: share by which the rms speed deviation changes; T: growth of the share of time under load outside the zone.
@@ -107,20 +107,20 @@ class Ray:
 
     setting: Setting
     frequency: float  # [Hz]
-    tried: dict[float, Answer] = field(default_factory=dict)  # acceleration amplitude [m/s2] -> stability reading
+    tried: dict[float, JobResult] = field(default_factory=dict)  # acceleration amplitude [m/s2] -> stability reading
 
     def job(self, acceleration: float) -> Job:
         """Return the run at one amplitude."""
         return Job(CASE, self.setting.changes(self.frequency, acceleration), "stability")
 
-    def bracket(self, criterion: str, still: Answer) -> tuple[float | None, float | None]:
+    def bracket(self, criterion: str, still: JobResult) -> tuple[float | None, float | None]:
         """Return the largest unaltered amplitude below the smallest altered one, and that one [m/s2]."""
         altered = sorted(a for a, answer in self.tried.items() if excess(criterion, answer, still) > 0.0)
         high = altered[0] if altered else None
         low = [a for a in self.tried if high is None or a < high]
         return (max(low) if low else None), high
 
-    def wanted(self, criterion: str, still: Answer, ratio: float) -> float | None:
+    def wanted(self, criterion: str, still: JobResult, ratio: float) -> float | None:
         """Return the amplitude to try next, None when the bracket is narrower than `ratio` or there is none."""
         low, high = self.bracket(criterion, still)
         if low is not None and high is not None:
@@ -130,7 +130,7 @@ class Ray:
             return low * STEP if low * STEP <= ENDS[1] else None
         return high / STEP if high / STEP >= ENDS[0] else None
 
-    def boundary(self, criterion: str, still: Answer) -> Boundary | None:
+    def boundary(self, criterion: str, still: JobResult) -> Boundary | None:
         """Return the amplitude at which a criterion is just met, None when it never is.
 
         Between the ends of the bracket the excess is interpolated linearly over the logarithm; the standard errors
@@ -157,7 +157,7 @@ class Ray:
         )
 
 
-def excess(criterion: str, answer: Answer, still: Answer) -> float:
+def excess(criterion: str, answer: JobResult, still: JobResult) -> float:
     """Return by how much a criterion is exceeded; positive: the running is altered.
 
     S: |S/S_0 - 1| - 0.2, T: T - T_0 - 0.05; not counted as altered unless the change exceeds three standard errors.
@@ -171,7 +171,7 @@ def excess(criterion: str, answer: Answer, still: Answer) -> float:
     return beyond if change > STANDARD_ERRORS * error else min(beyond, -1e-9)
 
 
-def search(workshop: Workshop, rays: Iterable[Ray], ratio: float) -> Mapping[Setting, Answer]:
+def search(runner: JobRunner, rays: Iterable[Ray], ratio: float) -> Mapping[Setting, JobResult]:
     """Narrow the brackets of both criteria on every ray, all rays side by side; returns the runs without excitation.
 
     Parameters
@@ -181,18 +181,18 @@ def search(workshop: Workshop, rays: Iterable[Ray], ratio: float) -> Mapping[Set
     """
     rays = list(rays)
     settings = list(dict.fromkeys(ray.setting for ray in rays))
-    found = workshop.all([Job(CASE, setting.changes(), "stability") for setting in settings])
+    found = runner.all([Job(CASE, setting.changes(), "stability") for setting in settings])
     still = dict(zip(settings, found, strict=True))
     requests: list[tuple[Ray, float]] = [(ray, a) for ray in rays for a in FIRST]
     while requests:
-        answers = workshop.all([ray.job(amplitude) for ray, amplitude in requests])
+        answers = runner.all([ray.job(amplitude) for ray, amplitude in requests])
         for (ray, amplitude), answer in zip(requests, answers, strict=True):
             ray.tried[amplitude] = answer
         requests = [(ray, amplitude) for ray in rays for amplitude in _next(ray, still[ray.setting], ratio)]
     return still
 
 
-def _next(ray: Ray, still: Answer, ratio: float) -> list[float]:
+def _next(ray: Ray, still: JobResult, ratio: float) -> list[float]:
     """Return the amplitudes that the criteria want tried next; both may want the same."""
     wanted = (ray.wanted(criterion, still, ratio) for criterion in CRITERIA)
     return sorted({amplitude for amplitude in wanted if amplitude is not None})

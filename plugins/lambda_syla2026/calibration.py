@@ -11,8 +11,8 @@ from pydantic import Field
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.results.record import Record
 from lambda_syla2026 import parameters as P
+from lambda_syla2026.job_runner import Job, JobResult, JobRunner
 from lambda_syla2026.published import LOADS, POINTS, Point, mean_absolute_error
-from lambda_syla2026.workshop import Answer, Job, Workshop
 
 TAU = "parameters.traction.tau_eyring"
 # Beyond the published range too, only to say where a free fit would end.
@@ -40,7 +40,7 @@ class Calibration(Record):
     predicted_row_pct: float
 
 
-def torques(answers: Sequence[Answer]) -> list[float]:
+def torques(answers: Sequence[JobResult]) -> list[float]:
     """Return the torque of every answer [N mm]."""
     return [answer["torque"] for answer in answers]
 
@@ -62,7 +62,7 @@ def laws_of(role: str) -> list[str]:
     return [blind, *(name for name in names if name not in left_out)]
 
 
-def by_law(workshop: Workshop, offset: FloatArray) -> list[Calibration]:
+def by_law(runner: JobRunner, offset: FloatArray) -> list[Calibration]:
     """Fit for every pair of laws on either row; quasi-static plus what the blind runs add to it.
 
     Parameters
@@ -77,7 +77,7 @@ def by_law(workshop: Workshop, offset: FloatArray) -> list[Calibration]:
         for tau in TAU_GRID
         for point in POINTS
     ]
-    grids = np.array(torques(workshop.all(jobs))).reshape(len(pairs), len(TAU_GRID), len(POINTS)) + offset
+    grids = np.array(torques(runner.all(jobs))).reshape(len(pairs), len(TAU_GRID), len(POINTS)) + offset
     return [_on_curve(pair, grid, load) for pair, grid in zip(pairs, grids, strict=True) for load in LOADS]
 
 

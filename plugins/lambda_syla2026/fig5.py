@@ -20,8 +20,8 @@ from lambda_syla2026.boundary import (
     Setting,
     search,
 )
+from lambda_syla2026.job_runner import Job, JobResult, JobRunner
 from lambda_syla2026.trends import BoundaryPoint, Line, Step, bars, lines, steps
-from lambda_syla2026.workshop import Answer, Job, Workshop
 
 LOADS = (2.0, 5.0, 10.0)  # F_stat [kN]
 VARIANTS = {
@@ -85,7 +85,7 @@ class Fig5(Record):
     notes: list[str]
 
 
-def fig5(workshop: Workshop, *, quick: bool = False) -> Fig5:
+def fig5(runner: JobRunner, *, quick: bool = False) -> Fig5:
     """Find the boundaries.
 
     Parameters
@@ -101,8 +101,8 @@ def fig5(workshop: Workshop, *, quick: bool = False) -> Fig5:
         for frequency in (declared if quick else (*declared, *BEYOND))
     ]
     varied = [] if quick else [Ray(setting, MIDDLE) for pair in VARIATIONS.values() for setting in pair]
-    resonances = _resonances(workshop)
-    still = search(workshop, [*rays, *varied], ratio)
+    resonances = _resonances(runner)
+    still = search(runner, [*rays, *varied], ratio)
     top = declared[-1]
     points = [_point(ray, criterion, still[ray.setting], top) for ray in rays for criterion in CRITERIA]
     return Fig5(
@@ -113,7 +113,7 @@ def fig5(workshop: Workshop, *, quick: bool = False) -> Fig5:
         steps=steps(points),
         variations=_variations(points, varied, still) if varied else [],
         still={_name(setting): {c: answer[c] for c in CRITERIA} for setting, answer in still.items()},
-        apart=[] if quick else apart(workshop),
+        apart=[] if quick else apart(runner),
         bars=bars(points, resonances, declared),
         notes=_notes(quick, ratio),
     )
@@ -124,7 +124,7 @@ def _name(setting: Setting) -> str:
     return ", ".join([f"{setting.variant}, {setting.load:g} kN{extra}", *setting.extra])
 
 
-def _resonances(workshop: Workshop) -> list[Resonance]:
+def _resonances(runner: JobRunner) -> list[Resonance]:
     jobs = [Job(CASE, Setting("A", load).changes(), "axial resonance") for load in LOADS]
     return [
         Resonance(
@@ -135,11 +135,11 @@ def _resonances(workshop: Workshop) -> list[Resonance]:
             ball_Hz=answer["ball_Hz"],
             cage_Hz=answer["cage_Hz"],
         )
-        for load, answer in zip(LOADS, workshop.all(jobs), strict=True)
+        for load, answer in zip(LOADS, runner.all(jobs), strict=True)
     ]
 
 
-def _point(ray: Ray, criterion: str, still: Answer, top: float) -> BoundaryPoint:
+def _point(ray: Ray, criterion: str, still: JobResult, top: float) -> BoundaryPoint:
     def velocity(acceleration: float | None) -> float | None:
         return None if acceleration is None else acceleration / (2.0 * math.pi * ray.frequency)
 
@@ -162,7 +162,7 @@ def _point(ray: Ray, criterion: str, still: Answer, top: float) -> BoundaryPoint
 
 
 def _variations(
-    points: Sequence[BoundaryPoint], varied: Sequence[Ray], still: Mapping[Setting, Answer]
+    points: Sequence[BoundaryPoint], varied: Sequence[Ray], still: Mapping[Setting, JobResult]
 ) -> list[Variation]:
     found, rays = [], iter(varied)
     pairs = {what: [next(rays) for _ in settings] for what, settings in VARIATIONS.items()}

@@ -8,8 +8,8 @@ from pydantic import Field
 
 from lambda_core.domain.channels import RINGS
 from lambda_core.results.record import Record
+from lambda_syla2026.job_runner import Job, JobResult, JobRunner
 from lambda_syla2026.published import AREA_GROWTH, AXIAL_LOADS, FILM_RATIO, GAP_CHANGE, OUTER_BELOW_INNER
-from lambda_syla2026.workshop import Answer, Job, Workshop
 
 ISOTHERMAL = ("models.thermal_correction=none",)
 # The authors' group uses it for the tapered roller bearing (Wingertszahn et al. 2023, eq. 12); it falls with p_0/E'.
@@ -65,14 +65,14 @@ class Fig7(Record):
     notes: list[str]
 
 
-def fig7(workshop: Workshop, *, quick: bool = False) -> Fig7:
+def fig7(runner: JobRunner, *, quick: bool = False) -> Fig7:
     """Compute the three loads, quasi-static and by runs (`quick`: one run)."""
-    still = workshop.all([Job(_case(load), (), "capacitance") for load in AXIAL_LOADS])
-    cold = workshop.all([Job(_case(load), ISOTHERMAL, "capacitance") for load in AXIAL_LOADS])
+    still = runner.all([Job(_case(load), (), "capacitance") for load in AXIAL_LOADS])
+    cold = runner.all([Job(_case(load), ISOTHERMAL, "capacitance") for load in AXIAL_LOADS])
     ends = (AXIAL_LOADS[0], AXIAL_LOADS[-1])
-    other = workshop.all([Job(_case(load), OTHER_FACTOR, "capacitance") for load in ends])
+    other = runner.all([Job(_case(load), OTHER_FACTOR, "capacitance") for load in ends])
     run = [load for load in AXIAL_LOADS if not quick or load == _DYNAMIC_LOAD]
-    runs = dict(zip(run, workshop.all([Job(_case(load), (), "contacts") for load in run]), strict=True))
+    runs = dict(zip(run, runner.all([Job(_case(load), (), "contacts") for load in run]), strict=True))
     contacts = [
         _ring(load, ring, answer, isothermal, runs.get(load))
         for load, answer, isothermal in zip(AXIAL_LOADS, still, cold, strict=True)
@@ -98,7 +98,7 @@ def _case(load: int) -> str:
     return f"6208-axial-{load}"
 
 
-def _ring(load: int, ring: str, still: Answer, cold: Answer, run: Answer | None) -> RingCapacitance:
+def _ring(load: int, ring: str, still: JobResult, cold: JobResult, run: JobResult | None) -> RingCapacitance:
     hertz, analytical = still[f"{ring} hertz_pF"], still[f"analytical {ring} Hertzian area"]
     return RingCapacitance(
         load_N=float(load),

@@ -13,7 +13,7 @@ from pydantic import Field
 
 from lambda_core.results.record import Record
 from lambda_core.thermal import iso15312
-from lambda_syla2026.workshop import ANCHOR, Answer, Job, Workshop
+from lambda_syla2026.job_runner import ANCHOR, Job, JobResult, JobRunner
 
 SERIES = ("60", "62", "63", "64", "618", "619")
 OIL = "mineral-vg32"  # 12 mm2/s at 70 degC
@@ -31,13 +31,13 @@ class Rated(Record):
     skf_whole: list[float] = Field(description="the same of SKF's friction model with drag")
 
 
-def rated_speeds(workshop: Workshop) -> tuple[list[Rated], int]:
+def rated_speeds(runner: JobRunner) -> tuple[list[Rated], int]:
     """Return all bearings together and each series, and how many have no answer.
 
     No answer: the catalogue does not decide the inner geometry, or SKF's model has no constants of the series.
     """
     plans = _plans()
-    answers = workshop.all([Job(ANCHOR, changes, "rated") for _, changes in plans])
+    answers = runner.all([Job(ANCHOR, changes, "rated") for _, changes in plans])
     named = [(series, a) for (series, _), a in zip(plans, answers, strict=True) if a.state == "done"]
     found = [_rated(name, [a for series, a in named if name in ("all", series)]) for name in ("all", *SERIES)]
     return [each for each in found if each.bearings], len(plans) - len(named)
@@ -63,7 +63,7 @@ def _plans() -> list[tuple[str, tuple[str, ...]]]:
     return sorted(found)
 
 
-def _rated(series: str, answers: list[Answer]) -> Rated:
+def _rated(series: str, answers: list[JobResult]) -> Rated:
     def spread(*names: str) -> list[float]:
         ratios = [sum(answer[name] for name in names) / answer["heat"] for answer in answers]
         return np.quantile(ratios, (0.5, 0.05, 0.95)).tolist() if ratios else []

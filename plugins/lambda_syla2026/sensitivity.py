@@ -8,8 +8,8 @@ from pydantic import Field
 
 from lambda_core.results.record import Record
 from lambda_syla2026 import parameters as P
+from lambda_syla2026.job_runner import Job, JobResult, JobRunner
 from lambda_syla2026.published import POINTS, mean_absolute_error
-from lambda_syla2026.workshop import Answer, Job, Workshop
 
 # The run that says what the cage's parameters do: the shortest one.
 _CAGE_CASE = "6319-cp10-3000"
@@ -79,13 +79,13 @@ def ends_of(entry: P.Entry) -> tuple[str, str]:
 
 
 def sensitivities(
-    workshop: Workshop, static: Sequence[Answer], runs: Sequence[Answer], quick: bool = False
+    runner: JobRunner, static: Sequence[JobResult], runs: Sequence[JobResult], quick: bool = False
 ) -> list[Sensitivity]:
     """Return the effect of every parameter that has a range, largest first.
 
     Parameters
     ----------
-    static, runs : sequence of Answer
+    static, runs : sequence of JobResult
         The blind set at the six points.
     quick : bool
         Leave out what needs further runs (the cage).
@@ -97,13 +97,13 @@ def sensitivities(
         for end in ends_of(entry)
         for point in POINTS
     ]
-    answers = workshop.all(jobs)
+    answers = runner.all(jobs)
     found, n = [], len(POINTS)
     for i, entry in enumerate(varied):
         low, high = answers[2 * n * i : 2 * n * i + n], answers[2 * n * i + n : 2 * n * (i + 1)]
         found.append(_static(entry, low, high, static, runs))
     if not quick:
-        found += _of_cage(workshop, runs)
+        found += _of_cage(runner, runs)
     return sorted(found, key=lambda s: -max(abs(s.low_change_pct), abs(s.high_change_pct)))
 
 
@@ -117,7 +117,7 @@ def _own_oil() -> tuple[str, ...]:
     """Return the changes that write the catalogue's oil into the case, so that one of its properties can change."""
     from lambda_core.batch.job import resolve_point
     from lambda_core.domain.units import show
-    from lambda_syla2026.workshop import case_text
+    from lambda_syla2026.job_runner import case_text
 
     model = resolve_point(case_text(_CAGE_CASE), P.changes())
     law, given = model.laws["ball_inner"]["rheology"], dict(c.split("=", 1) for c in P.changes())
@@ -133,9 +133,13 @@ def _own_oil() -> tuple[str, ...]:
 
 
 def _static(
-    entry: P.Entry, low: Sequence[Answer], high: Sequence[Answer], static: Sequence[Answer], runs: Sequence[Answer]
+    entry: P.Entry,
+    low: Sequence[JobResult],
+    high: Sequence[JobResult],
+    static: Sequence[JobResult],
+    runs: Sequence[JobResult],
 ) -> Sensitivity:
-    def effect(end: Sequence[Answer]) -> tuple[float, float]:
+    def effect(end: Sequence[JobResult]) -> tuple[float, float]:
         share = [moved["torque"] / still["torque"] - 1.0 for moved, still in zip(end, static, strict=True)]
         torque = [
             run["torque"] + moved["torque"] - still["torque"]
@@ -160,11 +164,11 @@ def _static(
     )
 
 
-def _of_cage(workshop: Workshop, runs: Sequence[Answer]) -> list[Sensitivity]:
+def _of_cage(runner: JobRunner, runs: Sequence[JobResult]) -> list[Sensitivity]:
     """Return what the cage's parameters do, by runs at one point."""
     mine = next(i for i, point in enumerate(POINTS) if point.case == _CAGE_CASE)
     varied = [entry for entry in P.blind_set() if entry.cage]
-    answers = workshop.all(
+    answers = runner.all(
         [Job(_CAGE_CASE, P.changes({entry.path: end}), "torque") for entry in varied for end in ends_of(entry)]
     )
     blind, found = runs[mine]["torque"], []

@@ -18,9 +18,9 @@ from lambda_syla2026 import anchor_pages, charts, text
 from lambda_syla2026.anchors import Anchors, anchors
 from lambda_syla2026.fig5 import Fig5, fig5
 from lambda_syla2026.fig7 import Fig7, fig7
+from lambda_syla2026.job_runner import JobResult, JobRunner
 from lambda_syla2026.page import Chapter, write
 from lambda_syla2026.table4 import Table4, table4
-from lambda_syla2026.workshop import Answer, Workshop
 
 What = Literal["table4", "anchors", "fig5", "fig7", "all"]
 MOST_WORKERS = 4
@@ -91,15 +91,15 @@ def reproduce(
     unconverged: dict[str, list[str]] = {}
     effort: list[Effort] = []
     workers = workers or min(usable_cores(), MOST_WORKERS)
-    with Workshop(folder, workers, progress) as workshop:
+    with JobRunner(folder, workers, progress) as runner:
         for name, run in (("table4", table4), ("anchors", anchors), ("fig7", fig7), ("fig5", fig5)):
             if what in (name, "all"):
                 say(f"repeating {name}")
-                before, known, started = len(workshop.failures), set(workshop.answers), time.monotonic()
-                found[name] = run(workshop, quick=quick)
-                new = [answer for job, answer in workshop.answers.items() if job not in known]
+                before, known, started = len(runner.failures), set(runner.answers), time.monotonic()
+                found[name] = run(runner, quick=quick)
+                new = [answer for job, answer in runner.answers.items() if job not in known]
                 effort.append(_effort(name, new, time.monotonic() - started))
-                unconverged[name] = workshop.failures[before:]
+                unconverged[name] = runner.failures[before:]
         result = Reproduction.model_validate(
             {**found, "files": [], "unconverged": unconverged, "effort": effort, "workers": workers}
         )
@@ -107,7 +107,7 @@ def reproduce(
     return result.model_copy(update={"files": files})
 
 
-def _effort(name: str, answers: Sequence[Answer], wall: float) -> Effort:
+def _effort(name: str, answers: Sequence[JobResult], wall: float) -> Effort:
     return Effort(
         experiment=name,
         jobs=len(answers),

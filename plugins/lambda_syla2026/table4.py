@@ -12,10 +12,10 @@ from lambda_core.results.record import Record
 from lambda_syla2026 import parameters as P
 from lambda_syla2026.anchored_table import AnchoredTable, anchored_table
 from lambda_syla2026.calibration import TAU, Calibration, by_law, by_runs, torques
+from lambda_syla2026.job_runner import Job, JobResult, JobRunner
 from lambda_syla2026.published import LOADS, METHODS, POINTS, TABLE_4, mean_absolute_error
 from lambda_syla2026.readings import MECHANISMS
 from lambda_syla2026.sensitivity import Sensitivity, sensitivities
-from lambda_syla2026.workshop import Answer, Job, Workshop
 
 TEMPERATURES = (55.0, 60.0, 62.5, 65.0, 70.0)  # of the oil [degC]
 SAMPLES, QUICK_SAMPLES = 200, 40
@@ -82,7 +82,7 @@ def jobs_of(replaced: Mapping[str, str | None] | None = None, kind: str = "frict
     return [Job(point.case, P.changes(replaced), kind) for point in POINTS]
 
 
-def table4(workshop: Workshop, *, quick: bool = False) -> Table4:
+def table4(runner: JobRunner, *, quick: bool = False) -> Table4:
     """Run and compare.
 
     Parameters
@@ -91,18 +91,18 @@ def table4(workshop: Workshop, *, quick: bool = False) -> Table4:
         Only the six blind runs are dynamic; laws and calibrations are quasi-static plus what these runs add, and
         the band has fewer samples.
     """
-    static, runs = _halves(workshop.all([*jobs_of(), *jobs_of(kind="torque")]))
+    static, runs = _halves(runner.all([*jobs_of(), *jobs_of(kind="torque")]))
     blind = [run["torque"] for run in runs]
     offset = np.array(blind) - [s["torque"] for s in static]
-    low, high, samples = _band(workshop, offset, QUICK_SAMPLES if quick else SAMPLES)
-    laws = _laws(workshop, offset, quick)
-    every_law = by_law(workshop, offset)
-    calibrations = _calibrations(workshop, offset, every_law[: len(LOADS)], quick)
-    temperatures = _temperatures(workshop, offset)
-    found = sensitivities(workshop, static, runs, quick)
-    anchored = anchored_table(workshop, QUICK_SAMPLES if quick else ANCHORED_SAMPLES)
+    low, high, samples = _band(runner, offset, QUICK_SAMPLES if quick else SAMPLES)
+    laws = _laws(runner, offset, quick)
+    every_law = by_law(runner, offset)
+    calibrations = _calibrations(runner, offset, every_law[: len(LOADS)], quick)
+    temperatures = _temperatures(runner, offset)
+    found = sensitivities(runner, static, runs, quick)
+    anchored = anchored_table(runner, QUICK_SAMPLES if quick else ANCHORED_SAMPLES)
     calibrated = calibrations[0]
-    details = _details(static, runs, low, high, _skf(workshop))
+    details = _details(static, runs, low, high, _skf(runner))
     inside = sum(d.low_Nmm <= p.measured <= d.high_Nmm for d, p in zip(details, POINTS, strict=True))
     errors = {"blind": mean_absolute_error(blind), "calibrated": calibrated.six_points_pct}
     errors |= {f"calibrated on {c.fitted_on}": c.six_points_pct for c in calibrations[1:]}
@@ -137,15 +137,15 @@ def table4(workshop: Workshop, *, quick: bool = False) -> Table4:
     )
 
 
-def _halves(answers: Sequence[Answer]) -> tuple[list[Answer], list[Answer]]:
+def _halves(answers: Sequence[JobResult]) -> tuple[list[JobResult], list[JobResult]]:
     half = len(answers) // 2
     return list(answers[:half]), list(answers[half:])
 
 
-def _band(workshop: Workshop, offset: FloatArray, count: int) -> tuple[list[float], list[float], int]:
+def _band(runner: JobRunner, offset: FloatArray, count: int) -> tuple[list[float], list[float], int]:
     """Return 5 % and 95 % of the sampled torques at each point, and the number of samples that have a solution."""
     jobs = [job for replaced in P.samples(count) for job in jobs_of(replaced)]
-    answers = workshop.all(jobs)
+    answers = runner.all(jobs)
     rows = [answers[i : i + len(POINTS)] for i in range(0, len(answers), len(POINTS))]
     solved = [row for row in rows if all(answer.state == "done" for answer in row)]
     torque = np.array([torques(row) for row in solved]) + offset
@@ -154,50 +154,48 @@ def _band(workshop: Workshop, offset: FloatArray, count: int) -> tuple[list[floa
 
 
 def _simulated(
-    workshop: Workshop, offset: FloatArray, sets: Sequence[Mapping[str, str | None]], quick: bool
+    runner: JobRunner, offset: FloatArray, sets: Sequence[Mapping[str, str | None]], quick: bool
 ) -> list[list[float]]:
     """Return the six torques of each parameter set: by runs, or when `quick` quasi-static plus the offset."""
     kind = "friction" if quick else "torque"
-    answers = workshop.all([job for replaced in sets for job in jobs_of(replaced, kind)])
+    answers = runner.all([job for replaced in sets for job in jobs_of(replaced, kind)])
     shift = offset if quick else np.zeros(len(POINTS))
     rows = [torques(answers[i : i + len(POINTS)]) for i in range(0, len(answers), len(POINTS))]
     return [(np.array(row) + shift).tolist() for row in rows]
 
 
-def _laws(workshop: Workshop, offset: FloatArray, quick: bool) -> list[Law]:
+def _laws(runner: JobRunner, offset: FloatArray, quick: bool) -> list[Law]:
     chosen = [*LAWS.values(), ("rolling_resistance", OTHER_ROLLING)]
-    found = _simulated(workshop, offset, [P.with_law(role, law) for role, law in chosen], quick)
+    found = _simulated(runner, offset, [P.with_law(role, law) for role, law in chosen], quick)
     return [
         Law(role=role, law=law, torque_Nmm=row, error_pct=mean_absolute_error(row), simulated=not quick)
         for (role, law), row in zip(chosen, found, strict=True)
     ]
 
 
-def _calibrations(
-    workshop: Workshop, offset: FloatArray, fits: Sequence[Calibration], quick: bool
-) -> list[Calibration]:
+def _calibrations(runner: JobRunner, offset: FloatArray, fits: Sequence[Calibration], quick: bool) -> list[Calibration]:
     """Return the calibrations with the blind laws, by runs at the fitted tau_e unless `quick`."""
     if quick:
         return list(fits)
-    rows = _simulated(workshop, offset, [{TAU: f"{fit.tau_e_MPa:.4g} MPa"} for fit in fits], quick)
+    rows = _simulated(runner, offset, [{TAU: f"{fit.tau_e_MPa:.4g} MPa"} for fit in fits], quick)
     return [by_runs(*each) for each in zip(fits, LOADS, rows, strict=True)]
 
 
-def _temperatures(workshop: Workshop, offset: FloatArray) -> list[dict[str, float]]:
+def _temperatures(runner: JobRunner, offset: FloatArray) -> list[dict[str, float]]:
     sets = [{"lubricant.temperature": f"{value:g} degC"} for value in TEMPERATURES]
-    rows = _simulated(workshop, offset, sets, quick=True)
+    rows = _simulated(runner, offset, sets, quick=True)
     return [
         {"temperature_degC": value, "error_pct": mean_absolute_error(row)}
         for value, row in zip(TEMPERATURES, rows, strict=True)
     ]
 
 
-def _skf(workshop: Workshop) -> list[float]:
-    return [answer["total"] for answer in workshop.all(jobs_of(kind="skf"))]
+def _skf(runner: JobRunner) -> list[float]:
+    return [answer["total"] for answer in runner.all(jobs_of(kind="skf"))]
 
 
 def _details(
-    static: Sequence[Answer], runs: Sequence[Answer], low: list[float], high: list[float], skf: list[float]
+    static: Sequence[JobResult], runs: Sequence[JobResult], low: list[float], high: list[float], skf: list[float]
 ) -> list[Detail]:
     return [
         Detail(

@@ -23,6 +23,7 @@ RETIRED = (
     "osculation",
     "footprint",
     "windage",
+    "workshop",
 )
 _NAMES = {"grasp": "make_context", "proceed": "integrate", "settle": "solve_static or finalise_step"}
 

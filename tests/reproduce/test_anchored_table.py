@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 from lambda_syla2026 import anchored_table as T
 from lambda_syla2026 import parameters as P
+from lambda_syla2026.job_runner import Job, JobResult
 from lambda_syla2026.published import LOADS, POINTS, TABLE_4
-from lambda_syla2026.workshop import Answer, Job
 
 
 class Bath:
-    """A workshop whose SKF torque is the printed row where the oil has the temperatures below."""
+    """A runner whose SKF torque is the printed row where the oil has the temperatures below."""
 
     TRUE = (63.0, 60.0, 69.0, 64.0, 65.0, 70.0)
 
-    def all(self, jobs: list[Job]) -> list[Answer]:
-        return [Answer("done", "", "", self.numbers(job)) for job in jobs]
+    def all(self, jobs: list[Job]) -> list[JobResult]:
+        return [JobResult("done", "", "", self.numbers(job)) for job in jobs]
 
     def numbers(self, job: Job) -> dict[str, float | None]:
         i = next(i for i, point in enumerate(POINTS) if point.case == job.case)

@@ -8,8 +8,8 @@ import pytest
 from lambda_syla2026 import anchors as A
 from lambda_syla2026 import parameters as P
 from lambda_syla2026.anchor_pages import chapter
+from lambda_syla2026.job_runner import ANCHOR, Job, JobResult, case_text
 from lambda_syla2026.readings import MECHANISMS, anchor
-from lambda_syla2026.workshop import ANCHOR, Answer, Job, case_text
 
 from lambda_core.batch.job import resolve_point
 
@@ -17,11 +17,11 @@ HEAT = {"contacts": 90.0, "drag": 60.0, "skf drag": 20.0, "heat": 100.0}
 
 
 class Invented:
-    """A workshop whose torque is SKF's but for what it is told about load and set."""
+    """A runner whose torque is SKF's but for what it is told about load and set."""
 
-    def all(self, jobs: list[Job]) -> list[Answer]:
+    def all(self, jobs: list[Job]) -> list[JobResult]:
         return [
-            Answer("done", "", "", {"torque": 100.0 * self.ratio(job), "skf": 100.0, "boundary": 1.0, **HEAT})
+            JobResult("done", "", "", {"torque": 100.0 * self.ratio(job), "skf": 100.0, "boundary": 1.0, **HEAT})
             for job in jobs
         ]
 

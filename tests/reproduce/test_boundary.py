@@ -8,24 +8,24 @@ from pathlib import Path
 import numpy as np
 import pytest
 from lambda_syla2026.boundary import CAGE, CASE, CRITERIA, LIMITS, TURNS, Ray, Setting, excess, search
+from lambda_syla2026.job_runner import Job, JobResult, JobRunner
 from lambda_syla2026.stability import Zone, half_zone, jackknife
-from lambda_syla2026.workshop import Answer, Job, Workshop
 
 
-def answer(s: float, t: float, error: float = 1e-6) -> Answer:
-    return Answer("done", "", "", {"S": s, "S_error": error, "T": t, "T_error": error})
+def answer(s: float, t: float, error: float = 1e-6) -> JobResult:
+    return JobResult("done", "", "", {"S": s, "S_error": error, "T": t, "T_error": error})
 
 
 class Known:
-    """A workshop whose bearing changes at given accelerations."""
+    """A runner whose bearing changes at given accelerations."""
 
     def __init__(self, critical: dict[str, float]) -> None:
         self.critical, self.runs = critical, 0
 
-    def all(self, jobs: list[Job]) -> list[Answer]:
+    def all(self, jobs: list[Job]) -> list[JobResult]:
         return [self.one(job) for job in jobs]
 
-    def one(self, job: Job) -> Answer:
+    def one(self, job: Job) -> JobResult:
         self.runs += 1
         text = next(change for change in job.changes if change.startswith("bodies.outer_ring.x="))
         if text.endswith("locked"):
@@ -64,11 +64,11 @@ def test_errors_of_the_runs_are_carried_over_to_the_boundary(criterion: str) -> 
     s, t, error = (0.0100, 0.0085, 0.0075), (0.0, 0.03, 0.08), {"S": 5e-5, "T": 2e-3}
     random = np.random.default_rng(3)
     runs = [
-        Answer("done", "", "", {"S": a, "S_error": error["S"], "T": b, "T_error": error["T"]})
+        JobResult("done", "", "", {"S": a, "S_error": error["S"], "T": b, "T_error": error["T"]})
         for a, b in zip(s, t, strict=True)
     ]
 
-    def at(answers: list[Answer]) -> float:
+    def at(answers: list[JobResult]) -> float:
         ray = Ray(Setting("A", 5.0), 10.0, {40.0: answers[1], 48.0: answers[2]})
         found = ray.boundary(criterion, answers[0])
         assert found is not None
@@ -78,7 +78,7 @@ def test_errors_of_the_runs_are_carried_over_to_the_boundary(criterion: str) -> 
         copies = []
         for i, run in enumerate(runs):
             moved = {c: run[c] + (error[c] * random.standard_normal() if i in which else 0.0) for c in CRITERIA}
-            copies.append(Answer("done", "", "", {**run.numbers, **moved}))
+            copies.append(JobResult("done", "", "", {**run.numbers, **moved}))
         return at(copies)
 
     boundary = Ray(Setting("A", 5.0), 10.0, {40.0: runs[1], 48.0: runs[2]}).boundary(criterion, runs[0])
@@ -144,9 +144,9 @@ def test_half_the_load_zone() -> None:
 def test_runs_lie_on_both_sides_of_the_boundary(tmp_path: Path) -> None:
     """Variant A under 5 kN at 8.9 Hz: 20 m/s2 leave the running as it is, 80 m/s2 alter it by both criteria."""
     ray = Ray(Setting("A", 5.0), 8.9)
-    with Workshop(tmp_path, 1) as workshop:
-        below, above = workshop.all([ray.job(20.0), ray.job(80.0)])
-        still = workshop.all([Job(CASE, ray.setting.changes(), "stability")])[0]
+    with JobRunner(tmp_path, 1) as runner:
+        below, above = runner.all([ray.job(20.0), ray.job(80.0)])
+        still = runner.all([Job(CASE, ray.setting.changes(), "stability")])[0]
     for criterion in CRITERIA:
         assert excess(criterion, below, still) < 0.0
         assert excess(criterion, above, still) > 0.0

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from lambda_syla2026 import parameters as P
 from lambda_syla2026.calibration import TAU, TAU_GRID, by_law, fitted, laws_of
+from lambda_syla2026.job_runner import Job, JobResult
 from lambda_syla2026.published import POINTS
 from lambda_syla2026.readings import friction
 from lambda_syla2026.table4 import OperatingPoint
-from lambda_syla2026.workshop import Answer, Job
 
 from lambda_core import api
 
@@ -110,12 +110,12 @@ def test_every_law_without_constants_of_the_user_is_calibrated() -> None:
 
 
 class Invented:
-    """A workshop whose torque is the measured one at 7 MPa with one pair of laws, half of it with others."""
+    """A runner whose torque is the measured one at 7 MPa with one pair of laws, half of it with others."""
 
     PAIR = ("models.elastic_hysteresis=houpert", "models.rolling_resistance=goksem-hargreaves")
 
-    def all(self, jobs: list[Job]) -> list[Answer]:
-        return [Answer("done", "", "", {"torque": self.torque(job)}) for job in jobs]
+    def all(self, jobs: list[Job]) -> list[JobResult]:
+        return [JobResult("done", "", "", {"torque": self.torque(job)}) for job in jobs]
 
     def torque(self, job: Job) -> float:
         point = next(point for point in POINTS if point.case == job.case)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from lambda_syla2026.workshop import Answer, Job, Workshop
+from lambda_syla2026.job_runner import Job, JobResult, JobRunner
 
 from lambda_core.batch.scheduler import StudyProgress
 from lambda_core.domain.errors import SolverError
@@ -23,14 +23,14 @@ def test_an_interrupted_plan_is_resumed(tmp_path: Path) -> None:
         if progress.done >= 2:
             raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt), Workshop(tmp_path, 1, interrupt) as workshop:
-        workshop.all(JOBS)
+    with pytest.raises(KeyboardInterrupt), JobRunner(tmp_path, 1, interrupt) as runner:
+        runner.all(JOBS)
     before = kept(tmp_path)
     assert 2 <= len(before) < len(JOBS)
 
     said: list[StudyProgress] = []
-    with Workshop(tmp_path, 1, said.append) as workshop:
-        found = workshop.all(JOBS)
+    with JobRunner(tmp_path, 1, said.append) as runner:
+        found = runner.all(JOBS)
     after = kept(tmp_path)
     assert {path: after[path] for path in before} == before
     assert len(after) == len(JOBS)
@@ -38,23 +38,23 @@ def test_an_interrupted_plan_is_resumed(tmp_path: Path) -> None:
     # A stiffer bearing under more load, and the same numbers as in one go.
     stiffness = [answer["stiffness_N_per_um"] for answer in found]
     assert stiffness == sorted(stiffness)
-    with Workshop(tmp_path / "other", 1) as workshop:
-        assert [answer.numbers for answer in workshop.all(JOBS)] == [answer.numbers for answer in found]
+    with JobRunner(tmp_path / "other", 1) as runner:
+        assert [answer.numbers for answer in runner.all(JOBS)] == [answer.numbers for answer in found]
 
 
 def test_equal_jobs_are_done_once(tmp_path: Path) -> None:
-    with Workshop(tmp_path, 1) as workshop:
-        first, again = workshop.all([JOBS[0], JOBS[0]])
+    with JobRunner(tmp_path, 1) as runner:
+        first, again = runner.all([JOBS[0], JOBS[0]])
     assert first == again
     assert len(kept(tmp_path)) == 1
 
 
 def test_what_was_found_before_keeps_the_time_that_it_took(tmp_path: Path) -> None:
-    with Workshop(tmp_path, 1) as workshop:
-        first = workshop.all(JOBS[:1])[0]
-        assert workshop.answers == {JOBS[0]: first}
-    with Workshop(tmp_path, 1) as workshop:
-        again = workshop.all(JOBS[:1])[0]
+    with JobRunner(tmp_path, 1) as runner:
+        first = runner.all(JOBS[:1])[0]
+        assert runner.answers == {JOBS[0]: first}
+    with JobRunner(tmp_path, 1) as runner:
+        again = runner.all(JOBS[:1])[0]
     assert first.fresh
     assert not again.fresh
     assert first.processor_s == again.processor_s > 0.0
@@ -62,12 +62,12 @@ def test_what_was_found_before_keeps_the_time_that_it_took(tmp_path: Path) -> No
 
 def test_a_case_that_is_wrong_fails_alone(tmp_path: Path) -> None:
     """Nothing of it is kept, the others go on, and its number is asked for in vain with the reason."""
-    with Workshop(tmp_path, 1) as workshop:
-        good, bad = workshop.all([JOBS[0], Job("6220-excited", ("loads.radial=5 furlong",), "axial resonance")])
-        assert len(workshop.failures) == 1
+    with JobRunner(tmp_path, 1) as runner:
+        good, bad = runner.all([JOBS[0], Job("6220-excited", ("loads.radial=5 furlong",), "axial resonance")])
+        assert len(runner.failures) == 1
     assert good.state == "done"
     assert bad.state == "failed"
-    assert isinstance(bad, Answer)
+    assert isinstance(bad, JobResult)
     with pytest.raises(SolverError, match=r"loads\.radial"):
         bad["resonance_Hz"]
     assert len(kept(tmp_path)) == 1

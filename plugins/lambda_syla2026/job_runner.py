@@ -40,7 +40,7 @@ class Job:
 
 
 @dataclass(frozen=True)
-class Answer:
+class JobResult:
     """What a job has found.
 
     `state` is "done", "partial" (a run that has not converged), "failed" or "stopped" (somebody asked the run to);
@@ -77,7 +77,7 @@ class Found:
     """What became of a job."""
 
     job: Job
-    answer: Answer
+    answer: JobResult
 
     @property
     def state(self) -> str:
@@ -92,10 +92,10 @@ def do(assigned: Assignment) -> Found:
 
 def lost(assigned: Assignment, reason: str) -> Found:
     """Return what is said of a job whose worker died."""
-    return Found(assigned.job, Answer("failed", reason, "", {}))
+    return Found(assigned.job, JobResult("failed", reason, "", {}))
 
 
-def _answer(job: Job, folder: str) -> Answer:
+def _answer(job: Job, folder: str) -> JobResult:
     started, memo = time.process_time(), Memo(Path(folder) / "points")
     try:
         model = resolve_point(case_text(job.case), job.changes)
@@ -103,11 +103,11 @@ def _answer(job: Job, folder: str) -> Answer:
         name = f"{hash_[:_DIGITS]}-{job.kind.replace(' ', '-')}-{_FORMAT}"
         kept = memo.find(name)
         if kept is not None:
-            return Answer(**kept)
+            return JobResult(**kept)
         dynamic = job.kind in DYNAMIC
-        answer = _run(job, hash_, folder) if dynamic else Answer("done", "", hash_, STATIC[job.kind](model))
+        answer = _run(job, hash_, folder) if dynamic else JobResult("done", "", hash_, STATIC[job.kind](model))
     except LambdaError as error:
-        return Answer("failed", str(error), "", {})
+        return JobResult("failed", str(error), "", {})
     answer = replace(answer, processor_s=time.process_time() - started)
     if answer.state in ("failed", "stopped"):
         return answer
@@ -129,16 +129,16 @@ def case_text(name: str) -> str:
     return standalone_toml(load_case(name))
 
 
-def _run(job: Job, hash_: str, folder: str) -> Answer:
+def _run(job: Job, hash_: str, folder: str) -> JobResult:
     outcome = work(Task(0, case_text(job.case), job.changes, "dynamic", (), folder))
     if outcome.state in ("failed", "stopped"):
-        return Answer(outcome.state, outcome.reason, hash_, {})
+        return JobResult(outcome.state, outcome.reason, hash_, {})
     numbers = DYNAMIC[job.kind](Result(Path(folder) / outcome.file))
-    return Answer(outcome.state, outcome.reason, hash_, numbers, outcome.file)
+    return JobResult(outcome.state, outcome.reason, hash_, numbers, outcome.file)
 
 
 @dataclass
-class Workshop:
+class JobRunner:
     """Workers and the folder that keeps what they find; the store of their director.
 
     Parameters
@@ -155,7 +155,7 @@ class Workshop:
     workers: int
     report: Report | None = None
     failures: list[str] = field(default_factory=list)
-    answers: dict[Job, Answer] = field(default_factory=dict)  # everything that was asked for
+    answers: dict[Job, JobResult] = field(default_factory=dict)  # everything that was asked for
     _asked: set[Job] = field(default_factory=set)
 
     def __post_init__(self) -> None:
@@ -171,7 +171,7 @@ class Workshop:
         self._pool = Processes(self.workers)
         self._director = Director[Assignment, Found](self, self._pool, do, lost, self.report, keep_after=0.0)
 
-    def __enter__(self) -> Workshop:
+    def __enter__(self) -> JobRunner:
         return self
 
     def __exit__(
@@ -179,7 +179,7 @@ class Workshop:
     ) -> None:
         self._pool.close(stop=kind is not None)
 
-    def all(self, jobs: Sequence[Job]) -> list[Answer]:
+    def all(self, jobs: Sequence[Job]) -> list[JobResult]:
         """Do jobs side by side and return their answers in order; equal jobs are done once.
 
         Raises
