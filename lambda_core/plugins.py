@@ -3,13 +3,14 @@
 from typing import TYPE_CHECKING
 
 from lambda_core.discovery.hookspecs import hookimpl
+from lambda_core.discovery.manager import built_in
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import Channel
 from lambda_core.domain.hertz import hertz_shape
 from lambda_core.domain.roles import OK, ROLE_API
 from lambda_core.domain.units import Quantity
 from lambda_core.laws.context import Context, Material, Oil
-from lambda_core.laws.law import LazyLaw, law
+from lambda_core.laws.law import Law, LazyLaw, law
 from lambda_core.laws.parameter import NoParameters, Parameters, parameter
 from lambda_core.views.chart import Arrows, Axis, Field, Mark, Panel, Series, ViewData
 from lambda_core.views.method import METHOD_API, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
@@ -40,6 +41,7 @@ __all__ = [
     "Figure",
     "FloatArray",
     "Integral",
+    "Law",
     "LazyLaw",
     "Mark",
     "Material",
@@ -65,6 +67,7 @@ __all__ = [
     "StudyTable",
     "View",
     "ViewData",
+    "built_in",
     "hertz_shape",
     "hookimpl",
     "law",

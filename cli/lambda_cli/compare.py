@@ -10,6 +10,8 @@ import typer
 from lambda_cli.options import CaseArgument, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 
+SIDE_BY_SIDE = "Results stand side by side with: lambda-bearing show A.h5 B.h5, or view A.h5 B.h5"
+
 
 def compare(
     case: CaseArgument,
@@ -35,6 +37,8 @@ def compare(
     """
     from lambda_core import api
 
+    if case.endswith(".h5"):
+        raise api.UsageError(f"{case} is a result, compare takes a case. {SIDE_BY_SIDE}")
     with talk(progress, quiet) as speaker:
         found = api.compare(
             case, changes or (), methods=method or (), result=result, contamination=contamination, announce=speaker.say

@@ -194,6 +194,10 @@ def _say_usage(error: Any) -> None:
     message = error.format_message()
     if message:
         _say(f"Error: {message}")
+    if context is not None and context.info_name == "compare" and "unexpected extra argument" in message:
+        from lambda_cli.compare import SIDE_BY_SIDE
+
+        _say(SIDE_BY_SIDE)
 
 
 def _bug(error: Exception) -> int:

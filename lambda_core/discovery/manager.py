@@ -28,7 +28,7 @@ from lambda_core.domain.errors import UsageError, nearest, unknown_name
 from lambda_core.domain.handed_laws import HandedLaw, handed_laws, when_changed
 from lambda_core.domain.installed import CASES, COMMANDS, OFF_VARIABLE, OWN, PLUGINS, Source, installed, switched_off
 from lambda_core.domain.plugin_errors import PluginError, PluginFault, describe
-from lambda_core.laws.law import law_of
+from lambda_core.laws.law import Law, law_of
 
 _REGISTERING_HOOKS = (
     "lambda_laws",
@@ -42,6 +42,8 @@ _REGISTERING_HOOKS = (
 
 _SLOW_IMPORT = 1.0  # [s]
 SLOW = "slow"  # stands for the entry point in the note of a slow import
+
+_told_by_caller: set[str] = set()  # files that were asked for: their fault is an error, no warning
 
 log = logging.getLogger("lambda_core")
 
@@ -89,6 +91,7 @@ def use_plugin(path: str | Path) -> None:
     if not file.is_file():
         raise UsageError(f'"{path}" is no file: a plugin of one file is FILE.py')
     source = add_file(file)
+    _told_by_caller.add(source.name)
     registry.cache_clear()
     for fault in registry().faults:
         if fault.entry_point == source.name and fault.is_broken:
@@ -107,7 +110,7 @@ def registry() -> Registry:
     handed = [Source(law.project, law.digest, law.label, partial(_hooks_of, law)) for law in handed_laws()]
     found = discover([*installed(PLUGINS), *file_sources(), *handed], off=switched_off())
     for fault in found.faults:
-        if fault.is_broken:
+        if fault.is_broken and fault.entry_point not in _told_by_caller:
             log.warning("plugin not in use: %s", fault)
     for note in found.notes:
         if note.entry_point == SLOW:
@@ -116,6 +119,35 @@ def registry() -> Registry:
 
 
 when_changed(registry.cache_clear)
+
+
+def built_in(label: str) -> Law:
+    """Return a law of the program itself, for a plugin that builds on it.
+
+    Parameters
+    ----------
+    label : str
+        "role/name", for example "rolling_resistance/biboulet-houpert".
+
+    Returns
+    -------
+    Law
+        ``kernel`` is the plain function, which other kernels may call with a ``par`` that has the names which it reads;
+        ``parameters`` and ``prepare`` are what it declares.
+
+    Raises
+    ------
+    PluginError
+        When there is no such law.
+    """
+    role, _, name = label.partition("/")
+    return _own_laws_alone().model(role, name)
+
+
+@lru_cache(maxsize=1)
+def _own_laws_alone() -> Registry:
+    """Return a registry of what the program itself brings: a plugin asks while the whole one is being made."""
+    return discover([source for source in installed(PLUGINS) if source.project == OWN])
 
 
 def _hooks_of(handed: HandedLaw) -> ModuleType:

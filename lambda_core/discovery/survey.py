@@ -227,8 +227,15 @@ def check_installed(registry: Registry, wanted: Sequence[str] = ()) -> Iterator[
 
 
 def broken(registry: Registry, wanted: Sequence[str] = ()) -> list[FaultCard]:
-    """Return the plugins of the distributions `wanted` (all when empty) that could not be taken into use."""
-    return [
+    """Return what of the distributions `wanted` (all when empty) could not be taken into use, rows included."""
+    rows = []
+    if any(not wanted or project_of(distribution) in wanted for distribution, _ in registry.data_folders):
+        registry.catalogue().close()
+        for distribution, _ in registry.data_folders:
+            told = [text for text in registry.set_aside.get("lambda_data", ()) if f" {distribution} " in text]
+            if not wanted or project_of(distribution) in wanted:
+                rows += [FaultCard(distribution=distribution, entry_point="lambda_data", message=text) for text in told]
+    return rows + [
         FaultCard(**vars(fault))
         for fault in registry.faults
         if fault.is_broken and (not wanted or project_of(fault.distribution) in wanted)

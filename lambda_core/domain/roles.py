@@ -121,7 +121,7 @@ ROLES: dict[str, Role] = {
             "thermal_correction",
             "factor on the film for heating in the inlet",
             _arguments(
-                "u_mean f mean surface velocity [m/s]; u_slide f sliding velocity at the contact's centre [m/s]; "
+                "u_mean f mean surface velocity, >= 0 [m/s]; u_slide f sliding velocity at the contact's centre [m/s]; "
                 "p_max f maximum pressure [Pa]; E_eff f E' [Pa]; eta0 f viscosity at ambient pressure [Pa s]; "
                 "beta f -d ln(eta)/dT [1/K]; k_oil f thermal conductivity of the oil [W/(m K)]; "
                 "par a parameters; out A results"
@@ -134,7 +134,7 @@ ROLES: dict[str, Role] = {
             "supply",
             "factors on film and rolling resistance for oil that is missing in the inlet",
             _arguments(
-                "u_mean f mean surface velocity [m/s]; load f normal load [N]; "
+                "u_mean f mean surface velocity, >= 0 [m/s]; load f normal load [N]; "
                 "semi_a f semi-axis across rolling [m]; semi_b f semi-axis along rolling [m]; "
                 "R_x f reduced radius along rolling [m]; h_cen f central film of the flooded contact [m]; "
                 "h_min f minimum film of the flooded contact [m]; par a parameters; out A results"
@@ -147,8 +147,9 @@ ROLES: dict[str, Role] = {
             "contact_temperature",
             "temperature of the film in each cell",
             _arguments(
-                "T_in f oil temperature at the inlet [K]; u_mean f mean surface velocity [m/s]; h f central film [m]; "
-                "semi_b f semi-axis along rolling [m]; tau a shear stress [Pa]; slip a slip velocity [m/s]; "
+                "T_in f oil temperature at the inlet [K]; u_mean f mean surface velocity, >= 0 [m/s]; "
+                "h f central film [m]; semi_b f semi-axis along rolling [m]; tau a shear stress [Pa]; "
+                "slip a slip velocity [m/s]; "
                 "par a parameters; T A film temperature [K]"
             ),
             ("film temperature [K]",),
@@ -173,7 +174,8 @@ ROLES: dict[str, Role] = {
             "rolling_resistance",
             "hydrodynamic force of the inlet on each surface",
             _arguments(
-                "u_mean f mean surface velocity [m/s]; load f normal load [N]; semi_a f semi-axis across rolling [m]; "
+                "u_mean f mean surface velocity, >= 0 [m/s]; load f normal load [N]; "
+                "semi_a f semi-axis across rolling [m]; "
                 f"semi_b f semi-axis along rolling [m]; {_MATERIAL}; {_OIL}; beta f -d ln(eta)/dT [1/K]; "
                 "k_oil f thermal conductivity of the oil [W/(m K)]; par a parameters; out A results"
             ),

@@ -17,7 +17,7 @@ from typing import Annotated, Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
-from lambda_core.domain.errors import nearest
+from lambda_core.domain.errors import nearest, unknown_name
 
 _RPM = math.pi / 30.0
 _ZERO_CELSIUS = Decimal("273.15")
@@ -265,7 +265,7 @@ class Quantity:
 
     def __post_init__(self) -> None:
         if self.name not in UNITS:
-            raise ValueError(f'"{self.name}" is not a quantity; known: {", ".join(UNITS)}')
+            raise ValueError(unknown_name("quantity", self.name, UNITS))
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         def validate(value: Any, info: core_schema.ValidationInfo) -> float:

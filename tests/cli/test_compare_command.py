@@ -35,3 +35,9 @@ def test_text_has_one_table_per_group(capsys: pytest.CaptureFixture[str]) -> Non
 def test_unknown_method_is_named_with_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["compare", CASE, "--method", "skff", "-q"]) == 2
     assert "skf" in capsys.readouterr().err.replace("skff", "")
+
+
+@pytest.mark.parametrize("arguments", [["a.h5"], ["a.h5", "b.h5"]])
+def test_a1_results_are_pointed_to_show_and_view(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["compare", *arguments]) == 2
+    assert "lambda-bearing show A.h5 B.h5, or view A.h5 B.h5" in capsys.readouterr().err

@@ -116,3 +116,10 @@ def test_a2_an_oil_that_passes_the_check_runs(brings: Callable[..., None]) -> No
     model = api.check(CASE, ["lubricant.name=mine"])
     assert any("mine has no data for bode" in line for line in model.assumptions)
     assert api.law_problems(model) == ()
+
+
+def test_a2_the_check_of_a_package_looks_at_its_rows(brings: Callable[..., None]) -> None:
+    brings(lubricant_parameter=PARAMETER.format(source="evil").replace("600", "much"))
+    (fault,) = api.plugin_faults(["evil"])
+    assert (fault.distribution, fault.entry_point) == ("evil 1.0", "lambda_data")
+    assert '"much" is not a number' in fault.message
