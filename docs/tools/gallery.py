@@ -83,6 +83,14 @@ PICTURES = (
         "motor",
     ),
     Picture(
+        "catalogues",
+        "Beside catalogues",
+        "The simulated torque by parts, and what SKF's and Schaeffler's models say for the same point.",
+        "lambda-bearing view motor.h5 catalogues",
+        "motor-catalogues.png",
+        "motor",
+    ),
+    Picture(
         "film",
         "Oil film",
         "Film thickness and Lambda of every contact around the bearing.",

@@ -43,6 +43,7 @@ def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
     slip = [
         None if s.cage_speed_over_epicyclic is None else 100.0 * (1.0 - s.cage_speed_over_epicyclic) for s in summaries
     ]
+    lives = [getattr(s.rating, "reference_life_h", None) for s in summaries]
     panels = (
         Panel("friction torque", which, Axis("friction torque", "N mm", low=0.0), tuple(stacks), stacked=True),
         Panel(
@@ -59,6 +60,7 @@ def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
         bars("smallest film", "minimum film", "um", [s.min_film_um for s in summaries]),
         bars("cage", "slip of the cage", "%", slip),
         bars("capacitance at the end", "bearing capacitance", "nF", [s.bearing_capacitance_nF for s in summaries]),
+        bars("rating life", "L10rh, ISO/TS 16281", "h", lives),
     )
     open_ends = [name for name, s in zip(names, summaries, strict=True) if not s.converged]
     notes = ["means over whole cage revolutions of each run"]
