@@ -268,4 +268,7 @@ def _collect(manager: pluggy.PluginManager, plugin: object, source: Source, coll
             return f"{hook_name} raised {describe(error)}"
     registered = {id(entry.item) for entry in entries}
     own = [each for each in _own_laws(plugin) if id(each) not in registered]
-    return collection.take([*(Entry("lambda_laws", source.distribution, each) for each in own), *entries])
+    try:
+        return collection.take([*(Entry("lambda_laws", source.distribution, each) for each in own), *entries])
+    except (Exception, SystemExit) as error:  # a check of parameters, or a property, of the plugin's own
+        return f"cannot be taken: {describe(error)}"

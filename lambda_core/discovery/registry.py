@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import logging
+import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -315,7 +317,8 @@ def _load(lazy: LazyLaw, distribution: str) -> Law:
     label = f"{lazy.role}/{lazy.name} ({distribution})"
     module, _, attribute = lazy.target.partition(":")
     try:
-        target = getattr(importlib.import_module(module), attribute)
+        with contextlib.redirect_stdout(sys.stderr):  # stdout is for data
+            target = getattr(importlib.import_module(module), attribute)
     except PluginError as error:
         raise PluginError(f"{label}: {error}") from None
     except (Exception, SystemExit) as error:
@@ -325,7 +328,8 @@ def _load(lazy: LazyLaw, distribution: str) -> Law:
         raise PluginError(f"{label}: {lazy.target} is a {type(target).__name__}, not a law: write @law(...) above it")
     if (found.role, found.name) != (lazy.role, lazy.name):
         raise PluginError(f"{label}: {lazy.target} is {found.role}/{found.name}")
-    message = law_fault(found)
+    with blamed(label):
+        message = law_fault(found)
     if message:
         raise PluginError(f"{label}: {message}")
     return replace(found, distribution=distribution)

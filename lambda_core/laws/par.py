@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -61,8 +63,9 @@ def make_par(law: Law, parameters: BaseModel, context: Context) -> FloatArray:
     """
     layout, wanted = par_layout(law), _record_type(law)
     try:
-        made: Any = law.prepare(parameters, context) if law.prepare else parameters
-    except Exception as error:
+        with contextlib.redirect_stdout(sys.stderr):  # stdout is for data
+            made: Any = law.prepare(parameters, context) if law.prepare else parameters
+    except (Exception, SystemExit) as error:
         raise PluginError(f"{law.label}: the parameters cannot be prepared: {describe(error)}") from error
     if not isinstance(made, wanted):
         raise PluginError(f"{law.label}: prepare returns a {type(made).__name__}, its annotation is {wanted.__name__}")

@@ -15,6 +15,7 @@ from lambda_core.catalogue.protocol import LubricantRow
 from lambda_core.domain.elements import ELEMENTS
 from lambda_core.domain.errors import LambdaError, unknown_name
 from lambda_core.domain.installed import OWN
+from lambda_core.domain.plugin_errors import describe
 from lambda_core.domain.roles import CAGE, DEFAULT_MODELS, MOTION_ROLES
 from lambda_core.laws.law import Law
 from lambda_core.system.bearing import ChosenLaw
@@ -116,6 +117,9 @@ class LawResolver:
             parameters = chosen.parameters.model_validate(texts)
         except ValidationError as error:
             self._parameter_problems(error, element, role, chosen, texts, case_texts)
+            return None
+        except (Exception, SystemExit) as error:  # a check of the plugin's own
+            self.ledger.problem(where, f"{chosen.label}: its parameters cannot be read: {describe(error)}")
             return None
         origins = {}
         for key in type(parameters).model_fields:

@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from lambda_core.domain.errors import LambdaError, unknown_name
 from lambda_core.domain.plugin_errors import PluginError, blamed, went_on_without
 from lambda_core.laws.context import Material, Oil
@@ -198,6 +200,11 @@ def evaluate_methods(methods: Iterable[Method], inputs: MethodInputs) -> tuple[M
                 table = method.evaluate(inputs)
             if not isinstance(table, MethodTable):
                 raise PluginError(f"{what} returns a {type(table).__name__}, not a MethodTable")
+            for row in table.rows:
+                if not isinstance(row, MethodRow):
+                    raise PluginError(f"{what} returns a row that is a {type(row).__name__}, not a MethodRow")
+                if not isinstance(row.value, int | float | np.number):
+                    raise PluginError(f"{what} returns {row.group} {row.name} = {row.value!r}, which is no number")
             answers.append(MethodAnswer(method, table))
         except NotApplicable as error:
             answers.append(MethodAnswer(method, None, str(error)))

@@ -44,6 +44,7 @@ def by_hand(slip: Any, p: Any, T: Any, ln_eta: Any, h: float, par: Any, tau: Any
 def untouched(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
     """Leave the process as it was: no file named, no law handed over."""
     monkeypatch.setenv(ON_VARIABLE, "")
+    monkeypatch.setenv(manager.OFF_VARIABLE, "")
     monkeypatch.setattr(local_files, "user_folder", lambda: tmp_path / "config" / "plugins")
     monkeypatch.setattr(local_files, "_texts", {})
     monkeypatch.setattr(handed_laws, "_laws", {})
@@ -178,6 +179,25 @@ def test_a_study_works_with_a_file_and_its_law(file: Path, tmp_path: Path) -> No
     }  # fmt: skip
     status = api.study_run(study, tmp_path / "own", workers=1)
     assert (status.done, status.failed) == (2, 0), status.reasons
+
+
+@pytest.mark.timeout(900)
+def test_a_result_names_the_file_that_its_law_came_from(file: Path, tmp_path: Path) -> None:
+    """``resume`` without the file says which it was, with another text that it has changed; ``cite`` has it, too."""
+    api.use_plugin(file)
+    out = tmp_path / "r.h5"
+    result = api.run("6208-axial-1300", [*CHOICE, "solver.duration=0.2 ms"], out=out)
+    origin = f"short.py {handed_laws.digest_of(LAW.encode())}"
+    assert result.headline.splitlines()[-1] == f"laws of others: traction short ({origin})"
+    assert [law.distribution for law in api.cite(out).laws if law.law == "traction/short"] == [origin]
+    longer = ["solver.duration=0.3 ms"]
+    file.write_text(LAW + "# a word more\n")
+    api.use_plugin(file)
+    with pytest.raises(api.LambdaError, match=rf"traction/short is of short.py \w+ now, it was of {origin}"):
+        api.resume(out, longer)
+    manager.switch_off(["short.py"])
+    with pytest.raises(api.CaseError, match=rf"(?s)not a traction model.*its laws came from {origin}"):
+        api.resume(out, longer)
 
 
 @pytest.mark.timeout(900)

@@ -13,17 +13,20 @@ import pytest
 import typer
 from lambda_cli import commands
 from lambda_cli.main import main
+from pydantic import field_validator
 
 from lambda_core import api
 from lambda_core.batch import job
-from lambda_core.discovery import manager
+from lambda_core.discovery import manager, survey
 from lambda_core.discovery.manager import discover, registry
 from lambda_core.discovery.shown import data_of
-from lambda_core.domain.installed import COMMANDS, PLUGINS, Source, installed
+from lambda_core.domain.installed import COMMANDS, PLUGINS, Source, in_use, installed
 from lambda_core.domain.plugin_errors import PluginError, blamed, failures_so_far
+from lambda_core.laws.check import check_model
 from lambda_core.laws.jit.reach import UnreachableError, reach
-from lambda_core.plugins import Axis, Options, Panel, ViewData, hookimpl
-from lambda_core.views.method import Method, MethodTable, NotApplicable, evaluate_methods
+from lambda_core.laws.law import Law
+from lambda_core.plugins import Axis, NoParameters, Options, Panel, Parameters, ViewData, hookimpl, parameter
+from lambda_core.views.method import Method, MethodRow, MethodTable, NotApplicable, evaluate_methods
 from lambda_core.views.view import View
 
 
@@ -118,9 +121,10 @@ def beside(monkeypatch: pytest.MonkeyPatch) -> Any:
     """Install packages and commands beside what is there, for one test."""
 
     def install(*sources: Source, of: tuple[Source, ...] = ()) -> None:
-        known = {PLUGINS: [*installed(PLUGINS), *sources], COMMANDS: [*installed(COMMANDS), *of]}
-        monkeypatch.setattr(manager, "installed", lambda group: known.get(group, []))
-        monkeypatch.setattr("lambda_core.domain.installed.installed", lambda group: known.get(group, []))
+        known = {PLUGINS: [*installed(PLUGINS), *sources], COMMANDS: [*in_use(COMMANDS), *of]}
+        monkeypatch.setattr(manager, "installed", lambda group: known[group])
+        for module in (commands, survey):
+            monkeypatch.setattr(module, "in_use", lambda group: sorted(known[group], key=lambda each: each.name))
         manager.registry.cache_clear()
 
     yield install
@@ -282,3 +286,51 @@ def test_a4_a_slow_import_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
 
     (note,) = discover([Source("late", "1.0", "main", load)]).notes
     assert (note.distribution, "its import took 0." in note.message) == ("late 1.0", True)
+
+
+class Rude(Parameters):
+    """Parameters whose check raises what no check should."""
+
+    share: float = parameter(0.5, "share")
+
+    @field_validator("share")
+    @classmethod
+    def _check(cls, value: float) -> float:
+        raise RuntimeError("not like this")
+
+
+def still(delta: float, delta_dot: float, load: float, par: Any, out: Any) -> int:
+    out[0] = 0.0
+    return 1
+
+
+def loud(parameters: Any, context: Any) -> NoParameters:
+    print("words of prepare")
+    raise SystemExit(9)
+
+
+def test_a4_parameters_that_raise_at_discovery_leave_the_package_out() -> None:
+    rude = Law("damping", "rude", still, Rude, role_api=2, reference="none")
+    (fault,) = discover([package(lambda_laws=rude)]).faults
+    assert fault.message.startswith("cannot be taken: RuntimeError: not like this (test_faulty_plugins.py, line ")
+
+
+def test_a4_a_prepare_that_prints_and_leaves_is_a_sentence(capsys: pytest.CaptureFixture[str]) -> None:
+    law = Law("damping", "loud", still, role_api=2, reference="none", prepare=loud, distribution="guest 1.0")
+    report = check_model(law)
+    assert "damping/loud (guest 1.0): the parameters cannot be prepared: SystemExit: 9" in report.faults[0]
+    said = capsys.readouterr()
+    assert (said.out, "words of prepare" in said.err) == ("", True)
+
+
+@pytest.mark.parametrize(
+    ("rows", "words"),
+    [
+        ((3,), "a row that is a int, not a MethodRow"),
+        ((MethodRow("friction", "total", "much", "N mm"),), "friction total = 'much', which is no number"),  # type: ignore[arg-type]
+    ],
+)
+def test_a4_rows_of_a_wrong_kind_are_named(rows: Any, words: str) -> None:
+    method = Method("odd", "", "none", lambda inputs: MethodTable(rows), distribution="guest 1.0")
+    (answer,) = evaluate_methods([method], SimpleNamespace())  # type: ignore[arg-type]
+    assert (answer.failed, answer.reason.endswith(words)) == (True, True)
