@@ -41,10 +41,11 @@ def _grouped(losses: Mapping[str, float]) -> dict[str, float]:
 
 def friction(model: BearingModel) -> Numbers:
     """Friction torque of the quasi-static solution, averaged over the positions of the balls [N mm]; no cage."""
-    from lambda_core.batch.job import kernels_of
+    from lambda_core.batch.job import kernels_of, with_temperatures
     from lambda_core.solver.drivers.equilibrium import solve
     from lambda_core.solver.sampling import CONTACT_CHANNELS
 
+    model = with_temperatures(model)
     kernels, total = kernels_of(model), dict.fromkeys((*MECHANISMS, "torque", "max_load_N"), 0.0)
     for phase, weight in _PHASES.items():
         found = solve(model, kernels, phase=phase)

@@ -272,6 +272,7 @@ def rows_of(found: Table4) -> list[tuple[str, list[float], float]]:
     rows += [
         ("anchored, temperatures of the SKF row", a.torque_Nmm, a.error_pct),
         ("anchored, 62.5 degC", a.one_temperature_Nmm, a.one_temperature_error_pct),
+        ("anchored, raceways warmer than the bath", a.warm_raceways_Nmm, a.warm_raceways_error_pct),
     ]
     rows += [(f"calibrated on {c.fitted_on}", c.torque_Nmm, c.six_points_pct) for c in found.calibrations]
     rows += [

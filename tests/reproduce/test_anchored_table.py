@@ -11,6 +11,8 @@ from lambda_syla2026 import parameters as P
 from lambda_syla2026.job_runner import Job, JobResult
 from lambda_syla2026.published import LOADS, POINTS, TABLE_4
 
+from lambda_core import api
+
 
 class Bath:
     """A runner whose SKF torque is the printed row where the oil has the temperatures below."""
@@ -49,3 +51,11 @@ def test_the_loss_factor_is_sampled_over_its_own_range() -> None:
     assert float(T._loss(high)) == pytest.approx(T.LOSS_RANGE[1])
     value = next(value for path, value, _ in P.anchored_set() if path == T.LOSS)
     assert T.LOSS_RANGE[0] <= float(str(value)) <= T.LOSS_RANGE[1]
+
+
+def test_raceways_over_a_bath_are_a_case_of_their_own() -> None:
+    """The oil is held at the bath's temperature, rings and balls find theirs; laws are those of the anchored set."""
+    model = api.check(POINTS[0].case, P.changes(T._over_bath(63.8)))
+    assert model.laws == api.check(POINTS[0].case, P.changes(P.anchored())).laws
+    assert model.thermal is not None
+    assert model.thermal.nodes["oil"].temperature == pytest.approx(63.8 + 273.15)
