@@ -249,10 +249,10 @@ def _bars(
 
 def _notes(quick: bool) -> list[str]:
     notes = [
-        "the blind set was written down before the first comparison (plugins/lambda_syla2026/blind.toml); it is the "
-        "program's default for any case",
-        "the anchored set (plugins/lambda_syla2026/anchored.toml) was chosen after the miss of the "
-        "blind one was known, from no measured torque of this table; oil temperatures are from the printed SKF row",
+        "the blind set was written down before the first comparison (plugins/lambda_syla2026/blind.toml)",
+        "the anchored set (plugins/lambda_syla2026/anchored.toml), the program's defaults, was chosen after the "
+        "miss of the blind one was known, from no measured torque of this table",
+        "oil temperatures of the anchored set are from the printed SKF row",
         "Scheuermann's hysteresis law is not shown: its constants are not published",
         "calibrations with other laws are quasi-static plus what the blind runs add; they change no default",
         "quasi-static torques are means over half a ball pitch",
