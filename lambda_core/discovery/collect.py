@@ -25,6 +25,7 @@ from lambda_core.views.view import view_fault
 
 _NAME = re.compile(r"[a-z0-9]+(?:-[a-z0-9]+)*")
 _TARGET = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*")
+_RESERVED = ("none", "auto")  # no law, and the law that the oil has data for
 _KINDS = {
     "lambda_methods": "method",
     "lambda_views": "view",
@@ -69,6 +70,8 @@ class Collection:
                 continue
             key = _key(entry)
             plain = (key[0], _short(key[1]))
+            if plain[1] in _RESERVED and not is_own(entry.distribution):
+                return f'the {key[0]} name "{plain[1]}" has a meaning of its own in every case: choose another'
             if key in claimed or entry.distribution in (self.origins.get(key), self.origins.get(plain)):
                 return f'the {key[0]} "{_short(key[1])}" is already taken by {entry.distribution}'
             claimed.add(key)

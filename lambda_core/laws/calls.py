@@ -18,7 +18,7 @@ from lambda_core.laws.jit import binding
 
 _GUARD = 8  # cells on either side of every array
 _SENTINEL = -7.25e77
-_LONGEST = 300_000  # lines of Python that one call may take; the default laws take some hundreds
+_LONGEST = 2_000_000  # lines of Python that one call may take; the default laws take some hundreds
 
 
 class _EndlessError(Exception):

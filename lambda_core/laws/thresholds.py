@@ -23,7 +23,7 @@ _MOST = {"f": 64, "a": 512}  # values of one argument; of an array several go in
 _SCALED = 12  # numbers that are combined in pairs: a kernel may compare p[i]*1e-9
 _BESIDE = 1e-6  # relative distance on either side of a number
 _CELLS = 8
-_STRIPS, _LONGEST = 31, 512  # cells of a contact by default; most that a number in the code is taken for
+_STRIPS, _LONGEST = 31, 128  # cells of a contact by default; most that a number in the code is taken for
 _REPEATED = 2  # calls for each value, with other draws of the rest
 
 

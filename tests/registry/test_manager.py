@@ -124,6 +124,7 @@ def test_models_know_their_distribution_and_keep_their_order() -> None:
         (plugin(law(parameters=Misspelt)), ["the default of tau is not valid", "MPs"]),
         (plugin(law(parameters=Wordy)), ["Wordy.edition (Literal) is neither a number nor an array of numbers"]),
         (plugin(law(prepare=lambda parameters, context: 1)), ["prepare does not say what it returns", "NamedTuple"]),
+        (plugin(law("none")), ['the asperity_load name "none" has a meaning of its own']),
         (plugin(law("Half Load")), ['"Half Load" is not in lower case with hyphens']),
         (plugin(law(reference=" ")), ["has no reference"]),
         (plugin(law(parameters=dict)), ["not a pydantic BaseModel"]),
