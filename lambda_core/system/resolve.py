@@ -220,7 +220,12 @@ def _settings(case: Case, ledger: Ledger) -> None:
     for section, name, quantity, sentence in (
         (lubricant, "oil_level", "length", "oil level at the centre of the lowest ball"),
         (lubricant, "starvation", "", "films fully flooded: no starvation is given"),
-        (surface, "roughness", "small_length", "composite roughness sigma {}"),
+        (
+            surface,
+            "roughness",
+            "small_length",
+            "composite roughness sigma {}, as on measured raceways of 0.10 and 0.16 um",
+        ),
     ):
         value, prefix = getattr(section, name), "surface" if section is surface else "lubricant"
         if name in section.model_fields_set:

@@ -129,7 +129,7 @@ def test_every_value_has_an_origin() -> None:
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({}, "composite roughness sigma 0.16 um"),
+        ({}, "composite roughness sigma 0.16 um, as on measured raceways of 0.10 and 0.16 um"),
         ({"surface": {"roughness": "0.16 um"}}, None),
     ],
 )
