@@ -57,6 +57,7 @@ def test_every_listed_command_loads_and_has_help(call: Call) -> None:
         code, out, _ = call(name, "--help")
         assert code == 0, name
         assert "Usage" in out
+        assert "<bool>" not in out, name  # a switch takes no value
 
 
 def loaded() -> Iterator[Any]:

@@ -138,6 +138,22 @@ def test_search(capsys: pytest.CaptureFixture[str]) -> None:
     ]
 
 
+def test_names_of_oils_are_whole_in_a_narrow_terminal(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from lambda_cli import db_text
+
+    monkeypatch.setattr(db_text, "columns", lambda: 80)
+    assert main(["db", "search", "--lubricants", "vg"]) == 0
+    narrow = capsys.readouterr().out
+    assert "light-machine-oil-mvi" in narrow
+    assert "note" not in narrow.splitlines()[0]
+    assert "lambda-bearing db show NAME" in narrow
+    monkeypatch.setattr(db_text, "columns", lambda: 120)
+    assert main(["db", "search", "--lubricants", "vg"]) == 0
+    assert "note" in capsys.readouterr().out.splitlines()[0]
+
+
 def test_add_then_show(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = run(capsys, *ADD)
     assert (code, err) == (0, "")
