@@ -259,6 +259,15 @@ def notes_text(notes: Sequence[str]) -> Text:
     return Text("\n".join(notes), style="dim")
 
 
+def lines_of(panel: Panel, width: int) -> int:
+    """Return how many lines the bars of a panel take, their title and legend included; 0 for other drawings."""
+    if panel.field is not None or not panel.series or any(series.kind != "bars" for series in panel.series):
+        return 0
+    places = len(panel.x.categories) or len(panel.series[0].x)
+    legend = math.ceil(sum(len(series.name) + 4 for series in panel.series) / max(1, width - 24))
+    return 3 + legend + places * (1 if panel.stacked else len(panel.series))
+
+
 def shape_of(panels: Sequence[Panel], columns: int, width: int, height: int) -> tuple[int, int]:
     """Return how many panels stand side by side, and how high each is, in characters."""
     side = max(1, min(columns, width // 48))

@@ -15,7 +15,7 @@ from textual.widgets.option_list import Option
 
 from lambda_core.domain.errors import LambdaError
 from lambda_core.views.other_units import in_units
-from lambda_gui.charts import notes_text, shape_of, widget_for
+from lambda_gui.charts import lines_of, notes_text, shape_of, widget_for
 from lambda_gui.dialogs import AskText
 from lambda_gui.export import DIFFERENCES, SUMMARY, ExportScreen
 from lambda_gui.result_files import is_study, named, results_in, stamp_of
@@ -283,8 +283,9 @@ class ResultsScreen(ExportScreen):
         side, height = shape_of(data.panels, data.columns, content.size.width, content.size.height)
         rows = []
         for first in range(0, len(data.panels), side):
-            row = Horizontal(*(widget_for(panel) for panel in data.panels[first : first + side]), classes="row")
-            row.styles.height = height
+            beside = data.panels[first : first + side]
+            row = Horizontal(*map(widget_for, beside), classes="row")
+            row.styles.height = max(height, *(lines_of(panel, content.size.width // side) for panel in beside))
             rows.append(row)
         self.run_worker(self._put(*rows, Static(notes_text(data.notes))), exclusive=True, group="put")
 
