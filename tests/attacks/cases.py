@@ -75,7 +75,7 @@ def _judge(outcome: Outcome, made: dict[str, Any], found: dict[str, Any], turns:
     if not outcome.good:
         return outcome, "failed"
     if outcome.verdict in ("refused", "usage"):
-        reason = _reason_that_holds(made)
+        reason = "" if "not a known" in outcome.said else _reason_that_holds(made)  # that is no case, but a bad draw
         return (outcome, f"refused: {reason}") if reason else (outcome.but("unfounded", "no reason found"), "failed")
     if outcome.open_s > WALL + OVER:
         return outcome.but("late", f"{outcome.open_s:.1f} s with its file open, {WALL:g} s were allowed"), "failed"

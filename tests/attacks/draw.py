@@ -9,6 +9,7 @@ from functools import cache
 from typing import Any
 
 from lambda_core import api
+from lambda_core.domain.roles import MOTION_ROLES
 
 _LAW_CHANCE = 0.25  # of a role to have another law than its default
 # Roles whose laws need data that an oil has or has not, or belong to parts that the case may not have.
@@ -35,7 +36,7 @@ def stock() -> Stock:
         oils = tuple(catalogue.names("lubricant"))
     laws: dict[str, list[str]] = {}
     for item in api.plugins().items:
-        if item.kind == "model":
+        if item.kind == "model" and item.role in MOTION_ROLES:  # others are chosen elsewhere than in [models]
             laws.setdefault(item.role, []).append(item.name)
     return Stock(bearings, oils, {role: tuple(names) for role, names in laws.items()})
 
