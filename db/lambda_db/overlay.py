@@ -56,9 +56,8 @@ def attach_user(connection: Connection, path: Path, schema_version: int) -> bool
             connection.exec_driver_sql("ATTACH DATABASE ? AS user", (file_uri(path, mode),))
             try:
                 found = connection.exec_driver_sql("PRAGMA user.user_version").scalar_one()
-                if found == 0 and not _has_tables(connection):  # another process has just begun to create it
-                    detach_user(connection)
-                    return False
+                if path.stat().st_size == 0:
+                    raise DamagedError("it is empty")
                 if found != schema_version:
                     raise VersionMismatch(_other_version(found, schema_version))
                 check_sound(connection, "user", VIEWED)
@@ -80,10 +79,6 @@ def attach_user(connection: Connection, path: Path, schema_version: int) -> bool
             return True
     log.warning("your own catalogue %s cannot be read (%s); only the built-in catalogue is used", path, trouble)
     return False
-
-
-def _has_tables(connection: Connection) -> bool:
-    return bool(connection.exec_driver_sql("SELECT count(*) FROM user.sqlite_schema").scalar_one())
 
 
 def detach_user(connection: Connection) -> None:

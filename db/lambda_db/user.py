@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from sqlalchemy import Connection, Engine
 from sqlalchemy.exc import DatabaseError
@@ -78,6 +80,8 @@ def open_user_database(path: Path, *, changed: bool = False) -> Engine:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        if not path.exists():
+            _create(path)
         engine = sqlite_engine(file_uri(path, "rwc"), "BEGIN IMMEDIATE", pragmas=("journal_mode = WAL",))
         with engine.begin() as connection:
             _bring_up_to_date(connection, path, changed=changed)
@@ -90,6 +94,22 @@ def open_user_database(path: Path, *, changed: bool = False) -> Engine:
     except UNREADABLE as error:
         raise unwritable(path, error) from error
     return engine
+
+
+def _create(path: Path) -> None:
+    """Put an empty catalogue in place whole, so that a file of no length is never one that is being made."""
+    with TemporaryDirectory(prefix=".catalogue-", dir=path.parent) as folder:
+        made = Path(folder) / path.name
+        engine = sqlite_engine(file_uri(made, "rwc"), "BEGIN IMMEDIATE", pragmas=("journal_mode = WAL",))
+        with engine.begin() as connection:
+            _bring_up_to_date(connection, made, changed=False)
+        engine.dispose()
+        try:
+            os.link(made, path)
+        except FileExistsError:  # another process was quicker
+            pass
+        except OSError:  # a file system without links
+            os.replace(made, path)
 
 
 def _damaged(path: Path, reason: str) -> CatalogueError:

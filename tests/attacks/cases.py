@@ -31,6 +31,8 @@ LONGER = 45.0  # limit of wall time with which such a case is gone on with [s]
 _START = 60.0  # for start, equilibrium and a busy machine, beyond which a trial hangs [s]
 _SLOWEST = 10.0  # speed of a sensible case [rpm]
 _TURN = 0.999  # of the cage; the last record may end within the last step
+_AT_LEAST = 1.3  # turns that a run of too few is made longer for
+_LONGEST = 20.0  # times as long
 _WANTED = ("energy_residual", "friction_torque_Nmm", "converged", "state", "reasons", "simulated_s")
 
 
@@ -42,7 +44,14 @@ def random_case(seed: int, number: int, folder: Path) -> tuple[Outcome, str, dic
     arguments = ["run", "case.toml", "--out", "out.h5", "--json"]
     outcome = attempt(arguments, folder, WALL + _START, watched=folder / "out.h5")
     found, turns = _numbers(folder), _turns(folder / "out.h5")
-    outcome, end = _judge(outcome, made, found, turns)
+    first = outcome
+    outcome, end = _judge(first, made, found, turns)
+    if end == "failed" and outcome.verdict == "short":  # balls that skid turn less than was planned
+        duration = float(found["simulated_s"]) * min(_AT_LEAST / max(turns, 1e-3), _LONGEST)
+        outcome, _ = _gone_on_with(first, folder, "--duration", f"{duration:g} s")
+        turns = _turns(folder / "out.h5")
+        found = _numbers(folder / "longer") or found
+        outcome, end = _judge(outcome, made, found, turns)
     slow = _lowest_speed(made) < _SLOWEST
     usable = end in ("converged", "named", "at its limit") and _is_usable(found)
     if end == "at its limit" and not usable and not slow:
@@ -102,10 +111,13 @@ def _is_usable(found: dict[str, Any]) -> bool:
     return abs(float(found["energy_residual"])) <= ENERGY
 
 
-def _gone_on_with(outcome: Outcome, folder: Path) -> tuple[Outcome, bool]:
-    """Resume a run that was stopped early; return the outcome, worse where that fails, and whether it is usable now."""
+def _gone_on_with(outcome: Outcome, folder: Path, *longer_than: str) -> tuple[Outcome, bool]:
+    """Resume a run that was stopped early, or make it longer.
+
+    Returns the outcome, worse where that fails, and whether it is usable now.
+    """
     place = folder / "longer"
-    arguments = ["resume", str(folder / "out.h5"), "--max-wall", f"{LONGER:g} s", "--json"]
+    arguments = ["resume", str(folder / "out.h5"), "--max-wall", f"{LONGER:g} s", "--json", *longer_than]
     longer = attempt(arguments, place, LONGER + _START)
     if longer.verdict not in ("fine", "partial"):
         return (longer.but("lost", "could not be gone on with") if longer.good else longer), False

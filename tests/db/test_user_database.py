@@ -120,6 +120,21 @@ def test_a_reader_sees_rows_written_meanwhile(catalogue: SqlCatalogue) -> None:
     assert catalogue.bearing("X2").layer == "user"
 
 
+@pytest.mark.parametrize("leftovers", [(), ("-wal", "-shm")], ids=["alone", "with the log's files"])
+def test_c3_an_emptied_file_is_named(
+    leftovers: tuple[str, ...], catalogue: SqlCatalogue, caplog: pytest.LogCaptureFixture
+) -> None:
+    add_row(catalogue, "bearing", ROW)
+    catalogue.close()
+    user_database().write_bytes(b"")
+    for ending in leftovers:
+        user_database().with_name(user_database().name + ending).touch()
+    again = open_catalogue()
+    assert "it is empty" in caplog.text
+    assert again.bearing("6208", "NSK").layer == "core"
+    again.close()
+
+
 @pytest.mark.parametrize("content", [b"this is no database", b"SQLite format 3\x00" + bytes(range(256)) * 40])
 def test_a_damaged_file_leaves_the_core_working(
     user_folder: Path, content: bytes, caplog: pytest.LogCaptureFixture
