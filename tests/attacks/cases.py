@@ -31,8 +31,7 @@ LONGER = 45.0  # limit of wall time with which such a case is gone on with [s]
 _START = 60.0  # for start, equilibrium and a busy machine, beyond which a trial hangs [s]
 _SLOWEST = 10.0  # speed of a sensible case [rpm]
 _TURN = 0.999  # of the cage; the last record may end within the last step
-_AT_LEAST = 1.3  # turns that a run of too few is made longer for
-_LONGEST = 20.0  # times as long
+_LONGEST = 1000.0  # times as long may a run become that has not turned its cage, within the longer limit
 _WANTED = ("energy_residual", "friction_torque_Nmm", "converged", "state", "reasons", "simulated_s")
 
 
@@ -47,8 +46,7 @@ def random_case(seed: int, number: int, folder: Path) -> tuple[Outcome, str, dic
     first = outcome
     outcome, end = _judge(first, made, found, turns)
     if end == "failed" and outcome.verdict == "short":  # balls that skid turn less than was planned
-        duration = float(found["simulated_s"]) * min(_AT_LEAST / max(turns, 1e-3), _LONGEST)
-        outcome, _ = _gone_on_with(first, folder, "--duration", f"{duration:g} s")
+        outcome, _ = _gone_on_with(first, folder, "--duration", f"{_LONGEST * float(found['simulated_s']):g} s")
         turns = _turns(folder / "out.h5")
         found = _numbers(folder / "longer") or found
         outcome, end = _judge(outcome, made, found, turns)
