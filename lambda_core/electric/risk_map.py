@@ -116,7 +116,7 @@ class RiskMap(Record):
             values = np.where(values > 0.0, values, np.nan) if log else values
             if np.isfinite(values).any():
                 panels.append(Panel(name, speed, temperature, field=Mesh(name, unit, x, y, values, log=log)))
-        notes = (f"{self.span} at each point, nothing broke down before; seed {self.seed}; white: none",)
+        notes = (f"{self.span} at each point, nothing broke down before; seed {self.seed}; white: quiet or metal",)
         return ViewData("electric-map", "Bearing currents", f"{self.case}   {self.source}", tuple(panels), 2, notes)
 
 

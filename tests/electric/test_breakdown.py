@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from electric.networks import AREA, ROUGH, SMOOTH, steady, strength
+from electric.networks import AREA, ROUGH, SMOOTH, residuals, steady, strength
 from electric.rough_film import breakdown_probability, breakdown_voltage
 from lambda_plugins.normal_tail import upper_quantile
 from scipy.special import ndtri
@@ -90,3 +90,24 @@ def test_no_film_between_touching_and_parting() -> None:
     films.film[1:] = films.thinnest[1:] = 0.0
     source = np.array([0.0, 1e-4, 2e-4, 2e-3]), np.array([0.0, 0.0, 300.0, 300.0])
     assert march(films, CIRCUIT, SMOOTH, source).events.shape[0] == 0
+
+
+def test_other_films_break_down_while_an_edge_feeds_an_arc() -> None:
+    """An edge of 200 V keeps the arc in one film of a ball alive, whose other film holds: 100 pF at 0.2 V/ns are 20 mA.
+
+    The films of the second ball stand 1 V each, 2 V in series. They break down in time, not after the edge.
+    """
+    films = steady(100e-12, 100e-12, balls=2)
+    films.film[:, 0] = films.thinnest[:, 0] = 0.01e-6, 5e-6
+    films.film[:, 1] = films.thinnest[:, 1] = 1.0 / 30.0 * 1e-6
+    source = np.array([0.0, 1e-4, 1e-4 + 50e-9, 1.0]), np.array([0.0, 0.0, 200.0, 200.0])
+    circuit = Circuit(50e-12, 800e-12)
+    found = march(films, circuit, SMOOTH, source, window=(0.0, 1.0))
+    assert set(found.events[:, L.E_BALL]) == {0.0, 1.0}
+    assert np.abs(found.events[:, L.E_BEARING_VOLTAGE]).max() < 2.5
+    assert np.abs(found.trace[:, 2]).max() < 4.1  # 0.2 A of the edge through two arcs of 10 Ohm
+    assert max(map(abs, residuals(found, circuit, source))) < 1e-6
+    films.film[:, 1] = films.thinnest[:, 1] = 5e-6
+    alone = march(films, circuit, SMOOTH, source, window=(0.0, 1.0))
+    assert set(alone.events[:, L.E_BALL]) == {0.0}
+    assert np.abs(alone.trace[:, 2]).max() > 9.0

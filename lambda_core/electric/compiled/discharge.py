@@ -2,7 +2,9 @@
 
 The first film that breaks down lets the ball's voltage collapse within a nanosecond; the other film of the ball then
 stands the whole bearing voltage. Where it breaks down too, the rotor's charge flows through both: both contacts of a
-ball make one discharge. Balls are followed one at a time: after the first the voltage is gone.
+ball make one discharge. Balls are followed one at a time: after the first the voltage is gone. Where the other film of
+the ball holds, an edge of the source may drive the voltage on: the discharge ends when a film of another ball breaks
+down, which is the next one.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ from lambda_core.electric.compiled.arc import (
     until_change,
 )
 from lambda_core.electric.compiled.array_types import helper, shared_helper
+from lambda_core.electric.compiled.bystanders import first_moment, past_breakdown, watch
 from lambda_core.electric.compiled.matrices import across_bearing
 from lambda_core.electric.compiled.modes import amplitudes, charges, modes, propagate, voltages
 from lambda_core.electric.compiled.source import slope_at, source_work, voltage_at
@@ -26,6 +29,8 @@ from lambda_core.electric.compiled.source import slope_at, source_work, voltage_
 _FIRST, _CORNER, _GROWTH = 0.3, 1.0, 1.9
 _MOST_CHANGES, _MOST_STEPS = 1000, 100000
 _AS_WEAK = 2.0  # times the least current
+_SPENT = 1.0  # times the fastest mode's time: the ball that an arc discharges has lost most of its voltage
+_OTHER = -2  # in place of a ring: a film of another ball
 _SHORT = 1e-6  # a film that leaks slower than this does nothing during a discharge [s]
 
 
@@ -93,14 +98,27 @@ def _largest_current(shared, node, state, v, rows):
 @shared_helper
 def burn(
     now, size, shared, node, state, stand, decay, s, y, fall, machine, source_t, source_v, place,
-    g_r, v, vectors, rows, total, trace, window,
+    g_r, v, vectors, rows, total, trace, window, opened, n, ball, keep, c, g, q, held, begin, roughness, least,
+    break_law, break_par, break_out, seed, known, drawn,
 ):  # fmt: skip
-    """March with the same channels open until one opens or quenches; return the time and the ring (-1: never)."""
-    after, area, drive = vectors[9], vectors[10], vectors[12]
+    """March with the same channels open until something changes; return the time and what.
+
+    Returns
+    -------
+    now : float
+        [s]
+    ring : int
+        The contact of the ball that opens or quenches; _OTHER where a film of another ball breaks down; -1: nothing.
+    """
+    after, area, drive, ahead, limits = vectors[9], vectors[10], vectors[12], vectors[20], vectors[21:23]
     fastest = 0.0
     for a in range(size):
         fastest = max(fastest, decay[a])
-    dt, segment = 0.0, -1
+    dt, segment, watched = 0.0, -1, 0
+    # Where metal bridges the other film, the rotor's charge flows: such an arc is no partial one.
+    own = shared + ball
+    alone = state.burns[0] + state.burns[1] == 1.0 and not g[own, own] * _SHORT > c[own, own]
+    started = now
     _largest_current(shared, node, state, v, rows)
     for _ in range(_MOST_STEPS):
         slope, end = slope_at(now, source_t, source_v, place)
@@ -114,6 +132,21 @@ def burn(
         amplitudes(size, s, fall, drive)
         fall[L.ROTOR] -= machine.winding * slope
         part, ring = until_change(size, shared, node, state, stand, decay, s, y, drive, min(dt, end - now), after, area)
+        if alone and now - started > _SPENT / fastest:
+            propagate(size, decay, y, drive, part, after, area)
+            voltages(size, s, after, ahead)
+            if abs(across_bearing(shared, ahead)) > opened:
+                if watched == 0:
+                    watched = 1
+                    watch(
+                        ball, held, now - begin, roughness, least, break_law, break_par,
+                        break_out, seed, known, drawn, limits,
+                    )  # fmt: skip
+                if past_breakdown(n, shared, ball, keep, c, q, ahead, limits) >= 0.0:
+                    ring = _OTHER
+                    part = first_moment(
+                        part, size, decay, s, y, drive, after, area, ahead, n, shared, ball, keep, c, q, limits
+                    )
         book(size, shared, node, state, decay, s, y, drive, part, after, g_r, vectors[14], rows, total)
         before = v[L.ROTOR]
         propagate(size, decay, y, drive, part, after, area)
@@ -124,7 +157,7 @@ def burn(
         now += part
         current = _largest_current(shared, node, state, v, rows)
         record(trace, total, window, now, volt + slope * part, across_bearing(shared, v), current)
-        if ring >= 0:
+        if ring != -1:
             return now, ring
     return now, -1
 
@@ -132,7 +165,8 @@ def burn(
 @shared_helper
 def discharge(
     now, ball, ring, n, shared, c, g, q, v, stand, held, law, par, out, machine, source_t, source_v, place,
-    work, vectors, rows, state, total, trace, window,
+    work, vectors, rows, state, total, trace, window, begin, roughness, least, break_law, break_par, break_out, seed,
+    known, drawn,
 ):  # fmt: skip
     """Follow a discharge that begins at `now` in one contact; return when it is over, and a status of the march.
 
@@ -146,6 +180,10 @@ def discharge(
         What the arcs did; the peak current is 0 for a film that held.
     law, par, out
         Law of the role discharge, its parameters per ring, and room for what it says.
+    begin : float
+        Time from which `held` counts what was rolled [s].
+    roughness, least, break_law, break_par, break_out, seed, known, drawn
+        What the films of other balls stand.
     state : Channels
         Workspace.
     """
@@ -157,6 +195,7 @@ def discharge(
     node = shared + ball if keep == 1 else shared
     for i in range(size):
         v_r[i] = v[shared + ball] if keep == 0 and i == shared else v[i]
+    opened = abs(across_bearing(shared, v))
     rows[:, :] = 0.0
     state.burns[:] = 0.0
     for _ in range(_MOST_CHANGES):
@@ -177,8 +216,15 @@ def discharge(
         amplitudes(size, s, q_r, y)
         now, ring = burn(
             now, size, shared, node, state, stand, decay, s, y, fall, machine, source_t, source_v, place,
-            g_r, v_r, vectors, rows, total, trace, window,
+            g_r, v_r, vectors, rows, total, trace, window, opened, n, ball, keep, c, g, q, held, begin, roughness,
+            least, break_law, break_par, break_out, seed, known, drawn,
         )  # fmt: skip
+        if ring == _OTHER:
+            for which in range(2):
+                if state.burns[which] != 0.0:
+                    rows[which, L.E_DURATION] = now - rows[which, L.E_TIME]
+            restore_charges(n, shared, ball, keep, c, v_r, size, c_r, q, q_r)
+            return now, L.OK
         if ring < 0:
             return now, L.ENDLESS
     return now, L.ENDLESS

@@ -33,7 +33,7 @@ march_sig = i8(
     array3, array2, held_t, iarray2, array2, array1, array1, array2, channels_t, iarray1, array2, array2, array2,
     array1, array1,
 )  # fmt: skip
-N_WORK, N_VECTORS = 9, 20
+N_WORK, N_VECTORS = 9, 23
 _NO_PATCH = -(2**62)
 
 
@@ -318,7 +318,8 @@ def march(
                             return L.NO_VOLTAGE
                 now, status = discharge(
                     now, ball, raceway, n, shared, c, g, q, v, stand, held, arc_law, arc_par, arc_out, machine,
-                    source_t, source_v, place, work, vectors, rows, state, total, trace, window,
+                    source_t, source_v, place, work, vectors, rows, state, total, trace, window, begin, roughness,
+                    least, break_law, break_par, break_out, seed, known, drawn,
                 )  # fmt: skip
                 if status != L.OK:
                     return status
