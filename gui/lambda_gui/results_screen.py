@@ -263,13 +263,13 @@ class ResultsScreen(ExportScreen):
 
     async def _show_words(self, paths: list[Path]) -> None:
         """Show what is no picture: summaries, a study, what differs."""
+        width = self.query_one("#content", VerticalScroll).size.width - 3
         if self._view == DIFFERENCES:
             beside = await self._helper.ask("differences", sources=[str(path) for path in paths])
-            await self._put(*map(Static, differences_view(beside, self._units)))
+            await self._put(*map(Static, differences_view(beside, width, self._units)))
             self.say()
         elif is_study(paths[0]):
             status, points = await self._helper.ask("study_summary", path=str(paths[0]))
-            width = self.query_one("#content", VerticalScroll).size.width - 2
             await self._put(*map(Static, study_view(status, points, width, self._units)))
             self.say(f"{status.points} points, {status.mode}")
         else:
@@ -285,7 +285,8 @@ class ResultsScreen(ExportScreen):
         for first in range(0, len(data.panels), side):
             beside = data.panels[first : first + side]
             row = Horizontal(*map(widget_for, beside), classes="row")
-            row.styles.height = max(height, *(lines_of(panel, content.size.width // side) for panel in beside))
+            bars = [lines_of(panel, content.size.width // side) for panel in beside]
+            row.styles.height = max(bars) + 1 if all(bars) else max(height, *bars)
             rows.append(row)
         self.run_worker(self._put(*rows, Static(notes_text(data.notes))), exclusive=True, group="put")
 

@@ -18,20 +18,26 @@ if TYPE_CHECKING:
     from lambda_core.views.table import StudyTable
 
 _POINTS = 200  # of a study that are listed
-_NUMBER, _STATE, _NAME = 11, 9, 12  # columns of one number, of a state, of a name
+_NUMBER, _STATE, _NAME, _HEAD = 11, 9, 11, 30  # columns of a number, of a state, of names, of what stands before
 _LARGE = 1e4  # numbers above are rounded to three digits
 
 
-def differences_view(found: SideBySide, units: UnitSystem = SI) -> list[RenderableType]:
-    """Return what the cases of several results say differently, and their key numbers, a column for each."""
-    inputs = _beside("what differs", found.names)
+def differences_view(found: SideBySide, width: int, units: UnitSystem = SI) -> list[RenderableType]:
+    """Return what the cases of several results say differently, and their key numbers, a column for each.
+
+    Parameters
+    ----------
+    width : int
+        Columns that there are.
+    """
+    inputs = _beside("what differs", found.names, width)
     for row in found.inputs:
         inputs.add_row(
             Text(row.option), *(Text(NONE if value is None else units.sentence(value)) for value in row.values)
         )
     if not found.inputs:
         inputs.add_row("nothing: the same inputs", *[""] * len(found.names))
-    numbers = _beside("numbers", found.names)
+    numbers = _beside("numbers", found.names, width)
     for entry in found.numbers:
         if any(value is not None for value in entry.values):
             name = f"{entry.name} [{units.unit(entry.unit)}]" if entry.unit else entry.name
@@ -41,12 +47,15 @@ def differences_view(found: SideBySide, units: UnitSystem = SI) -> list[Renderab
     return [inputs, Text(), numbers]
 
 
-def _beside(head: str, names: list[str]) -> Table:
-    table = Table(box=None, pad_edge=False, header_style="bold", expand=True, padding=(0, 1, 0, 0))
-    table.add_column(head, ratio=2, overflow="fold")
-    for name in names:
-        words = textwrap.wrap(name, _NAME) or [name]  # rich would cut a name anywhere
-        table.add_column(Text("\n".join(words)), ratio=1, justify="right", overflow="fold")
+def _beside(head: str, names: list[str], width: int) -> Table:
+    """Return a table with a column for each result, as wide as its name where there is room."""
+    room = max(_NAME, (width - _HEAD) // len(names) - 1)
+    table = Table(box=None, pad_edge=False, header_style="bold", padding=(0, 1, 0, 0))
+    wide = [min(room, max(_NAME, len(name))) for name in names]
+    table.add_column(head, width=max(_NAME, min(_HEAD + 10, width - sum(wide) - len(wide) - 1)), overflow="fold")
+    for name, columns in zip(names, wide, strict=True):
+        words = textwrap.wrap(name, columns) or [name]  # rich would cut a name anywhere
+        table.add_column(Text("\n".join(words)), width=columns, justify="right", overflow="fold")
     return table
 
 

@@ -148,5 +148,4 @@ async def test_two_results_say_what_differs(
         assert "6319" in shown
         assert "6208" in shown
         assert "torque [N mm]" in " ".join(shown.split())
-        assert "power loss [W]" in " ".join(shown.split())
         assert not cut_on(pilot.app)
