@@ -70,9 +70,11 @@ class Series(Section):
         if self.points is not None:
             rows = tuple(_point(text) for text in self.points)
             check_series(rows, '"points"', range(1, len(rows) + 1), "entry")
+            _check_voltages(rows, '"points"', range(1, len(rows) + 1), "entry")
         else:
             rows, lines = read_numbered(Path((info.context or {}).get("folder") or ".") / str(self.file), "voltage")
             check_series(rows, f'"{self.file}"', lines)
+            _check_voltages(rows, f'"{self.file}"', lines, "line")
         self._rows = rows
         return self
 
@@ -123,6 +125,16 @@ def check_series(rows: tuple[tuple[float, float], ...], name: str, numbers: Sequ
             )
 
 
+def _check_voltages(rows: tuple[tuple[float, float], ...], name: str, numbers: Sequence[int], word: str) -> None:
+    """Refuse voltages that no machine has: a unit is wrong."""
+    for number, (_, voltage) in zip(numbers, rows, strict=True):
+        if abs(voltage) > _MOST_VOLTAGE:
+            raise ValueError(
+                f"{name} {word} {number}: {voltage:.4g} V is more than {_MOST_VOLTAGE:g} V; is the unit right?"
+            )
+
+
+_MOST_VOLTAGE = 1e6  # [V]
 _GAP = 20.0  # times the usual distance of rows
 
 

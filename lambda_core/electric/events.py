@@ -40,6 +40,9 @@ class Events:
         Heat in this film [J], charge through it [C], largest current [A], time until its arc died [s].
     film, film_parameter, area : float64[:]
         Central film [m], Lambda [-], Hertzian area [m2] at that time.
+    joined : bool[:]
+        Whether metal joins the ball's other contact to its ring at that time: then this film is all that stands between
+        the rings.
     """
 
     time: FloatArray
@@ -56,6 +59,7 @@ class Events:
     film: FloatArray
     film_parameter: FloatArray
     area: FloatArray
+    joined: NDArray[np.bool_]
 
     def rows(self) -> list[dict[str, float | int | str]]:
         """Return plain rows with units in their names."""
@@ -76,6 +80,7 @@ class Events:
                 "film_um": 1e6 * float(self.film[i]),
                 "film_parameter": float(self.film_parameter[i]),
                 "hertz_area_mm2": 1e6 * float(self.area[i]),
+                "other_contact": "metal" if self.joined[i] else "film",
             }
             for i in range(self.time.size)
         ]
@@ -92,6 +97,7 @@ def events_of(march: March, contacts: Contacts) -> Events:
     def at(values: FloatArray, *index: IntArray) -> FloatArray:
         return np.asarray((1.0 - share) * values[(low, *index)] + share * values[(low + 1, *index)])
 
+    nearest = low + (share > 0.5)
     turned = np.where(ring == 0, at(contacts.inner_angle), at(contacts.outer_angle))
     return Events(
         time=table[:, L.E_TIME],
@@ -108,6 +114,7 @@ def events_of(march: March, contacts: Contacts) -> Events:
         film=at(contacts.film, ball, ring),
         film_parameter=at(contacts.film_parameter, ball, ring),
         area=at(contacts.area, ball, ring),
+        joined=contacts.shorted[nearest, ball, 1 - ring],
     )
 
 
@@ -115,8 +122,8 @@ def events_of(march: March, contacts: Contacts) -> Events:
 class Discharges:
     """One entry per discharge: what its one or two arcs did together, SI.
 
-    A discharge is through when both films of the ball broke down: then the rotor's charge flows, otherwise only the
-    ball's.
+    A discharge is through when both films of the ball broke down, or one did while metal joined the other contact:
+    then the rotor's charge flows, otherwise only the ball's.
     """
 
     time: FloatArray
@@ -135,7 +142,8 @@ def discharges_of(events: Events) -> Discharges:
     np.maximum.at(peak, each, events.peak)
     np.maximum.at(voltage, each, np.abs(events.bearing_voltage))
     np.minimum.at(time, each, events.time)
-    return Discharges(time, voltage, energy, peak, np.bincount(each, minlength=count) > 1)
+    through = (np.bincount(each, minlength=count) > 1) | (np.bincount(each, events.joined, count) > 0)
+    return Discharges(time, voltage, energy, peak, through)
 
 
 def sector_shares(events: Events, ring: int, sectors: int = SECTORS) -> FloatArray:

@@ -56,9 +56,9 @@ class Outcome(Record):
     bearing_voltage_V: list[float] = Field(description="smallest and largest between the rings")
     impedance_kOhm: dict[str, float] = Field(description="frequency -> magnitude, mean over time")
     impedance_phase_deg: dict[str, float]
-    discharges: int = Field(description="through both films of a ball: the rotor's charge flows")
+    discharges: int = Field(description="through both contacts of a ball: the rotor's charge flows")
     discharges_per_s: float
-    partial_discharges: int = Field(description="through one film of a ball: only the ball's charge flows")
+    partial_discharges: int = Field(description="through one film, the other stands: only the ball's charge")
     breakdown_voltage_V: list[float] | None = Field(description="of the bearing at discharges: 10, 50, 90 %")
     peak_current_A: list[float] | None = Field(description="10, 50, 90 % of discharges")
     energy_nJ: list[float] | None = Field(description="heat of one discharge: 10, 50, 90 %")

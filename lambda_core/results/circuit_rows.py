@@ -32,6 +32,7 @@ DISCHARGES: tuple[Channel, ...] = (
     Channel("film", (), "m", "central film thickness"),
     Channel("film_parameter", (), "", "Lambda"),
     Channel("area", (), "m2", "Hertzian area"),
+    Channel("joined", (), "", "1 where metal joins the ball's other contact to its ring"),
 )
 
 

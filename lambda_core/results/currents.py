@@ -20,8 +20,8 @@ class Currents(Record):
     seconds: float = Field(description="that are counted [s]")
     bearing_voltage_V: list[float] = Field(description="smallest and largest, inner less outer ring")
     bearing_capacitance_pF: list[float] = Field(description="smallest and largest")
-    discharges_per_s: float = Field(description="through both films of a ball: the rotor's charge flows")
-    partial_discharges_per_s: float = Field(description="through one film of a ball: only the ball's charge flows")
+    discharges_per_s: float = Field(description="through both contacts of a ball: the rotor's charge flows")
+    partial_discharges_per_s: float = Field(description="through one film, the other stands: only the ball's charge")
     breakdown_voltage_V: list[float] | None = Field(description="of the bearing at discharges")
     peak_current_A: list[float] | None = Field(description="of discharges")
     arc_power_mW: float = Field(description="heat of all arcs over the time")
@@ -38,7 +38,8 @@ def currents_of(result: Result, start: float) -> Currents | None:
     seconds = float(later[-1] - begin)
     counted = {name: values[events["time"] >= begin] for name, values in events.items()}
     numbers, each = np.unique(counted["discharge"], return_inverse=True)
-    through = np.bincount(each, minlength=numbers.size) > 1
+    joined = counted.get("joined", np.zeros(each.size))  # results of earlier versions do not say
+    through = (np.bincount(each, minlength=numbers.size) > 1) | (np.bincount(each, joined, numbers.size) > 0)
     voltage, peak = np.zeros(numbers.size), np.zeros(numbers.size)
     np.maximum.at(voltage, each, np.abs(counted["bearing_voltage"]))
     np.maximum.at(peak, each, counted["peak"])

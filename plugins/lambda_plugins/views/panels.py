@@ -13,6 +13,7 @@ from lambda_plugins.views.frame import LABEL, TITLE, draw_axes, draw_label, draw
 from lambda_plugins.views.style import COLOUR_MAP, INK, SIGNED_MAP, Look, look_of
 
 if TYPE_CHECKING:
+    from lambda_core.domain.arrays import FloatArray
     from lambda_core.plugins import Arrows, Field, Panel, Series
 
 _BAND = 0.18  # opacity of a band
@@ -27,7 +28,7 @@ _SMOOTH = 6  # places along each side from which a mesh is drawn smoothly
 def draw_panel(axes: Any, panel: Panel, *, legend: bool = True) -> None:
     """Draw one panel on its axes."""
     if panel.field is not None:
-        _field(axes, panel.field)
+        _field(axes, panel.field, panel.x.log, panel.y.log)
         axes.use_sticky_edges = not any(series.kind == "points" for series in panel.series)
     looks = _looks(panel.series)
     if panel.stacked:
@@ -153,7 +154,21 @@ def _stacks(axes: Any, series: tuple[Series, ...], looks: list[Look]) -> None:
         _values(axes, bars[0].x, base, base)
 
 
-def _field(axes: Any, field: Field) -> None:
+def _corners(places: FloatArray, log: bool) -> FloatArray:
+    """Return the corners of the cells around the places of a mesh, half-way to the next on a linear or log axis."""
+    grid = np.log(places) if log else np.asarray(places, dtype=np.float64)
+    for axis in (0, 1):
+        if grid.shape[axis] == 1:
+            grid = np.repeat(grid, 2, axis)
+            continue
+        half = 0.5 * np.diff(grid, axis=axis)
+        first = np.take(grid, [0], axis) - np.take(half, [0], axis)
+        last = np.take(grid, [-1], axis) + np.take(half, [-1], axis)
+        grid = np.concatenate([first, np.delete(grid, -1, axis) + half, last], axis)
+    return np.exp(grid) if log else grid
+
+
+def _field(axes: Any, field: Field, log_x: bool, log_y: bool) -> None:
     values = np.ma.masked_invalid(field.values)
     norm: Any = None
     if field.log:
@@ -164,11 +179,12 @@ def _field(axes: Any, field: Field) -> None:
     # A coarse or incomplete mesh is shown as it is, a cell per value.
     few = min(values.shape) < _SMOOTH
     coarse = few or bool(np.ma.getmaskarray(values).any())
+    x, y = (_corners(field.x, log_x), _corners(field.y, log_y)) if coarse else (field.x, field.y)
     mesh = axes.pcolormesh(
-        field.x,
-        field.y,
+        x,
+        y,
         values,
-        shading="nearest" if coarse else "gouraud",
+        shading="flat" if coarse else "gouraud",
         cmap=SIGNED_MAP if field.signed else COLOUR_MAP,
         norm=norm,
         rasterized=True,
