@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from lambda_core.domain.errors import LambdaError
 from lambda_core.plugins import NotApplicable, Options, RunData, View, ViewData
+from lambda_plugins.views.common import source
 
 
 def heat(run: RunData, options: Options) -> ViewData:
@@ -14,7 +17,7 @@ def heat(run: RunData, options: Options) -> ViewData:
         (found,) = api.thermal_pictures(api.thermal(run.path))
     except LambdaError as error:
         raise NotApplicable(f"the temperatures cannot be computed: {error}") from None
-    return found
+    return replace(found, source=source(run))
 
 
 VIEWS = (View("heat", "where the heat of a run goes, and the temperatures that follow", "result", heat, view_api=1),)
