@@ -63,7 +63,7 @@ async def test_what_is_saved_is_what_is_shown(hand_written: Path) -> None:
         assert "drive-end.toml has unsaved changes" in screen_text(pilot.app)
     assert 'speed = "3000 rpm"' in hand_written.read_text(encoding="utf-8")
     assert not Path("untitled.toml").exists()
-    assert rescues() == 1
+    assert len(recovery.rescues(None)) == 1  # the file's own may be there, too, when the machine was slow
 
 
 async def test_recovered_work_is_gone_on_with(hand_written: Path) -> None:
