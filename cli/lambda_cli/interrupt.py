@@ -6,15 +6,18 @@ of its own does, for compiled code lets other threads work meanwhile.
 
 from __future__ import annotations
 
+import _thread
 import contextlib
 import os
 import signal
 import socket
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 _HEARD = (signal.SIGINT, signal.SIGTERM)
+_SOON = 0.02  # [s]
 _GRACE = 0.5  # [s] for the program's own way out, which is the better one
 
 
@@ -30,12 +33,25 @@ def second_signal_ends(code: int) -> Iterator[None]:
     ours, theirs = socket.socketpair()
     theirs.setblocking(False)
     left = threading.Event()
+    reported = sys.unraisablehook
+
+    def hear_again(lost: sys.UnraisableHookArgs) -> None:
+        """Raise an interruption anew that came while a destructor or a callback ran, where Python drops it."""
+        if lost.exc_type is KeyboardInterrupt:
+            again = threading.Timer(_SOON, _thread.interrupt_main)  # in here it would be dropped, too
+            again.daemon = True
+            again.start()
+        else:
+            reported(lost)
+
+    sys.unraisablehook = hear_again
     before = signal.set_wakeup_fd(theirs.fileno(), warn_on_full_buffer=False)
     threading.Thread(target=_watch, args=(ours, left, code), name="signals", daemon=True).start()
     try:
         yield
     finally:
         left.set()
+        sys.unraisablehook = reported
         if signal.set_wakeup_fd(before) not in (theirs.fileno(), -1):  # an event loop of a face came and went
             signal.set_wakeup_fd(-1)
         theirs.close()

@@ -12,6 +12,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+from lambda_cli.interrupt import second_signal_ends
 
 from lambda_core import api
 from lambda_core.discovery.apart import check_apart
@@ -174,3 +175,19 @@ def test_c2_4_what_was_stopped_is_packed_for_half_a_second_at_most(
     with h5py.File(path) as file:
         assert file["load"].compression is None
     assert len(api.result(path)["load"]) > 0
+
+
+def test_c2_4_an_interruption_that_a_destructor_drops_is_heard_again() -> None:
+    """A report whose Ctrl+C came while a figure was destroyed went on to its end."""
+
+    class Deaf:
+        def __del__(self) -> None:
+            raise KeyboardInterrupt
+
+    def work() -> None:
+        with second_signal_ends(130):
+            Deaf()
+            time.sleep(5.0)
+
+    with pytest.raises(KeyboardInterrupt):
+        work()
