@@ -100,7 +100,8 @@ def _is_calm(values: Any) -> bool:
 
 
 def _bars(axes: Any, series: Series, look: Look, index: int, count: int) -> None:
-    width = 0.8 / count
+    apart = float(np.diff(series.x).min()) if series.x.size > 1 else 1.0  # classes of a number, or 1 for names
+    width = 0.8 / count * apart
     places = series.x + (index - 0.5 * (count - 1)) * width
     axes.bar(places, series.y, width, label=_name(series), **_fill(look))
     if count * series.x.size <= _LABELLED_BARS:
