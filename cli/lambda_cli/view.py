@@ -45,7 +45,7 @@ def view(
         return
     sources, name = _sorted_out(words or [])
     chosen = dict(_pairs(options or []))
-    if not as_json:
+    if not (as_json or out.is_file()):  # of a file the drawing says what it would write instead
         check_folder(out, made=True)
     data = [api.view(sources, name, chosen)] if name else list(_all(sources))
     if as_json:

@@ -31,6 +31,8 @@ class Position:
     rows: Rows  # of the file up to here
     wall: float  # wall time of integration up to here [s]
     statistics: dict[str, float] = field(default_factory=dict)
+    summed: Rows = field(default_factory=Rows)  # that the checksums stand for: up to here, and an end off the grid
+    sums: dict[str, int] = field(default_factory=dict)  # path of a dataset -> checksum of these rows
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,8 @@ def latest(slots: Iterable[bytes]) -> Checkpoint | None:
 def _read(body: bytes) -> Checkpoint:
     stream = io.BytesIO(body)
     fields = json.loads(stream.readline())
-    position = Position(**{**fields, "rows": Rows(**fields["rows"])})
+    counts = {name: Rows(**fields[name]) for name in ("rows", "summed") if name in fields}
+    position = Position(**{**fields, **counts})
     with np.load(io.BytesIO(stream.read()), allow_pickle=False) as arrays:
         return Checkpoint(position, {name: arrays[name] for name in arrays.files})
 

@@ -153,7 +153,7 @@ def read_table(group: h5py.Group) -> list[dict[str, str]]:
     return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
-def _rows_of(name: str, rows: Rows) -> int:
+def rows_of(name: str, rows: Rows) -> int:
     """Return how many rows of a growing dataset (path in the file) count."""
     by_group = {
         INTEGRALS_GROUP: rows.records,
@@ -183,7 +183,7 @@ def size(source: h5py.File, rows: Rows) -> int:
         nonlocal total
         if grows(item):
             assert isinstance(item, h5py.Dataset)
-            total += math.ceil(_rows_of(name, rows) / ROWS) * chunk_bytes(item)
+            total += math.ceil(rows_of(name, rows) / ROWS) * chunk_bytes(item)
         elif isinstance(item, h5py.Dataset):
             total += 2 * item.nbytes + 4096
 
@@ -254,7 +254,7 @@ def _copy_dataset(name: str, item: h5py.Dataset, target: h5py.File, rows: Rows, 
         options = {"maxshape": item.maxshape, "chunks": item.chunks} if item.chunks else {}
         data = target.create_dataset(name, data=item[()], dtype=item.dtype, **options)
     else:
-        count = _rows_of(name, rows)
+        count = rows_of(name, rows)
         shape = (count, *item.shape[1:])
         chunk = (min(ROWS, max(count, 1)) if compress else ROWS, *item.chunks[1:])
         packing = {"compression": "gzip", "compression_opts": 4, "shuffle": True} if compress else {}

@@ -25,6 +25,7 @@ from lambda_core.results.checkpoint import Checkpoint
 from lambda_core.results.circuit_rows import CIRCUIT_GROUP, DISCHARGES_GROUP, CircuitRows
 from lambda_core.results.event_rows import EVENTS_GROUP
 from lambda_core.results.provenance import Provenance
+from lambda_core.results.row_sums import RowSums, sums_of
 from lambda_core.results.run_status import Rows, Status
 
 # Bytes of chunks kept in memory per dataset: rows are only added at the end, HDF5's own 8 MiB would fill up in vain.
@@ -72,6 +73,7 @@ class ResultWriter:
         self._samples: list[Mapping[str, NDArray[np.float64]]] = []
         self._records: list[FloatArray] = []
         self._revolutions: list[FloatArray] = []
+        self._sums = RowSums()
         self._tables: dict[str, list[Mapping[str, FloatArray]]] = {"circuit": [], "discharges": [], "events": []}
         with self._guard():
             file.swmr_mode = True
@@ -108,7 +110,10 @@ class ResultWriter:
         The file is copied first: one whose writer was killed can be read, not written.
         """
         made = hdf5.copy(path, status.rows, compress=False)
-        writer = cls(h5py.File(made, "r+", libver="latest", rdcc_nbytes=_CACHE), path, channels, status)
+        file = h5py.File(made, "r+", libver="latest", rdcc_nbytes=_CACHE)
+        sums = sums_of(file, status.rows)
+        writer = cls(file, path, channels, status)
+        writer._sums = sums
         os.replace(made, path)
         return writer
 
@@ -142,6 +147,10 @@ class ResultWriter:
     def written(self) -> Rows:
         """Return what was flushed."""
         return self._written
+
+    def sums(self) -> dict[str, int]:
+        """Return the checksums of what was flushed, by path of the dataset."""
+        return self._sums.by_name()
 
     def flush(self, status: Status) -> None:
         """Put everything on disk, then say so.
@@ -196,7 +205,7 @@ class ResultWriter:
         count = self.pending()
         for channel in self._channels:
             values = np.concatenate([samples[channel.name] for samples in self._samples])
-            _append(self._growing["samples"][channel.name], start, values)
+            self._append(self._growing["samples"][channel.name], start, values)
         self._written = replace(self._written, samples=start + count)
         self._samples.clear()
 
@@ -209,9 +218,9 @@ class ResultWriter:
             start = getattr(self._written, kind)
             for channel in INTEGRALS:
                 data = group[channel.name]
-                _append(data, start, table[:, spans()[channel.name]].reshape(-1, *data.shape[1:]))
+                self._append(data, start, table[:, spans()[channel.name]].reshape(-1, *data.shape[1:]))
             if kind == "revolutions":
-                _append(group["revolution"], start, np.arange(start, start + len(rows), dtype=np.float64))
+                self._append(group["revolution"], start, np.arange(start, start + len(rows), dtype=np.float64))
             self._written = replace(self._written, **{kind: start + len(rows)})
             rows.clear()
 
@@ -220,9 +229,14 @@ class ResultWriter:
             start = getattr(self._written, kind)
             count = sum(len(table["time"]) for table in tables)
             for name, data in self._growing[kind].items() if tables else ():
-                _append(data, start, np.concatenate([table[name] for table in tables]))
+                self._append(data, start, np.concatenate([table[name] for table in tables]))
             self._written = replace(self._written, **{kind: start + count})
             tables.clear()
+
+    def _append(self, data: Any, start: int, values: NDArray[np.float64]) -> None:
+        data.resize(start + len(values), axis=0)
+        data[start:] = values.reshape(len(values), *data.shape[1:])
+        self._sums.add(data.name, values)
 
     def _put_status(self, status: Status) -> None:
         with self._guard():
@@ -257,11 +271,6 @@ class ResultWriter:
             yield
         except (OSError, RuntimeError) as error:
             raise DiskError(self.path, hdf5.reason(error)) from None
-
-
-def _append(data: Any, start: int, values: NDArray[np.float64]) -> None:
-    data.resize(start + len(values), axis=0)
-    data[start:] = values.reshape(len(values), *data.shape[1:])
 
 
 def _identity(path: Path) -> tuple[int, int] | None:

@@ -21,6 +21,7 @@ from lambda_core.results.convergence import is_converged
 from lambda_core.results.opening import ResultError
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.reader import Result
+from lambda_core.results.row_sums import check_rows
 from lambda_core.results.run_status import Rows, Status, this_process
 from lambda_core.results.writer import ResultWriter
 from lambda_core.run.progress import Report
@@ -119,6 +120,7 @@ def resume(
         writer = ResultWriter.continued(path, channels, Status(process=this_process()))
         return _begin(engine, provenance, writer, report, beside)
     position = checkpoint.position
+    check_rows(path, position)
     engine.restore(checkpoint.state)
     records = result.integrals()[: position.rows.records]
     start, known = records[-1], list(result.revolutions()[: position.rows.revolutions])

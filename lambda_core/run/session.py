@@ -189,7 +189,7 @@ class Session:
             written, records=written.records - tail.records, revolutions=written.revolutions - tail.revolutions
         )
         self._sequence += 1
-        position = Position(self._sequence, rows, status.wall, status.statistics)
+        position = Position(self._sequence, rows, status.wall, status.statistics, written, self._writer.sums())
         self._writer.save(Checkpoint(position, self._engine.state()))
         self._saved = time.perf_counter()
 

@@ -47,7 +47,7 @@ class Bushing(Parameters):
     "bushing",
     Bushing,
     role_api=2,
-    reference="linear spring and damper along and about each axis (Kelvin-Voigt); own work",
+    reference="linear spring and damper along and about each axis (Kelvin-Voigt)",
     validity="small displacements and tilts; the axes are the inertial ones",
 )
 def bushing(

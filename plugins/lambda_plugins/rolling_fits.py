@@ -110,7 +110,7 @@ def zhou_hoeprich(
     "aihara",
     InletShear,
     role_api=2,
-    reference="Aihara 1987, J. Tribol. 109, 471",
+    reference="Aihara 1987, J. Tribol. 109, 471, section 2.4",
     validity="tapered roller bearings; line contact applied strip by strip; constants second-hand",
 )
 def aihara(

@@ -1,0 +1,65 @@
+"""Checksums of the rows that a run writes: a run goes on only from the numbers that it wrote itself.
+
+HDF5 looks after its own structure, not after the numbers: a byte that a disk changes in them shows nowhere.
+"""
+
+from __future__ import annotations
+
+import zlib
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.results import file_format as layout
+from lambda_core.results.checkpoint import Position
+from lambda_core.results.opening import ResultError, opened
+from lambda_core.results.run_status import Rows
+
+
+class RowSums:
+    """CRC-32 of the rows of every growing dataset, by its path in the file, kept up as rows are appended."""
+
+    def __init__(self) -> None:
+        self._sums: dict[str, int] = {}
+
+    def add(self, name: str, values: NDArray[np.float64]) -> None:
+        """Take rows that are appended to a dataset."""
+        data = np.ascontiguousarray(values, dtype="<f8")
+        self._sums[name] = zlib.crc32(data.tobytes(), self._sums.get(name, 0))
+
+    def by_name(self) -> dict[str, int]:
+        """Return the checksums so far, for a checkpoint."""
+        return dict(self._sums)
+
+
+def sums_of(file: h5py.File, rows: Rows) -> RowSums:
+    """Return the checksums of the first `rows` rows of a result."""
+    found = RowSums()
+
+    def visit(name: str, item: Any) -> None:
+        if not layout.grows(item):
+            return
+        count = layout.rows_of(name, rows)
+        for start in range(0, count, layout.ROWS):
+            found.add(f"/{name}", item[start : min(start + layout.ROWS, count)])
+
+    file.visititems(visit)
+    return found
+
+
+def check_rows(path: Path, position: Position) -> None:
+    """Compare the rows of a result up to a checkpoint with its checksums; results of earlier versions have none.
+
+    Raises
+    ------
+    ResultError
+        Naming the first dataset whose numbers are not those that the run wrote.
+    """
+    with opened(path) as file:
+        found = sums_of(file, position.summed).by_name()
+    for name, number in position.sums.items():
+        if found.get(name) != number:
+            raise ResultError(f"{path} is damaged: the numbers of {name.lstrip('/')} are not those that the run wrote")
