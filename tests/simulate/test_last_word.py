@@ -11,6 +11,7 @@ from fake_engine import FakeEngine, MakeProvenance
 
 from lambda_core.results.reader import Result
 from lambda_core.run import loop
+from lambda_core.run.session import Session
 from lambda_core.solver.drivers.engine import Advance
 
 TURN = FakeEngine().turn
@@ -29,7 +30,7 @@ def test_killed_before_its_last_word(
         (tmp_path / ".killed.h5.999999999").touch()  # the copy that such a process may have begun
 
     with monkeypatch.context() as patch:
-        patch.setattr(loop._Session, "_finish", killed)
+        patch.setattr(Session, "_finish", killed)
         patch.setattr("lambda_core.results.run_status.Status.alive", lambda status: False)
         loop.run(FakeEngine(), provenance(**solver), path)
         assert Result(path).status().state == "running"
