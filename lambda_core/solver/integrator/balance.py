@@ -34,6 +34,7 @@ from lambda_core.solver.records import PRESCRIBED
 _LEAK = 0.4  # for good, twice (scheme and iteration): together a fifth below what a balance may miss
 _SCATTER = 5.0  # with either sign: cancels from step to step but for single events, which this bounds
 _CLOSER = 0.1  # of the floor is left to the iteration: what it leaves looks to the scheme like a loss of its own
+_ROUNDING = 2.0**-51  # relative, of a double: two units in its last place
 _OF_ONE = 2 * MECHANISMS + RUNNING_SIZE - BESIDE_LOSSES  # losses of one bearing
 _OF_BDF = 0.7  # share of the BDF's error in its distance from the trapezium rule, 2/9 of 2/9 + 1/12
 
@@ -162,8 +163,12 @@ def _floor(mem, h):
     """Return the energy that a step may lose although nothing flows [J]: so much per time, however short steps are.
 
     By the step, a thousand short ones would lose a thousand times as much: more than a light bearing turns slowly by.
+    Never less than rounding leaves of the kinetic energy: no step is short enough for that.
     """
-    return mem.control[0].leak_floor * h / mem.control[0].longest_step
+    twice = 0.0
+    for i in range(mem.new.size):
+        twice += mem.inertia[i] * mem.new[i] * mem.new[i]
+    return max(mem.control[0].leak_floor * h / mem.control[0].longest_step, _ROUNDING * twice)
 
 
 @helper
