@@ -35,10 +35,14 @@ def second_signal_ends(code: int) -> Iterator[None]:
     left = threading.Event()
     reported = sys.unraisablehook
 
+    def interrupt() -> None:
+        if not left.is_set():  # what has ended needs none: it would change its exit code
+            _thread.interrupt_main()
+
     def hear_again(lost: sys.UnraisableHookArgs) -> None:
         """Raise an interruption anew that came while a destructor or a callback ran, where Python drops it."""
         if lost.exc_type is KeyboardInterrupt:
-            again = threading.Timer(_SOON, _thread.interrupt_main)  # in here it would be dropped, too
+            again = threading.Timer(_SOON, interrupt)  # in here it would be dropped, too
             again.daemon = True
             again.start()
         else:

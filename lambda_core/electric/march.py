@@ -302,7 +302,9 @@ def march(
 def compiled(announce: Any) -> Any:
     """Return the compiled march, loaded once per process; it is compiled where the disk does not have it."""
     if not _loaded:
-        import numba.experimental.function_type  # noqa: F401  # teaches Numba the type of pointers, which it forgets
+        from lambda_core.laws.jit.unstable import know_pointers
+
+        know_pointers()
 
         from lambda_core.electric.compiled import edges as code
         from lambda_core.laws.kernels import compile_host

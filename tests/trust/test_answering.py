@@ -17,7 +17,8 @@ INTERRUPTED = 130
 @pytest.mark.parametrize("state", [state.name for state in STATES])
 def test_c2_4_ctrl_c_is_answered_within_a_second(state: str, tmp_path: Path) -> None:
     (found,) = measure(tmp_path, (state,), signal.SIGINT).values()
-    assert found.code == INTERRUPTED, found.said
+    # Where the signal met code that Python made from text, it ends the process by the signal itself: 130 in a shell.
+    assert found.code in (INTERRUPTED, -signal.SIGINT), found.said
     assert found.wall < 1.0
 
 

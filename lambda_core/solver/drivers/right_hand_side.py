@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 from numba import njit, types
-from numba.core.errors import NumbaExperimentalFeatureWarning
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.laws.jit.unstable import NumbaExperimentalFeatureWarning
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.integrator.handle import handle_t

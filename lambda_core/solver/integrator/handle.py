@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import Any
 
 from numba import types
-from numba.experimental import structref
 
+from lambda_core.laws.jit.unstable import structref
 from lambda_core.solver import sampling as observe
 from lambda_core.solver.integrator import bdf
 from lambda_core.solver.integrator import memory as memo
