@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from lambda_core.domain.channels import Channel
 from lambda_core.results.record import Record
-from lambda_core.system.bearing import BearingModel
+from lambda_core.system.bearing import BearingModel, ChosenEvent, ChosenObserver
 from lambda_core.views.observer import Reduction
 
 EVENTS_GROUP = "events"
@@ -53,15 +53,8 @@ class NumberWritten(Record):
 def observer_rows(model: BearingModel, keys: Mapping[str, str]) -> list[dict[str, str]]:
     """Return one row per observer of a run; `keys` are hashes of their code by "observer/NAME"."""
     return [
-        {
-            "name": name,
-            "title": chosen.item.title,
-            "distribution": chosen.item.distribution,
-            "reference": chosen.item.reference,
-            "parameters": chosen.parameters.model_dump_json(),
-            "numbers": json.dumps([vars(number) for number in chosen.item.numbers]),
-            "key": keys.get(f"observer/{name}", ""),
-        }
+        _about(name, chosen, keys.get(f"observer/{name}", ""))
+        | {"numbers": json.dumps([vars(number) for number in chosen.item.numbers])}
         for name, chosen in model.observers.items()
     ]
 
@@ -69,14 +62,13 @@ def observer_rows(model: BearingModel, keys: Mapping[str, str]) -> list[dict[str
 def event_rows(model: BearingModel, keys: Mapping[str, str]) -> list[dict[str, str]]:
     """Return one row per event that a run looks out for; `keys` are hashes of their code by "event/NAME"."""
     return [
-        {
-            "name": name,
-            "title": chosen.item.title,
-            "distribution": chosen.item.distribution,
-            "reference": chosen.item.reference,
-            "parameters": chosen.parameters.model_dump_json(),
-            "action": chosen.action,
-            "key": keys.get(f"event/{name}", ""),
-        }
+        _about(name, chosen, keys.get(f"event/{name}", "")) | {"action": chosen.action}
         for name, chosen in model.events.items()
     ]
+
+
+def _about(name: str, chosen: ChosenObserver | ChosenEvent, key: str) -> dict[str, str]:
+    """Return where an observer or event comes from."""
+    item = chosen.item
+    origin = {"title": item.title, "distribution": item.distribution, "reference": item.reference}
+    return {"name": name, **origin, "parameters": chosen.parameters.model_dump_json(), "key": key}

@@ -6,13 +6,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-from pydantic import ValidationError
 
-from lambda_core.case.problems import problems
-from lambda_core.domain.errors import LambdaError, unknown_name
+from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.roles import ELECTRIC_ROLES, ROLES
 from lambda_core.laws.calls import plain_call
 from lambda_core.system.bearing import ChosenLaw, ElectricModel
+from lambda_core.system.given_parameters import given_parameters
 from lambda_core.system.law_defaults import default_sentences
 from lambda_core.system.law_packages import law_called
 from lambda_core.system.ledger import Ledger
@@ -48,18 +47,10 @@ def _law(role: str, options: Electric, registry: ModelSource, ledger: Ledger) ->
     except LambdaError as error:
         ledger.problem(f"electric.{role}.law", str(error))
         return None
-    where, texts = f"electric.{role}.parameters", dict(section.parameters)
-    foreign = [key for key in texts if key not in chosen.parameters.model_fields]
-    for key in foreign:
-        fields = list(chosen.parameters.model_fields)
-        ledger.problem(f"{where}.{key}", unknown_name(f"parameter of {role} {chosen.name}", key, fields))
-    if foreign:
-        return None
-    try:
-        parameters = chosen.parameters.model_validate(texts)
-    except ValidationError as error:
-        for problem in problems(error, chosen.parameters, texts):
-            ledger.problem(f"{where}.{problem.where}", f"{role} {chosen.name}: {problem.message}")
+    texts = dict(section.parameters)
+    what, where = f"{role} {chosen.name}", f"electric.{role}.parameters"
+    parameters = given_parameters(what, chosen.parameters, texts, where, ledger)
+    if parameters is None:
         return None
     origins = {key: "case" if key in texts else "default" for key in type(parameters).model_fields}
     return ChosenLaw(chosen, parameters, origins)

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pydantic import ValidationError
-
 from lambda_core.case.motion import BetweenBodies
-from lambda_core.case.problems import problems
 from lambda_core.domain.elements import BODIES, BodyName
 from lambda_core.domain.errors import LambdaError, unknown_name
 from lambda_core.system.bearing import ELEMENT_PREFIX, ChosenLaw, Link
+from lambda_core.system.given_parameters import given_parameters, record_parameters
 from lambda_core.system.ledger import Ledger
 
 if TYPE_CHECKING:
@@ -50,6 +48,9 @@ def resolve_links(
 
 def _end(case: Case, name: str, where: str, ledger: Ledger) -> End | None:
     """Return the body and the place that a name stands for, None with a problem in the ledger."""
+    if name in case.markers and name in (GROUND, *BODIES):
+        ledger.problem(where, f'"{name}" stands for a marker and for what is always called so: rename the marker')
+        return None
     if name == GROUND:
         return None, _CENTRE
     place = _CENTRE
@@ -72,24 +73,9 @@ def _law(element: BetweenBodies, where: str, registry: ModelSource, ledger: Ledg
     except LambdaError as error:
         ledger.problem(f"{where}.law", str(error))
         return None
-    fields = list(chosen.parameters.model_fields)
-    foreign = [key for key in element.parameters if key not in fields]
-    for key in foreign:
-        ledger.problem(f"{where}.parameters.{key}", unknown_name(f"parameter of {ROLE} {chosen.name}", key, fields))
-    if foreign:
-        return None
-    try:
-        parameters = chosen.parameters.model_validate(element.parameters)
-    except ValidationError as error:
-        for problem in problems(error, chosen.parameters, element.parameters):
-            ledger.problem(f"{where}.parameters.{problem.where}", f"{ROLE} {chosen.name}: {problem.message}")
+    own = f"{where}.parameters"
+    parameters = given_parameters(f"{ROLE} {chosen.name}", chosen.parameters, element.parameters, own, ledger)
+    if parameters is None:
         return None
     ledger.record(f"{where}.law", chosen.name, "", chosen.distribution or "built-in", "given")
-    for key, value in parameters.model_dump(mode="json").items():
-        plain = value if isinstance(value, int | float | str) else str(value)
-        given = key in element.parameters
-        ledger.record(
-            f"{where}.parameters.{key}", plain, "", "case" if given else "default", "given" if given else "default"
-        )
-    origins = {key: "case" if key in element.parameters else "default" for key in fields}
-    return ChosenLaw(chosen, parameters, origins)
+    return ChosenLaw(chosen, parameters, record_parameters(parameters, element.parameters, own, ledger))

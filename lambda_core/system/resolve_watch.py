@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol, TypeVar
 
-from pydantic import ValidationError
-
 from lambda_core.case.case import Case
-from lambda_core.case.problems import problems
-from lambda_core.domain.errors import LambdaError, nearest, unknown_name
+from lambda_core.domain.errors import nearest
 from lambda_core.system.bearing import ChosenEvent, ChosenObserver
+from lambda_core.system.given_parameters import given_parameters, record_parameters
 from lambda_core.system.ledger import Ledger
 from lambda_core.views.observer import ACTION, Event, Observer
 
@@ -73,26 +71,9 @@ def resolve_events(case: Case, registry: WatchSource, ledger: Ledger) -> dict[st
 def _parameters(item: Observer | Event, where: str, texts: Mapping[str, Any], ledger: Ledger) -> Any:
     """Return validated parameters, or None with the problems in the ledger."""
     what = "observer" if isinstance(item, Observer) else "event"
-    fields = list(item.parameters.model_fields)
-    foreign = [key for key in texts if key not in fields]
-    for key in foreign:
-        ledger.problem(f"{where}.{key}", unknown_name(f"parameter of the {what} {item.name}", key, fields))
-    if foreign:
-        return None
-    try:
-        return item.parameters.model_validate(dict(texts))
-    except ValidationError as error:
-        for problem in problems(error, item.parameters, dict(texts)):
-            ledger.problem(f"{where}.{problem.where}", f"{what} {item.name}: {problem.message}")
-    except LambdaError as error:
-        ledger.problem(where, str(error))
-    return None
+    return given_parameters(f"the {what} {item.name}", item.parameters, texts, where, ledger)
 
 
 def _record(where: str, item: Observer | Event, parameters: Any, texts: Mapping[str, Any], ledger: Ledger) -> None:
     ledger.record(where, item.name, "", item.distribution, "given")
-    for key, value in parameters.model_dump(mode="json").items():
-        plain = value if isinstance(value, int | float | str) else str(value)
-        ledger.record(
-            f"{where}.{key}", plain, "", "case" if key in texts else "default", "given" if key in texts else "default"
-        )
+    record_parameters(parameters, texts, where, ledger)

@@ -97,6 +97,10 @@ def test_energy_closes_in_a_run(tmp_path: Path) -> None:
             r'elements\.a\.parameters\.stiffness +"stiffness" is not a known parameter of force_element bushing',
         ),
         (["elements.a.second=inner_ring", "elements.a.parameters.stiffness_x=-1 N/m"], "must be at least 0"),
+        (
+            ["markers.cage.body=inner_ring", "elements.a.second=cage"],
+            '"cage" stands for a marker and for',
+        ),
         (["elements.a.first=inner_ring"], r"elements\.a\.second +is required"),
     ],
 )

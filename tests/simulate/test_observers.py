@@ -203,7 +203,7 @@ def test_mistakes_in_a_case_have_their_place() -> None:
         "observers.second: writes the channel work_lost, which twin writes already",
         "observers.second: writes the channel contact_work, which twin writes already",
         'events.late.action: "halt" is not allowed: write "stop" or "record"',
-        "events.later.factor: event late: -1.0: must be greater than 0",
+        "events.later.factor: the event late: -1.0: must be greater than 0",
     ]
 
 
