@@ -73,6 +73,11 @@ EXCHANGES: tuple[Exchange, ...] = (
             Law("constant"),
             Law("inlet-distance", ("parameters.supply.distance=2",), note="inlet meniscus two semi-axes b ahead"),
             Law("oil-layer", ("parameters.supply.layer=0.5 um",), note="a layer of 0.5 um on the track"),
+            Law(
+                "side-flow",
+                ("parameters.supply.layer=5 um", "parameters.supply.time=10 min"),
+                note="ten minutes on a layer of 5 um that nothing renews",
+            ),
         ),
     ),
     Exchange("contact_temperature", (Law("shear-heating"), Law("isothermal"))),

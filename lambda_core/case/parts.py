@@ -174,7 +174,7 @@ class Lubricant(Section):
         reference="usual oil bath level at standstill",
     )
     starvation: float = option(
-        1.0, "factor on the film by the supply law constant, rolling resistance falls with it; 1: none", gt=0.0, le=1.0
+        1.0, "film over that of a flooded contact, rolling resistance falls with its inlet; 1: flooded", gt=0.0, le=1.0
     )
 
 

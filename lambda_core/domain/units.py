@@ -31,7 +31,7 @@ UNITS: dict[str, dict[str, float]] = {
     "pressure": {"MPa": 1e6, "GPa": 1e9, "kPa": 1e3, "Pa": 1.0, "bar": 1e5},
     "modulus": {"GPa": 1e9, "MPa": 1e6, "Pa": 1.0},
     "rotational_speed": {"rpm": _RPM, "1/min": _RPM, "rad/s": 1.0},
-    "velocity": {"m/s": 1.0, "mm/s": 1e-3},
+    "velocity": {"m/s": 1.0, "mm/s": 1e-3, "um/s": 1e-6, "nm/s": 1e-9},
     "acceleration": {"m/s2": 1.0, "mm/s2": 1e-3},
     "temperature": {"degC": 1.0, "K": 1.0},
     "temperature_difference": {"K": 1.0},

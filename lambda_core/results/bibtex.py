@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 # What stands before the authors says what their work was used for: "density: ", "constants in ", "(after ".
 _USE = r"^(?:.*?(?::|\bas in|\bin|\bafter) )??"
-_NAME = r"[A-Z][\w.'-]*"
+_NAME = r"(?:van |von |de )?[A-Z][\w.'-]*"
 _YEAR = r"(?P<year>1[89]\d\d|20\d\d)"
 # "Hamrock and Dowson 1977, J. Lubr. Technol. 99, 264"
 _BY_YEAR = re.compile(rf"{_USE}(?P<authors>{_NAME}(?:(?:, | and | ){_NAME})*(?: et al\.)?) {_YEAR}\b(?P<rest>.*)$")

@@ -26,7 +26,8 @@ from lambda_core.system.ledger import Ledger, Status
 NONE = "none"
 _WEAK = ("grade C)", "grade D)")  # how the origin of an estimate ends
 BALL_BALL = "ball-ball"  # takes the place of the pockets when there is no cage
-PRESCRIBED = "constant"  # supply law that takes lubricant.starvation; permittivity law that needs no data
+CONSTANT = "constant"  # permittivity law that needs no data
+PRESCRIBED = "film_factor"  # parameter of the supply laws that take lubricant.starvation
 # Element -> default model where the role's own default does not fit it.
 LANDS = {"cage_inner": "inner ring", "cage_outer": "outer ring"}
 
@@ -95,9 +96,6 @@ class LawResolver:
         if plain == BALL_BALL and self.case.depth.cage:
             self.ledger.problem(where, f'"{name}" is the contact without a cage: it needs depth.cage = false')
             return None
-        if role == "supply" and plain != PRESCRIBED and self.case.lubricant.starvation < 1.0:
-            self.ledger.problem("lubricant.starvation", f'belongs to the supply law {PRESCRIBED}, not to "{name}"')
-            return None
         try:
             chosen = law_called(self.registry, role, name, given=self._chosen_by(element, role) == "given")
         except LambdaError as error:
@@ -105,6 +103,8 @@ class LawResolver:
             return None
         rows = self._lubricant_rows(role, chosen)
         case_texts = self._case_texts(element, role, chosen)
+        if role == "supply" and self.case.lubricant.starvation < 1.0 and not self._prescribes(chosen, case_texts):
+            return None
         texts: dict[str, Any] = {key: row.text() for key, row in rows.items()}
         texts.update({key: text for key, (text, _) in case_texts.items()})
         foreign = [key for key in texts if key not in chosen.parameters.model_fields]
@@ -130,6 +130,24 @@ class LawResolver:
             else:
                 origins[key] = "default"
         return ChosenLaw(chosen, parameters, origins)
+
+    def _prescribes(self, chosen: Law, case_texts: Mapping[str, tuple[Any, str]]) -> bool:
+        """Say whether a supply law takes the film that the case prescribes, and what follows from it."""
+        share, where = self.case.lubricant.starvation, "lubricant.starvation"
+        if PRESCRIBED not in chosen.parameters.model_fields:
+            self.ledger.problem(
+                where, f'the supply law "{chosen.name}" finds the film itself: leave it out, or take "constant"'
+            )
+            return False
+        if PRESCRIBED in case_texts:
+            self.ledger.problem(where, f"{case_texts[PRESCRIBED][1]} gives the film, too: leave one out")
+            return False
+        self.ledger.assume(
+            f"starved contacts: the films are {short(share)} of the flooded ones at every speed and load, as given; "
+            "the rolling resistance is that of the inlet which leaves this film (Wolveridge et al. 1971; Biboulet and "
+            "Houpert 2010, eq. 44; assumed: line contacts)"
+        )
+        return True
 
     def _choice(self, element: str, role: str) -> tuple[str, str]:
         """Return the model's name and the path where it was, or would be, chosen."""
@@ -157,8 +175,6 @@ class LawResolver:
 
     def _default(self, role: str) -> str:
         """Return the built-in default; for a law of the oil, the one that the oil has data for."""
-        if role == "supply" and self.case.lubricant.starvation < 1.0:
-            return PRESCRIBED
         name = DEFAULT_MODELS[role]
         if name == "auto":
             return self._automatic(role)
@@ -166,7 +182,7 @@ class LawResolver:
             return name
         known = self.lubricant.parameters.get(role, {})
         if name not in known:
-            other = next(iter(known), PRESCRIBED)
+            other = next(iter(known), CONSTANT)
             self.ledger.assume(f"{role} model {other}: {self.lubricant.name} has no data for {name}")
             return other
         return name

@@ -40,7 +40,8 @@ _LAWS: dict[str, dict[str, str]] = {
         "skf-replenishment": "supply:skf_replenishment",
         "constant": "supply:constant",
         "inlet-distance": "supply:inlet_distance",
-        "oil-layer": "supply:oil_layer",
+        "oil-layer": "supply_layers:oil_layer",
+        "side-flow": "supply_layers:side_flow_layer",
     },
     "contact_temperature": {
         "shear-heating": "contact_temperature:shear_heating",

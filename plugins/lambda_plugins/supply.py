@@ -1,59 +1,16 @@
-"""Supply of oil to a contact: how much the film and the rolling resistance lose where the inlet is not full.
-
-Film and rolling resistance starve differently: the film forms close to the contact, the resistance comes from the whole
-inlet. The rolling factor is that of Biboulet and Houpert over the oil that reaches the inlet, so that both laws fall
-together and both are exactly 1 for a flooded contact.
-"""
+"""Supply of oil to a contact: how much the film and the rolling resistance lose where the inlet is not full."""
 
 from __future__ import annotations
 
 import math
-from typing import Annotated, NamedTuple
+from typing import NamedTuple
 
-from lambda_core.plugins import OK, Context, FloatArray, Parameters, Quantity, law, parameter
+from lambda_core.plugins import OK, Context, FloatArray, Parameters, law, parameter
 from lambda_plugins.shapes import at_least, at_most
-
-_ROLLING = "Biboulet and Houpert 2010, Proc. IMechE J 224, Part 1, eq. 44"
-_CHEVALIER = "Chevalier, Lubrecht, Cann, Colin and Dalmaz 1998, J. Tribol. 120, 126"
+from lambda_plugins.starved_inlet import INLET, ROLLING, meniscus, starved_rolling
 
 
-def starved_rolling(inlet: float) -> float:
-    """Rolling resistance over that of a flooded inlet, F/F* = (S^2 + 162.8 S)/(S^2 + 193.1 S + 1257).
-
-    S is the thickness of the oil at the inlet over the minimum film. Biboulet and Houpert 2010, Proc. IMechE J 224
-    (Part 1, line contacts, doi 10.1243/13506501JET790), eq. 44: 0 without oil, 1 for endless oil.
-    """
-    s = at_least(inlet, 0.0)
-    if s > 1e9:
-        return 1.0
-    return (s * s + 162.8 * s) / (s * s + 193.1 * s + 1257.0)
-
-
-def starved_film(layer: float, gamma: float) -> float:
-    """Film over the flooded one, r/(1 + r^gamma)^(1/gamma), of a layer r times as thick as the flooded film.
-
-    Chevalier et al. 1998: all of a thin layer goes through the contact, of a thick one as much as a flooded film takes.
-    """
-    if layer > 1.0:
-        return float((1.0 + layer**-gamma) ** (-1.0 / gamma))
-    return float(layer * (1.0 + at_least(layer, 0.0) ** gamma) ** (-1.0 / gamma))
-
-
-class Gamma(Parameters):
-    """How sharply a contact passes from starved to flooded."""
-
-    gamma: float = parameter(
-        3.5,
-        "exponent of Chevalier's film: 2 soft, 5 sharp",
-        source=f"{_CHEVALIER}: 2 to 5 by load and ellipse, middle",
-        status="assumed",
-        published_range=(2.0, 5.0),
-        ge=1.0,
-        le=20.0,
-    )
-
-
-class Constant(Gamma):
+class FilmFactor(Parameters):
     """A film factor that is given."""
 
     film_factor: float | None = parameter(
@@ -62,27 +19,27 @@ class Constant(Gamma):
 
 
 class Given(NamedTuple):
-    """A film factor and the layer of oil over the flooded film that leaves it."""
+    """A film factor and the gap at the meniscus that leaves it."""
 
     film: float
-    layer: float
+    gap: float  # over the flooded central film
 
 
-def prepare_constant(parameters: Constant, context: Context) -> Given:
-    """Return the factor and its layer, which is endless in a flooded contact."""
-    factor = context.starvation if parameters.film_factor is None else parameters.film_factor
-    loss = 1.0 - factor**parameters.gamma
-    return Given(factor, factor / loss ** (1.0 / parameters.gamma) if loss > 0.0 else 1e300)
+def given(parameters: FilmFactor, context: Context) -> Given:
+    """Return the factor of the case and its meniscus, which is endlessly far in a flooded contact."""
+    film = context.starvation if parameters.film_factor is None else parameters.film_factor
+    return Given(film, meniscus(film))
 
 
 @law(
     "supply",
     "constant",
-    Constant,
+    FilmFactor,
     role_api=2,
-    reference=f"{_ROLLING}; {_CHEVALIER}",
-    validity="the same share of the flooded film at every speed and load",
-    prepare=prepare_constant,
+    reference=f"{INLET}; rolling: {ROLLING}",
+    validity="the same share of the flooded film at every speed and load; Grubin's inlet and rolling of line contacts, "
+    "the inlet derived anew",
+    prepare=given,
 )
 def constant(
     u_mean: float,
@@ -95,51 +52,13 @@ def constant(
     par: Given,
     out: FloatArray,
 ) -> int:
-    """Film factor as given; the rolling resistance of the layer of oil that leaves this film.
+    """Film factor as given; the rolling resistance of the inlet that leaves this film.
 
-    The layer follows from Chevalier's film backwards; the rolling factor is :func:`starved_rolling` of it.
+    Where the oil has to begin follows from Grubin's inlet (:func:`meniscus`, Wolveridge et al. 1971), the rolling
+    resistance from the gap there (:func:`starved_rolling`, Biboulet and Houpert 2010, Part 1, eq. 44).
     """
     out[0] = par.film
-    out[1] = starved_rolling(par.layer * h_cen / h_min)
-    return OK
-
-
-class OilLayer(Gamma):
-    """A layer of oil on the track."""
-
-    layer: Annotated[float, Quantity("small_length")] = parameter(
-        ...,
-        "thickness of the oil ahead of the contact, both surfaces together",
-        source="to be given",
-        gt=0.0,
-    )
-
-
-@law(
-    "supply",
-    "oil-layer",
-    OilLayer,
-    role_api=2,
-    reference=f"{_CHEVALIER}; rolling: {_ROLLING}",
-    validity="an even layer of known thickness; the line-contact relation of the rolling resistance on an ellipse",
-)
-def oil_layer(
-    u_mean: float,
-    load: float,
-    semi_a: float,
-    semi_b: float,
-    R_x: float,
-    h_cen: float,
-    h_min: float,
-    par: OilLayer,
-    out: FloatArray,
-) -> int:
-    """Film and rolling resistance of a contact that is fed by a layer of oil.
-
-    Film: :func:`starved_film` (Chevalier et al. 1998), compressibility left out; rolling: :func:`starved_rolling`.
-    """
-    out[0] = starved_film(par.layer / h_cen, par.gamma)
-    out[1] = starved_rolling(par.layer / h_min)
+    out[1] = starved_rolling(par.gap * h_cen / h_min)
     return OK
 
 
@@ -168,7 +87,7 @@ def prepare_distance(parameters: InletDistance, context: Context) -> Meniscus:
     "inlet-distance",
     InletDistance,
     role_api=2,
-    reference=f"Hamrock and Dowson 1977, J. Lubr. Technol. 99, 15 (part IV); rolling: {_ROLLING}",
+    reference=f"Hamrock and Dowson 1977, J. Lubr. Technol. 99, 15 (part IV); rolling: {ROLLING}",
     validity="entrainment along the minor axis",
     prepare=prepare_distance,
 )
@@ -196,7 +115,7 @@ def inlet_distance(
     return OK
 
 
-class Replenishment(Parameters):
+class Replenishment(FilmFactor):
     """Constants of SKF's kinematic replenishment."""
 
     k_rs: float = parameter(
@@ -210,9 +129,11 @@ class Replenishment(Parameters):
 
 
 class Decay(NamedTuple):
-    """How fast the rolling resistance falls with speed."""
+    """How fast the rolling resistance falls with speed, and the film that the case prescribes."""
 
     per_speed: float  # -ln(phi_rs) over the mean surface velocity [s/m]
+    film: float  # factor on the film
+    gap: float  # at the meniscus that leaves this film, over the flooded central film
 
 
 def prepare_replenishment(parameters: Replenishment, context: Context) -> Decay:
@@ -224,7 +145,9 @@ def prepare_replenishment(parameters: Replenishment, context: Context) -> Decay:
     rpm_per_speed = 30.0 / math.pi * 4.0 / (context.pitch_diameter * (1.0 - gamma * gamma))
     d, D = 1e3 * context.bore_diameter, 1e3 * context.outside_diameter
     nu = 1e6 * context.oil.viscosity / context.oil.density
-    return Decay(parameters.k_rs * nu * (d + D) * math.sqrt(parameters.k_z / (2.0 * (D - d))) * rpm_per_speed)
+    per_rpm = parameters.k_rs * nu * (d + D) * math.sqrt(parameters.k_z / (2.0 * (D - d)))
+    film, gap = given(parameters, context)
+    return Decay(per_rpm * rpm_per_speed, film, gap)
 
 
 @law(
@@ -232,8 +155,9 @@ def prepare_replenishment(parameters: Replenishment, context: Context) -> Decay:
     "skf-replenishment",
     Replenishment,
     role_api=2,
-    reference="SKF, Rolling bearings, catalogue 17000 EN (2018), chapter Friction",
-    validity="series and speeds of the catalogue; the film itself is left as flooded",
+    reference="SKF, Rolling bearings, catalogue 17000 EN (2018), chapter Friction; "
+    f"prescribed film: {INLET}; its rolling: {ROLLING}",
+    validity="series and speeds of the catalogue; the film itself is left as flooded where the case prescribes none",
     prepare=prepare_replenishment,
 )
 def skf_replenishment(
@@ -247,11 +171,15 @@ def skf_replenishment(
     par: Decay,
     out: FloatArray,
 ) -> int:
-    """SKF's kinematic replenishment: rolling resistance by phi_rs, the film as flooded.
+    """SKF's kinematic replenishment: rolling resistance by phi_rs, the film as flooded or as the case prescribes.
 
     phi_rs = exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))), mm, mm2/s, 1/min: the inlet does not refill between two
     balls. SKF, Rolling bearings, catalogue 17000 EN (2018), Friction. n from the mean surface velocity of the contact.
+
+    A prescribed film says where the oil begins, and so does phi_rs: both are about the same meniscus, and the nearer
+    one counts. The rolling resistance therefore has the smaller of phi_rs and the factor of `supply/constant`.
     """
-    out[0] = 1.0
-    out[1] = math.exp(-par.per_speed * at_least(u_mean, 0.0))
+    out[0] = par.film
+    kinematic = math.exp(-par.per_speed * at_least(u_mean, 0.0))
+    out[1] = at_most(kinematic, starved_rolling(par.gap * h_cen / h_min))
     return OK

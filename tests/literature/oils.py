@@ -48,6 +48,7 @@ VG100: dict[str, Any] = {
 REQUIRED: dict[str, dict[str, Any]] = {
     "supply/inlet-distance": {"distance": 2.0},
     "supply/oil-layer": {"layer": "5 um"},
+    "supply/side-flow": {"layer": "5 um", "time": "1 h"},
     "discharge/arc-voltage": {"voltage": "3 V"},
     "rheology/vogel-dicke": FVA3,
     "rheology/bode": BODE_VISCOSITY,

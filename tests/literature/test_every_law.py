@@ -31,6 +31,7 @@ CHECKED: dict[str, tuple[str, str]] = {
     "rheology/barus-limited": (LUBRICANT, "test_generic_oil_passes_its_two_points"),
     "supply/constant": (SUPPLY, "test_half_the_film_costs_rolling_resistance_too"),
     "supply/oil-layer": (SUPPLY, "test_film_of_a_layer"),
+    "supply/side-flow": (SUPPLY, "test_decay_on_a_measured_track"),
     "supply/inlet-distance": (SUPPLY, "test_film_of_a_near_inlet"),
     "supply/skf-replenishment": (SUPPLY, "test_replenishment_of_the_6319"),
     "film_thickness/chittenden": (CONTACT, "test_film_of_the_6208"),

@@ -30,7 +30,7 @@ NAMES = {
     "rheology": {"vogel-dicke", "bode", "roelands", "barus-limited"},
     "film_thickness": {"chittenden", "hamrock-dowson"},
     "thermal_correction": {"murch-wilson", "zhu-cheng", "none"},
-    "supply": {"constant", "skf-replenishment", "inlet-distance", "oil-layer"},
+    "supply": {"constant", "skf-replenishment", "inlet-distance", "oil-layer", "side-flow"},
     "contact_temperature": {"shear-heating", "isothermal"},
     "traction": {"ree-eyring", "bair-winer", "newtonian"},
     "rolling_resistance": {

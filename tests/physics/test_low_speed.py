@@ -42,9 +42,35 @@ def test_starvation_takes_film_and_rolling_resistance() -> None:
     assert 0.0 < rolling[1] < 0.2 * rolling[0]
 
 
-def test_a_prescribed_film_belongs_to_the_constant_law() -> None:
-    with pytest.raises(api.CaseError, match="belongs to the supply law constant"):
-        api.quasistatic(CASE, ["lubricant.starvation=0.5", "models.supply=skf-replenishment"])
+def test_a_little_starvation_changes_little() -> None:
+    """No law is exchanged for another: what a film of 1 - e loses goes to nothing with e, in rolling and torque."""
+    full = api.quasistatic(CASE)
+    for short, most in ((1e-3, 0.08), (1e-5, 0.003), (1e-12, 1e-6)):
+        found = api.quasistatic(CASE, [f"lubricant.starvation={1.0 - short!r}"])
+        for name in ("rolling_inner", "rolling_outer", "sliding_inner"):
+            whole, part = full.friction_breakdown_Nmm[name], found.friction_breakdown_Nmm[name]
+            assert whole is not None
+            assert part == pytest.approx(whole, rel=most), (short, name)
+        assert found.friction_torque_Nmm == pytest.approx(full.friction_torque_Nmm, rel=most)
+
+
+def test_what_starvation_assumes_is_said() -> None:
+    model = api.check(CASE, ["lubricant.starvation=0.9"])
+    assert model.laws["ball_inner"]["supply"].model.name == "skf-replenishment"
+    assert any("films are 0.9 of the flooded ones" in text for text in model.assumptions)
+    assert not any("fully flooded" in text for text in model.assumptions)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        (["models.supply=oil-layer", "parameters.supply.layer=2 um"], '"oil-layer" finds the film itself'),
+        (["parameters.supply.film_factor=0.8"], "gives the film, too"),
+    ],
+)
+def test_a_film_is_prescribed_once(changes: list[str], sentence: str) -> None:
+    with pytest.raises(api.CaseError, match=sentence):
+        api.check(CASE, ["lubricant.starvation=0.5", *changes])
 
 
 def test_a_run_at_ten_rpm_has_the_torque_of_its_equilibrium() -> None:
