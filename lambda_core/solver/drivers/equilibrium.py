@@ -20,6 +20,7 @@ from lambda_core.domain.elements import DOFS
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.drivers.ball_paths import path_velocities
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, guides, links
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
@@ -38,6 +39,10 @@ _FRAME_TOLERANCE = 1e-4  # [rad] change of the frozen contact angle that ends th
 StaticReport = NDArray[np.void]  # a STATIC_REPORT record
 _MAX_ITERATIONS = {False: 5000, True: 1000}
 _ITERATIONS_PER_CALL = 50  # some hundredths of a second
+_PATH_ITERATIONS = 20
+_PATH_SHARE = 0.5  # of the way to the velocities that the paths have
+_PATH_TOLERANCE = 0.05  # of the largest axial velocity
+_NO_PATH = 1e-6  # of rolling
 
 
 @dataclass
@@ -124,6 +129,7 @@ def solve(
     smooth, converged = state.copy(), True
     try:
         report = _continue(compiled, context, state, friction=True)
+        report = _follow_paths(compiled, context, state, report)
     except SolverError:
         if strict:
             raise
@@ -246,6 +252,27 @@ def _continue(compiled: Core, context: SolverContext, state: FloatArray, *, fric
         raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(context)}")
     if status != Status.OK:
         raise SolverError(_no_equilibrium(report, friction=friction))
+    return report
+
+
+def _follow_paths(compiled: Core, context: SolverContext, state: FloatArray, report: StaticReport) -> StaticReport:
+    """Let balls move along their paths, axially and radially, and find the friction's equilibrium again, in place.
+
+    A ball that is carried across the grooves while it goes round drags the rings sideways where it slips; at rest it
+    would drag them twice as much. Under a radial or an axial load alone there is no axial path and nothing to do.
+    """
+    balls = state[: L.NB * context.model.geometry.ball_count].view(R.BALL)
+    rolling = float(np.abs(balls["velocity"][:, 2]).max())
+    moving = np.zeros((balls.size, 2))
+    for k in range(_PATH_ITERATIONS):
+        aim = path_velocities(balls)
+        across = float(np.abs(aim[:, 0]).max())
+        change = float(np.abs(aim - moving)[:, 0].max())
+        if across <= _NO_PATH * rolling or change <= _PATH_TOLERANCE * across:
+            break
+        moving += (_PATH_SHARE if k else 1.0) * (aim - moving)
+        balls["velocity"][:, :2] = moving
+        report = _continue(compiled, context, state, friction=True)
     return report
 
 
