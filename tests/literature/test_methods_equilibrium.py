@@ -118,11 +118,11 @@ def test_loads_after_the_specification(solved: Solver, case: str, overrides: tup
         share = 0.035 if axial > 1.0 else 0.004
         Published(float(reference), source, reason, rel=0.01, abs=share * loads[0]).check(mean)
     sag = math.hypot(*state.displacement[1:3])
-    # friction across the grooves lowers the ring by 2.6 %, in a run by 2.1 %
+    # friction across the grooves lowers the ring by 2.6 % and tilts it by as much, in a run by 2.1 %
     Published(expected.radial, source, reason, rel=0.03 if axial > 1.0 else 0.01).check(sag)
     if axial > 1.0:
         Published(expected.axial, source, reason, rel=0.01).check(state.displacement[0])
-        Published(abs(expected.tilt), source, reason, rel=0.02).check(math.hypot(*state.displacement[3:5]))
+        Published(abs(expected.tilt), source, reason, rel=0.03).check(math.hypot(*state.displacement[3:5]))
 
 
 def _peer_case(peer: Peer) -> dict[str, Any]:
