@@ -79,9 +79,12 @@ class BuilderApp(CaseApp):
         else:
             self.open(self._start)
 
-    def on_app_focus(self) -> None:
-        """Give the keyboard to something: a browser's page begins without it, also for screens opened meanwhile."""
-        if self.screen.focused is None:
+    def watch_app_focus(self, focus: bool) -> None:
+        """Give the keyboard to something, also in a screen that was opened while a browser's page had not got it.
+
+        A key tells so as well as the page does: the page may say that it lost the keyboard and nothing when it is back.
+        """
+        if focus and self.screen.focused is None:
             self.screen.focus_next()
 
     def stands(self) -> None:

@@ -20,7 +20,7 @@ from jinja2 import FileSystemLoader
 from textual_serve.server import Server
 
 MOST_SOCKETS = 4  # builders at once, two processes each
-_FROM_OUTSIDE = re.compile(r"<link[^>]*https?://[^>]*>")
+_FROM_OUTSIDE = r"<link[^>]*\"https?://(?!{host}/)[^>]*>"  # fonts; the page's own style has a full address, too
 # The keyboard belongs to the builder from the start, and again when its tab comes to the front: keys would do what the
 # browser does with them, F5 load the page anew.
 _KEYBOARD = """<script>
@@ -113,7 +113,8 @@ class LockedServer(Server):  # type: ignore[misc, unused-ignore]
         """Serve the page, with addresses under the name that the browser asked for and nothing from other places."""
         self.public_url = f"{request.scheme}://{request.host}"
         page: Any = await super().handle_index(request)
-        page.text = _FROM_OUTSIDE.sub("", page.text).replace("</body>", _KEYBOARD)
+        outside = re.compile(_FROM_OUTSIDE.format(host=re.escape(request.host)))
+        page.text = outside.sub("", page.text).replace("</body>", _KEYBOARD)
         return page
 
     async def handle_websocket(self, request: web.Request) -> web.WebSocketResponse:

@@ -3,32 +3,39 @@
 from __future__ import annotations
 
 import asyncio
-import base64
 import codecs
 import json
 import re
 import shutil
 import time
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
-from itertools import count
+from contextlib import asynccontextmanager, suppress
 from pathlib import Path
-from typing import Any
 
 import aiohttp
+from playwright.async_api import Page, async_playwright
 from rich.cells import cell_len
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-# Name -> what a terminal sends, and what a browser's key event carries
-KEYS: dict[str, tuple[str, dict[str, Any]]] = {
-    "enter": ("\r", {"key": "Enter", "windowsVirtualKeyCode": 13, "text": "\r"}),
-    "tab": ("\t", {"key": "Tab", "windowsVirtualKeyCode": 9}),
-    "down": ("\x1b[B", {"key": "ArrowDown", "windowsVirtualKeyCode": 40}),
-    "f5": ("\x1b[15~", {"key": "F5", "windowsVirtualKeyCode": 116}),
-    "f8": ("\x1b[19~", {"key": "F8", "windowsVirtualKeyCode": 119}),
-    "ctrl+p": ("\x10", {"key": "p", "windowsVirtualKeyCode": 80, "modifiers": 2}),
-    "ctrl+s": ("\x13", {"key": "s", "windowsVirtualKeyCode": 83, "modifiers": 2}),
+# Name -> what a terminal sends, and what the key is called in a browser
+KEYS = {
+    "enter": ("\r", "Enter"),
+    "down": ("\x1b[B", "ArrowDown"),
+    "f5": ("\x1b[15~", "F5"),
+    "f8": ("\x1b[19~", "F8"),
+    "ctrl+p": ("\x10", "Control+p"),
+    "ctrl+s": ("\x13", "Control+s"),
 }
+_HEIGHT = 1000  # of the window
+_OPTIONS = (
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
 
 
 class Terminal:
@@ -68,9 +75,8 @@ class Terminal:
 class Browser:
     """What both ways have in common: waiting until words stand on the terminal."""
 
-    def __init__(self, line: aiohttp.ClientWebSocketResponse) -> None:
-        self._line = line
-        self._terminal = Terminal()
+    def __init__(self) -> None:
+        self.terminal = Terminal()
 
     async def press(self, key: str) -> None:
         """Press a key."""
@@ -83,20 +89,22 @@ class Browser:
     async def until(self, words: str, *, without: str = "\0", seconds: float = 30.0) -> None:
         """Read until words stand on the terminal, and others do not."""
         end = time.monotonic() + seconds
-        while words not in (shown := self._terminal.text()) or without in shown:
+        while words not in (shown := self.terminal.text()) or without in shown:
             left = end - time.monotonic()
             assert left > 0.0, f"waited {seconds} s in vain for {words!r}; on the terminal:\n{shown}"
-            try:
-                await self._read(left)
-            except TimeoutError:
-                continue
+            await self._read(left)
 
-    async def _read(self, seconds: float) -> dict[str, Any]:
+    async def _read(self, seconds: float) -> None:
+        """Wait until the terminal may have changed, at most so long."""
         raise NotImplementedError
 
 
 class Client(Browser):
     """A client of the page's WebSocket."""
+
+    def __init__(self, line: aiohttp.ClientWebSocketResponse) -> None:
+        super().__init__()
+        self._line = line
 
     async def press(self, key: str) -> None:
         """Press a key."""
@@ -106,57 +114,53 @@ class Client(Browser):
         """Type a text."""
         await self._line.send_str(json.dumps(["stdin", text]))
 
-    async def _read(self, seconds: float) -> dict[str, Any]:
-        async with asyncio.timeout(seconds):
-            message = await self._line.receive()
-        assert message.type in (aiohttp.WSMsgType.BINARY, aiohttp.WSMsgType.TEXT), message
-        if message.type == aiohttp.WSMsgType.BINARY:
-            self._terminal.take(message.data)
-        return {}
+    async def _read(self, seconds: float) -> None:
+        with suppress(TimeoutError):
+            async with asyncio.timeout(seconds):
+                message = await self._line.receive()
+            assert message.type in (aiohttp.WSMsgType.BINARY, aiohttp.WSMsgType.TEXT), message
+            if message.type == aiohttp.WSMsgType.BINARY:
+                self.terminal.take(message.data)
 
 
 class Chromium(Browser):
-    """A page of headless Chromium, driven by its own protocol."""
+    """A page of headless Chromium."""
 
-    _numbers = count(1)
+    def __init__(self, page: Page) -> None:
+        super().__init__()
+        self._page = page
+        page.on("websocket", lambda line: line.on("framereceived", self._take))
 
-    async def ask(self, method: str, **parameters: Any) -> dict[str, Any]:
-        """Have the browser do something."""
-        number = next(self._numbers)
-        await self._line.send_json({"id": number, "method": method, "params": parameters})
-        while True:
-            answer = await self._read(30.0)
-            if answer.get("id") == number:
-                assert "error" not in answer, answer
-                return dict(answer["result"])
+    def _take(self, frame: bytes | str) -> None:
+        if isinstance(frame, bytes):
+            self.terminal.take(frame)
 
-    async def until_it_has_the_keyboard(self, seconds: float = 20.0) -> None:
-        """Wait until keys go to the terminal of the page, of its own accord."""
-        async with asyncio.timeout(seconds):
-            while True:
-                found = await self.ask("Runtime.evaluate", expression="document.activeElement.tagName")
-                if found["result"]["value"] == "TEXTAREA":
-                    return
-                await asyncio.sleep(0.1)
+    async def open(self, address: str) -> None:
+        """Open an address, and wait until keys go to the terminal of its page of their own accord.
+
+        Raises
+        ------
+        AssertionError
+            When the terminal is not wholly in the window: the style of the page has not come.
+        """
+        await self._page.goto(address)
+        await self.until("start from nothing")
+        await self._page.wait_for_function("document.activeElement.tagName === 'TEXTAREA'")
+        box = await self._page.locator(".xterm-screen").bounding_box()
+        assert box is not None
+        assert box["y"] >= 0.0, box
+        assert box["y"] + box["height"] <= _HEIGHT, box
 
     async def press(self, key: str) -> None:
         """Press a key."""
-        event = KEYS[key][1]
-        await self.ask("Input.dispatchKeyEvent", type="keyDown" if "text" in event else "rawKeyDown", **event)
-        await self.ask("Input.dispatchKeyEvent", type="keyUp", **{k: v for k, v in event.items() if k != "text"})
+        await self._page.keyboard.press(KEYS[key][1])
 
     async def write(self, text: str) -> None:
-        """Type a text."""
-        await self.ask("Input.insertText", text=text)
+        """Type a text, key by key."""
+        await self._page.keyboard.type(text)
 
-    async def _read(self, seconds: float) -> dict[str, Any]:
-        async with asyncio.timeout(seconds):
-            answer: dict[str, Any] = await self._line.receive_json()
-        if answer.get("method") == "Network.webSocketFrameReceived":
-            frame = answer["params"]["response"]
-            if frame["opcode"] == 2:
-                self._terminal.take(base64.b64decode(frame["payloadData"]))
-        return answer
+    async def _read(self, seconds: float) -> None:
+        await asyncio.sleep(min(seconds, 0.05))
 
 
 @asynccontextmanager
@@ -174,35 +178,18 @@ async def client(address: str) -> AsyncIterator[Browser]:
 @asynccontextmanager
 async def chromium(address: str, folder: Path) -> AsyncIterator[Browser]:
     """Open the page in headless Chromium with a profile of its own in `folder`."""
-    assert CHROMIUM is not None
-    options = ("--headless", "--no-sandbox", "--disable-gpu", "--window-size=1700,1000", "--remote-debugging-port=0")
-    process = await asyncio.create_subprocess_exec(
-        CHROMIUM, *options, f"--user-data-dir={folder}", "about:blank", stderr=asyncio.subprocess.PIPE
-    )
-    try:
-        assert process.stderr is not None
-        debug = ""
-        async with asyncio.timeout(60.0):
-            while "DevTools listening" not in debug:
-                debug = (await process.stderr.readline()).decode()
-        listening = re.search(r"ws://([^/]+)/", debug)
-        assert listening is not None
-        drain = asyncio.create_task(process.stderr.read())  # what it says later must not fill the pipe
-        async with aiohttp.ClientSession() as session:
-            await _page(session, address)
-            async with session.get(f"http://{listening[1]}/json/list") as answer:
-                pages = [page for page in await answer.json(content_type=None) if page["type"] == "page"]
-            async with session.ws_connect(pages[0]["webSocketDebuggerUrl"], max_msg_size=0) as line:
-                browser = Chromium(line)
-                await browser.ask("Network.enable")
-                await browser.ask("Page.navigate", url=address)
-                await browser.until("which case?")
-                await browser.until_it_has_the_keyboard()
-                yield browser
-        drain.cancel()
-    finally:
-        process.terminate()
-        await process.wait()
+    async with aiohttp.ClientSession() as session:
+        await _page(session, address)
+    async with async_playwright() as playwright:
+        context = await playwright.chromium.launch_persistent_context(
+            folder, executable_path=CHROMIUM, args=_OPTIONS, viewport={"width": 1700, "height": _HEIGHT}
+        )
+        try:
+            browser = Chromium(await context.new_page())
+            await browser.open(address)
+            yield browser
+        finally:
+            await context.close()
 
 
 async def _page(session: aiohttp.ClientSession, address: str) -> str:

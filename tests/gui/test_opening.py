@@ -10,7 +10,9 @@ from lambda_gui import recovery
 from lambda_gui.app import BuilderApp
 from lambda_gui.builder import BuilderScreen
 from lambda_gui.dialogs import Ask, OpenCase
+from textual.events import AppBlur
 from textual.pilot import Pilot
+from textual.widgets import Input
 
 from lambda_core import api
 
@@ -100,3 +102,15 @@ async def test_a_case_opened_over_the_results_takes_the_place_of_the_one_below(h
         await pilot.pause(0.1)
         await checked(pilot)
         assert app.screen is builder(pilot)
+
+
+async def test_a_question_that_came_while_the_page_had_no_keyboard_hears_the_first_key(work_folder: Path) -> None:
+    async with BuilderApp("6208-axial-1300").run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        pilot.app.post_message(AppBlur())
+        await wait_for(pilot, lambda: not pilot.app.app_focus)
+        pilot.app.action_open_case()  # type: ignore[attr-defined]
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, OpenCase))
+        assert pilot.app.screen.focused is None
+        await pilot.press("x")
+        assert pilot.app.screen.query_one(Input).value == "x"

@@ -19,6 +19,7 @@ from lambda_core import api
 
 pytest.importorskip("textual_serve")
 pytest.importorskip("aiohttp")
+pytest.importorskip("playwright")
 
 import aiohttp
 from browsing import CHROMIUM, Browser, chromium, client
@@ -87,6 +88,7 @@ async def test_c2_2_another_page_cannot_drive_the_builder(served: str) -> None:
                 page = await answer.text()
                 if not path and status == 200:
                     assert "https://" not in page
+                    assert f'href="{served}static/css/xterm.css"' in page
                     assert "connect-src 'self' ws://localhost" in answer.headers["Content-Security-Policy"]
         lines = [await session.ws_connect(f"{served}ws") for _ in range(MOST_SOCKETS)]
         with pytest.raises(aiohttp.WSServerHandshakeError, match="503"):
@@ -155,6 +157,7 @@ def saw_to_it(folder: Path) -> None:
     assert api.summary(folder / "untitled.h5").simulated_s == pytest.approx(0.005, rel=0.05)
 
 
+@pytest.mark.skipif(CHROMIUM is not None, reason="Chromium does the same")
 async def test_a_case_is_built_and_run_through_the_web_socket(served: str, work_folder: Path) -> None:
     async with client(served) as browser:
         await build_and_run(browser)
