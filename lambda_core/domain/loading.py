@@ -5,11 +5,17 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 Ring = Literal["inner", "outer"]  # in the order of channels.RINGS
 # A contact below this share of the largest load does not count as carrying it.
 CARRYING = 0.01
+
+
+def carries(inner: ArrayLike) -> NDArray[np.bool_]:
+    """Mark the balls that carry load between the rings: see :func:`loaded_balls`."""
+    load = np.asarray(inner, float)
+    return np.asarray(load > CARRYING * load.max(initial=0.0))
 
 
 def loaded_balls(inner: ArrayLike) -> int:
@@ -25,8 +31,7 @@ def loaded_balls(inner: ArrayLike) -> int:
     int
         Balls whose load is more than :data:`CARRYING` of the largest.
     """
-    load = np.asarray(inner, float)
-    return int((load > CARRYING * load.max(initial=0.0)).sum())
+    return int(carries(inner).sum())
 
 
 def largest_contact(load: ArrayLike) -> tuple[float, Ring]:

@@ -14,7 +14,7 @@ from pydantic import Field
 from lambda_core.domain.channels import RINGS, SHORTED
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.kinematics import epicyclic_ratio
-from lambda_core.domain.loading import CARRYING, Ring, largest_contact, loaded_balls
+from lambda_core.domain.loading import CARRYING, Ring, carries, largest_contact, loaded_balls
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.averages import Interval, finite
 from lambda_core.results.convergence import shortfalls, window
@@ -269,14 +269,23 @@ def contact_list(state: Mapping[str, NDArray[np.float64]]) -> list[Contact]:
 
 
 def capacitance_note(load: NDArray[np.float64], capacitance: NDArray[np.float64]) -> str:
-    """Say which loaded contacts have no capacitance, shape (ball, ring), and so why the bearing may have none."""
-    shorted, loaded = np.isinf(capacitance) & (load > 0.0), load > 0.0
+    """Say which contacts have no capacitance, shape (ball, ring), and so why the bearing may have none.
+
+    Contacts of loaded balls are counted apart from those that hold no more than a ball's weight and centrifugal force.
+    """
+    touching = load > 0.0
+    shorted = np.isinf(capacitance) & touching
     if not shorted.any():
         return ""
+    loaded = touching & carries(load[:, 0])[:, None]
+    counts = [
+        f"{np.count_nonzero(shorted & group)} of {np.count_nonzero(group)} {what}"
+        for group, what in ((loaded, "contacts of loaded balls"), (touching & ~loaded, "of the others"))
+        if group.any()
+    ]
     both = bool(shorted.all(axis=1).any())
-    return (
-        f"{np.count_nonzero(shorted)} of {np.count_nonzero(loaded)} loaded contacts shorted: film parameter below "
-        f"{SHORTED:g}, metal touches" + (", some balls' at both rings: the bearing is no capacitor" if both else "")
+    return f"{' and '.join(counts)} shorted: film parameter below {SHORTED:g}, metal touches" + (
+        ", some balls' at both rings: the bearing is no capacitor" if both else ""
     )
 
 

@@ -85,4 +85,6 @@ def course_text(found: TemperaturesOverTime) -> str:
 
 
 def _gain(gain: LoopGain) -> str:
-    return f"{gain.loop:.2f}   (clearance {gain.clearance:+.2f}, viscosity {gain.viscosity:+.2f}; from 1 on: runaway)"
+    # what rounds to nothing has no sign; a format of numbers would say -0.00
+    clearance, viscosity, loop = (round(part, 2) + 0.0 for part in (gain.clearance, gain.viscosity, gain.loop))
+    return f"{loop:.2f}   (clearance {clearance:+.2f}, viscosity {viscosity:+.2f}; from 1 on: runaway)"

@@ -8,6 +8,7 @@ from lambda_core.report.key_tables import Table
 from lambda_core.views.chart import Axis, Panel, Series, ViewData
 from lambda_syla2026 import parameters as P
 from lambda_syla2026.anchors import STRIBECK, Anchors
+from lambda_syla2026.axial_load import BEARING as AXIAL
 from lambda_syla2026.page import Chapter
 from lambda_syla2026.text import number
 
@@ -38,9 +39,16 @@ def _tables(found: Anchors) -> tuple[Table, ...]:
             *(f"n d_m {float(name) / 1e3:.0f}k" for name in speeds))  # fmt: skip
     bearings = tuple((name, *(number(s.by_bearing_pct[name]) for s in found.spreads)) for name in first.by_bearing_pct)
     random = tuple(
-        (p.parameters, p.name, str(p.cases), number(p.median, 2), f"{p.lowest:.2f} to {p.highest:.2f}")
+        (p.parameters, p.name, str(p.cases), number(p.median, 2), f"{p.lowest:.2f} to {p.highest:.2f}",
+         number(p.rolling_median, 2), number(p.sliding_median, 2))
         for p in found.populations
-    )
+    )  # fmt: skip
+    axial = tuple(
+        (f"{step.share:g}", *(number(value, 2) for value in (
+            step.rolling, step.skf_rolling, step.sliding, step.skf_sliding, step.total, step.skf, step.schaeffler,
+            step.ratio)))
+        for step in found.axial
+    )  # fmt: skip
     curve = tuple(
         (f"{p.speed_rpm:g}", number(p.torque_Nmm, 0), number(p.boundary_Nmm, 0), number(p.skf_Nmm, 0),
          number(p.ratio, 2))
@@ -54,7 +62,16 @@ def _tables(found: Anchors) -> tuple[Table, ...]:
     tables = [
         Table("torque over SKF's less one [%]", head, spread),
         Table("the same by bearing [%]", ("", *(f"{s.parameters}, {s.grooves}" for s in found.spreads)), bearings),
-        Table("random cases: torque over SKF's", ("set", "cases", "number", "median", "range"), random),
+        Table(
+            "random cases: torque over SKF's",
+            ("set", "cases", "number", "median", "range", "rolling", "sliding"),
+            random,
+        ),
+        Table(
+            f"axial beside radial load, {AXIAL[0]} under {AXIAL[2]:g} N at {AXIAL[3]:g} 1/min: over that without",
+            ("F_a/F_r", "rolling", "M_rr", "sliding", "M_sl", "total", "SKF", "Schaeffler's M_1", "total over SKF's"),
+            axial,
+        ),
         Table(
             f"Stribeck curve of the {STRIBECK[0]}, {STRIBECK[2]}, VG 68, 60 degC [N mm]",
             ("1/min", "torque", "boundary", "SKF", "ratio"),

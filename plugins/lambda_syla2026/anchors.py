@@ -17,6 +17,7 @@ from pydantic import Field
 
 from lambda_core.results.record import Record
 from lambda_syla2026 import parameters as P
+from lambda_syla2026.axial_load import AxialStep, axial_load, axial_notes
 from lambda_syla2026.job_runner import ANCHOR, Job, JobResult, JobRunner
 from lambda_syla2026.rated_speeds import Rated, rated_bars, rated_speeds
 
@@ -63,6 +64,8 @@ class Population(Record):
     median: float
     lowest: float
     highest: float
+    rolling_median: float = Field(description="rolling resistance and hysteresis over M_rr")
+    sliding_median: float = Field(description="sliding, spin and boundary friction over M_sl")
 
 
 class Stribeck(Record):
@@ -80,6 +83,7 @@ class Anchors(Record):
 
     spreads: list[Spread]
     populations: list[Population]
+    axial: list[AxialStep]
     stribeck: list[Stribeck]
     rated: list[Rated]
     bars: list[str]
@@ -125,6 +129,7 @@ def anchors(runner: JobRunner, *, quick: bool = False) -> Anchors:
     count = len(answers) // len(kinds)
     spreads = [_spread(*kind, rows, answers[i * count : (i + 1) * count]) for i, kind in enumerate(kinds)]
     populations = [] if quick else _populations(runner)
+    axial = [] if quick else axial_load(runner)
     stribeck = _stribeck(runner)
     rated, unknown = ([], 0) if quick else rated_speeds(runner)
     notes = [
@@ -139,10 +144,11 @@ def anchors(runner: JobRunner, *, quick: bool = False) -> Anchors:
     return Anchors(
         spreads=spreads,
         populations=populations,
+        axial=axial,
         stribeck=stribeck,
         rated=rated,
         bars=[*_bars(spreads), *_population_bars(populations), *_stribeck_bars(stribeck), *rated_bars(rated)],
-        notes=notes,
+        notes=[*notes, *axial_notes(axial)],
     )
 
 
@@ -197,7 +203,8 @@ def _populations(runner: JobRunner) -> list[Population]:
     answers = iter(runner.all([job for plan in plans for job in plan]))
     found = []
     for (name, parameters), plan in zip(kinds, plans, strict=True):
-        ratios = [_ratio(next(answers)) for _ in plan]
+        found_here = [next(answers) for _ in plan]
+        ratios = [_ratio(answer) for answer in found_here]
         found.append(
             Population(
                 name=name,
@@ -206,9 +213,15 @@ def _populations(runner: JobRunner) -> list[Population]:
                 median=float(np.median(ratios)),
                 lowest=min(ratios),
                 highest=max(ratios),
+                rolling_median=_part_median(found_here, ("rolling", "hysteresis"), "skf rolling"),
+                sliding_median=_part_median(found_here, ("sliding", "spin", "boundary"), "skf sliding"),
             )
         )
     return found
+
+
+def _part_median(answers: Sequence[JobResult], own: tuple[str, ...], skf: str) -> float:
+    return float(np.median([sum(answer[name] for name in own) / answer[skf] for answer in answers]))
 
 
 def random_cases(name: str) -> list[tuple[str, ...]]:

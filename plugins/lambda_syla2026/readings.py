@@ -88,6 +88,19 @@ def anchor(model: BearingModel) -> Numbers:
     return {**own, **parts, "torque": sum(own.values()), "skf": sum(parts.values())}
 
 
+def axial_load(model: BearingModel) -> Numbers:
+    """What :func:`anchor` finds, and the load-dependent part of Schaeffler's friction torque [N mm]."""
+    from lambda_core.batch.job import kernels_of
+    from lambda_core.discovery.manager import registry
+    from lambda_core.run.compare_methods import comparison_inputs
+    from lambda_core.solver.drivers.equilibrium import solve
+
+    inputs = comparison_inputs(solve(model, kernels_of(model)), stiffness=False)
+    rows = registry().method("schaeffler").evaluate(inputs).rows
+    load = next(row.value for row in rows if row.group == "friction" and row.name == "load dependent")
+    return {**anchor(model), "schaeffler load": load}
+
+
 def rated(model: BearingModel) -> Numbers:
     """Return the loss of the equilibrium, SKF's, and the heat that ISO 15312 lets the bearing give up [W]."""
     from lambda_core.batch.job import kernels_of
@@ -234,6 +247,7 @@ STATIC: Mapping[str, Callable[[BearingModel], Numbers]] = {
     "friction": friction,
     "skf": skf,
     "anchor": anchor,
+    "axial load": axial_load,
     "rated": rated,
     "capacitance": capacitance,
     "axial resonance": axial_resonance,
