@@ -8,12 +8,15 @@ import pytest
 from lambda_syla2026 import anchors as A
 from lambda_syla2026 import parameters as P
 from lambda_syla2026.anchor_pages import chapter
+from lambda_syla2026.axial_load import SHARES, axial_load, axial_notes
 from lambda_syla2026.job_runner import ANCHOR, Job, JobResult, case_text
 from lambda_syla2026.readings import MECHANISMS, anchor
+from lambda_syla2026.readings import axial_load as READ
 
 from lambda_core.batch.job import resolve_point
 
 HEAT = {"contacts": 90.0, "drag": 60.0, "skf drag": 20.0, "heat": 100.0}
+PARTS = {"rolling": 30.0, "hysteresis": 10.0, "sliding": 20.0, "spin": 5.0, "skf rolling": 50.0, "skf sliding": 40.0}
 
 
 class Invented:
@@ -21,9 +24,15 @@ class Invented:
 
     def all(self, jobs: list[Job]) -> list[JobResult]:
         return [
-            JobResult("done", "", "", {"torque": 100.0 * self.ratio(job), "skf": 100.0, "boundary": 1.0, **HEAT})
+            JobResult("done", "", "", {"torque": 100.0 * self.ratio(job), "boundary": 1.0, **self.axial(job), **HEAT})
             for job in jobs
         ]
+
+    def axial(self, job: Job) -> dict[str, float]:
+        """SKF's sliding torque is twice as large wherever there is an axial load; nothing else changes."""
+        loaded = any(change.startswith("loads.axial=") and change != "loads.axial=0 N" for change in job.changes)
+        sliding = 80.0 if loaded and job.kind == "axial load" else 40.0
+        return PARTS | {"skf sliding": sliding, "skf": 60.0 + sliding, "schaeffler load": 7.0}
 
     def ratio(self, job: Job) -> float:
         if "parameters.traction.tau_eyring=6 MPa" in job.changes:
@@ -54,7 +63,28 @@ def test_bias_and_scatter_of_known_ratios() -> None:
     assert [bar.split(":")[0] for bar in found.bars[-2:]] == ["met", "missed"]
     assert found.rated[0].whole == pytest.approx([1.5] * 3)
     titles = [table.caption for table in chapter(found, ()).tables]
-    assert len(titles) == len(set(titles)) == 6
+    assert len(titles) == len(set(titles)) == 7
+    for p in found.populations:
+        assert (p.rolling_median, p.sliding_median) == pytest.approx((0.8, 0.65))
+
+
+def test_an_axial_load_is_compared_with_none() -> None:
+    steps = axial_load(Invented())  # type: ignore[arg-type]
+    assert [step.share for step in steps] == list(SHARES)
+    assert (steps[0].skf_sliding, steps[0].skf, steps[0].ratio) == (1.0, 1.0, 1.0)
+    for step in steps[1:]:
+        assert (step.skf_sliding, step.skf, step.ratio) == pytest.approx((2.0, 1.4, 1.0 / 1.4))
+        assert step.rolling == step.sliding == step.total == step.schaeffler == 1.0
+    assert "SKF's M_sl 2.00" in axial_notes(steps)[0]
+
+
+def test_a_small_axial_load_is_felt_by_skfs_model_alone() -> None:
+    """6208, 1.5 kN radial and 75 N axial: the contacts do not feel it, nor does Schaeffler's catalogue."""
+    case = ("bearing.designation=6208", "loads.radial=1500 N", "operation.speed=1000 rpm")
+    none, small = (READ(resolve_point(case_text(ANCHOR), (*case, f"loads.axial={axial} N"))) for axial in (0, 75))
+    assert small["torque"] == pytest.approx(none["torque"], rel=0.03)
+    assert small["schaeffler load"] == pytest.approx(none["schaeffler load"], rel=1e-3)
+    assert small["skf"] > 1.3 * none["skf"]
 
 
 def test_quick_says_what_it_leaves_out() -> None:
