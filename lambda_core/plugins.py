@@ -12,6 +12,7 @@ from lambda_core.domain.units import Quantity
 from lambda_core.laws.context import Context, Material, Oil
 from lambda_core.laws.law import Law, LazyLaw, law
 from lambda_core.laws.parameter import NoParameters, Parameters, parameter
+from lambda_core.laws.state import State
 from lambda_core.views.chart import Arrows, Axis, Field, Mark, Panel, Series, ViewData
 from lambda_core.views.method import METHOD_API, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
 from lambda_core.views.observer import EVENT_API, OBSERVER_API, Event, Integral, Number, Observer, Samples
@@ -64,6 +65,7 @@ __all__ = [
     "Scene",
     "Section",
     "Series",
+    "State",
     "StudyTable",
     "View",
     "ViewData",

@@ -11,7 +11,8 @@ from lambda_core.discovery.manager import registry
 from lambda_core.discovery.registry import Registry
 from lambda_core.discovery.survey import ModelCard, model_card
 from lambda_core.domain.installed import OWN
-from lambda_core.domain.roles import ROLES, Role
+from lambda_core.domain.role import Role
+from lambda_core.domain.roles import ROLES
 from lambda_core.laws.law import Law
 
 _INTRODUCTION = """# Model reference

@@ -9,7 +9,8 @@ from pydantic import AfterValidator, create_model
 
 from lambda_core.case.option import Section, option
 from lambda_core.domain.elements import ELEMENTS
-from lambda_core.domain.roles import DEFAULT_MODELS, MOTION_ROLES, Role
+from lambda_core.domain.role import Role
+from lambda_core.domain.roles import DEFAULT_MODELS, MOTION_ROLES
 from lambda_core.domain.units import Time
 
 

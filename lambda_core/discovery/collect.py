@@ -18,6 +18,7 @@ from lambda_core.laws.law import Law, LazyLaw, law_of
 from lambda_core.laws.old_form import new_form
 from lambda_core.laws.par import par_layout
 from lambda_core.laws.parameter import default_fault
+from lambda_core.laws.state import state_fault
 from lambda_core.views.method import METHOD_API, Method
 from lambda_core.views.observer import event_fault, observer_fault
 from lambda_core.views.section import section_fault
@@ -201,6 +202,9 @@ def law_fault(item: Law) -> str:
         par_layout(item)
     except PluginError as error:
         return str(error)
+    states = state_fault(item)
+    if states:
+        return f"{label} {states}"
     fault = default_fault(item.parameters)
     return f"{label}: {fault}" if fault else _name_fault(item.role, item.name)
 

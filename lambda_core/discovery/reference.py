@@ -5,7 +5,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from lambda_core.domain.roles import ROLES, Role
+from lambda_core.domain.role import Role
+from lambda_core.domain.roles import ROLES
 from lambda_core.domain.units import UNITS
 
 

@@ -9,43 +9,12 @@ parameters, or what its `prepare` returns, by name; to the solver it is one flat
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from lambda_core.domain import elements
+from lambda_core.domain.role import Role, arguments_of
 
 ROLE_API = 2
 OK = 1  # what a kernel returns for a valid result; the number of lambda_core.solver.status.Status.OK
-
-
-@dataclass(frozen=True)
-class Argument:
-    """One argument of a kernel."""
-
-    name: str
-    kind: str  # "f": float64 scalar, "a": float64[:] contiguous
-    meaning: str
-    output: bool = False
-
-
-@dataclass(frozen=True)
-class Role:
-    """A stage of the pipeline that exactly one model fills per force element."""
-
-    name: str
-    summary: str
-    arguments: tuple[Argument, ...]
-    outputs: tuple[str, ...]  # meaning of out[0], out[1], ... or of the elementwise output
-    elements: tuple[str, ...]  # force elements, or films of a circuit, that carry this role
-    elementwise: bool = False
-    # Of valid outputs; the solver relies on them (a dissipator never drives).
-    bounds: tuple[tuple[float, float], ...] = ()
-    sign_of: str = ""  # argument whose sign the first output has, or it is zero
-    vanishes_with: str = ""  # argument of an elementwise law where whose zeros its output is zero
-    # (output, of which output, by which argument) that must be derivatives: forces come from them, energy has to close
-    slopes: tuple[tuple[int, int, str], ...] = ()
-    # Section of the case where the law is chosen, for one that acts on a motion that is known; "": it makes the motion.
-    section: str = ""
-
 
 _POSITIVE = (0.0, math.inf)
 _RESISTIVE = (1e-9, math.inf)
@@ -54,16 +23,6 @@ RACEWAYS = tuple(elements.RACEWAYS)
 FILMS = tuple(elements.FILMS)
 CAGE = (*elements.POCKETS, *elements.LANDS)
 GUIDES = (*CAGE, *elements.NEIGHBOURS)
-
-
-def _arguments(spec: str) -> tuple[Argument, ...]:
-    """Read ``name kind meaning; ...``; a kind of ``A`` is an output array."""
-    result = []
-    for part in spec.split(";"):
-        name, kind, meaning = part.strip().split(" ", 2)
-        result.append(Argument(name, kind.lower(), meaning, output=kind == "A"))
-    return tuple(result)
-
 
 _MATERIAL = (
     "R_x f reduced radius along rolling [m]; R_y f reduced radius across rolling [m]; "
@@ -77,7 +36,7 @@ ROLES: dict[str, Role] = {
         Role(
             "normal_contact",
             "load and contact ellipse from penetration",
-            _arguments(f"delta f penetration, > 0 [m]; {_MATERIAL}; par a parameters; out A results"),
+            arguments_of(f"delta f penetration, > 0 [m]; {_MATERIAL}; par a parameters; out A results"),
             ("load [N]", "semi-axis across rolling a [m]", "semi-axis along rolling b [m]", "maximum pressure [Pa]"),
             RACEWAYS,
             bounds=(_POSITIVE,) * 4,
@@ -85,7 +44,7 @@ ROLES: dict[str, Role] = {
         Role(
             "damping",
             "normal force opposing the penetration velocity",
-            _arguments(
+            arguments_of(
                 "delta f penetration [m]; delta_dot f penetration velocity [m/s]; load f elastic load [N]; "
                 "par a parameters; out A results"
             ),
@@ -96,7 +55,7 @@ ROLES: dict[str, Role] = {
         Role(
             "rheology",
             "viscosity and density of the oil at pressure and temperature",
-            _arguments(
+            arguments_of(
                 "p a pressure [Pa]; T a temperature [K]; par a parameters; "
                 "ln_eta A natural logarithm of the viscosity in Pa s; rho A density [kg/m3]"
             ),
@@ -108,7 +67,7 @@ ROLES: dict[str, Role] = {
         Role(
             "film_thickness",
             "isothermal, fully flooded film",
-            _arguments(
+            arguments_of(
                 "u_mean f mean surface velocity, >= 0 [m/s]; "
                 "theta f angle of entrainment to the rolling direction [rad]; "
                 f"load f normal load [N]; {_MATERIAL}; {_OIL}; par a parameters; out A results"
@@ -120,7 +79,7 @@ ROLES: dict[str, Role] = {
         Role(
             "thermal_correction",
             "factor on the film for heating in the inlet",
-            _arguments(
+            arguments_of(
                 "u_mean f mean surface velocity, >= 0 [m/s]; u_slide f sliding velocity at the contact's centre [m/s]; "
                 "p_max f maximum pressure [Pa]; E_eff f E' [Pa]; eta0 f viscosity at ambient pressure [Pa s]; "
                 "beta f -d ln(eta)/dT [1/K]; k_oil f thermal conductivity of the oil [W/(m K)]; "
@@ -133,7 +92,7 @@ ROLES: dict[str, Role] = {
         Role(
             "supply",
             "factors on film and rolling resistance for oil that is missing in the inlet",
-            _arguments(
+            arguments_of(
                 "u_mean f mean surface velocity, >= 0 [m/s]; load f normal load [N]; "
                 "semi_a f semi-axis across rolling [m]; semi_b f semi-axis along rolling [m]; "
                 "R_x f reduced radius along rolling [m]; h_cen f central film of the flooded contact [m]; "
@@ -146,7 +105,7 @@ ROLES: dict[str, Role] = {
         Role(
             "contact_temperature",
             "temperature of the film in each cell",
-            _arguments(
+            arguments_of(
                 "T_in f oil temperature at the inlet [K]; u_mean f mean surface velocity, >= 0 [m/s]; "
                 "h f central film [m]; semi_b f semi-axis along rolling [m]; tau a shear stress [Pa]; "
                 "slip a slip velocity [m/s]; "
@@ -160,7 +119,7 @@ ROLES: dict[str, Role] = {
         Role(
             "traction",
             "shear stress of the film from its rate of shear",
-            _arguments(
+            arguments_of(
                 "slip a slip velocity, >= 0 [m/s]; p a pressure [Pa]; T a temperature [K]; "
                 "ln_eta a ln(viscosity / Pa s); h f central film [m]; par a parameters; tau A shear stress, >= 0 [Pa]"
             ),
@@ -173,7 +132,7 @@ ROLES: dict[str, Role] = {
         Role(
             "rolling_resistance",
             "hydrodynamic force of the inlet on each surface",
-            _arguments(
+            arguments_of(
                 "u_mean f mean surface velocity, >= 0 [m/s]; load f normal load [N]; "
                 "semi_a f semi-axis across rolling [m]; "
                 f"semi_b f semi-axis along rolling [m]; {_MATERIAL}; {_OIL}; beta f -d ln(eta)/dT [1/K]; "
@@ -186,7 +145,7 @@ ROLES: dict[str, Role] = {
         Role(
             "elastic_hysteresis",
             "couple that resists rolling by losses in the solids",
-            _arguments(
+            arguments_of(
                 "load f normal load [N]; semi_a f semi-axis across rolling [m]; semi_b f semi-axis along rolling [m]; "
                 "R_x f reduced radius along rolling [m]; R_y f reduced radius across rolling [m]; "
                 "R_ball f ball radius [m]; par a parameters; out A results"
@@ -198,7 +157,7 @@ ROLES: dict[str, Role] = {
         Role(
             "asperity_load",
             "share of the load carried by touching asperities",
-            _arguments("Lambda f film over composite roughness [-]; par a parameters; out A results"),
+            arguments_of("Lambda f film over composite roughness [-]; par a parameters; out A results"),
             ("share of the load psi [-], 0..1",),
             RACEWAYS,
             bounds=((0.0, 1.0),),
@@ -206,7 +165,7 @@ ROLES: dict[str, Role] = {
         Role(
             "boundary_friction",
             "coefficient of friction of touching asperities",
-            _arguments(
+            arguments_of(
                 "slip a slip velocity, >= 0 [m/s]; p a pressure [Pa]; u_mean f mean surface velocity, >= 0 [m/s]; "
                 "par a parameters; mu A coefficient [-]"
             ),
@@ -217,9 +176,27 @@ ROLES: dict[str, Role] = {
             vanishes_with="slip",
         ),
         Role(
+            "contact_state",
+            "rates of change of what a contact keeps from one moment to the next, for the laws that read it",
+            arguments_of(
+                "t f time [s]; load f normal load, 0 while the contact is open, as all that follows to the power [N]; "
+                "semi_a f semi-axis across rolling [m]; semi_b f semi-axis along rolling [m]; "
+                "p_max f maximum pressure [Pa]; u_mean f mean surface velocity, >= 0 [m/s]; "
+                "u_slide f sliding velocity at the contact's centre, >= 0 [m/s]; "
+                "spin f relative angular velocity about the normal [rad/s]; h f central film [m]; "
+                "Lambda f film over composite roughness [-]; psi f share of the load on asperities [-]; "
+                "power f power dissipated in the contact [W]; "
+                "T_film f mean film temperature, that of the oil while open [K]; "
+                "T_in f oil temperature at the inlet [K]; par a parameters, and the states themselves by name; "
+                "out A results"
+            ),
+            ("rates of the law's states, in their order [unit of the state over s]",),
+            RACEWAYS,
+        ),
+        Role(
             "cage_contact",
             "force between the cage and a ball (pocket) or a ring (land), or of two balls where there is no cage",
-            _arguments(
+            arguments_of(
                 "r a position of the guided body's centre from the pocket's (ball) or the cage's centre from the "
                 "land's (cage), (axial, radial or y, tangential or z) [m]; v_rel a its velocity in that frame [m/s]; "
                 "omega_rel a its angular velocity relative to the partner [rad/s]; "
@@ -232,7 +209,7 @@ ROLES: dict[str, Role] = {
         Role(
             "fluid_drag",
             "drag force and churning moment of the oil on one ball",
-            _arguments(
+            arguments_of(
                 "v_orbit f orbital speed of the ball's centre, signed [m/s]; omega_spin f spin speed, >= 0 [rad/s]; "
                 "azimuth f azimuth from +y to +z [rad]; nu f kinematic viscosity [m2/s]; rho f density [kg/m3]; "
                 "par a parameters; out A results"
@@ -244,7 +221,7 @@ ROLES: dict[str, Role] = {
         Role(
             "force_element",
             "force between two bodies, or a body and the ground, beside those of the bearing",
-            _arguments(
+            arguments_of(
                 "t f time [s]; place a of the second point seen from the first, inertial axes [m]; "
                 "tilt a of the second body's axis against the first's, as a vector of rotation, inertial axes [rad]; "
                 "v_rel a velocity of the second point against the first body [m/s]; "
@@ -258,7 +235,7 @@ ROLES: dict[str, Role] = {
         Role(
             "permittivity",
             "relative permittivity of the oil",
-            _arguments(
+            arguments_of(
                 "p a pressure [Pa]; T a temperature [K]; rho a density [kg/m3]; par a parameters; "
                 "eps_r A relative permittivity"
             ),
@@ -270,7 +247,7 @@ ROLES: dict[str, Role] = {
         Role(
             "capacitance",
             "whole capacitance of one contact from that of its Hertzian area",
-            _arguments(
+            arguments_of(
                 "C_hertz f capacitance of the Hertzian area [F]; h f central film [m]; "
                 "semi_a f semi-axis across rolling [m]; semi_b f semi-axis along rolling [m]; "
                 "R_x f reduced radius along rolling [m]; R_y f reduced radius across rolling [m]; "
@@ -284,7 +261,7 @@ ROLES: dict[str, Role] = {
         Role(
             "surface",
             "deviation of a raceway from its nominal surface: waviness, defects",
-            _arguments(
+            arguments_of(
                 "azimuth f place on the raceway, turning with the ring, -pi..pi from +y towards +z [rad]; "
                 "contact_angle f place across the groove, positive where thrust on the inner ring presses [rad]; "
                 "par a parameters; out A results"
@@ -300,7 +277,7 @@ ROLES: dict[str, Role] = {
         Role(
             "breakdown",
             "voltage that a film stands while it is on one patch of surface",
-            _arguments(
+            arguments_of(
                 "h f central film [m]; h_min f minimum film [m]; sigma f composite rms roughness [m]; "
                 "area f Hertzian area [m2]; u_1 f random number of the patch, 0..1; "
                 "u_2 f another one; par a parameters; out A results"
@@ -313,7 +290,7 @@ ROLES: dict[str, Role] = {
         Role(
             "discharge",
             "arc in a film that broke down: i = (V - U)/R until it is too small",
-            _arguments(
+            arguments_of(
                 "V f voltage of the contact when its film breaks down, > 0 [V]; h f central film [m]; "
                 "area f Hertzian area [m2]; par a parameters; out A results"
             ),
@@ -345,6 +322,7 @@ DEFAULT_MODELS: dict[str, str] = {
     "elastic_hysteresis": "loss-factor",
     "asperity_load": "spikes-olver",
     "boundary_friction": "micro-slip",
+    "contact_state": "none",
     "cage_contact": "spherical-pocket",
     "fluid_drag": "skf-catalogue",
     "force_element": "bushing",

@@ -13,7 +13,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.plugin_errors import describe
-from lambda_core.domain.roles import Role
+from lambda_core.domain.role import Role
 from lambda_core.laws.jit import binding
 
 _GUARD = 8  # cells on either side of every array

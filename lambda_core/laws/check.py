@@ -18,14 +18,16 @@ from pydantic import BaseModel, ValidationError
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.installed import OWN, project_of
 from lambda_core.domain.plugin_errors import PluginError
-from lambda_core.domain.roles import ROLES, Role
+from lambda_core.domain.role import Role
+from lambda_core.domain.roles import ROLES
 from lambda_core.laws.calls import Outcome, compiled_call, plain_call, relative_difference
 from lambda_core.laws.context import Context
 from lambda_core.laws.jit.reach import raises
 from lambda_core.laws.kernels import CompiledKernel, compile_kernel, kernel_reach
 from lambda_core.laws.law import Law
 from lambda_core.laws.par import flat_kernel, make_par, par_layout
-from lambda_core.laws.probe import WRENCHES, draw, trial_context
+from lambda_core.laws.probe import WRENCHES, draw, open_contact, trial_context
+from lambda_core.laws.state import ROLE as STATES
 from lambda_core.laws.thresholds import trials_at_thresholds
 
 RTOL = 1e-9  # machine code against plain Python: a few roundings of exp and pow
@@ -140,9 +142,12 @@ def _faults(model: Law, par: FloatArray, compiled: CompiledKernel | None, sample
             yield f"{model.label} raises an exception in {code.co_name}: return a status of 2 and up instead"
             return
     generator = np.random.default_rng(20260)
-    trials = [draw(role, par, _CELLS[i % len(_CELLS)], generator) for i in range(samples)]
+    states = len(model.states)
+    trials = [draw(role, par, _CELLS[i % len(_CELLS)], generator, states) for i in range(samples)]
+    if states:
+        trials += [open_contact(role, trials[0])]
     if project_of(model.distribution) != OWN:  # ours are tried so once, by the tests
-        trials += trials_at_thresholds(role, kernel_reach(model).codes, par, generator)
+        trials += trials_at_thresholds(role, kernel_reach(model).codes, par, generator, states)
     plain, names = [], par_layout(model).names
     in_python = flat_kernel(model, strict=True)
     for arguments in trials:
@@ -219,6 +224,8 @@ def _by_meaning(role: Role, outputs: tuple[FloatArray, ...]) -> Iterator[tuple[i
         yield from enumerate(outputs)
     elif role.name in WRENCHES:
         yield from ((0, outputs[0][:3]), (1, outputs[0][3:]))
+    elif role.name == STATES:
+        yield from ((0, outputs[0][index : index + 1]) for index in range(outputs[0].size))
     else:
         yield from ((index, outputs[0][index : index + 1]) for index in range(len(role.outputs)))
 
@@ -290,7 +297,7 @@ def time_per_call(model: Law, par: FloatArray) -> float:
     """Return the time of one call, or per cell of an elementwise role, best of several [s]."""
     role = ROLES[model.role]
     cells = 512 if role.elementwise else 1
-    arguments = draw(role, par, cells, np.random.default_rng(1))
+    arguments = draw(role, par, cells, np.random.default_rng(1), len(model.states))
     dispatcher = compile_kernel(model).dispatcher
     best = float("inf")
     for _ in range(7):

@@ -15,12 +15,17 @@ from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import ROLE_API
 from lambda_core.laws.context import Context
 from lambda_core.laws.parameter import NoParameters
+from lambda_core.laws.state import State
 
 Prepare = Callable[[Any, Context], Any]
 Kernel = TypeVar("Kernel", bound=Callable[..., int])
 
 
 def _no_errors() -> Mapping[int, str]:
+    return MappingProxyType({})
+
+
+def _no_states() -> Mapping[str, float]:
     return MappingProxyType({})
 
 
@@ -51,6 +56,10 @@ class Law:
         Sentences for the kernel's own status codes (2 and up).
     bibtex : str
         The reference as BibTeX, where it is to be cited in other words than `reference` says it.
+    states : tuple of State
+        What every contact keeps, for laws of the role ``contact_state``; the kernel reads it as ``par.NAME``.
+    reads : mapping of str to float
+        States of the contact that the kernel reads as ``par.NAME``, each with a value to try the law with.
     distribution : str
         Package that brought it, with its version; filled in when it is registered.
     """
@@ -67,13 +76,16 @@ class Law:
     prepare: Prepare | None = None
     errors: Mapping[int, str] = field(default_factory=_no_errors)
     bibtex: str = ""
+    states: tuple[State, ...] = ()
+    reads: Mapping[str, float] = field(default_factory=_no_states)
     distribution: str = ""
 
     def __post_init__(self) -> None:
-        """Take the summary from the kernel, and keep the errors from being changed."""
+        """Take the summary from the kernel, and keep errors and states from being changed."""
         doc = (self.kernel.__doc__ or "").strip().splitlines()
         object.__setattr__(self, "summary", self.summary or (doc[0] if doc else ""))
         object.__setattr__(self, "errors", MappingProxyType(dict(self.errors)))
+        object.__setattr__(self, "reads", MappingProxyType(dict(self.reads)))
 
     @property
     def label(self) -> str:
@@ -119,6 +131,8 @@ def law(
     prepare: Prepare | None = None,
     errors: Mapping[int, str] | None = None,
     bibtex: str = "",
+    states: tuple[State, ...] = (),
+    reads: Mapping[str, float] | None = None,
 ) -> Callable[[Kernel], Kernel]:
     """Make the function below a law.
 
@@ -144,6 +158,10 @@ def law(
         A sentence for each status of the kernel from 2 on.
     bibtex : str, optional
         Entries for ``cite --bibtex``; without it they are read from `reference`.
+    states : tuple of State, optional
+        Of a law of the role ``contact_state``: what every contact keeps.
+    reads : mapping of str to float, optional
+        States that the kernel reads as ``par.NAME``, each with a value to try the law with.
 
     Examples
     --------
@@ -186,6 +204,8 @@ def law(
             prepare=prepare,
             errors=errors or {},
             bibtex=bibtex,
+            states=states,
+            reads=reads or {},
         )
         if not isinstance(kernel, FunctionType):
             raise PluginError(

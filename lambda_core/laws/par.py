@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import inspect
+import math
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
+import numpy as np
 from pydantic import BaseModel
 
 from lambda_core.domain.arrays import FloatArray
@@ -16,7 +19,8 @@ from lambda_core.domain.roles import ROLES
 from lambda_core.laws.context import Context
 from lambda_core.laws.jit.binding import bound
 from lambda_core.laws.law import Law
-from lambda_core.laws.named_numbers import Layout, RecordError, flatten, is_record, layout_of
+from lambda_core.laws.named_numbers import Layout, Member, RecordError, flatten, is_record, layout_of
+from lambda_core.laws.state import names_behind, values_behind
 
 _DECLARE = (
     "declare its names, class Constants(NamedTuple): factor: float, and "
@@ -33,10 +37,15 @@ def par_layout(law: Law) -> Layout:
         When `prepare` does not say what it returns, or a name is neither a number nor an array.
     """
     try:
-        return layout_of(_record_type(law))
+        found = layout_of(_record_type(law))
     except RecordError as error:
         advice = "" if law.prepare else ": give the law a prepare that makes numbers of it"
         raise PluginError(f"{law.label}: a kernel cannot read its parameters: {error}{advice}") from None
+    behind = names_behind(law)
+    twice = next((name for name in behind if name in found.names), None)
+    if twice is not None:
+        raise PluginError(f"{law.label} has a parameter and a state of one name, {twice}: rename the parameter")
+    return replace(found, members=(*found.members, *(Member(name, "float") for name in behind)))
 
 
 def make_par(law: Law, parameters: BaseModel, context: Context) -> FloatArray:
@@ -61,16 +70,19 @@ def make_par(law: Law, parameters: BaseModel, context: Context) -> FloatArray:
     PluginError
         When ``prepare`` raises or returns anything else; the sentence names law and distribution.
     """
-    layout, wanted = par_layout(law), _record_type(law)
+    wanted = _record_type(law)
     try:
         with contextlib.redirect_stdout(sys.stderr):  # stdout is for data
             made: Any = law.prepare(parameters, context) if law.prepare else parameters
+            states = values_behind(law, parameters, context)
     except (Exception, SystemExit) as error:
         raise PluginError(f"{law.label}: the parameters cannot be prepared: {describe(error)}") from error
     if not isinstance(made, wanted):
         raise PluginError(f"{law.label}: prepare returns a {type(made).__name__}, its annotation is {wanted.__name__}")
+    if not all(map(math.isfinite, states)):
+        raise PluginError(f"{law.label}: a state does not start with a finite number")
     try:
-        return flatten(layout, made)
+        return np.append(flatten(layout_of(wanted), made), states)
     except RecordError as error:
         source = "prepare returns" if law.prepare else "the parameters have"
         raise PluginError(f"{law.label}: {source} {error}") from None

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.random import Generator
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.roles import Role
+from lambda_core.domain.role import Role
 from lambda_core.laws.context import Context, Material, Oil
+from lambda_core.laws.state import ROLE as STATES
 
 
 @dataclass(frozen=True)
@@ -87,23 +88,30 @@ RANGES: dict[str, Range] = {
     "u_1": Range(1e-15, 1.0 - 1e-15),
     "u_2": Range(1e-15, 1.0 - 1e-15),
     "V": Range(0.1, 1000.0, log=True),
+    "spin": Range(-1000.0, 1000.0),
+    "psi": Range(0.0, 1.0),
+    "power": Range(1e-6, 1e4, log=True, zero=True),
+    "T_film": Range(250.0, 600.0),
 }
 
 VECTORS = ("r", "place", "tilt", "v_rel", "omega_rel")  # arrays of three components, not of cells
 
 
+_EVEN_OPEN = ("t", "T_film", "T_in")  # what a state's law sees although the contact is open
 WRENCHES = ("cage_contact", "force_element")  # roles whose output is two vectors
 
 
-def output_size(role: Role, cells: int) -> int:
-    """Return the length of each output array."""
+def output_size(role: Role, cells: int, states: int = 0) -> int:
+    """Return the length of each output array; of a law that keeps states as many as these."""
     if role.elementwise:
         return cells
+    if role.name == STATES:
+        return states
     return 6 if role.name in WRENCHES else len(role.outputs)
 
 
-def draw(role: Role, par: FloatArray, cells: int, generator: Generator) -> list[Any]:
-    """Draw one set of arguments for a kernel of `role`.
+def draw(role: Role, par: FloatArray, cells: int, generator: Generator, states: int = 0) -> list[Any]:
+    """Draw one set of arguments for a kernel of `role`, of a law that keeps so many states.
 
     Returns
     -------
@@ -116,13 +124,21 @@ def draw(role: Role, par: FloatArray, cells: int, generator: Generator) -> list[
         if argument.name == "par":
             arguments.append(par)
         elif argument.output:
-            arguments.append(np.full(output_size(role, cells), np.nan))
+            arguments.append(np.full(output_size(role, cells, states), np.nan))
         elif argument.kind == "a":
             size = 3 if argument.name in VECTORS else cells
             arguments.append(RANGES[argument.name].at(generator.random(size)))
         else:
             arguments.append(np.float64(RANGES[argument.name].at(generator.random(1))[0]))
     return arguments
+
+
+def open_contact(role: Role, drawn: list[Any]) -> list[Any]:
+    """Return drawn arguments as they are while ball and raceway do not touch."""
+    return [
+        np.float64(0.0) if argument.kind == "f" and argument.name not in _EVEN_OPEN else value
+        for argument, value in zip(role.arguments, drawn, strict=True)
+    ]
 
 
 _STEEL = Material("steel", 2.08e11, 0.3, 7850.0, 45.0, 460.0)

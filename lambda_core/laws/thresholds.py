@@ -16,7 +16,7 @@ import numpy as np
 from numpy.random import Generator
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.roles import Role
+from lambda_core.domain.role import Role
 from lambda_core.laws.probe import RANGES, VECTORS, draw
 
 _MOST = {"f": 64, "a": 512}  # values of one argument; of an array several go into one call
@@ -39,14 +39,14 @@ def numbers_of(codes: Iterable[CodeType], par: FloatArray) -> list[float]:
 
 
 def trials_at_thresholds(
-    role: Role, codes: Iterable[CodeType], par: FloatArray, generator: Generator
+    role: Role, codes: Iterable[CodeType], par: FloatArray, generator: Generator, states: int = 0
 ) -> Iterator[list[Any]]:
     """Yield arguments of a kernel in which one of them stands at a number of its code, the others as they are drawn."""
     numbers = numbers_of(codes, par)
     if role.elementwise:
         counts = {int(n) + more for n in numbers if n.is_integer() and 2.0 <= n <= _LONGEST for more in (0, 1)}
         for cells in sorted({_STRIPS, *counts}):
-            yield draw(role, par, cells, generator)
+            yield draw(role, par, cells, generator, states)
     for place, argument in enumerate(role.arguments):
         if argument.output or argument.name == "par":
             continue
@@ -55,7 +55,7 @@ def trials_at_thresholds(
         width = 3 if argument.name in VECTORS else _CELLS
         for part in range(0, len(values), width if argument.kind == "a" else 1):
             for _ in range(_REPEATED):
-                drawn = draw(role, par, _CELLS, generator)
+                drawn = draw(role, par, _CELLS, generator, states)
                 if argument.kind == "a":
                     drawn[place] = np.resize(np.array(values[part : part + width]), drawn[place].size)
                 else:

@@ -20,6 +20,7 @@ ROLES = (*RACEWAY_ROLES, "cage_contact", "fluid_drag", "force_element")
     ELASTIC_HYSTERESIS,
     ASPERITY_LOAD,
     BOUNDARY_FRICTION,
+    CONTACT_STATE,
     PERMITTIVITY,
     CAPACITANCE,
     SURFACE,

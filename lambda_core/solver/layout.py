@@ -1,10 +1,11 @@
 """State vector, tables and workspaces of the compiled code, in one bundle, and the types of its contact functions.
 
-State vector y, float64, shape (9 Z + n_active,):
+State vector y, float64, shape (9 Z + n_active + states of contacts,):
 
 * ball j, ``y[9 j : 9 j + 9]``: a records.BALL (x, radius, azimuth, velocity, spin).
-* the rest: the free entries of the *shared* state, shape (12 bodies,), one records.BODY_STATE per body: inner ring,
+* then the free entries of the *shared* state, shape (12 bodies,), one records.BODY_STATE per body: inner ring,
   outer ring, cage.
+* the rest: what contacts keep by laws of the role contact_state, raceway by raceway, ball by ball; mostly nothing.
 """
 
 from __future__ import annotations
@@ -153,6 +154,8 @@ class Bundle(NamedTuple):
     raceways: Any  # RACEWAY (raceways,)
     lands: Any  # LAND (stations,)
     links: Any  # LINK (force elements between bodies,)
+    slots: Any  # SLOT (places where laws read states of contacts,)
+    state_steps: Any  # (states of contacts,): for differences
     laws: Any  # Laws
     wrench: Any  # pointer: wrench of one raceway contact
     tangent: Any  # pointer: its derivative
@@ -172,6 +175,10 @@ class Bundle(NamedTuple):
     body_rates: Any  # BODY_STATE (bodies,): the same memory
     body_wrenches: Any  # WRENCH (bodies,) of all contacts
     ball_wrenches: Any  # WRENCH (Z,)
+    states: Any  # (states of contacts,)
+    state_rates: Any  # (states of contacts,) their time derivatives
+    state_slopes: Any  # (states of contacts, most of one contact): of the rates with the states of the same contact
+    state_pivots: Any  # int64 (most of one contact,)
 
 
 _TYPES = {
@@ -181,6 +188,8 @@ _TYPES = {
     "raceways": table_t(R.RACEWAY),
     "lands": table_t(R.LAND),
     "links": table_t(R.LINK),
+    "slots": table_t(R.SLOT),
+    "state_steps": array1,
     "laws": laws_t,
     "wrench": types.FunctionType(wrench_sig),
     "tangent": types.FunctionType(tangent_sig),
@@ -200,6 +209,10 @@ _TYPES = {
     "body_rates": table_t(R.BODY_STATE),
     "body_wrenches": table_t(R.WRENCH),
     "ball_wrenches": table_t(R.WRENCH),
+    "states": array1,
+    "state_rates": array1,
+    "state_slopes": array2,
+    "state_pivots": iarray1,
 }
 bundle_t = types.NamedTuple([_TYPES[name] for name in Bundle._fields], Bundle)
 

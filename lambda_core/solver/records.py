@@ -194,6 +194,13 @@ RACEWAY = record(
     ("surface_on", i8),  # 0: nominal
     ("oil", OIL),
     ("parameters", record(*((role, i8, (2,)) for role in RACEWAY_ROLES))),  # of each law: begin, end
+    ("states", i8),  # that every contact of it keeps
+    ("first_state", i8),  # of ball 0, among the states of all contacts
+    ("slots", i8, (2,)),  # where its laws read them: begin, end
+)
+SLOT = record(
+    ("state", i8),  # which one of its contact
+    ("place", i8),  # where it stands in Bundle.par
 )
 LAND = record(
     ("cage", i8),  # body

@@ -7,6 +7,7 @@ import numpy as np
 from lambda_core.solver.cage.guides import guide_force, land_state, pocket_apply, pocket_state
 from lambda_core.solver.contact.contact_capacitance import bulk_permittivity, contact_capacitance, gap_capacitance
 from lambda_core.solver.contact.contact_kinematics import axis_x, contact_angle, contact_kinematics, surface_lift
+from lambda_core.solver.contact.contact_states import hand_states
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.integrator.memory import evaluate_t
 from lambda_core.solver.layout import (
@@ -60,6 +61,7 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
     if delta <= 0.0:
         sample.capacitance = bulk_permittivity(raceway, laws, bundle) * gap_capacitance(raceway, -delta)
         return 1
+    hand_states(raceway, j, bundle)
     ok = bundle.wrench(
         raceway, kin, laws, bundle.par, system, bundle.grid, bundle.cells[0], scratch, contact, scratch.wrench[0]
     )
@@ -165,7 +167,7 @@ def observe(times, states, bundle, evaluate, shorted, contacts, pockets, lands, 
     Parameters
     ----------
     times : float64[:], shape (n,)
-    states : float64[:, :], shape (at least n, 9 Z + n_active)
+    states : float64[:, :], shape (at least n, size)
     evaluate : pointer
         The right-hand side.
     shorted : float
@@ -182,7 +184,7 @@ def observe(times, states, bundle, evaluate, shorted, contacts, pockets, lands, 
         The whole shared state.
     rates : float64[:, :], shape (n, powers)
         Losses [W] and the rates of the other running integrals.
-    dydt : float64[:], shape (9 Z + n_active,)
+    dydt : float64[:], shape (size,)
         Workspace.
 
     Returns

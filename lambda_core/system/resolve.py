@@ -52,6 +52,7 @@ from lambda_core.system.resolve_geometry import check_clearance, resolve_geometr
 from lambda_core.system.resolve_laws import LawResolver, ModelSource
 from lambda_core.system.resolve_links import resolve_links
 from lambda_core.system.resolve_materials import resolve_lubricant, resolve_material
+from lambda_core.system.resolve_states import check_states
 from lambda_core.system.resolve_thermal import check_thermal
 from lambda_core.system.resolve_watch import WatchSource, resolve_events, resolve_observers
 from lambda_core.system.shadowed_data import tell_shadows
@@ -127,6 +128,7 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
     _check_spins(case, geometry, ledger)
     solver = _solver(case, geometry, ledger, is_static=is_static)
     names = (designation, oil.name, *(material.name for material in materials.values()), cage_row.name)
+    check_states(laws, observers, ledger)
     tell_shadows(catalogue, registry, (case, names), laws, ledger)
     ledger.check(case.name)
     return BearingModel(
@@ -339,13 +341,16 @@ def _plain(value: Any) -> Any:
     """Return `value` as JSON data; floats keep 13 digits, so that 0.1 um and 100 nm are one."""
     if isinstance(value, Law):
         laws = [function for function in (value.kernel, value.prepare) if function is not None]
-        return [value.role, value.name, value.role_api, *(reach(law, lenient=True).key for law in laws)]
+        kept = [_plain(state) for state in value.states]  # none: as before there were any
+        return [value.role, value.name, value.role_api, *(reach(law, lenient=True).key for law in laws), *kept]
     if isinstance(value, Observer | Event):
         return [value.name, value.key]
     if isinstance(value, BaseModel):
         return {name: _plain(getattr(value, name)) for name in type(value).model_fields}
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return {f.name: _plain(getattr(value, f.name)) for f in dataclasses.fields(value) if f.name != "origins"}
+    if callable(value):
+        return reach(value, lenient=True).key
     if isinstance(value, Mapping):
         return {str(key): _plain(item) for key, item in value.items()}
     if isinstance(value, tuple | list):

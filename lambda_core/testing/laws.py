@@ -117,7 +117,7 @@ def evaluate(
         if argument.name == "par":
             values.append(par)
         elif argument.output:
-            values.append(np.full(output_size(role, cells), np.nan))
+            values.append(np.full(output_size(role, cells, len(law.states)), np.nan))
         elif argument.kind == "a":
             size = 3 if argument.name in VECTORS else cells
             values.append(np.array(np.broadcast_to(np.asarray(arguments[argument.name], np.float64), size)))

@@ -77,6 +77,7 @@ _LAWS: dict[str, dict[str, str]] = {
         "cubic": "mixed_friction:cubic",
         "coulomb-regularised": "mixed_friction:coulomb_regularised",
     },
+    "contact_state": {"none": "contact_state:none"},
     "cage_contact": {
         "spherical-pocket": "cage_contact:spherical_pocket",
         "cylindrical-pocket": "cage_contact:cylindrical_pocket",

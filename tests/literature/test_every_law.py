@@ -61,6 +61,7 @@ CHECKED: dict[str, tuple[str, str]] = {
     "asperity_load/spikes-olver": (MIXED, "test_transition_of_spikes_and_olver"),
     "boundary_friction/cubic": (CLOSED, "test_teutschs_cubic_coefficient"),
     "boundary_friction/coulomb-regularised": (CLOSED, "test_regularised_coulomb_friction"),
+    "contact_state/none": NOTHING,
     "cage_contact/spherical-pocket": BLOW,
     "cage_contact/cylindrical-pocket": BLOW,
     "cage_contact/land-guidance": BLOW,

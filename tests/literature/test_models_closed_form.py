@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from lambda_core.domain.hertz import hertz_contact
+from lambda_core.domain.roles import ROLES
 from lambda_core.laws.probe import trial_context
 from lambda_core.testing import evaluate
 
@@ -178,6 +179,9 @@ NOTHING: dict[str, dict[str, Any]] = {
     "cage_contact/none": {"r": [1e-3, 0.0, 0.0], "v_rel": [1.0, 0.0, 0.0], "omega_rel": [9.0, 0.0, 0.0], "eta0": 0.1},
     "fluid_drag/none": {"v_orbit": 9.0, "omega_spin": 900.0, "azimuth": -1.5, "nu": 1e-4, "rho": 870.0},
     "surface/none": {"azimuth": 0.7, "contact_angle": 0.3},
+    "contact_state/none": dict.fromkeys(
+        [argument.name for argument in ROLES["contact_state"].arguments if argument.kind == "f"], 1.0
+    ),
 }
 
 

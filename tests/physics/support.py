@@ -88,11 +88,11 @@ class Machine:
         return np.array(table[name])
 
     def vector(self, state: State) -> FloatArray:
-        return np.concatenate([state.balls.ravel(), state.shared.ravel()[self.active]])
+        return np.concatenate([state.balls.ravel(), state.shared.ravel()[self.active], self.context.bundle.states])
 
     def state(self, y: FloatArray) -> State:
         shared = np.zeros(3 * L.NS)
-        shared[self.active] = y[L.NB * self.count :]
+        shared[self.active] = self.context.shared_part(y)
         return State(y[: L.NB * self.count].reshape(-1, L.NB).copy(), shared.reshape(3, L.NS))
 
     def at_rest(self, azimuth: float = 0.0) -> State:

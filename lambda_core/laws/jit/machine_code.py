@@ -26,7 +26,7 @@ from numba.core.errors import NumbaExperimentalFeatureWarning
 from numba.extending import register_jitable
 
 from lambda_core.domain.errors import UsageError
-from lambda_core.domain.roles import Role
+from lambda_core.domain.role import Role
 from lambda_core.laws.jit import inlined, plain
 from lambda_core.laws.jit.plain import is_plain
 

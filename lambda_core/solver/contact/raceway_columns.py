@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, surface_lift
+from lambda_core.solver.contact.contact_states import hand_states
 from lambda_core.solver.contact.tangent import wrench_at
 from lambda_core.solver.layout import NB, NS, STHETA, helper, raceway_laws
 from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
@@ -85,6 +86,7 @@ def raceway_columns(ball, j, row, bundle, bl):
         if not delta < np.inf:
             scratch.fault.ball = j
             return 0
+        hand_states(raceway, j, bundle)
         laws = raceway_laws(bundle.laws.raceways, raceway.laws)
         ok = bundle.tangent(
             raceway, kin, laws, bundle.par, bundle.system[0], bundle.grid, bundle.cells, scratch, bl.slope[0]

@@ -26,6 +26,7 @@ from lambda_core.solver.integrator import memory
 from lambda_core.solver.sampling import CONTACT_CHANNELS
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel
+from lambda_core.system.contact_states import state_channels
 from lambda_core.system.law_context import max_speed
 
 _CAPACITY = 512
@@ -63,6 +64,8 @@ class BearingEngine:
 
     Attributes
     ----------
+    channels : tuple of Channel
+        What every sample carries.
     external_load : float64[:]
         With `pushed` a load on the inner ring beside those of the case, which may be written to between two calls of
         :meth:`advance`: force x, y, z [N], moment about y, z [N m], shape (5,). Without it empty.
@@ -73,8 +76,6 @@ class BearingEngine:
         When there is no equilibrium to start from.
     """
 
-    channels = CHANNELS
-
     def __init__(
         self,
         model: BearingModel,
@@ -84,6 +85,7 @@ class BearingEngine:
         pushed: bool = False,
     ) -> None:
         self.model = model
+        self.channels = (*CHANNELS, *state_channels(model))
         self._equilibrium = equilibrium or solve(model, announce=announce, strict=False)
         self._core = core(announce)
         self._context = self._equilibrium.context
@@ -145,7 +147,7 @@ class BearingEngine:
         blocks, self._drained = self._drained, []
         if not blocks:
             blocks = [self._observe(np.zeros(0), self._memory.sample_y)]
-        return {c.name: np.concatenate([block[c.name] for block in blocks]) for c in CHANNELS}
+        return {c.name: np.concatenate([block[c.name] for block in blocks]) for c in self.channels}
 
     def now(self) -> dict[str, FloatArray]:
         """Return every channel at `time`."""
@@ -243,7 +245,7 @@ class BearingEngine:
         """Return cage angle (mean of the balls when there is no cage) and inner spin angle, to the outer ring [rad]."""
         bundle = self._context.bundle
         bodies, tail = np.zeros(bundle.bodies.size, R.BODY_STATE), L.NB * self._balls
-        bodies.view(np.float64)[bundle.active] = self._memory.y[tail:]
+        bodies.view(np.float64)[bundle.active] = self._context.shared_part(self._memory.y)
         inner, outer, cage = (float(angle) for angle in bodies["angle"])
         if not self.model.depth.cage:
             cage = float(np.mean(self._memory.y[:tail].view(R.BALL)["azimuth"]))
@@ -279,9 +281,9 @@ def initial_state(equilibrium: Equilibrium) -> FloatArray:
     if model.depth.cage:
         bodies = np.zeros(context.bundle.bodies.size, R.BODY_STATE)
         shared, cage = bodies.view(np.float64), bodies[CAGE : CAGE + 1]
-        shared[context.bundle.active] = y[L.NB * z :]
+        shared[context.bundle.active] = context.shared_part(y)
         cage.view(np.float64)[:] = 0.0
         cage["position"][0, 0] = float(np.mean(balls["x"]))
         cage["angle"], cage["spin"] = balls["azimuth"][0], equilibrium.orbit
-        y[L.NB * z :] = shared[context.bundle.active]
+        context.shared_part(y)[:] = shared[context.bundle.active]
     return y

@@ -51,7 +51,7 @@ class Equilibrium:
 
     Attributes
     ----------
-    state : float64[:], shape (9 Z + n_active,)
+    state : float64[:], shape (size,)
         State vector (layout in lambda_core.solver.layout), balls at their own orbital speeds.
     contacts : float64[:, :, :], shape (Z, 2, 16)
         Contact channels (compiled.observe.CONTACT_CHANNELS), inner then outer.
@@ -203,7 +203,8 @@ def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
     balls["x"] = 0.5 * (bodies["position"][INNER, 0] + bodies["position"][OUTER, 0])
     balls["radius"] = 0.5 * g.pitch_diameter
     balls["azimuth"] = [-0.5 * math.pi + 2.0 * math.pi * (j + phase) / z for j in range(z)]
-    y[L.NB * z :] = bodies.view(np.float64)[context.bundle.active]
+    context.shared_part(y)[:] = bodies.view(np.float64)[context.bundle.active]
+    y[context.size - context.bundle.states.size :] = context.bundle.states
     _roll(context, y)
     return y
 

@@ -11,6 +11,7 @@ from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.drivers.contact_memory import channels_of_states
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.tables import running
@@ -51,7 +52,7 @@ def observe(core_: Core, context: SolverContext, times: FloatArray, states: Floa
     Parameters
     ----------
     times : float64[:], shape (n,)
-    states : float64[:, :], shape (at least n, 9 Z + n_active)
+    states : float64[:, :], shape (at least n, size)
 
     Raises
     ------
@@ -97,4 +98,5 @@ def channels_of(
     }
     for i, name in enumerate(CONTACT_CHANNELS):
         channels[name] = contacts[:, :, :, i].copy()
-    return channels
+    tails = states[:n, context.size - context.bundle.states.size :]
+    return channels | channels_of_states(context.model, tails)

@@ -20,6 +20,7 @@ from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.integrator.handle import handle_t
 from lambda_core.solver.integrator.memory import make_memory
+from lambda_core.solver.integrator.state_blocks import dense_slopes
 
 _frozen1 = types.Array(types.float64, 1, "C", readonly=True)
 
@@ -66,6 +67,7 @@ def _dense(t, y, out, handle):
     for i in range(n):
         for k in range(n):
             out[tail + i, tail + k] = bl.d[i, k]
+    dense_slopes(handle.bundle, tail + n, out)
     return ok
 
 

@@ -14,6 +14,7 @@ from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.contact_grid import unit_grid
+from lambda_core.solver.drivers.contact_memory import state_arrays, state_tail
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils
 from lambda_core.solver.drivers.tables import build_tables
 from lambda_core.solver.drivers.time_tables import build_times
@@ -26,17 +27,17 @@ from lambda_core.system.law_context import ContactFrame
 
 
 def state_scales(model: BearingModel, active: NDArray[np.int64]) -> FloatArray:
-    """Return the absolute scales that the tolerance multiplies, shape (9 Z + n_active,).
+    """Return the absolute scales that the tolerance multiplies, shape (size,).
 
     Positions 50 um, velocities 0.1 m/s, ball spins 7 rad/s; angles and angular speeds of the big bodies and
-    azimuths are the same lengths and velocities at the pitch radius.
+    azimuths are the same lengths and velocities at the pitch radius; states of contacts have their own.
     """
     arm = 0.5 * model.geometry.pitch_diameter
     length, speed, spin = 50e-6, 0.1, 7.0
     ball = [length, length, length / arm, speed, speed, speed, spin, spin, spin]
     body = [length] * 3 + [length / arm] * 3 + [speed] * 3 + [speed / arm] * 3
     shared = np.array(body * 3)
-    return np.concatenate([np.tile(ball, model.geometry.ball_count), shared[active]])
+    return np.concatenate([np.tile(ball, model.geometry.ball_count), shared[active], state_tail(model)])
 
 
 @dataclass
@@ -70,6 +71,11 @@ class SolverContext:
         begin, end = self.bundle.raceways[RACEWAYS.index(element)]["parameters"][role]
         found: FloatArray = self.bundle.par[begin:end]
         return found
+
+    def shared_part(self, state: FloatArray) -> FloatArray:
+        """Return the free entries of the bodies' states in a state vector, a view."""
+        end = self.size - self.bundle.states.size
+        return state[end - self.bundle.active.size : end]
 
     @property
     def oil(self) -> Oil:
@@ -109,5 +115,6 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: O
         body_rates=rates,
         body_wrenches=np.zeros(bodies, R.WRENCH),
         ball_wrenches=np.zeros(balls, R.WRENCH),
+        **state_arrays(model, tables),
     )
     return SolverContext(model, kernels, oils, frame, bundle, state_scales(model, active))

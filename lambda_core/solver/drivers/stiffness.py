@@ -62,9 +62,10 @@ def _moved(equilibrium: Equilibrium, context: SolverContext) -> FloatArray:
     """Return the equilibrium's state in the layout of the freed ring."""
     count = context.model.geometry.ball_count
     shared = np.zeros(context.bundle.shared.size)
-    shared[equilibrium.context.bundle.active] = equilibrium.state[L.NB * count :]
+    shared[equilibrium.context.bundle.active] = equilibrium.context.shared_part(equilibrium.state)
     shared[list(_STATES)] = _SIGNS * np.array(equilibrium.displacement)
-    return np.concatenate([equilibrium.state[: L.NB * count], shared[context.bundle.active]])
+    state = equilibrium.state[: L.NB * count]
+    return np.concatenate([state, shared[context.bundle.active], context.bundle.states])
 
 
 def _forces_slope(context: SolverContext, state: FloatArray) -> None:

@@ -11,10 +11,12 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, DOFS
 from lambda_core.domain.hertz import ball_raceway_radii
 from lambda_core.laws.context import Oil
+from lambda_core.laws.state import names_behind
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of
 from lambda_core.system.bearing import BearingModel
+from lambda_core.system.contact_states import states_of
 from lambda_core.system.law_context import ContactFrame, build_context, effective_modulus, prepare
 
 # Below this mean surface velocity the rolling losses change sign smoothly: far below any running speed, wide
@@ -35,6 +37,7 @@ class Tables(NamedTuple):
     raceways: Any
     lands: Any
     links: Any
+    slots: Any
     par: FloatArray
 
 
@@ -80,7 +83,8 @@ def build_tables(model: BearingModel, frame: ContactFrame, oils: Oils) -> Tables
     s["roll_floor"], s["slip_floor"] = ROLL_FLOOR, SLIP_FLOOR
     s["surfaces"] = int(raceways["surface_on"].any())
     s["friction_on"], s["guides_on"] = 1, 1
-    return Tables(system, _bodies(model), rows, raceways, lands, between, parameters.all())
+    slots = _keep_states(model, raceways)
+    return Tables(system, _bodies(model), rows, raceways, lands, between, slots, parameters.all())
 
 
 def _bodies(model: BearingModel) -> Any:
@@ -124,6 +128,21 @@ def _raceways(model: BearingModel, frame: ContactFrame, oils: Oils, parameters: 
         for role in R.RACEWAY_ROLES:
             record["parameters"][role] = parameters.add(element, role)
     return raceways
+
+
+def _keep_states(model: BearingModel, raceways: Any) -> Any:
+    """Give the states of contacts their places; returns where laws read them: behind their own parameters."""
+    slots: list[tuple[int, int]] = []
+    count = 0
+    for record, element in zip(raceways, RACEWAYS, strict=True):
+        kept = [state.name for state in states_of(model, element)]
+        begin = len(slots)
+        for role in R.RACEWAY_ROLES:
+            names, end = names_behind(model.laws[element][role].model), int(record["parameters"][role][1])
+            slots += [(kept.index(name), end - len(names) + i) for i, name in enumerate(names)]
+        record["states"], record["first_state"], record["slots"] = len(kept), count, (begin, len(slots))
+        count += len(kept) * model.geometry.ball_count
+    return np.array(slots, R.SLOT)
 
 
 def _rows(model: BearingModel, oil: Oil, parameters: _Parameters) -> Any:

@@ -100,7 +100,7 @@ def _work_of_loads(bundle, mem):
             c, s = math.cos(mem.new[i + BPSI]), math.sin(mem.new[i + BPSI])
             along = gx * move[i + BVX] + (gy * c + gz * s) * move[i + BVR] + (gz * c - gy * s) * move[i + BVT]
             power += row.ball_mass * along
-    for i in range(tail, mem.new.size):
+    for i in range(tail, tail + bundle.active.size):
         b, c = bundle.active[i - tail] // NS, bundle.active[i - tail] % NS
         if c >= SVX and c < SWY:
             axis = c - SVX

@@ -150,7 +150,8 @@ def inertias(bundle: Any) -> np.ndarray:
     bodies["velocity"] = bundle.bodies["mass"][:, None]
     bodies["tilt_velocity"] = bundle.bodies["transverse_inertia"][:, None]
     bodies["spin"] = bundle.bodies["polar_inertia"]
-    return np.concatenate([balls.view(np.float64), bodies.view(np.float64)[bundle.active]])
+    kept = np.zeros(bundle.states.size)
+    return np.concatenate([balls.view(np.float64), bodies.view(np.float64)[bundle.active], kept])
 
 
 def places(bundle: Any) -> np.ndarray:
@@ -159,7 +160,7 @@ def places(bundle: Any) -> np.ndarray:
     Only where normal forces act: a ball's x and r, a body's x, y, z.
     """
     balls, active = int(bundle.system["balls"][0]), bundle.active
-    found = np.full(NB * balls + active.size, -1, dtype=np.int64)
+    found = np.full(NB * balls + active.size + bundle.states.size, -1, dtype=np.int64)
     for speed, position in ((BVX, BX), (BVR, BR)):
         found[speed : NB * balls : NB] = np.arange(position, NB * balls, NB)
     where = {int(entry): NB * balls + i for i, entry in enumerate(active)}

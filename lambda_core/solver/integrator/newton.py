@@ -6,6 +6,7 @@ import math
 
 from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve
 from lambda_core.solver.integrator.balance import finalise_step, leak_of_iterate
+from lambda_core.solver.integrator.state_blocks import solve_states
 from lambda_core.solver.layout import BVX, NB, NS, SVX, helper
 from lambda_core.solver.status import Status
 
@@ -39,9 +40,10 @@ def _start(bundle, mem):
     does not come back, from the last speeds it does.
     """
     new, base, careful = mem.new, NB * bundle.system[0].balls, mem.count[0].careful > 0
+    end = base + bundle.active.size
     for i in range(new.size):
         new[i] = mem.predicted[i]
-        if careful and ((i < base and i % NB >= BVX) or (i >= base and bundle.active[i - base] % NS >= SVX)):
+        if careful and ((i < base and i % NB >= BVX) or (base <= i < end and bundle.active[i - base] % NS >= SVX)):
             new[i] = mem.y[i]
 
 
@@ -114,6 +116,7 @@ def solve_step(evaluate, jacobian, t, h, bundle, bl, fa, mem):
     """
     new, change, weight, count, control = mem.new, mem.change, mem.weight, mem.count[0], mem.control[0]
     n, gamma = new.size, control.gamma
+    moving = n - bundle.states.size  # states of motion; behind them stand those of contacts
     _start(bundle, mem)
     careful = count.careful > 0
     tolerance = _FIRST_STEPS if count.history < 2 else _NEWTON_TOLERANCE
@@ -133,12 +136,16 @@ def solve_step(evaluate, jacobian, t, h, bundle, bl, fa, mem):
         for i in range(n):
             change[i] = mem.base[i] + gamma * mem.slope[i] - new[i]
         arrow_solve(bl, fa, change)
+        if moving < n and solve_states(bundle, gamma, change) != 1:
+            return Status.NOT_CONVERGED
         # A matrix factored for another gamma over- or undershoots by a known amount.
         relax = 2.0 / (1.0 + gamma / control.factored_gamma)
         again = iteration > 0 and careful
         for j in range(bundle.system[0].balls):
             _move(mem, NB * j, NB * j + NB, relax, again)
-        _move(mem, NB * bundle.system[0].balls, n, relax, again)
+        _move(mem, NB * bundle.system[0].balls, moving, relax, again)
+        if moving < n:
+            _move(mem, moving, n, 1.0, again)
         size = norm(change, weight)
         if not size < 1e12:
             return Status.NOT_CONVERGED

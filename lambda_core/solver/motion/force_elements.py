@@ -18,6 +18,7 @@ from lambda_core.solver.cage.guides import (
     pocket_state,
 )
 from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, surface_lift
+from lambda_core.solver.contact.contact_states import hand_states, lost_in, state_rates
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.faults import FLUID_DRAG, report
 from lambda_core.solver.layout import cells_of, drag_law, grid_of, guide_law, helper, part, raceway_laws
@@ -45,8 +46,11 @@ def add_contact(raceway, j, bundle):
 
 
 @helper
-def raceway_forces(ball, j, row, bundle, losses, want):
-    """Add the raceway contacts of ball j; with `want`, add what they dissipate to losses (layout.Losses)."""
+def raceway_forces(t, ball, j, row, bundle, losses, want):
+    """Add the raceway contacts of ball j; with `want`, add what they dissipate to losses (layout.Losses).
+
+    Where contacts keep states, their rates are written.
+    """
     scratch, system = bundle.scratch[0], bundle.system[0]
     kin, contact = scratch.kinematics[0], scratch.contact[0]
     for k in range(row.first_raceway, row.first_raceway + row.raceways):
@@ -55,7 +59,11 @@ def raceway_forces(ball, j, row, bundle, losses, want):
         if system.surfaces == 1:
             surface_lift(ball, ring, raceway, bundle, kin)
         delta = contact_kinematics(ball, ring, raceway, kin)
+        keeps = raceway.states > 0 and system.friction_on == 1
+        hand_states(raceway, j, bundle)
         if delta <= 0.0:
+            if keeps and state_rates(t, raceway, j, -1.0, bundle) != 1:
+                return 0
             continue
         if not delta < np.inf:
             scratch.fault.ball = j
@@ -68,8 +76,11 @@ def raceway_forces(ball, j, row, bundle, losses, want):
             scratch.fault.ball = j
             return 0
         add_contact(raceway, j, bundle)
-        if want == 1 and system.friction_on == 1:
+        before = lost_in(losses, k) if keeps else 0.0
+        if keeps or (want == 1 and system.friction_on == 1):
             raceway_losses(raceway, kin, system, grid_of(bundle.grid), contact, cells_of(bundle.cells[0]), losses)
+        if keeps and state_rates(t, raceway, j, max(lost_in(losses, k) - before, 0.0), bundle) != 1:
+            return 0
     return 1
 
 

@@ -35,7 +35,7 @@ def _move_ball(ball, j, row, bundle, running, want, rate):
 
 @helper
 def _move_bodies(bundle, running, want, dydt):
-    """Write the rates of the free states of the bodies."""
+    """Write the rates of the free states of the bodies, and of the states of contacts."""
     active, base = bundle.active, NB * bundle.system[0].balls
     for b in range(bundle.bodies.size):
         if bundle.bodies[b].moves == 0:
@@ -50,10 +50,13 @@ def _move_bodies(bundle, running, want, dydt):
             running.support += support
     for k in range(active.size):
         dydt[base + k] = bundle.shared_rates[active[k]]
+    base += active.size
+    for k in range(bundle.states.size):
+        dydt[base + k] = bundle.state_rates[k]
 
 
 @helper
-def _raceways(balls, bundle, rates, want):
+def _raceways(t, balls, bundle, rates, want):
     """Begin the sums of forces and powers with the raceways' share."""
     losses = losses_of(rates, bundle.raceways.size)
     clear_forces(bundle)
@@ -61,7 +64,7 @@ def _raceways(balls, bundle, rates, want):
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         for j in range(row.first_ball, row.first_ball + row.balls):
-            if raceway_forces(balls[j], j, row, bundle, losses, want) != 1:
+            if raceway_forces(t, balls[j], j, row, bundle, losses, want) != 1:
                 return 0
     return 1
 
@@ -82,7 +85,7 @@ def evaluate(t, y, bundle, dydt, rates, want):
     ----------
     t : float
         Time [s].
-    y, dydt : float64[:], shape (9 Z + n_active,)
+    y, dydt : float64[:], shape (9 Z + n_active + states of contacts,)
     rates : float64[:], shape (powers,)
         Losses of the raceways by mechanism (layout.Losses) [W], then records.RUNNING.
     want : int
@@ -99,7 +102,7 @@ def evaluate(t, y, bundle, dydt, rates, want):
     balls, moved = y[: NB * system.balls].view(BALL), dydt[: NB * system.balls].view(BALL)
     running = running_of(rates)[0]
     fill_shared(t, y, bundle)
-    if want < 2 and _raceways(balls, bundle, rates, want) != 1:
+    if want < 2 and _raceways(t, balls, bundle, rates, want) != 1:
         return 0
     want = min(want, 1)
     if system.guides_on == 1 and _guides(balls, bundle, running, want) != 1:

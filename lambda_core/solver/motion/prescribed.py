@@ -87,7 +87,7 @@ def _prescribe(body, inputs, now):
 
 @helper
 def fill_shared(t, y, bundle):
-    """Write the whole shared state at time t: free entries from y, the others prescribed."""
+    """Write the whole shared state at time t, free entries from y, the others prescribed, and states of contacts."""
     shared = bundle.shared
     evaluate_signals(t, bundle.terms, bundle.table, bundle.signals)
     for i in range(shared.size):
@@ -98,3 +98,6 @@ def fill_shared(t, y, bundle):
     base = NB * bundle.system[0].balls
     for i in range(active.size):
         shared[active[i]] = y[base + i]
+    base += active.size
+    for i in range(bundle.states.size):
+        bundle.states[i] = y[base + i]

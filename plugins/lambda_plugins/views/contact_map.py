@@ -59,7 +59,7 @@ def contact_map(run: RunData, options: Choice) -> ViewData:
         raise NotApplicable(
             f"ball {ball + 1} does not touch the {options.ring} ring at t = {1e3 * float(sample['time']):.4g} ms"
         )
-    found = _field(run, sample, ball, options.ring)
+    found = _field(run, row, sample, ball, options.ring)
     notes = (
         f"ball {ball + 1}, {options.ring} ring, azimuth {math.degrees(sample['ball_azimuth'][ball]) % 360.0:.1f} deg, "
         f"t = {1e3 * float(sample['time']):.5g} ms (sample {row}): load {found.load:.5g} N, "
@@ -83,16 +83,20 @@ def _moment(run: RunData, time: float) -> tuple[int, dict[str, FloatArray]]:
     return row, run.sample(row, _CHANNELS)
 
 
-def _field(run: RunData, sample: dict[str, FloatArray], ball: int, ring: str) -> ContactField:
+def _field(run: RunData, row: int, sample: dict[str, FloatArray], ball: int, ring: str) -> ContactField:
     """Assemble the model of the run again and run its pipeline at the recorded state."""
     from lambda_core import api
     from lambda_core.case.case_io import parse_case
     from lambda_core.solver.drivers.contact_field import contact_field, contact_state
+    from lambda_core.solver.drivers.contact_memory import hand_over
     from lambda_core.solver.drivers.equilibrium import solve
+    from lambda_core.system.contact_states import state_channels
 
     try:
         context = solve(api.resolve(parse_case(run.case_toml, str(run.path)))).context
         _refuse_other_physics(run, context, ring)
+        kept = run.sample(row, [channel.name for channel in state_channels(context.model)])
+        hand_over(context.model, context.bundle, kept, ball, ("inner", "outer").index(ring))
         return contact_field(context, *contact_state(sample, ball, ring), ring, _STRIPS, _ROWS)
     except (CaseError, SolverError) as error:
         raise NotApplicable(f"the contact cannot be computed again: {error}") from None

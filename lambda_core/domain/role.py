@@ -1,0 +1,44 @@
+"""What a role is: a kernel's arguments, what it returns, and the bounds of that."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Argument:
+    """One argument of a kernel."""
+
+    name: str
+    kind: str  # "f": float64 scalar, "a": float64[:] contiguous
+    meaning: str
+    output: bool = False
+
+
+@dataclass(frozen=True)
+class Role:
+    """A stage of the pipeline that exactly one model fills per force element."""
+
+    name: str
+    summary: str
+    arguments: tuple[Argument, ...]
+    outputs: tuple[str, ...]  # meaning of out[0], out[1], ... or of the elementwise output
+    elements: tuple[str, ...]  # force elements, or films of a circuit, that carry this role
+    elementwise: bool = False
+    # Of valid outputs; the solver relies on them (a dissipator never drives).
+    bounds: tuple[tuple[float, float], ...] = ()
+    sign_of: str = ""  # argument whose sign the first output has, or it is zero
+    vanishes_with: str = ""  # argument of an elementwise law where whose zeros its output is zero
+    # (output, of which output, by which argument) that must be derivatives: forces come from them, energy has to close
+    slopes: tuple[tuple[int, int, str], ...] = ()
+    # Section of the case where the law is chosen, for one that acts on a motion that is known; "": it makes the motion.
+    section: str = ""
+
+
+def arguments_of(spec: str) -> tuple[Argument, ...]:
+    """Read ``name kind meaning; ...``; a kind of ``A`` is an output array."""
+    result = []
+    for part in spec.split(";"):
+        name, kind, meaning = part.strip().split(" ", 2)
+        result.append(Argument(name, kind.lower(), meaning, output=kind == "A"))
+    return tuple(result)

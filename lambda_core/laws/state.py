@@ -1,0 +1,97 @@
+"""States: what a contact keeps from one moment to the next, with a law that says how it changes."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.channels import CHANNELS, DIMENSIONS, Channel
+from lambda_core.laws.context import Context
+
+if TYPE_CHECKING:
+    from lambda_core.laws.law import Law
+
+ROLE = "contact_state"
+# Roles whose laws may read states. A state changes without work: what has a potential, or is worked out once for the
+# whole run, must not depend on it.
+READERS = (
+    ROLE, "damping", "film_thickness", "thermal_correction", "supply", "contact_temperature", "traction",
+    "rolling_resistance", "elastic_hysteresis", "asperity_load", "boundary_friction",
+)  # fmt: skip
+MOST = 16  # states of one law
+_NAME = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
+
+
+@dataclass(frozen=True)
+class State:
+    """One number that every raceway contact keeps: a temperature, a wear depth, a layer of oil.
+
+    Attributes
+    ----------
+    name : str
+        In lower case with underscores: laws read it as ``par.NAME``, the result has a channel of this name.
+    unit, meaning : str
+        As of a channel.
+    scale : float
+        A change that matters, in this unit: the integrator allows `solver.tolerance` times it as error per step.
+    start : float or callable
+        Value at the start; or ``start(parameters, context)``, which returns it.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    scale: float
+    start: float | Callable[[Any, Context], float] = 0.0
+
+    @property
+    def channel(self) -> Channel:
+        """What the result gets."""
+        return Channel(self.name, ("ball", "ring"), self.unit, self.meaning)
+
+    def at_start(self, parameters: Any, context: Context) -> float:
+        """Return the value at the start."""
+        return float(self.start(parameters, context) if callable(self.start) else self.start)
+
+
+def names_behind(law: Law) -> tuple[str, ...]:
+    """Return the states that stand behind a law's own parameters: those that it reads, then those that it keeps."""
+    return (*law.reads, *(state.name for state in law.states))
+
+
+def values_behind(law: Law, parameters: Any, context: Context) -> list[float]:
+    """Return the numbers that stand there until the solver knows better: of a trial, and at the start."""
+    return [*map(float, law.reads.values()), *(state.at_start(parameters, context) for state in law.states)]
+
+
+def state_fault(law: Law) -> str:
+    """Say what is wrong with the states that a law keeps or reads, or nothing."""
+    if law.role == ROLE and not law.states and law.name != "none":
+        return "keeps no state: name what every contact keeps, states=(State(name, unit, meaning, scale),)"
+    if law.states and law.role != ROLE:
+        return f"keeps states: only laws of the role {ROLE} do"
+    if len(law.states) > MOST:
+        return f"keeps {len(law.states)} states, at most {MOST} are allowed"
+    if law.reads and law.role not in READERS:
+        return f"reads states, which laws of the role {law.role} cannot; these can: {', '.join(READERS)}"
+    names = names_behind(law)
+    taken = {channel.name for channel in CHANNELS} | {*DIMENSIONS, "ball", "marker", "status"}
+    for name in names:
+        if not isinstance(name, str) or not _NAME.fullmatch(name):
+            return f'has the state "{name}": its name is in lower case with underscores ("wear_depth")'
+        if name in taken or names.count(name) > 1:
+            return f"has the state {name}: the name is taken"
+    for state in law.states:
+        if not (state.scale > 0.0 and math.isfinite(state.scale)):
+            return f"has the state {state.name} of the scale {state.scale}: a positive number is due"
+    return _reads_fault(law.reads)
+
+
+def _reads_fault(reads: Mapping[str, float]) -> str:
+    for name, value in reads.items():
+        if not isinstance(value, int | float) or not math.isfinite(value):
+            return f"reads the state {name} and is tried with {value!r}: a finite number is due"
+    return ""

@@ -1,0 +1,93 @@
+"""States that contacts keep of their own: handed to the laws that read them, and their rates.
+
+They stand behind the motion in the state vector: stepped, controlled and sampled with it. A law reads one behind its
+parameters, where it is written before every call, so that laws without states know nothing of it.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from lambda_core.solver.faults import CONTACT_STATE, report
+from lambda_core.solver.layout import helper, part, raceway_laws
+
+
+@helper
+def first_state(raceway, j):
+    """Return where the states of the contact of ball j begin among those of all contacts."""
+    return raceway.first_state + j * raceway.states
+
+
+@helper
+def hand_states(raceway, j, bundle):
+    """Write the states of the contact of ball j where the laws of its raceway read them."""
+    first = first_state(raceway, j)
+    for i in range(raceway.slots[0], raceway.slots[1]):
+        slot = bundle.slots[i]
+        bundle.par[slot.place] = bundle.states[first + slot.state]
+
+
+@helper
+def lost_in(losses, k):
+    """Return the power that raceway k dissipates, of all balls so far [W]."""
+    return (
+        losses.sliding[k] + losses.spin[k] + losses.boundary[k]
+        + losses.rolling[k] + losses.hysteresis[k] + losses.damping[k]
+    )  # fmt: skip
+
+
+@helper
+def _rates(t, raceway, kin, contact, power, law, par, out, n, fault):
+    """Call the law of a contact that is closed, or with `power` below zero open."""
+    out[:n] = np.nan
+    bulk = raceway.oil.temperature
+    if power < 0.0:
+        status = law(t, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, bulk, bulk, par, out)
+    else:
+        slide = math.sqrt(kin.slip_t**2 + kin.slip_s**2)
+        status = law(
+            t, contact.load, contact.semi_axis_a, contact.semi_axis_b, contact.max_pressure, contact.entrainment,
+            slide, kin.rotation_n, contact.film_central, contact.film_parameter, contact.asperity_share, power,
+            contact.film_temperature, bulk, par, out,
+        )  # fmt: skip
+    total = 0.0
+    for s in range(n):
+        total += abs(out[s])
+    if status != 1 or not total < np.inf:
+        load = contact.load if power >= 0.0 else 0.0
+        return report(fault, CONTACT_STATE, status, raceway.number, t, load, max(power, 0.0), par[par.size - n])
+    return 1
+
+
+@helper
+def state_rates(t, raceway, j, power, bundle):
+    """Write the rates of the states of a contact, and their slopes with them; returns 1 when well.
+
+    Parameters
+    ----------
+    power : float
+        That the contact dissipates [W]; below zero where it is open. Of a closed one scratch holds kinematics and
+        scalars.
+    """
+    scratch, n, first = bundle.scratch[0], raceway.states, first_state(raceway, j)
+    kin, contact, out, fault = scratch.kinematics[0], scratch.contact[0], scratch.out[:], scratch.fault
+    law = raceway_laws(bundle.laws.raceways, raceway.laws).contact_state
+    par = part(bundle.par, raceway.parameters.contact_state)
+    if _rates(t, raceway, kin, contact, power, law, par, out, n, fault) != 1:
+        fault.ball = j
+        return 0
+    for s in range(n):
+        bundle.state_rates[first + s] = out[s]
+    for c in range(n):
+        place, step = par.size - n + c, bundle.state_steps[first + c]
+        par[place] += step
+        ok = _rates(t, raceway, kin, contact, power, law, par, out, n, fault)
+        par[place] = bundle.states[first + c]
+        if ok != 1:
+            fault.ball = j
+            return 0
+        for s in range(n):
+            bundle.state_slopes[first + s, c] = (out[s] - bundle.state_rates[first + s]) / step
+    return 1

@@ -1,0 +1,65 @@
+"""What the contacts of a model keep, as it stands behind the motion in the state vector: at the start, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.laws.state import ROLE
+from lambda_core.solver.drivers.law_inputs import RACEWAYS
+from lambda_core.solver.drivers.tables import Tables
+from lambda_core.system.bearing import BearingModel
+from lambda_core.system.contact_states import state_channels, states_of
+
+_STEP = 1e-6  # of a state's scale, for the slopes of its rates
+
+
+def state_arrays(model: BearingModel, tables: Tables) -> dict[str, Any]:
+    """Return the arrays of layout.Bundle that hold the states of contacts, every state at its start."""
+    starts = []
+    for raceway in tables.raceways:
+        end, count = int(raceway["parameters"][ROLE][1]), int(raceway["states"])
+        starts.append(np.tile(tables.par[end - count : end], model.geometry.ball_count))
+    start = np.concatenate(starts)
+    most = int(tables.raceways["states"].max())
+    return {
+        "states": start,
+        "state_rates": np.zeros(start.size),
+        "state_steps": _STEP * state_tail(model),
+        "state_slopes": np.zeros((start.size, most)),
+        "state_pivots": np.zeros(most, dtype=np.int64),
+    }
+
+
+def state_tail(model: BearingModel) -> FloatArray:
+    """Return the scales of all states of contacts."""
+    rows = [np.tile([state.scale for state in states_of(model, e)], model.geometry.ball_count) for e in RACEWAYS]
+    return np.concatenate(rows).astype(np.float64)
+
+
+def channels_of_states(model: BearingModel, tails: FloatArray) -> dict[str, FloatArray]:
+    """Return the channels of states of contacts, shape (n, Z, 2), from the ends of n state vectors.
+
+    NaN for a raceway whose law does not keep the state.
+    """
+    count, z = len(tails), model.geometry.ball_count
+    found = {channel.name: np.full((count, z, len(RACEWAYS)), np.nan) for channel in state_channels(model)}
+    begin = 0
+    for ring, element in enumerate(RACEWAYS):
+        states = states_of(model, element)
+        own = tails[:, begin : begin + z * len(states)].reshape(count, z, len(states))
+        for i, state in enumerate(states):
+            found[state.name][:, :, ring] = own[:, :, i]
+        begin += z * len(states)
+    return found
+
+
+def hand_over(model: BearingModel, bundle: Any, sample: Mapping[str, FloatArray], ball: int, ring: int) -> None:
+    """Write the states that one contact has in a sample where the laws of its raceway read them."""
+    raceway, states = bundle.raceways[ring], states_of(model, RACEWAYS[ring])
+    begin, end = raceway["slots"]
+    for slot in bundle.slots[begin:end]:
+        bundle.par[slot["place"]] = sample[states[slot["state"]].name][ball, ring]
