@@ -33,6 +33,9 @@ class Role:
     slopes: tuple[tuple[int, int, str], ...] = ()
     # Section of the case where the law is chosen, for one that acts on a motion that is known; "": it makes the motion.
     section: str = ""
+    # Its laws may read states of the contact. These change without work: what has a potential, or is worked out once
+    # for the whole run, must not depend on them.
+    reads_states: bool = False
 
 
 def arguments_of(spec: str) -> tuple[Argument, ...]:

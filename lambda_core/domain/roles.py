@@ -51,6 +51,7 @@ ROLES: dict[str, Role] = {
             ("force along the elastic load, of the sign of delta_dot [N]",),
             RACEWAYS,
             sign_of="delta_dot",
+            reads_states=True,
         ),
         Role(
             "rheology",
@@ -75,6 +76,7 @@ ROLES: dict[str, Role] = {
             ("central film thickness [m]", "minimum film thickness [m]"),
             RACEWAYS,
             bounds=(_POSITIVE,) * 2,
+            reads_states=True,
         ),
         Role(
             "thermal_correction",
@@ -88,6 +90,7 @@ ROLES: dict[str, Role] = {
             ("factor on the film [-], 0..1",),
             RACEWAYS,
             bounds=((0.0, 1.0),),
+            reads_states=True,
         ),
         Role(
             "supply",
@@ -101,6 +104,7 @@ ROLES: dict[str, Role] = {
             ("factor on the film [-], 0..1", "factor on the rolling resistance [-], 0..1"),
             RACEWAYS,
             bounds=((0.0, 1.0), (0.0, 1.0)),
+            reads_states=True,
         ),
         Role(
             "contact_temperature",
@@ -115,6 +119,7 @@ ROLES: dict[str, Role] = {
             RACEWAYS,
             elementwise=True,
             bounds=(_POSITIVE,),
+            reads_states=True,
         ),
         Role(
             "traction",
@@ -128,6 +133,7 @@ ROLES: dict[str, Role] = {
             elementwise=True,
             bounds=(_POSITIVE,),
             vanishes_with="slip",
+            reads_states=True,
         ),
         Role(
             "rolling_resistance",
@@ -141,6 +147,7 @@ ROLES: dict[str, Role] = {
             ("force on each body, >= 0 [N]",),
             RACEWAYS,
             bounds=(_POSITIVE,),
+            reads_states=True,
         ),
         Role(
             "elastic_hysteresis",
@@ -153,6 +160,7 @@ ROLES: dict[str, Role] = {
             ("moment against the relative rolling, >= 0 [N m]",),
             RACEWAYS,
             bounds=(_POSITIVE,),
+            reads_states=True,
         ),
         Role(
             "asperity_load",
@@ -161,6 +169,7 @@ ROLES: dict[str, Role] = {
             ("share of the load psi [-], 0..1",),
             RACEWAYS,
             bounds=((0.0, 1.0),),
+            reads_states=True,
         ),
         Role(
             "boundary_friction",
@@ -174,6 +183,7 @@ ROLES: dict[str, Role] = {
             elementwise=True,
             bounds=(_POSITIVE,),
             vanishes_with="slip",
+            reads_states=True,
         ),
         Role(
             "contact_state",
@@ -192,6 +202,7 @@ ROLES: dict[str, Role] = {
             ),
             ("rates of the law's states, in their order [unit of the state over s]",),
             RACEWAYS,
+            reads_states=True,
         ),
         Role(
             "cage_contact",

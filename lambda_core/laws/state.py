@@ -9,18 +9,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.channels import CHANNELS, DIMENSIONS, Channel
+from lambda_core.domain.roles import ROLES
 from lambda_core.laws.context import Context
 
 if TYPE_CHECKING:
     from lambda_core.laws.law import Law
 
 ROLE = "contact_state"
-# Roles whose laws may read states. A state changes without work: what has a potential, or is worked out once for the
-# whole run, must not depend on it.
-READERS = (
-    ROLE, "damping", "film_thickness", "thermal_correction", "supply", "contact_temperature", "traction",
-    "rolling_resistance", "elastic_hysteresis", "asperity_load", "boundary_friction",
-)  # fmt: skip
+READERS = tuple(name for name, role in ROLES.items() if role.reads_states)
 MOST = 16  # states of one law
 _NAME = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)*")
 

@@ -12,7 +12,7 @@ from lambda_core.laws.state import ROLE
 from lambda_core.solver.drivers.law_inputs import RACEWAYS
 from lambda_core.solver.drivers.tables import Tables
 from lambda_core.system.bearing import BearingModel
-from lambda_core.system.contact_states import state_channels, states_of
+from lambda_core.system.state_channels import state_channels, states_of
 
 _STEP = 1e-6  # of a state's scale, for the slopes of its rates
 

@@ -26,8 +26,8 @@ from lambda_core.solver.integrator import memory
 from lambda_core.solver.sampling import CONTACT_CHANNELS
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel
-from lambda_core.system.contact_states import state_channels
 from lambda_core.system.law_context import max_speed
+from lambda_core.system.state_channels import state_channels
 
 _CAPACITY = 512
 _FIRST_STEP = 1e-7  # [s]

@@ -16,8 +16,8 @@ from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of
 from lambda_core.system.bearing import BearingModel
-from lambda_core.system.contact_states import states_of
 from lambda_core.system.law_context import ContactFrame, build_context, effective_modulus, prepare
+from lambda_core.system.state_channels import states_of
 
 # Below this mean surface velocity the rolling losses change sign smoothly: far below any running speed, wide
 # enough for the integrator to cross when a bearing starts, stops or reverses.

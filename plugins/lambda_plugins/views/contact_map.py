@@ -90,7 +90,7 @@ def _field(run: RunData, row: int, sample: dict[str, FloatArray], ball: int, rin
     from lambda_core.solver.drivers.contact_field import contact_field, contact_state
     from lambda_core.solver.drivers.contact_memory import hand_over
     from lambda_core.solver.drivers.equilibrium import solve
-    from lambda_core.system.contact_states import state_channels
+    from lambda_core.system.state_channels import state_channels
 
     try:
         context = solve(api.resolve(parse_case(run.case_toml, str(run.path)))).context
