@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lambda_core import api
 from lambda_core.domain import fits
 from lambda_core.domain.tolerances import (
     HOUSING_CLASSES,
@@ -224,3 +225,15 @@ def test_reference_temperature_moves_with_the_parts() -> None:
     assert fits.operating_clearance(RINGS, Limits(1e-5, 1e-5), temperatures=warm).value == pytest.approx(
         1e-5, abs=1e-18
     )
+
+
+def test_a_case_without_housing_diameter_has_endless_steel() -> None:
+    """The limit of ever larger housings of steel; a thin one leaves more of the clearance."""
+
+    def clearance(*changes: str) -> float:
+        return api.check("6208-axial-700", ["bearing.fits.housing=20 um", *changes]).geometry.clearance
+
+    absent = clearance()
+    huge, thin = (clearance(f"bearing.fits.housing_outside_diameter={size}") for size in ("100 m", "95 mm"))
+    assert absent == pytest.approx(huge, abs=1e-10)
+    assert thin > absent + 1e-6
