@@ -55,7 +55,7 @@ arrays["shared"] = arrays["bodies_now"].view(np.float64)
 arrays["shared_rates"] = arrays["body_rates"].view(np.float64)
 bundle = L.Bundle(laws=laws, wrench=raceway.raceway_wrench, tangent=None, **arrays)
 rows, powers = [], []
-for y in given["states"]:
+for y in given["trials"]:
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))
     assert forces.evaluate(float(given["time"]), y, bundle, dydt, rates, 1) == 1
     rows.append(dydt)
@@ -82,7 +82,7 @@ def test_right_hand_side(name: str, tmp_path: Path) -> None:
         case="6319-cp10-1500",
         overrides=np.array(MODELS[name]),
         time=time,
-        states=states,
+        trials=states,
         arrays=np.array([name for name, values in arrays.items() if values.dtype != np.uint8]),
         **arrays,
     )

@@ -67,6 +67,36 @@ def test_a_law_of_an_afternoon_is_at_most_15_lines() -> None:
     assert len([line for line in law.splitlines() if line.strip()]) <= 15
 
 
+@pytest.mark.parametrize("name", ["sliding-wear", "cage-whirl", "magnetic-pull", "spring-damper", "warm-contact"])
+def test_a_package_with_its_test_is_at_most_60_lines(name: str) -> None:
+    files = [path for path in (EXAMPLES / name).rglob("*.py") if "__pycache__" not in path.parts]
+    assert len(files) == 2
+    lines = [line for path in files for line in path.read_text().splitlines()]
+    assert len([line for line in lines if line.strip()]) <= 60
+
+
+# What a case says to use each package; together they cover every hook of the motion.
+USED = {
+    "sliding-wear": ["observers.sliding-wear.coefficient=1e-8"],
+    "cage-whirl": ["events.cage-whirl.action=record"],
+    "magnetic-pull": ["elements.m.law=magnetic-pull", "elements.m.first=outer_ring", "elements.m.second=inner_ring"],
+    "spring-damper": ["elements.s.law=spring-damper", "elements.s.second=inner_ring"],
+    "warm-contact": ["models.contact_state=warm", "models.traction=warm-eyring"],
+}
+
+
+def test_all_of_them_in_one_run_close_their_energy(site: Installation, tmp_path: Path) -> None:
+    out = tmp_path / "all.h5"
+    changes = [word for each in USED.values() for change in each for word in ("--set", change)]
+    answer = site.program(
+        "run", "6208-axial-1300", "--duration", "10 ms", "--quiet", "--json", "--out", str(out), *changes
+    )
+    assert answer.code == 5, answer.err  # ten milliseconds cannot converge
+    assert abs(answer.data["energy_residual"]) < 1e-3
+    drawn = site.program("view", str(out), "sliding-wear", "--out", str(tmp_path))
+    assert drawn.code == 0, drawn.err
+
+
 def test_bearing_oil_method_and_command_of_a_maker(site: Installation) -> None:
     changes = ["bearing.designation=NW6208", "bearing.maker=Northwind", "lubricant.name=northwind-spindle"]
     answer = site.program("check", "6208-axial-1300", *(word for change in changes for word in ("--set", change)))
