@@ -223,9 +223,10 @@ def found_some(catalogue: SqlCatalogue, kind: Literal["bearing", "lubricant"], t
     hint = f"; nearest: {', '.join(close)}" if close else ""
     if kind == "bearing":
         makers = ", ".join(sorted({row.maker for row in catalogue.bearings("", 1_000_000)}))
-        holds = f"deep groove ball bearings only, of {makers}; oils: --lubricants; there are no greases"
+        holds = f"deep groove ball bearings only, of {makers}; oils and greases: --lubricants"
     else:
-        holds = f"{len(names)} oils; there are no greases"
+        greases = sum("nlgi" in row.properties for row in catalogue.lubricants("", 1_000_000))
+        holds = f"{len(names) - greases} oils and {greases} greases"
     raise CatalogueError("search", [Problem("", f'nothing matches "{text}"{hint}; the catalogue holds {holds}')])
 
 

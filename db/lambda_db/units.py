@@ -41,6 +41,9 @@ PROPERTIES: dict[str, str] = {
     "alpha_p_100": "pressure_viscosity",
     "gold_s": "",
     "gold_t": "",
+    "nlgi": "",  # the class of a grease; only greases have it
+    "lowest_temperature": "temperature",  # that a grease is made for
+    "highest_temperature": "temperature",
 }
 
 

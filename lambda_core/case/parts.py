@@ -163,7 +163,7 @@ class InlineLubricant(Section):
 
 
 class Lubricant(Section):
-    """The oil and how much of it there is."""
+    """The oil, or the grease, and how much of it there is."""
 
     name: str = option(description='catalogue name, for example "FVA3A"; with properties: any name', min_length=1)
     properties: InlineLubricant | None = option(None, "the oil's properties, in place of the catalogue's")
@@ -171,7 +171,7 @@ class Lubricant(Section):
     oil_level: Length = option(
         "0 mm",
         "height of the oil above the lowest point of the pitch circle; 0 is the centre of the lowest ball",
-        reference="usual oil bath level at standstill",
+        reference="usual oil bath level at standstill; a grease has none",
     )
     starvation: float = option(
         1.0, "film over that of a flooded contact, rolling resistance falls with its inlet; 1: flooded", gt=0.0, le=1.0

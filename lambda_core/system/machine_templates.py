@@ -39,7 +39,7 @@ class Machine:
     bearing : str
         Where no other bearing is asked for.
     oil, temperature : str
-        Lubricant of the catalogue and its temperature [degC]; of a grease the base oil.
+        Lubricant of the catalogue and its temperature [degC].
     load : float
         Radial load over the dynamic rating C.
     thrust : float
@@ -73,9 +73,9 @@ GENERAL = Machine(
 )  # fmt: skip
 MACHINES: dict[str, Machine] = {
     "electric-motor": Machine(
-        "drive end of an electric motor, grease", "SKF 6308", "mineral-vg100", 70, 0.05, 0.1, 3000.0, "C3",
+        "drive end of an electric motor, grease", "SKF 6308", "arcanol-multi2", 70, 0.05, 0.1, 3000.0, "C3",
         _TILT + _SEATS.format(shaft="k5", housing="H7", inner=75, outer=65),
-        ("base oil of the grease", "rotor and belt or coupling", "two poles at 50 Hz"),
+        ("a grease: lambda-bearing db search --lubricants grease", "rotor and belt or coupling", "two poles at 50 Hz"),
     ),
     "gearbox-shaft": Machine(
         "shaft of a gearbox, oil bath", "SKF 6208", "mineral-vg220", 80, 0.1, 0.25, 1500.0, "C3",
@@ -93,8 +93,8 @@ MACHINES: dict[str, Machine] = {
         ("circulating oil", "from the impeller", "two poles at 50 Hz, with slip"),
     ),
     "wheel": Machine(
-        "wheel or roller on a standing axle, grease", "SKF 6206", "mineral-vg150", 40, 0.12, 0.1, 0.0, "CN",
+        "wheel or roller on a standing axle, grease", "SKF 6206", "arcanol-load150", 40, 0.12, 0.1, 0.0, "CN",
         _TILT + _HUB,
-        ("base oil of the grease", "share of the vehicle's weight", "the axle stands still; see the outer ring"),
+        ("a grease", "share of the vehicle's weight", "the axle stands still; see the outer ring"),
     ),
 }  # fmt: skip

@@ -131,6 +131,7 @@ def method_inputs(
         static_rating=known.get("bearing.static_rating"),
         fatigue_limit=known.get("bearing.fatigue_limit"),
         contamination=contamination,
+        lubrication="grease" if "lubricant.nlgi" in known else "oil bath",
         oil_level=model.oil_level,
         drag_volume_factor=getattr(drag_parameters, "v_m", None),
         drag_edition=getattr(drag_parameters, "edition", "2018"),

@@ -153,6 +153,12 @@ def _oil(model: BearingModel) -> Iterator[str]:
     low, high = OIL_TEMPERATURES
     if not low <= celsius <= high:
         yield f"the oil at {celsius:.6g} degC is outside {low:g} to {high:g} degC, where laws of viscosity hold at best"
+    coldest, hottest = (_known(model, f"lubricant.{end}_temperature") for end in ("lowest", "highest"))
+    if coldest is not None and hottest is not None and not coldest <= model.oil.temperature <= hottest:
+        yield (
+            f"the grease {model.oil.name} at {celsius:.6g} degC is outside what its maker gives it for, "
+            f"{coldest - _ZERO_CELSIUS:.6g} to {hottest - _ZERO_CELSIUS:.6g} degC"
+        )
 
 
 def _surface(model: BearingModel) -> Iterator[str]:

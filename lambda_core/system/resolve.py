@@ -51,7 +51,7 @@ from lambda_core.system.resolve_electric import resolve_electric
 from lambda_core.system.resolve_geometry import check_clearance, resolve_geometry, with_clearance
 from lambda_core.system.resolve_laws import LawResolver, ModelSource
 from lambda_core.system.resolve_links import resolve_links
-from lambda_core.system.resolve_materials import resolve_lubricant, resolve_material
+from lambda_core.system.resolve_materials import resolve_lubricant, resolve_material, resolve_oil_level
 from lambda_core.system.resolve_states import check_states
 from lambda_core.system.resolve_thermal import check_thermal
 from lambda_core.system.resolve_watch import WatchSource, resolve_events, resolve_observers
@@ -123,6 +123,7 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
         geometry = with_clearance(geometry, clearance_in_operation(case, geometry, mounting, ledger))
     check_clearance(geometry, ledger)
     _possible(case, ledger)
+    oil_level = resolve_oil_level(case.lubricant, lubricant, geometry.ball_diameter, ledger)
     cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, materials["cage"], ledger)
     inertias = _inertias(case, geometry, materials, cage_estimate, ledger)
     _check_spins(case, geometry, ledger)
@@ -140,7 +141,7 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
         outer_material=materials["outer"],
         cage_material=materials["cage"],
         oil=oil,
-        oil_level=case.lubricant.oil_level,
+        oil_level=oil_level,
         roughness=case.surface.roughness,
         starvation=case.lubricant.starvation,
         gravity=(case.gravity.x, case.gravity.y, case.gravity.z),
@@ -220,7 +221,6 @@ def _settings(case: Case, ledger: Ledger) -> None:
     lubricant, surface = case.lubricant, case.surface
     ledger.given("lubricant.temperature", lubricant.temperature, "temperature")
     for section, name, quantity, sentence in (
-        (lubricant, "oil_level", "length", "oil level at the centre of the lowest ball"),
         (lubricant, "starvation", "", "films fully flooded: no starvation is given"),
         (
             surface,

@@ -23,6 +23,7 @@ _QUANTITIES = {
     "thermal_conductivity": "thermal_conductivity",
     "specific_heat": "specific_heat",
 }
+_OF_GREASE = {"nlgi": "", "lowest_temperature": "temperature", "highest_temperature": "temperature"}
 # Class values of mineral oils, +-15 % (after Larsson and Andersson 2000, J. Eng. Tribology 214).
 _CLASS_OIL = {"thermal_conductivity": 0.137, "specific_heat": 1930.0}
 
@@ -92,7 +93,40 @@ def resolve_lubricant(
             numbers[name] = usual
         else:
             numbers[name] = ledger.row(path, value, name)
+    if is_grease(row):
+        _tell_grease(row, lubricant, ledger)
     return row, Oil(row.name, row.base_type, lubricant.temperature, **numbers)
+
+
+def is_grease(row: LubricantRow) -> bool:
+    """Tell whether a lubricant is a grease: it has an NLGI class."""
+    return "nlgi" in row.properties
+
+
+def _tell_grease(row: LubricantRow, lubricant: Lubricant, ledger: Ledger) -> None:
+    """Record what is a grease's alone, and say what the model leaves out of it."""
+    for name, quantity in _OF_GREASE.items():
+        if name in row.properties:
+            ledger.row(f"lubricant.{name}", row.properties[name], quantity)
+    ledger.assume(
+        f"the grease {row.name} is taken as its base oil, which it bleeds: no bath, so no drag; the contacts are "
+        "supplied as the supply law says; the film of its thickener and the churning of fresh grease are not in the model"
+    )
+
+
+def resolve_oil_level(lubricant: Lubricant, row: LubricantRow | None, ball_diameter: float, ledger: Ledger) -> float:
+    """Return the level of the oil above the lowest point of the pitch circle [m]; below every ball for a grease."""
+    given = "oil_level" in lubricant.model_fields_set
+    if row is not None and is_grease(row):
+        if given:
+            ledger.problem("lubricant.oil_level", f"{row.name} is a grease: it stands at no level; leave the line out")
+        return -ball_diameter
+    if given:
+        ledger.given("lubricant.oil_level", lubricant.oil_level, "length")
+    else:
+        ledger.record("lubricant.oil_level", lubricant.oil_level, "length", "default", "assumed")
+        ledger.assume("oil level at the centre of the lowest ball")
+    return lubricant.oil_level
 
 
 def _inline_row(lubricant: Lubricant) -> LubricantRow | None:

@@ -14,7 +14,7 @@ def test_swapped_neighbours_come_first() -> None:
     assert nearest("6380", ["6303", "61803", "6308", "6300"])[0] == "6308"
 
 
-@pytest.mark.parametrize("words", [["grease"], ["FAG", "6308"], ["7308"]])
+@pytest.mark.parametrize("words", [["FAG", "6308"], ["7308"]])
 def test_a_search_without_rows_says_what_the_catalogue_holds(
     words: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -23,7 +23,7 @@ def test_a_search_without_rows_says_what_the_catalogue_holds(
     assert shown.out == ""
     assert f'nothing matches "{" ".join(words)}"' in shown.err
     assert "deep groove ball bearings only" in shown.err
-    assert "there are no greases" in shown.err
+    assert "oils and greases: --lubricants" in shown.err
 
 
 def test_a_slip_in_a_file_name_names_the_file_beside_it(

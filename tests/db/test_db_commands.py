@@ -82,7 +82,7 @@ def test_show_marks_estimates_and_lists_candidates(capsys: pytest.CaptureFixture
 @pytest.mark.parametrize(
     ("arguments", "code", "message"),
     [
-        (["show", "6208"], 3, "several makers, choose one: NSK, SKF, Syla2026"),
+        (["show", "6208"], 3, "several makers, choose one: KOYO, NSK, SKF, Syla2026"),
         (["show", "XX 6208"], 3, '"XX" is not a maker of 6208'),
         (["show", "fva4"], 3, "nearest: FVA3"),
         (["show", "FVA3", "--temperature", "40"], 2, 'has no unit: write "40 degC"'),
@@ -124,7 +124,7 @@ def test_show_cage_and_material(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_search(capsys: pytest.CaptureFixture[str]) -> None:
     rows = data(capsys, "db", "search", "--bore", "40", "--series", "62")["rows"]
-    assert [row["maker"] for row in rows] == ["NSK", "SKF", "Syla2026"]
+    assert [row["maker"] for row in rows] == ["KOYO", "NSK", "SKF", "Syla2026"]
     rows = data(capsys, "db", "search", "--bore", "40", "--rating", "40", "--maker", "skf", "--width", "23")["rows"]
     assert [row["designation"] for row in rows] == ["6308"]
     code, out, _ = run(capsys, "db", "search", "6208")
@@ -171,15 +171,15 @@ def test_export_and_import(capsys: pytest.CaptureFixture[str], tmp_path: Path) -
     mine = tmp_path / "mine.toml"
     assert data(capsys, "db", "export", str(mine), "--mine")["rows"]["bearing"] == 1
     bearings = tmp_path / "bearing.csv"
-    assert data(capsys, "db", "export", str(bearings))["rows"] == {"bearing": 314}
+    assert data(capsys, "db", "export", str(bearings))["rows"] == {"bearing": 377}
     bearings.write_text(bearings.read_text(encoding="utf-8") + "x" + "," * 40 + "\n", encoding="utf-8")
     code, _, err = run(capsys, "db", "import", str(bearings), "--replace")
     assert code == 3
-    assert "nothing was written; --keep-good takes the 314 good rows" in err
+    assert "nothing was written; --keep-good takes the 377 good rows" in err
     code, out, err = run(capsys, "db", "import", str(bearings), "--replace", "--keep-good")
     assert code == 3
-    assert "added 313 bearing rows" in out
-    assert "refused bearing.csv line 316" in err
+    assert "added 376 bearing rows" in out
+    assert "refused bearing.csv line 379" in err
 
 
 def test_check(capsys: pytest.CaptureFixture[str]) -> None:

@@ -11,7 +11,7 @@ from lambda_core.domain.errors import CatalogueError
 def test_several_makers_are_listed(catalogue: SqlCatalogue) -> None:
     with pytest.raises(CatalogueError) as error:
         catalogue.bearing("6208")
-    assert "choose one: NSK, SKF, Syla2026" in str(error.value)
+    assert "choose one: KOYO, NSK, SKF, Syla2026" in str(error.value)
     assert error.value.exit_code == 3
 
 
@@ -24,7 +24,7 @@ def test_one_maker_needs_no_name(catalogue: SqlCatalogue) -> None:
     ("designation", "maker", "message"),
     [
         ("6391", None, '"6391" is not a known bearing; nearest: 6'),
-        ("6208", "FAG", '"FAG" is not a maker of 6208 in the catalogue; makers: NSK, SKF, Syla2026'),
+        ("6208", "FAG", '"FAG" is not a maker of 6208 in the catalogue; makers: KOYO, NSK, SKF, Syla2026'),
         ("6208'; DROP TABLE bearing; --", None, "is not a known bearing"),
         ("", None, "is not a known bearing"),
     ],
