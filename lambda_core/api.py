@@ -55,6 +55,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.results.run_status import Status, process_identity, this_process
     from lambda_core.results.side_by_side import SideBySide
     from lambda_core.results.summary import Summary
+    from lambda_core.run.duty_cycle import DutyCycle
     from lambda_core.run.estimate import Estimate
     from lambda_core.run.progress import Progress
     from lambda_core.system.bearing import BearingModel, Geometry

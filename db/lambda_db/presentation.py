@@ -51,6 +51,7 @@ _UNIT_OF = {
     "thermal_conductivity": "W/(m K)",
     "specific_heat": "J/(kg K)",
     "pressure_viscosity": "1/GPa",
+    "temperature": "degC",
 }
 
 

@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, cast
 from lambda_gui.app import BuilderApp
 from lambda_gui.derived import Derived
 from lambda_gui.dialogs import Ask, OpenCase
+from lambda_gui.duty_screen import DutyScreen
 from lambda_gui.results_screen import ResultsScreen
 from lambda_gui.run_screen import RunScreen
 from lambda_gui.study_screen import StudyScreen
@@ -219,6 +220,21 @@ async def study(pilot: Pilot[None]) -> None:
     await until(pilot, lambda: screen.is_fine)
 
 
+async def duty(pilot: Pilot[None]) -> None:
+    await estimated(pilot)
+    await pilot.press("f4")
+    await until(pilot, lambda: isinstance(pilot.app.screen, DutyScreen))
+    await pilot.pause(0.3)
+    await pilot.press(*"start", "tab", *"30 min", "tab", *"4 k", "tab", "tab", "tab", *"20", "enter")
+    await pilot.press("ctrl+n")
+    await pilot.pause(0.3)
+    await pilot.press(*"work", "tab", *"7.5", "tab", *"1.5 k", "tab", "tab", "tab", "delete")
+    await pilot.press("ctrl+n")
+    await pilot.pause(0.3)
+    await pilot.press(*"rest", "tab", *"16", "tab", "delete", "tab", "tab", *"0 rpm", "f5")
+    await settled(pilot)
+
+
 async def study_curves(pilot: Pilot[None]) -> None:
     await study(pilot)
     await pilot.press("f5")
@@ -283,6 +299,7 @@ SCENES: dict[str, Scene] = {
     "comparison": Scene(_6208, results("comparison", marked=2)),
     "differences": Scene(_6208, results("what differs", marked=2)),
     "study": Scene(_6208, study),
+    "duty": Scene(_6208, duty),
     "study-curves": Scene(_6208, study_curves),
     "no-results": Scene(_6208, no_results),
     "help": Scene(_6208, helped(builder)),

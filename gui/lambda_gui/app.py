@@ -167,6 +167,24 @@ class BuilderApp(CaseApp):
             path, written = ".".join(row.place.keys), row.place.get() or builder.around.resolved(row.place.keys)
         self.push_screen(StudyScreen(builder.draft, model, path, str(written)))
 
+    def action_duty(self) -> None:
+        """Set up a duty cycle of the case."""
+        from lambda_gui.duty_screen import DutyScreen
+        from lambda_gui.duty_values import COLUMNS
+
+        builder = self.builder
+        model = builder.check.model
+        if model is None:
+            self.notify("a duty cycle starts from a case without mistakes: F8", severity="warning", timeout=4)
+            return
+        places = {path: tuple(path.split(".")) for path, _, _ in COLUMNS if "." in path}
+        written = {path: builder.draft.get(*keys) for path, keys in places.items()}
+        usual = {
+            path: value if isinstance(value, str) else "as it is" if value else builder.around.resolved(places[path])
+            for path, value in written.items()
+        }
+        self.push_screen(DutyScreen(builder.draft, model, usual))
+
     def run_study(self, study: dict[str, Any], case_toml: str) -> None:
         """Run a study of a case."""
         import tomlkit
@@ -261,6 +279,7 @@ class BuilderApp(CaseApp):
         yield SystemCommand("Run", "run the case as it stands", self.action_run_case)
         yield SystemCommand("Runs", "the queue and live traces", self.action_runs)
         yield SystemCommand("Study", "let one or two options of the case vary", self.action_study)
+        yield SystemCommand("Duty cycle", "life and losses over phases of the case", self.action_duty)
         yield SystemCommand("Results", "summary, views, comparison, export", self.action_results)
         yield SystemCommand("Catalogue of bearings", "choose one for the case", self.show_catalogue)
         yield SystemCommand(

@@ -38,6 +38,7 @@ class BuilderScreen(LiveDraft):
         Binding("f1", "app.help", "Help", priority=True),
         Binding("f2", "catalogue", "Catalogue", priority=True),
         Binding("f3", "app.study", "Study", priority=True),
+        Binding("f4", "app.duty", "Duty cycle", show=False, priority=True),
         Binding("f5,ctrl+r", "app.run_case", "Run", priority=True),
         Binding("f6", "app.results", "Results", priority=True),
         Binding("ctrl+s", "save", "Save", priority=True),

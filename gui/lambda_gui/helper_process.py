@@ -86,6 +86,18 @@ def study_cost(say: Say, study: dict[str, Any], case_toml: str) -> str:
         return api.study_check(study | {"case": str(case)}, announce=say).text()
 
 
+def duty(say: Say, cycle: dict[str, Any], case_toml: str) -> Any:
+    """Return what a duty cycle of a case adds up to."""
+    from tempfile import TemporaryDirectory
+
+    from lambda_core import api
+
+    with TemporaryDirectory(prefix="lambda-bearing-") as folder:
+        case = Path(folder) / "case.toml"
+        case.write_text(case_toml, encoding="utf-8")
+        return api.duty(cycle | {"case": str(case)}, announce=say)
+
+
 def study_summary(say: Say, path: str) -> Any:
     """Return where a study stands, and its table."""
     from lambda_core import api
@@ -101,7 +113,7 @@ def differences(say: Say, sources: list[str]) -> Any:
     return api.side_by_side(sources)
 
 
-_DOES = (estimate, summary, case_text, views, view, draw, report, study_cost, study_summary, differences)
+_DOES = (estimate, summary, case_text, views, view, draw, report, study_cost, duty, study_summary, differences)
 _WORK: dict[str, Callable[..., Any]] = {work.__name__: work for work in _DOES}
 
 

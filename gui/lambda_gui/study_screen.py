@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 from rich.text import Text
@@ -22,6 +21,7 @@ from lambda_gui.helper import Helper
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.places import Held
 from lambda_gui.rows import Edited, Row, Rows, Surroundings
+from lambda_gui.study_files import save_beside
 from lambda_gui.study_values import ASKED, MODES, POINTS, Values, card, card_of, first_values, studied, study_tables
 
 if TYPE_CHECKING:
@@ -202,22 +202,5 @@ class StudyScreen(Screen[None]):
             return
         study = study_tables(self.values) | {"case": path.name}
         target = path.with_name(f"{study['name']}.toml")
-        self.app.push_screen(AskText("Save the study as", str(target)), lambda text: self._saved(study, text))
-
-    def _saved(self, study: dict[str, object], text: str | None) -> None:
-        import tomlkit
-
-        from lambda_core.api import save_text
-
-        if text is None:
-            return
-        target = Path(text).expanduser()
-        if target.exists():
-            self.notify(f"{target} exists: choose another name", severity="error")
-            return
-        try:
-            save_text(tomlkit.dumps(study), target)
-        except LambdaError as error:
-            self.notify(str(error), severity="error")
-            return
-        self.notify(f"saved {target}; in a shell: lambda-bearing study run {target.name}", timeout=8)
+        question = AskText("Save the study as", str(target))
+        self.app.push_screen(question, lambda text: save_beside(self, study, text, "lambda-bearing study run"))

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 NONE = "-"  # stands where there is no number
+_LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
 
 
 def number(value: float | None, digits: int = 1) -> str:
@@ -13,6 +14,11 @@ def number(value: float | None, digits: int = 1) -> str:
     if value is None or not math.isfinite(value):
         return NONE
     return f"{round(value, digits) + 0.0:,.{digits}f}".replace(",", " ")  # + 0.0 turns -0.0 into 0.0
+
+
+def hours(life: float) -> str:
+    """Write a rating life to two digits: its scatter is a decade."""
+    return f"{number(float(f'{life:.2g}'), 0)} h" if life < _LONG_LIFE else f"above {number(_LONG_LIFE, 0)} h"
 
 
 def plus_minus(value: float | None, half_width: float | None) -> str:

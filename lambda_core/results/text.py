@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from lambda_core.domain.number_text import NONE, interval, number
+from lambda_core.domain.number_text import NONE, hours, interval, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
 
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 _PER_RING = ("sliding", "spin", "rolling", "hysteresis", "boundary", "damping")
 _REST = ("cage", "drag", "support")
 _WIDTH = 100  # of sentences where no width is given
-_LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
 
 
 def summary_text(summary: Summary, width: int | None = None, units: UnitSystem = SI) -> str:
@@ -121,11 +120,6 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI) -> list[str]:
             f"viscosity ratio kappa {number(rating.viscosity_ratio, 1)}" if rating.viscosity_ratio is not None else "",
         ),
     ]
-
-
-def hours(life: float) -> str:
-    """Write a rating life to two digits: its scatter is a decade."""
-    return f"{number(float(f'{life:.2g}'), 0)} h" if life < _LONG_LIFE else f"above {number(_LONG_LIFE, 0)} h"
 
 
 def _digits(value: float | None) -> int:

@@ -22,13 +22,12 @@ from lambda_core.case.problems import problems
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import CaseError, Problem, SolverError, UsageError
 from lambda_core.domain.files import read_text
-from lambda_core.domain.number_text import number
+from lambda_core.domain.number_text import hours, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.units import Time
 from lambda_core.results.averages import finite
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.results.text import hours
 from lambda_core.run.engineering import rating_of
 from lambda_core.system.operating_limits import operating_warnings
 from lambda_core.thermal.temperatures import ready_model

@@ -110,7 +110,7 @@ def _tell_grease(row: LubricantRow, lubricant: Lubricant, ledger: Ledger) -> Non
             ledger.row(f"lubricant.{name}", row.properties[name], quantity)
     ledger.assume(
         f"the grease {row.name} is taken as its base oil, which it bleeds: no bath, so no drag; the contacts are "
-        "supplied as the supply law says; the film of its thickener and the churning of fresh grease are not in the model"
+        "supplied as the supply law says; the film of its thickener and the churning of a fresh filling are left out"
     )
 
 

@@ -211,3 +211,13 @@ def test_a_catalogue_edited_by_hand_is_accepted(
     code, out, err = run(capsys, "db", "accept")
     assert (code, err) == (0, "")
     assert out.startswith("accepted: 0 differences in ")
+
+
+def test_a_grease_is_shown_with_its_class_and_temperatures(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = run(capsys, "db", "show", "arcanol-multi2")
+    assert code == 0
+    assert "NLGI 2, lithium soap" in out
+    values = data(capsys, "db", "show", "arcanol-multi2")["values"]
+    shown = {name: (value["value"], value["unit"]) for name, value in values.items()}
+    assert shown["nlgi"] == (2, "")
+    assert (shown["lowest_temperature"], shown["highest_temperature"]) == ((-30, "degC"), (120, "degC"))

@@ -199,7 +199,12 @@ def test_two_classes_of_clearance_are_a_warning(clearance: str, count: int) -> N
         ("NSK 6208CM", {}, "bearing.clearance", "CM (radial clearance for electric motors) is not in the catalogue"),
         ("SKF 6208/C5P", {}, "bearing.clearance", "reaches into the class above C5"),
         ("SKF 6208-Y", {}, "bodies.cage.type", "Y (pressed brass cage) is not in the catalogue"),
-        ("FAG 6319-M", {}, "bearing.maker", '"FAG" is not a maker of 6319 in the catalogue; makers: KOYO, SKF, Syla2026'),
+        (
+            "FAG 6319-M",
+            {},
+            "bearing.maker",
+            '"FAG" is not a maker of 6319 in the catalogue; makers: KOYO, SKF, Syla2026',
+        ),
         ("6208-2Z", {}, "bearing.maker", "several makers, choose one"),
         ("SKF 6208-2Z", {"maker": "NSK"}, "bearing.maker", 'names "SKF", and the maker is "NSK"'),
         ("6288-2Z", {}, "bearing.designation", "is not a known bearing; nearest: 62"),

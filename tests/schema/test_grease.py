@@ -1,4 +1,4 @@
-"""A grease as lubricant: its base oil, SKF's supply of greased bearings, no bath; its maker's temperatures are limits."""
+"""A grease as lubricant: its base oil, SKF's supply of grease, no bath; its maker's temperatures are limits."""
 
 from __future__ import annotations
 

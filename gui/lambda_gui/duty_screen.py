@@ -1,0 +1,220 @@
+"""A duty cycle of the open case: a line for each phase, F5 adds up life and losses."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+from rich.console import Group
+from rich.text import Text
+from textual import events, work
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Horizontal, VerticalScroll
+from textual.screen import Screen
+from textual.widgets import Footer, Input, Static
+
+from lambda_core.domain.errors import LambdaError
+from lambda_gui.dialogs import AskText
+from lambda_gui.duty_values import COLUMNS, FIRST_TIME, NAME, TIME, Phase, column_card, cycle_tables, cycle_view
+from lambda_gui.entry import Entry
+from lambda_gui.helper import Helper
+from lambda_gui.option_help import OptionHelp
+from lambda_gui.rows import Rows
+from lambda_gui.study_files import save_beside
+
+if TYPE_CHECKING:
+    from lambda_core.api import BearingModel, Draft
+
+_HINT = "F5 solves every phase and adds up life and losses; an empty place is as in the case"
+
+
+class PhaseLine(Horizontal):
+    """One phase: what differs in it."""
+
+    DEFAULT_CSS = """
+    PhaseLine { height: 1; }
+    PhaseLine Entry { margin-right: 1; }
+    """
+
+    def __init__(self, phase: Phase, usual: dict[str, str]) -> None:
+        super().__init__()
+        self.phase, self._usual = phase, usual
+
+    def compose(self) -> ComposeResult:
+        """Lay out an entry for each column."""
+        for key, _, width in COLUMNS:
+            entry = Entry(column_card(key))
+            entry.value, entry.placeholder = self.phase.texts.get(key, ""), self._usual.get(key, "")
+            entry.styles.width = width
+            yield entry
+
+    def keep(self) -> None:
+        """Take what stands in the entries, with its units."""
+        for (key, _, _), entry in zip(COLUMNS, self.query(Entry), strict=True):
+            entry.complete()
+            self.phase.texts[key] = entry.value.strip()
+
+    def column_of(self, entry: Entry) -> int:
+        """Return the number of an entry's column."""
+        return list(self.query(Entry)).index(entry)
+
+
+class DutyScreen(Screen[None]):
+    """A form for a load spectrum.
+
+    Parameters
+    ----------
+    draft : Draft
+        The case that goes through the phases.
+    model : BearingModel
+        The same, resolved.
+    """
+
+    AUTO_FOCUS = "PhaseLine Entry"
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("f1", "app.help", "Help", priority=True),
+        Binding("f5,ctrl+r", "solve", "Add up", priority=True),
+        Binding("ctrl+n", "add", "New phase", priority=True),
+        Binding("ctrl+d", "remove", "Remove", priority=True),
+        Binding("ctrl+s", "save", "Save", priority=True),
+        Binding("escape,f4", "app.pop_screen", "Back"),
+        Binding("down", "step(1)", show=False, priority=True),
+        Binding("up", "step(-1)", show=False, priority=True),
+    ]
+    DEFAULT_CSS = """
+    DutyScreen { background: $background; }
+    DutyScreen .title { height: 1; width: 1fr; background: $panel; padding: 0 1; }
+    DutyScreen #heads { height: 1; padding: 0 1; color: $primary; }
+    DutyScreen Rows { height: auto; max-height: 40vh; padding: 0 1; }
+    DutyScreen OptionHelp { height: 3; border-top: hkey $border-blurred; }
+    DutyScreen #found.-old { text-opacity: 50%; }
+    DutyScreen #sum { height: 1fr; padding: 0 1; border-top: hkey $border-blurred; }
+    """
+
+    def __init__(self, draft: Draft, model: BearingModel, usual: dict[str, str]) -> None:
+        super().__init__()
+        self._draft, self._model = draft, model
+        self._usual = {TIME: FIRST_TIME} | usual
+        self.phases = [Phase({NAME: "work", TIME: FIRST_TIME})]
+        self._helper = Helper(self._say)
+
+    def compose(self) -> ComposeResult:
+        """Lay out the spectrum over what comes of it."""
+        title = Text.assemble((f"A duty cycle of {self._model.name}", "bold"), ("   what differs in each phase", "dim"))
+        yield Static(title, classes="title")
+        yield Static("".join(f"{head:<{width + 1}}" for _, head, width in COLUMNS), id="heads")
+        with Rows():
+            for phase in self.phases:
+                yield PhaseLine(phase, self._usual)
+        yield OptionHelp()
+        with VerticalScroll(id="sum", can_focus=False):
+            yield Static(Text(_HINT, style="dim"), id="found")
+        yield Footer()
+
+    async def on_unmount(self) -> None:
+        """End the helper."""
+        await self._helper.close()
+
+    # -- the spectrum --
+
+    def _here(self) -> tuple[PhaseLine, int] | None:
+        entry = self.focused
+        if not isinstance(entry, Entry):
+            return None
+        line = next(each for each in self.query(PhaseLine) if entry in each.query(Entry))
+        return line, line.column_of(entry)
+
+    def on_descendant_focus(self, event: events.DescendantFocus) -> None:
+        """Say what the column under the keyboard is."""
+        here = self._here()
+        if here is not None:
+            self.query_one(OptionHelp).show(_about(COLUMNS[here[1]][0]))
+
+    def on_input_changed(self, event: Input.Changed) -> None:
+        """What was added up is of another cycle now."""
+        self.query_one("#found").set_class(True, "-old")
+
+    def on_input_submitted(self, event: Input.Submitted) -> None:
+        """Go on to the next entry."""
+        self.focus_next(Entry)
+
+    def action_step(self, by: int) -> None:
+        """Go to the same column of another phase."""
+        lines, here = list(self.query(PhaseLine)), self._here()
+        if here is None:
+            return
+        target = lines.index(here[0]) + by
+        if 0 <= target < len(lines):
+            list(lines[target].query(Entry))[here[1]].focus()
+
+    async def action_add(self) -> None:
+        """Add a phase below, with the values of the one above it."""
+        self._keep()
+        here = self._here()
+        line = here[0] if here else self.query(PhaseLine).last()
+        place = self.phases.index(line.phase) + 1
+        phase = Phase(line.phase.texts | {NAME: f"phase {len(self.phases) + 1}"})
+        self.phases.insert(place, phase)
+        new = PhaseLine(phase, self._usual)
+        await self.query_one(Rows).mount(new, after=line)
+        new.query(Entry).first().focus()
+
+    async def action_remove(self) -> None:
+        """Remove the phase under the keyboard; one stays."""
+        here = self._here()
+        if here is None or len(self.phases) == 1:
+            return
+        place = self.phases.index(here[0].phase)
+        self.phases.pop(place)
+        await here[0].remove()
+        list(self.query(PhaseLine))[max(0, place - 1)].query(Entry).first().focus()
+
+    def _keep(self) -> None:
+        for line in self.query(PhaseLine):
+            line.keep()
+
+    def cycle(self) -> dict[str, object]:
+        """Return the cycle as it stands in the form."""
+        self._keep()
+        return cycle_tables(f"{self._model.name}-duty", self.phases)
+
+    # -- what comes of it --
+
+    def _say(self, text: str) -> None:
+        if self.is_attached:
+            self.query_one("#found", Static).update(Text(text, style="dim italic"))
+
+    def action_solve(self) -> None:
+        """Solve every phase."""
+        self._solve(self.cycle())
+
+    @work(exclusive=True, group="duty")
+    async def _solve(self, cycle: dict[str, object]) -> None:
+        self._say("solving every phase ...")
+        shown, colours = self.query_one("#found", Static), self.app.theme_variables
+        try:
+            found = await self._helper.ask("duty", cycle=cycle, case_toml=self._model.case_toml)
+        except LambdaError as error:
+            shown.update(Text(str(error), style=colours["error"]))
+            return
+        table, words = cycle_view(found, self.app.units, colours["warning"])  # type: ignore[attr-defined]
+        shown.set_class(False, "-old")
+        shown.update(Group(table, Text(""), words))
+        self.query_one("#sum").scroll_home(animate=False)
+
+    def action_save(self) -> None:
+        """Write the cycle into a file of its own, beside the case."""
+        path = self._draft.path
+        if path is None or self._draft.is_changed():
+            self.notify("a duty cycle names the case's file: save the case first (Esc, Ctrl+S)", severity="warning")
+            return
+        cycle = self.cycle() | {"case": path.name}
+        target = path.with_name(f"{cycle['name']}.toml")
+        question = AskText("Save the duty cycle as", str(target))
+        self.app.push_screen(question, lambda text: save_beside(self, cycle, text, "lambda-bearing duty"))
+
+
+def _about(key: str) -> Text:
+    found = column_card(key)
+    units = f"  {', '.join(found.units[:4])}" if found.units else ""
+    return Text.assemble((key, "bold"), f"  {found.description}", (units, "dim"))

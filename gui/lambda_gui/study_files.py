@@ -1,0 +1,44 @@
+"""Files that a screen writes beside the case: studies, duty cycles."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.errors import LambdaError
+
+if TYPE_CHECKING:
+    from textual.screen import Screen
+
+
+def save_beside(screen: Screen[None], tables: Mapping[str, Any], text: str | None, command: str) -> None:
+    """Write tables into a new TOML file and say which command takes it.
+
+    Parameters
+    ----------
+    screen : Screen
+        Which says what came of it.
+    tables : mapping
+        What the file holds.
+    text : str or None
+        Where; None when the person has thought better of it.
+    command : str
+        Of the shell, before the name of the file.
+    """
+    import tomlkit
+
+    from lambda_core.api import save_text
+
+    if text is None:
+        return
+    target = Path(text).expanduser()
+    if target.exists():
+        screen.notify(f"{target} exists: choose another name", severity="error")
+        return
+    try:
+        save_text(tomlkit.dumps(tables), target)
+    except LambdaError as error:
+        screen.notify(str(error), severity="error")
+        return
+    screen.notify(f"saved {target}; in a shell: {command} {target.name}", timeout=8)
