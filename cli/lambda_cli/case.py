@@ -40,6 +40,9 @@ def init(
             "for a bearing of yours.",
         ),
     ] = None,
+    shaft: Annotated[
+        bool, typer.Option("--shaft", help="A shaft in two bearings with a gear, not one bearing.")
+    ] = False,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE", help="File to write; default: NAME.toml.")
     ] = None,
@@ -50,7 +53,12 @@ def init(
 
     from lambda_core import api
 
-    target = api.init_case(name, start, out, overwrite=force, bearing=bearing, machine=machine)
+    if shaft:
+        if start or bearing or machine:
+            raise api.UsageError("--shaft starts from nothing else: leave out --from, --bearing and --machine")
+        target = api.init_shaft(name, out, overwrite=force)
+    else:
+        target = api.init_case(name, start, out, overwrite=force, bearing=bearing, machine=machine)
     remember(target)
     typer.echo(f"wrote {target}; next: lambda-bearing check {target}", err=True)
 
@@ -65,6 +73,9 @@ def check(
 
     remember(case)
     try:
+        if api.is_shaft_file(case):
+            _check_shaft(case, changes or [], as_json=as_json)
+            return
         model = api.check(case, changes or ())
         if faults := api.law_problems(model):
             raise api.CaseError(model.name, faults)
@@ -79,6 +90,19 @@ def check(
         typer.echo(json.dumps(report.model_dump(mode="json"), indent=2, allow_nan=False))
         return
     typer.echo("\n".join(wrapped(units.system.sentence(report.text()).splitlines(), columns())))
+
+
+def _check_shaft(case: str, changes: list[str], *, as_json: bool) -> None:
+    """Say what a shaft in bearings is."""
+    from lambda_core import api
+
+    model = api.check_shaft(case, changes)
+    if as_json:
+        bearings = {bearing.name: bearing.model.title for bearing in model.bearings}
+        found = {"version": 1, "valid": True, "case": model.name, "bearings": bearings}
+        typer.echo(json.dumps({**found, "assumptions": list(model.assumptions)}, indent=2))
+    else:
+        typer.echo("\n".join(wrapped(api.describe_shaft(model).splitlines(), columns())))
 
 
 def schema(out: FileOption = None) -> None:

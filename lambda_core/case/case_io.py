@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
 from lambda_core.case.builtin import builtin_cases, builtin_text
 from lambda_core.case.case import Case, merged
@@ -37,7 +37,7 @@ def load_case(source: str | Path) -> Case:
     """
     path = Path(source)
     if path.is_file():
-        return parse_case(_read(path), source=path.name, folder=path.resolve().parent)
+        return parse_case(case_text(path), source=path.name, folder=path.resolve().parent)
     if str(source) in builtin_cases():
         return parse_case(builtin_text(str(source)), source=str(source))
     if path.is_dir():
@@ -58,7 +58,8 @@ def load_case(source: str | Path) -> Case:
     raise UsageError(f'"{source}" is neither a file nor a built-in case; {hint}')
 
 
-def _read(path: Path) -> str:
+def case_text(path: Path) -> str:
+    """Return the text of a case file; CaseError where it is no text, UsageError where it cannot be read."""
     try:
         return read_text(path)
     except UnicodeDecodeError:
@@ -69,19 +70,25 @@ def _read(path: Path) -> str:
 
 def parse_case(text: str, source: str = "case", folder: Path | None = None) -> Case:
     """Read a case from TOML text; `folder` is where its file names are looked up."""
+    return validate_case(toml_tables(text, source), source, folder)
+
+
+def toml_tables(text: str, source: str) -> dict[str, Any]:
+    """Return the plain tables of TOML text; CaseError with the line where it is none."""
     try:
-        data = tomllib.loads(text)
+        return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise CaseError(source, [syntax_problem(str(error), text)]) from None
     except RecursionError:
         raise CaseError(source, [Problem("", "is nested too deeply")]) from None
-    return validate_case(data, source, folder)
 
 
 def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> Case:
     """Check plain tables as a case; CaseError with every problem at once."""
     if isinstance(data.get("parameters"), list) and "bearing" not in data:
         raise CaseError(source, [Problem("", f"is a study, not a case: lambda-bearing study run {source}")])
+    if is_shaft(data):
+        raise CaseError(source, [Problem("", f"is a shaft, not one bearing: lambda-bearing shaft {source}")])
     if _is_deep(data):
         raise CaseError(source, [Problem("", "is nested too deeply")])
     data = {key: named(value) if key in _LAWS_IN else value for key, value in data.items()}
@@ -89,6 +96,11 @@ def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | 
         return Case.model_validate(data, context={"folder": folder})
     except ValidationError as error:
         raise invalid_case(source, error, data, folder) from None
+
+
+def is_shaft(data: Mapping[str, Any]) -> bool:
+    """Tell whether plain tables are those of a shaft in bearings, not of one bearing."""
+    return "bearing" not in data and ("shaft" in data or "bearings" in data)
 
 
 def _is_deep(data: Any) -> bool:
@@ -130,26 +142,39 @@ def apply_overrides(case: Case, overrides: Iterable[str]) -> Case:
     CaseError
         When the changed case is invalid.
     """
-    data, texts = case.written(), list(overrides)
-    for text in texts:
+    texts = list(overrides)
+    data = overridden(case.written(), texts, Case)
+    return validate_case(data, f"{case.name} with {', '.join(texts)}" if texts else case.name, case.folder)
+
+
+def overridden(data: Mapping[str, Any], overrides: Iterable[str], root: type[BaseModel]) -> dict[str, Any]:
+    """Return plain tables with ``path=value`` texts applied in order; `root` says which options want text.
+
+    Raises
+    ------
+    UsageError
+        When a text is not of the form ``path=value``.
+    """
+    tables = dict(data)
+    for text in overrides:
         path, equals, value = text.partition("=")
         parts = [part.strip() for part in path.split(".")]
         if not equals or not all(parts):
             raise UsageError(f'"{text}": write path=value, for example loads.radial="20 kN"')
-        change: Any = _value(".".join(parts), value.strip())
+        change: Any = _value(".".join(parts), value.strip(), root)
         for part in reversed(parts):
             change = {part: change}
-        data = merged(data, change)
-    return validate_case(data, f"{case.name} with {', '.join(texts)}" if texts else case.name, case.folder)
+        tables = merged(tables, change)
+    return tables
 
 
-def _value(path: str, text: str) -> Any:
+def _value(path: str, text: str, root: type[BaseModel]) -> Any:
     """Read the right-hand side of an override: TOML where the option wants it, else the text itself."""
     try:
         parsed = tomllib.loads(f"value = {text}")["value"]
     except tomllib.TOMLDecodeError:
         return text
-    info = field_at(Case, path)
+    info = field_at(root, path)
     wants_text = info is not None and "str" in str(info.annotation)
     return text if wants_text and isinstance(parsed, int | float) and not isinstance(parsed, bool) else parsed
 

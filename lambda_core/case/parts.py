@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Tag, field_validator
+from pydantic import Discriminator, Tag, field_validator, model_validator
 
 from lambda_core.case.option import Section, option
 from lambda_core.domain.units import (
+    Angle,
     Density,
     Force,
     KinematicViscosity,
@@ -96,11 +97,25 @@ class Bearing(Section):
         "raceway diameters); absent: the suffix's, or CN",
         reference="ISO 5753-1 for the classes",
     )
+    contact_angle: Angle | None = option(
+        None,
+        "free contact angle of an angular contact bearing, in place of a clearance: 2 A (1 - cos(alpha_0)) of the "
+        "distance A of the groove centres",
+        gt=0.0,
+        le=0.7854,
+        reference="Harris and Kotzalas 2006, eq. 2.9",
+    )
     clearance_pick: Literal["minimum", "middle", "maximum"] = option("middle", "which value of a clearance class")
     fits: Fits | None = option(None, "seats of the rings; absent: the clearance is that of the mounted bearing")
     temperatures: PartTemperatures | None = option(
         None, "temperatures of the parts; absent: the clearance is that at operating temperature"
     )
+
+    @model_validator(mode="after")
+    def _one_of_both(self) -> Bearing:
+        if self.contact_angle is not None and self.clearance is not None:
+            raise ValueError("clearance and contact_angle say the same: give one of them")
+        return self
 
     @field_validator("clearance")
     @classmethod

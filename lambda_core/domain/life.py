@@ -1,6 +1,6 @@
-"""Rating life of deep-groove ball bearings: ISO 281, ISO/TS 16281 and static safety after ISO 76. SI in and out.
+"""Rating life of ball bearings, deep-groove and angular contact: ISO 281, ISO/TS 16281, static safety after ISO 76.
 
-Lives are in million revolutions unless a name says otherwise.
+SI in and out. Lives are in million revolutions unless a name says otherwise.
 """
 
 from __future__ import annotations
@@ -18,6 +18,23 @@ _RELATIVE_AXIAL = (0.172, 0.345, 0.689, 1.03, 1.38, 2.07, 3.45, 5.17, 6.89)
 _LIMIT = (0.19, 0.22, 0.26, 0.28, 0.30, 0.34, 0.38, 0.42, 0.44)
 _AXIAL_FACTOR = (2.30, 1.99, 1.71, 1.55, 1.45, 1.31, 1.15, 1.04, 1.00)
 _RADIAL_FACTOR = 0.56
+
+# ISO 281:2007, table 3, angular contact ball bearings, single row. At 15 deg over f_0 F_a/C_0r, X = 0.44; above: angle
+# [deg], e, X, Y.
+_RELATIVE_15 = (0.178, 0.357, 0.714, 1.07, 1.43, 2.14, 3.57, 5.35, 7.14)
+_LIMIT_15 = (0.38, 0.40, 0.43, 0.46, 0.47, 0.50, 0.55, 0.56, 0.56)
+_AXIAL_15 = (1.47, 1.40, 1.30, 1.23, 1.19, 1.12, 1.02, 1.00, 1.00)
+_RADIAL_15 = 0.44
+_STEEP = (
+    (20.0, 0.57, 0.43, 1.00),
+    (25.0, 0.68, 0.41, 0.87),
+    (30.0, 0.80, 0.39, 0.76),
+    (35.0, 0.95, 0.37, 0.66),
+    (40.0, 1.14, 0.35, 0.57),
+    (45.0, 1.34, 0.33, 0.50),
+)
+# ISO 76:2006, table 2: angle [deg], Y_0 of single-row angular contact ball bearings; X_0 = 0.5.
+_STATIC_AXIAL = ((15.0, 0.46), (20.0, 0.42), (25.0, 0.38), (30.0, 0.33), (35.0, 0.29), (40.0, 0.26), (45.0, 0.22))
 
 # ISO 281:2007, table 13: contamination level -> (low, high) of e_C for D_pw < 100 mm and for D_pw >= 100 mm.
 CONTAMINATION_LEVELS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
@@ -53,24 +70,63 @@ def _interpolate(x: float, xs: Sequence[float], ys: Sequence[float]) -> float:
 
 
 def dynamic_equivalent_load(
-    radial_load: float, axial_load: float, static_rating: float, static_factor: float
+    radial_load: float, axial_load: float, static_rating: float, static_factor: float, contact_angle: float = 0.0
 ) -> EquivalentLoad:
     """Dynamic equivalent radial load P (ISO 281:2007, 5.3 and table 3).
 
-    P = F_r for F_a/F_r <= e, else 0.56 F_r + Y F_a, with e and Y interpolated in f_0 F_a/C_0r (outside the table
-    its first or last column, as the standard allows no extrapolation).
+    P = F_r for F_a/F_r <= e, else X F_r + Y F_a, with e and Y of radial contact (X = 0.56) and of 15 degrees
+    interpolated in f_0 F_a/C_0r (outside the table its first or last column, as the standard allows no extrapolation).
+    Between the tabled contact angles all three are linear in the angle, between 0 and 15 degrees too.
+
+    Parameters
+    ----------
+    contact_angle : float
+        Nominal one [rad], at most 45 degrees.
     """
-    relative = static_factor * axial_load / static_rating
-    limit = _interpolate(relative, _RELATIVE_AXIAL, _LIMIT)
+    limit, radial_factor, axial_factor = _factors(
+        static_factor * axial_load / static_rating, math.degrees(contact_angle)
+    )
     if axial_load <= limit * radial_load:
         return EquivalentLoad(radial_load, 1.0, 0.0, limit)
-    axial_factor = _interpolate(relative, _RELATIVE_AXIAL, _AXIAL_FACTOR)
-    return EquivalentLoad(_RADIAL_FACTOR * radial_load + axial_factor * axial_load, _RADIAL_FACTOR, axial_factor, limit)
+    return EquivalentLoad(radial_factor * radial_load + axial_factor * axial_load, radial_factor, axial_factor, limit)
 
 
-def static_equivalent_load(radial_load: float, axial_load: float) -> float:
-    """Static equivalent radial load P_0 = max(0.6 F_r + 0.5 F_a, F_r) [N] (ISO 76:2006, table 2)."""
-    return max(0.6 * radial_load + 0.5 * axial_load, radial_load)
+def _factors(relative: float, angle: float) -> tuple[float, float, float]:
+    """Return e, X and Y of single-row ball bearings of a contact angle [deg]."""
+    radial = (
+        _interpolate(relative, _RELATIVE_AXIAL, _LIMIT),
+        _RADIAL_FACTOR,
+        _interpolate(relative, _RELATIVE_AXIAL, _AXIAL_FACTOR),
+    )
+    fifteen = (
+        _interpolate(relative, _RELATIVE_15, _LIMIT_15),
+        _RADIAL_15,
+        _interpolate(relative, _RELATIVE_15, _AXIAL_15),
+    )
+    rows = [(0.0, *radial), (15.0, *fifteen), *_STEEP]
+    angles = [row[0] for row in rows]
+    e, x, y = (_interpolate(angle, angles, [row[i] for row in rows]) for i in (1, 2, 3))
+    return e, x, y
+
+
+def static_equivalent_load(radial_load: float, axial_load: float, contact_angle: float = 0.0) -> float:
+    """Static equivalent radial load P_0 = max(X_0 F_r + Y_0 F_a, F_r) [N] (ISO 76:2006, table 2).
+
+    0.6 and 0.5 for radial contact; X_0 = 0.5 and Y_0 by the angle from 15 degrees on, where smaller angles count as 15.
+    """
+    if contact_angle == 0.0:
+        return max(0.6 * radial_load + 0.5 * axial_load, radial_load)
+    angles, factors = zip(*_STATIC_AXIAL, strict=True)
+    return max(0.5 * radial_load + _interpolate(math.degrees(contact_angle), angles, factors) * axial_load, radial_load)
+
+
+def system_life(lives: Sequence[float], exponent: float = 10.0 / 9.0) -> float:
+    """Life that 90 % of sets of bearings reach: (sum L_i^-e)^(-1/e), in the unit of `lives`.
+
+    The product of their Weibull survivals; e = 10/9 for balls (Lundberg and Palmgren 1947; Harris and Kotzalas 2006).
+    """
+    damage = sum(life**-exponent for life in lives)
+    return damage ** (-1.0 / exponent) if damage > 0.0 else math.inf
 
 
 def basic_rating_life(dynamic_rating: float, equivalent_load: float) -> float:
@@ -194,6 +250,7 @@ def reference_rating_life(
     inner_conformity: float,
     outer_conformity: float,
     inner_rotates: bool = True,
+    nominal_angle: float = 0.0,
 ) -> ReferenceLife:
     """Basic reference rating life L_10r from the load of every ball (ISO/TS 16281:2008, eq. 21-29).
 
@@ -217,7 +274,9 @@ def reference_rating_life(
     moving, resting = 3.0, 10.0 / 3.0
     load_inner = mean(inner_loads, moving if inner_rotates else resting)
     load_outer = mean(outer_loads, resting if inner_rotates else moving)
-    capacity_inner, capacity_outer = ball_capacities(dynamic_rating, count, gamma, inner_conformity, outer_conformity)
+    capacity_inner, capacity_outer = ball_capacities(
+        dynamic_rating, count, gamma, inner_conformity, outer_conformity, nominal_angle
+    )
     damage = (load_inner / capacity_inner) ** (10.0 / 3.0) + (load_outer / capacity_outer) ** (10.0 / 3.0)
     life = damage**-0.9 if damage > 0.0 else math.inf
     equivalent = dynamic_rating * damage**0.3

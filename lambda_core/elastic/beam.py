@@ -62,8 +62,8 @@ def element_matrices(section: RoundSection, length: float) -> ElementMatrices:
         slope += 0.5 / length * weight * np.outer(along, along)
         mixed += 0.5 * weight * np.outer(along, at)
     stiffness, mass, gyroscopic = (np.zeros((NODE * NODES, NODE * NODES)) for _ in range(3))
-    line = section.solid.density * section.area
-    inertia = section.solid.density * section.second_moment
+    line = section.material.density * section.area
+    inertia = section.material.density * section.second_moment
     for i, carried in enumerate((line, line, line, 2.0 * inertia, inertia, inertia)):
         mass[i::NODE, i::NODE] = carried * value
     stiffness[0::NODE, 0::NODE] = section.axial_stiffness * slope

@@ -140,3 +140,37 @@ def shaft_body(
         gyroscopic[first + 4, first + 5] += disc.polar_inertia
         gyroscopic[first + 5, first + 4] -= disc.polar_inertia
     return body
+
+
+def internal_forces(
+    body: ElasticBody, displacement: FloatArray, gravity: Sequence[float]
+) -> tuple[FloatArray, FloatArray]:
+    """Return what the right-hand side of a cut does to the left-hand side, at both ends of every element.
+
+    Parameters
+    ----------
+    body : ElasticBody
+        A shaft, with its elements.
+    displacement : float64[:], shape (6 n,)
+        Of its nodes [m, rad].
+    gravity : sequence of float
+        [m/s2]
+
+    Returns
+    -------
+    float64[:], shape (2 k,)
+        Places [m]; the end of one element is the beginning of the next.
+    float64[:, :], shape (2 k, 6)
+        Normal and shear forces [N], torque and bending moments about y and z [N m].
+    """
+    places, forces = [], []
+    for i, section in enumerate(body.elements):
+        first = (NODES - 1) * i
+        nodes = slice(first, first + NODES)
+        ends = body.positions[nodes][[0, -1]]
+        one = element_matrices(section, float(ends[1] - ends[0]))
+        pull = np.tile([*gravity, 0.0, 0.0, 0.0], NODES)
+        wrench = one.stiffness @ displacement[NODE * first : NODE * (first + NODES)] - one.mass @ pull
+        places += ends.tolist()
+        forces += [-wrench[:NODE], wrench[-NODE:]]
+    return np.array(places), np.array(forces)

@@ -104,6 +104,33 @@ def whirls(
     return sorted(found, key=lambda one: one.frequency)[:count]
 
 
+def critical_speeds(
+    stiffness: FloatArray, mass: FloatArray, gyroscopic: FloatArray, *, nodes: int, count: int = 8
+) -> list[Whirl]:
+    """Return the speeds at which the shaft whirls as fast as it turns: K q = spin^2 (M - i G) q.
+
+    Stiffness is that of one speed. Forward ones (direction +1) answer to unbalance.
+
+    Parameters
+    ----------
+    stiffness, mass, gyroscopic : float64[:, :], shape (n, n)
+    nodes : int
+        How many nodes of six coordinates the first rows are.
+    count : int
+        How many, the lowest.
+    """
+    _, basis = natural_frequencies(stiffness, mass, count=min(mass.shape[0], max(6 * count, 48)))
+    k = basis.T @ stiffness @ basis
+    squares, vectors = eig(k, np.eye(k.shape[0]) - 1j * (basis.T @ gyroscopic @ basis))
+    least = 1e-12 * abs(k[-1, -1])
+    found = []
+    for square, vector in zip(squares, vectors.T, strict=True):
+        if square.real > least and abs(square.imag) < 1e-6 * square.real:
+            shape = basis @ vector
+            found.append(Whirl(math.sqrt(square.real), 0.0, _direction(shape, nodes, 1.0), shape))
+    return sorted(found, key=lambda one: one.frequency)[:count]
+
+
 def _direction(shape: np.ndarray, nodes: int, spin: float) -> float:
     """Return how far a motion exp(i w t) circles with the spin: areas of the nodes' orbits over their squares."""
     y, z = shape[1 : 6 * nodes : 6], shape[2 : 6 * nodes : 6]

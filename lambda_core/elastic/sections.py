@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Solid:
+class BodyMaterial:
     """What an elastic body is made of, SI."""
 
     youngs_modulus: float  # [Pa]
@@ -29,13 +29,13 @@ class RoundSection:
     ----------
     outside_diameter, bore : float
         [m]; a bore of 0 is a solid bar.
-    solid : Solid
-        Its material.
+    material : BodyMaterial
+        What it is made of.
     """
 
     outside_diameter: float
     bore: float
-    solid: Solid
+    material: BodyMaterial
 
     @property
     def area(self) -> float:
@@ -54,26 +54,26 @@ class RoundSection:
         6 (1 + nu)(1 + m^2)^2/[(7 + 6 nu)(1 + m^2)^2 + (20 + 12 nu) m^2], m = bore over outside diameter; for m = 0 it
         is that of the circle, 6 (1 + nu)/(7 + 6 nu).
         """
-        nu, square = self.solid.poisson_ratio, (self.bore / self.outside_diameter) ** 2
+        nu, square = self.material.poisson_ratio, (self.bore / self.outside_diameter) ** 2
         ring = (1.0 + square) ** 2
         return 6.0 * (1.0 + nu) * ring / ((7.0 + 6.0 * nu) * ring + (20.0 + 12.0 * nu) * square)
 
     @property
     def bending_stiffness(self) -> float:
         """E I [N m2]."""
-        return self.solid.youngs_modulus * self.second_moment
+        return self.material.youngs_modulus * self.second_moment
 
     @property
     def shear_stiffness(self) -> float:
         """Kappa G A [N]."""
-        return self.shear_coefficient * self.solid.shear_modulus * self.area
+        return self.shear_coefficient * self.material.shear_modulus * self.area
 
     @property
     def axial_stiffness(self) -> float:
         """E A [N]."""
-        return self.solid.youngs_modulus * self.area
+        return self.material.youngs_modulus * self.area
 
     @property
     def torsional_stiffness(self) -> float:
         """G I_p [N m2]."""
-        return 2.0 * self.solid.shear_modulus * self.second_moment
+        return 2.0 * self.material.shear_modulus * self.second_moment

@@ -90,7 +90,10 @@ def resolve_geometry(
     races = _races(picker)
     pitch = _pitch(picker, races, bore, outside)
     grooves = (_groove(picker, "inner", ball), _groove(picker, "outer", ball))
-    bought = clearance_as_bought(bearing, races, ball, bore, catalogue, ledger)
+    if bearing.contact_angle is None:
+        bought = clearance_as_bought(bearing, races, ball, bore, catalogue, ledger)
+    else:
+        bought = _clearance_of_angle(bearing.contact_angle, sum(grooves) - ball, ledger)
     _ratings(picker)
     if bought is None or any(math.isnan(x) for x in (bore, outside, width, count, ball, pitch, *grooves)):
         return None
@@ -116,6 +119,14 @@ def resolve_geometry(
     geometry = with_clearance(as_bought, clearance)
     check_geometry(geometry, races, ledger)
     return geometry, bought
+
+
+def _clearance_of_angle(angle: float, distance: float, ledger: Ledger) -> Limits:
+    """Return the clearance of a contact angle, 2 A (1 - cos(alpha_0)) (Harris and Kotzalas 2006, eq. 2.9)."""
+    ledger.given("bearing.contact_angle", angle, "angle")
+    clearance = 2.0 * distance * (1.0 - math.cos(angle))
+    ledger.record("bearing.clearance", clearance, "small_length", "from the free contact angle", "derived")
+    return Limits(clearance, clearance)
 
 
 def _races(picker: Picker) -> tuple[float | None, float | None]:

@@ -15,9 +15,9 @@ from lambda_core.domain.errors import CaseError
 from lambda_core.elastic.body import Disc, shaft_body
 from lambda_core.elastic.modes import craig_bampton, natural_frequencies, whirls
 from lambda_core.elastic.reduced import FORMAT, read_reduced, write_reduced
-from lambda_core.elastic.sections import RoundSection, Solid
+from lambda_core.elastic.sections import BodyMaterial, RoundSection
 
-STEEL = Solid(210e9, 0.3, 7850.0)
+STEEL = BodyMaterial(210e9, 0.3, 7850.0)
 LENGTH = 0.4
 BARS = [RoundSection(0.04, 0.0, STEEL), RoundSection(0.05, 0.03, STEEL)]
 
@@ -28,7 +28,7 @@ def transfer(section: RoundSection, square: float, length: float) -> np.ndarray:
     Timoshenko 1921, Phil. Mag. 41, 744: E I lean'' + kappa G A (w' - lean) + rho I omega^2 lean = 0 and
     kappa G A (w'' - lean') + rho A omega^2 w = 0.
     """
-    a, i, rho = section.area, section.second_moment, section.solid.density
+    a, i, rho = section.area, section.second_moment, section.material.density
     slopes = np.zeros((4, 4))
     slopes[0, 1], slopes[0, 3] = 1.0, 1.0 / section.shear_stiffness
     slopes[1, 2] = 1.0 / section.bending_stiffness
@@ -44,7 +44,7 @@ def exact(section: RoundSection, ends: str, count: int) -> list[float]:
     def closing(omega: float) -> float:
         return float(np.linalg.det(transfer(section, omega**2, LENGTH)[np.ix_(rows, columns)]))
 
-    wave = math.sqrt(section.bending_stiffness / (section.solid.density * section.area)) * (math.pi / LENGTH) ** 2
+    wave = math.sqrt(section.bending_stiffness / (section.material.density * section.area)) * (math.pi / LENGTH) ** 2
     found: list[float] = []
     grid = wave * np.geomspace(0.5, 30.0, 120)
     values = [closing(omega) for omega in grid]
@@ -73,7 +73,7 @@ def test_exact_roots_are_those_of_the_closed_form() -> None:
     """A pinned bar bends in sines: the smaller root of a quadratic in omega^2 (Timoshenko 1921), for each n."""
     section = BARS[0]
     ei, kga = section.bending_stiffness, section.shear_stiffness
-    m, j = section.solid.density * section.area, section.solid.density * section.second_moment
+    m, j = section.material.density * section.area, section.material.density * section.second_moment
     for n, root in enumerate(exact(section, "pinned", 5), start=1):
         p = n * math.pi / LENGTH
         quadratic = [m * j / kga, -(m + m * p**2 * ei / kga + j * p**2), ei * p**4]

@@ -10,7 +10,7 @@ import pytest
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.solver import layout as L
-from lambda_core.solver.drivers.equilibrium import Equilibrium, _continue, solve
+from lambda_core.solver.drivers.equilibrium import Equilibrium, continue_static, solve
 from lambda_core.solver.drivers.solver_context import assemble
 from lambda_core.solver.drivers.stiffness import stiffness_matrix
 from lambda_core.solver.entry import core
@@ -33,7 +33,7 @@ def load_at(found: Equilibrium, displacement: FloatArray) -> FloatArray:
     count = model.geometry.ball_count
     state = np.zeros(context.size)
     state[: L.NB * count] = found.state[: L.NB * count]
-    _continue(core(), context, state, friction=False)
+    continue_static(core(), context, state, friction=False)
     bundle = context.bundle
     bundle.system[0]["friction_on"], bundle.system[0]["guides_on"] = 0, 0
     assert core().evaluate(0.0, state, bundle, np.zeros(state.size), np.zeros(L.power_count(bundle)), 1) == 1
@@ -43,7 +43,7 @@ def load_at(found: Equilibrium, displacement: FloatArray) -> FloatArray:
 
 def without_friction(found: Equilibrium) -> Equilibrium:
     """Return the equilibrium of normal forces alone, where differences and matrix are of the same state."""
-    _continue(core(), found.context, found.state, friction=False)
+    continue_static(core(), found.context, found.state, friction=False)
     ring = found.context.bundle.bodies_now[0]
     (x, y, z), (ay, az) = ring.position.tolist(), ring.tilt.tolist()
     return dataclasses.replace(found, displacement=(x, y, z, -az, ay))

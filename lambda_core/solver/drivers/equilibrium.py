@@ -115,27 +115,27 @@ def solve(
         context = assemble(model, kernels, frame, oils)
         if state is None:
             state = first_state(context, phase)
-        _continue(compiled, context, state, friction=False)
-        contacts, _ = _contacts(compiled, context, state)
-        new = _frame_of(contacts, frame)
+        continue_static(compiled, context, state, friction=False)
+        contacts, _ = contact_channels(compiled, context, state)
+        new = mean_frame(contacts, frame)
         change = max(abs(a - b) for a, b in zip(new.angles, frame.angles, strict=True))
         frame = new
         if change < _FRAME_TOLERANCE:
             break
     context = assemble(model, kernels, frame, oils)
     assert state is not None
-    _continue(compiled, context, state, friction=False)
+    continue_static(compiled, context, state, friction=False)
     _roll(context, state)
     smooth, converged = state.copy(), True
     try:
-        report = _continue(compiled, context, state, friction=True)
+        report = continue_static(compiled, context, state, friction=True)
         report = _follow_paths(compiled, context, state, report)
     except SolverError:
         if strict:
             raise
         state, converged, report = smooth, False, np.zeros(1, dtype=STATIC_REPORT)
         report["orbit"] = smooth[L.BVT] / smooth[L.BR]
-    contacts, losses = _contacts(compiled, context, state)
+    contacts, losses = contact_channels(compiled, context, state)
     inner, outer = context.bundle.bodies_now[INNER], context.bundle.bodies_now[OUTER]
     x, y, z, tilt_y, tilt_z = (float(v) for v in (*inner.position, -inner.tilt[1], inner.tilt[0]))
     return Equilibrium(
@@ -223,7 +223,7 @@ def _roll(context: SolverContext, y: FloatArray) -> None:
     balls["spin"] = spin * math.cos(angle), -spin * math.sin(angle), 0.0
 
 
-def _continue(compiled: Core, context: SolverContext, state: FloatArray, *, friction: bool) -> StaticReport:
+def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *, friction: bool) -> StaticReport:
     """Run the continuation from `state`, in place; returns its report."""
     system = context.bundle.system[0]
     system["friction_on"], system["guides_on"] = int(friction), 0
@@ -273,7 +273,7 @@ def _follow_paths(compiled: Core, context: SolverContext, state: FloatArray, rep
             break
         moving += (_PATH_SHARE if k else 1.0) * (aim - moving)
         balls["velocity"][:, :2] = moving
-        report = _continue(compiled, context, state, friction=True)
+        report = continue_static(compiled, context, state, friction=True)
     return report
 
 
@@ -290,7 +290,7 @@ def _no_equilibrium(report: StaticReport, *, friction: bool) -> str:
     )
 
 
-def _contacts(compiled: Core, context: SolverContext, state: FloatArray) -> tuple[FloatArray, FloatArray]:
+def contact_channels(compiled: Core, context: SolverContext, state: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return contact channels (Z, 2, 16) and losses (16,) [W] at a state."""
     z, bundle, powers = context.model.geometry.ball_count, context.bundle, L.power_count(context.bundle)
     contacts, rates = np.zeros((1, z, 2, 16)), np.zeros((1, powers))
@@ -307,7 +307,7 @@ def _contacts(compiled: Core, context: SolverContext, state: FloatArray) -> tupl
     return contacts[0], rates[0, : -L.BESIDE_LOSSES].copy()
 
 
-def _frame_of(contacts: FloatArray, before: ContactFrame) -> ContactFrame:
+def mean_frame(contacts: FloatArray, before: ContactFrame) -> ContactFrame:
     """Return load-weighted contact angles (absolute) and mean loads of the loaded contacts."""
     angles, loads = [], []
     for i in range(2):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -43,32 +44,50 @@ def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
     ----------
     Jones 1960, J. Basic Eng. 82, 309; de Mul, Vree and Maas 1989, J. Tribol. 111, 142 (the same elimination).
     """
-    found = equilibrium.context
-    model = found.model
-    dofs = {**model.inner_ring.dofs, **dict.fromkeys(_FREED, DofState("free"))}
-    freed = dataclasses.replace(model, inner_ring=dataclasses.replace(model.inner_ring, dofs=dofs), links={})
-    context = assemble(freed, found.kernels, found.frame, found.oils)
-    _forces_slope(context, _moved(equilibrium, context))
-    try:
-        matrix = _eliminated(context)
-    except np.linalg.LinAlgError:
-        raise SolverError(f"{model.name}: no stiffness matrix: a ball is held by nothing but its own inertia") from None
-    # Contact forces are conservative at frozen radii: what is not symmetric is noise of the Jacobian's differences.
-    matrix = 0.5 * (matrix + matrix.T)
+    matrix = stiffness_at(equilibrium.context, freed(equilibrium.context), equilibrium.state, equilibrium.displacement)
     return tuple(tuple(float(value) for value in row) for row in matrix)
 
 
-def _moved(equilibrium: Equilibrium, context: SolverContext) -> FloatArray:
-    """Return the equilibrium's state in the layout of the freed ring."""
+def freed(found: SolverContext) -> SolverContext:
+    """Return the context of the same bearing whose inner ring is free, without supports and other force elements."""
+    model = found.model
+    dofs = {**model.inner_ring.dofs, **dict.fromkeys(_FREED, DofState("free"))}
+    free = dataclasses.replace(model, inner_ring=dataclasses.replace(model.inner_ring, dofs=dofs), links={})
+    return assemble(free, found.kernels, found.frame, found.oils)
+
+
+def stiffness_at(
+    found: SolverContext, context: SolverContext, state: FloatArray, displacement: Sequence[float]
+) -> FloatArray:
+    """Return the stiffness at a state of `found`, by the context of the freed ring, shape (5, 5).
+
+    Raises
+    ------
+    SolverError
+        When a law refuses, or a ball is held by nothing.
+    """
+    _fill_slopes(context, _moved(found, context, state, displacement))
+    try:
+        matrix = _eliminated(context)
+    except np.linalg.LinAlgError:
+        name = context.model.name
+        raise SolverError(f"{name}: no stiffness matrix: a ball is held by nothing but its own inertia") from None
+    # Contact forces are conservative at frozen radii: what is not symmetric is noise of the Jacobian's differences.
+    return 0.5 * (matrix + matrix.T)
+
+
+def _moved(
+    found: SolverContext, context: SolverContext, state: FloatArray, displacement: Sequence[float]
+) -> FloatArray:
+    """Return a state of `found` in the layout of the freed ring."""
     count = context.model.geometry.ball_count
     shared = np.zeros(context.bundle.shared.size)
-    shared[equilibrium.context.bundle.active] = equilibrium.context.shared_part(equilibrium.state)
-    shared[list(_STATES)] = _SIGNS * np.array(equilibrium.displacement)
-    state = equilibrium.state[: L.NB * count]
-    return np.concatenate([state, shared[context.bundle.active], context.bundle.states])
+    shared[found.bundle.active] = found.shared_part(state)
+    shared[list(_STATES)] = _SIGNS * np.array(displacement)
+    return np.concatenate([state[: L.NB * count], shared[context.bundle.active], context.bundle.states])
 
 
-def _forces_slope(context: SolverContext, state: FloatArray) -> None:
+def _fill_slopes(context: SolverContext, state: FloatArray) -> None:
     """Fill the context's blocks with the Jacobian of the normal forces alone."""
     compiled, bundle = core(), context.bundle
     system = bundle.system[0]

@@ -1,0 +1,241 @@
+"""The case of a shaft in several bearings: its sections, what stands on it, how it is held and loaded."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import PrivateAttr, field_validator, model_validator
+
+from lambda_core.case.case import NAME_PATTERN
+from lambda_core.case.modelling import Models, Parameters
+from lambda_core.case.motion import Gravity
+from lambda_core.case.option import Section, option
+from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, Surface
+from lambda_core.domain.units import (
+    Angle,
+    Force,
+    Inertia,
+    Length,
+    Mass,
+    Moment,
+    Power,
+    RotationalSpeed,
+    SmallLength,
+    Temperature,
+    parse,
+)
+
+SHARED = ("lubricant", "materials", "surface", "models", "parameters", "gravity")  # tables of the case of every bearing
+_NAME = re.compile(NAME_PATTERN)
+
+
+class ShaftSection(Section):
+    """A piece of the shaft of one diameter; pieces follow each other along +x."""
+
+    length: Length = option(description="length along the axis", gt=0.0)
+    diameter: Length = option(description="outside diameter", gt=0.0)
+    bore: Length = option("0 mm", "bore of a hollow piece", ge=0.0)
+
+    @model_validator(mode="after")
+    def _has_a_wall(self) -> ShaftSection:
+        if self.bore >= self.diameter:
+            raise ValueError("the bore must be smaller than the diameter")
+        return self
+
+
+class Shaft(Section):
+    """The shaft: pieces of one diameter each, from its left end at x = 0."""
+
+    sections: list[ShaftSection] = option(description="pieces from left to right", min_length=1)
+    material: MaterialChoice = option("100Cr6", "catalogue name or a table of properties")
+    temperature: Temperature = option("20 degC", "mean temperature, for its growth in length")
+    drive: Length | None = option(
+        None,
+        "where the coupling holds the shaft against turning, by the rest of the torque; absent: the left end",
+    )
+
+
+class Housing(Section):
+    """What holds the outer rings, for its growth in length; how far it gives way stands with each bearing."""
+
+    material: MaterialChoice = option("100Cr6", "catalogue name or a table of properties")
+    temperature: Temperature = option("20 degC", "mean temperature")
+
+
+class Support(Section):
+    """How the housing holds an outer ring: locked, free, or by a spring, for each degree of freedom."""
+
+    x: str = option("locked", 'axial: "locked", "free" (floating) or a stiffness ("200 N/um")')
+    y: str = option("locked", "horizontal, likewise")
+    z: str = option("locked", "vertical, likewise")
+    tilt_y: str = option("locked", 'rotation about y: "locked", "free" (self-aligning) or a stiffness ("50 N m/mrad")')
+    tilt_z: str = option("locked", "rotation about z, likewise")
+
+    @field_validator("x", "y", "z")
+    @classmethod
+    def _translation(cls, text: str) -> str:
+        return _held(text, "stiffness")
+
+    @field_validator("tilt_y", "tilt_z")
+    @classmethod
+    def _rotation(cls, text: str) -> str:
+        return _held(text, "angular_stiffness")
+
+
+def _held(text: str, quantity: str) -> str:
+    folded = text.strip()
+    if folded in ("locked", "free"):
+        return folded
+    try:
+        value = parse(folded, quantity)
+    except ValueError as error:
+        raise ValueError(f'{error}; or write "locked" or "free"') from None
+    if value <= 0.0:
+        raise ValueError(f'"{text}": a stiffness must be greater than 0; or write "free"')
+    return folded
+
+
+class ShaftBearing(Bearing):
+    """A bearing on the shaft: which one it is, as in the case of one bearing, and how it sits."""
+
+    position: Length = option(description="of its centre along the shaft, from the left end")
+    takes: Literal["+x", "-x"] | None = option(
+        None,
+        "axial force on the shaft that it can take: needed for angular contact and for a preload; +x left "
+        "and -x right is an O arrangement, the other way round X, both alike tandem",
+    )
+    preload: SmallLength | None = option(
+        None, "axial displacement of the outer ring against the inner one from where the play is just taken up"
+    )
+    preload_force: Force | None = option(None, "force of a spring on the outer ring, which slides in its seat", gt=0.0)
+    support: Support = option({}, "how the housing holds the outer ring")
+
+    @model_validator(mode="after")
+    def _sits(self) -> ShaftBearing:
+        preloaded = self.preload is not None or self.preload_force is not None
+        if preloaded and self.takes is None:
+            raise ValueError('a preload needs takes = "+x" or "-x": the force on the shaft that it makes it carry')
+        if self.preload is not None and self.preload_force is not None:
+            raise ValueError("preload (rigid) and preload_force (spring) exclude each other")
+        if self.preload_force is not None and "x" in self.support.model_fields_set and self.support.x == "locked":
+            raise ValueError('preload_force needs an outer ring that slides: support.x = "free" or a stiffness')
+        if self.contact_angle is not None and self.takes is None:
+            raise ValueError('an angular contact bearing needs takes = "+x" or "-x"')
+        return self
+
+
+class ShaftDisc(Section):
+    """A rigid wheel, rotor or coupling on the shaft."""
+
+    position: Length = option(description="of its centre along the shaft")
+    mass: Mass = option(description="mass", gt=0.0)
+    polar_inertia: Inertia = option("0 kg m2", "moment of inertia about the axis", ge=0.0)
+    transverse_inertia: Inertia | None = option(None, "about a diameter; absent: half the polar one", ge=0.0)
+
+
+class PointLoad(Section):
+    """Force and moment on the shaft at one place."""
+
+    position: Length = option(description="where it acts")
+    force_x: Force = option("0 N", "force along the shaft")
+    force_y: Force = option("0 N", "horizontal force")
+    force_z: Force = option("0 N", "vertical force, upwards")
+    moment_x: Moment = option("0 N m", "torque about x")
+    moment_y: Moment = option("0 N m", "moment about y")
+    moment_z: Moment = option("0 N m", "moment about z")
+
+
+class Gear(Section):
+    """A spur or helical gear on the shaft: forces from what it transmits."""
+
+    position: Length = option(description="middle of the face width along the shaft")
+    pitch_diameter: Length = option(description="working pitch diameter", gt=0.0)
+    power: Power | None = option(None, "power through the mesh", gt=0.0)
+    torque: Moment | None = option(None, "in place of the power: torque about the shaft", gt=0.0)
+    role: Literal["driving", "driven"] = option(description="whether it drives its mate or is driven by it")
+    mesh: Angle = option(description="azimuth of the mesh, from +y to +z")
+    pressure_angle: Angle = option("20 deg", "normal pressure angle", gt=0.0, lt=1.0)
+    helix_angle: Angle = option("0 deg", "helix angle at the pitch diameter", ge=0.0, lt=1.4)
+    hand: Literal["right", "left"] | None = option(None, "hand of the helix")
+
+    @model_validator(mode="after")
+    def _transmits(self) -> Gear:
+        if (self.power is None) == (self.torque is None):
+            raise ValueError("give the power or the torque, one of them")
+        if self.helix_angle > 0.0 and self.hand is None:
+            raise ValueError('a helical gear needs hand = "right" or "left"')
+        return self
+
+
+class ShaftOperation(Section):
+    """What turns the shaft."""
+
+    speed: RotationalSpeed = option(description="speed of the shaft")
+
+
+class ShaftLife(Section):
+    """What modified rating lives need."""
+
+    contamination: float | None = option(None, "contamination factor e_C of ISO 281", ge=0.0, le=1.0)
+
+
+class ShaftCase(Section):
+    """What the file of a shaft says; values in SI, written as unit strings."""
+
+    name: str = option(description="short name, used for files", pattern=NAME_PATTERN)
+    description: str = option("", "what this case is, for people")
+    assumptions: list[str] = option([], "what the author of the case assumed, repeated with every result")
+    shaft: Shaft = option(description="the shaft")
+    bearings: dict[str, ShaftBearing] = option(description="its bearings, by name", min_length=1)
+    discs: dict[str, ShaftDisc] = option({}, "rigid bodies on the shaft, by name")
+    loads: dict[str, PointLoad] = option({}, "forces and moments on the shaft, by name")
+    gears: dict[str, Gear] = option({}, "gears on the shaft, by name")
+    housing: Housing = option({}, "the housing")
+    operation: ShaftOperation = option(description="what turns the shaft")
+    lubricant: Lubricant = option(description="the oil")
+    materials: Materials = option({}, "materials of the bearings' parts")
+    surface: Surface = option({}, "surfaces")
+    gravity: Gravity = option({}, "acceleration of gravity")
+    life: ShaftLife = option({}, "what modified rating lives need")
+    models: Models = option({}, "model by role, for every bearing")
+    parameters: Parameters = option({}, "parameters by role, for every bearing")
+    _folder: Path | None = PrivateAttr(default=None)
+
+    @model_validator(mode="after")
+    def _names(self, info: Any) -> ShaftCase:
+        self._folder = (info.context or {}).get("folder")
+        for table in ("bearings", "discs", "loads", "gears"):
+            for name in getattr(self, table):
+                if not _NAME.match(name):
+                    raise ValueError(f'{table}: "{name}": use letters, digits, dot, dash and underscore in names')
+        return self
+
+    @property
+    def folder(self) -> Path | None:
+        """Folder that file names in the case are relative to; None is the working directory."""
+        return self._folder
+
+    @property
+    def length(self) -> float:
+        """Of the shaft [m]."""
+        return sum(section.length for section in self.shaft.sections)
+
+    def written(self) -> dict[str, Any]:
+        """Return what stands in the case's file: plain tables with unit strings, no defaults."""
+        return self.model_dump(mode="json", exclude_unset=True, exclude_none=True)
+
+
+def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
+    """Return the plain tables of the case of one of the bearings alone, right or wrong as those of the shaft are."""
+    given = tables["bearings"][name]
+    operation = tables.get("operation")
+    speed = operation.get("speed") if isinstance(operation, Mapping) else None
+    return {
+        "name": name,
+        "bearing": {key: value for key, value in given.items() if key in Bearing.model_fields},
+        "operation": {} if speed is None else {"speed": speed},
+        **{table: tables[table] for table in SHARED if table in tables},
+    }

@@ -1,0 +1,42 @@
+"""Reading the file of a shaft: TOML in, every mistake of the tables at once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from lambda_core.case.case_io import case_text, toml_tables
+from lambda_core.case.problems import problems
+from lambda_core.case.shaft import ShaftCase
+from lambda_core.domain.errors import CaseError, Problem, UsageError
+
+
+def shaft_tables(source: str | Path) -> dict[str, Any]:
+    """Return what stands in a TOML file.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file.
+    CaseError
+        When it is not TOML.
+    """
+    path = Path(source)
+    if not path.is_file():
+        raise UsageError(f'"{source}" is not a file; lambda-bearing init NAME --shaft writes one to start from')
+    return toml_tables(case_text(path), path.name)
+
+
+def validate_shaft(data: Mapping[str, Any], source: str = "shaft", folder: Path | None = None) -> ShaftCase:
+    """Check plain tables as the case of a shaft; CaseError with every mistake of them."""
+    if "bearing" in data and "bearings" not in data:
+        raise CaseError(
+            source, [Problem("bearing", f"is one bearing, not a shaft: lambda-bearing quasistatic {source}")]
+        )
+    try:
+        return ShaftCase.model_validate(data, context={"folder": folder})
+    except ValidationError as error:
+        raise CaseError(source, problems(error, ShaftCase, data)) from None

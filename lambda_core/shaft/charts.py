@@ -1,0 +1,109 @@
+"""A shaft in its bearings as data to draw: the shaft itself, how it bends, and how it whirls."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.shaft.model import ShaftModel
+from lambda_core.shaft.report import ShaftReport
+from lambda_core.views.chart import Arrows, Axis, Mark, Panel, Series, ViewData
+
+_ROLES = {"bending": "inner", "axial": "reference", "torsion": "cage"}
+
+
+def pictures(model: ShaftModel, report: ShaftReport) -> list[ViewData]:
+    """Return what there is to see: shaft and deflection, whirl over speed where the shaft turns."""
+    found = [_bent(model, report)]
+    return [*found, _campbell(report)] if len(report.campbell) > 1 else found
+
+
+def _source(report: ShaftReport) -> str:
+    return f"{report.case}   {report.speed_rpm:.5g} 1/min   " + ", ".join(
+        f"{bearing.name} {bearing.title.split(' (')[0]}" for bearing in report.bearings
+    )
+
+
+def _bent(model: ShaftModel, report: ShaftReport) -> ViewData:
+    """Return the shaft, its deflection and its bending moment over one axis."""
+    length = 1e3 * model.outline[-1][1]
+    along = Axis("position", "mm", low=0.0, high=length)
+    places, cuts = np.array(report.positions_mm), np.array(report.cut_positions_mm)
+    moved, moments = np.array(report.deflection_um), np.array(report.bending_moment_Nm)
+    supports = tuple(Mark(bearing.name, bearing.position_mm, "x") for bearing in report.bearings)
+    bare = tuple(Mark("", mark.value, "x") for mark in supports)
+    panels = (
+        _drawing(model, report),
+        Panel(
+            "deflection", along, Axis("deflection", "um"),
+            (Series("y (horizontal)", places, moved[:, 1], "line", "outer"),
+             Series("z (vertical)", places, moved[:, 2], "line", "inner")), bare,
+        ),
+        Panel(
+            "bending moment", along, Axis("moment", "N m"),
+            (Series("about y (bends vertically)", cuts, moments[:, 0], "line", "inner"),
+             Series("about z (bends horizontally)", cuts, moments[:, 1], "line", "outer")), bare,
+        ),
+    )  # fmt: skip
+    notes = (
+        "arrows: forces of the bearings on the shaft in the vertical plane",
+        "the bending moment is what the right side of a cut does to the left one",
+    )
+    return ViewData("shaft", "A shaft in its bearings", _source(report), panels, 1, notes)
+
+
+def _drawing(model: ShaftModel, report: ShaftReport) -> Panel:
+    """Return the shaft from the side with its bearings, discs, and the reactions as arrows."""
+    series = [_loop("shaft", [_box(1e3 * a, 1e3 * b, -500.0 * d, 500.0 * d) for a, b, d, _ in model.outline], "total")]
+    bores = [_box(1e3 * a, 1e3 * b, -500.0 * bore, 500.0 * bore) for a, b, _, bore in model.outline if bore > 0.0]
+    if bores:
+        series.append(_loop("bore", bores, "reference"))
+    rings = []
+    for bearing in model.bearings:
+        g, middle = bearing.model.geometry, 1e3 * bearing.position
+        for sign in (1.0, -1.0):
+            low, high = sorted((sign * 500.0 * g.bore_diameter, sign * 500.0 * g.outside_diameter))
+            rings.append(_box(middle - 500.0 * g.width, middle + 500.0 * g.width, low, high))
+    series.append(_loop("bearings", rings, "outer"))
+    tall = max(d for _, _, d, _ in model.outline)
+    if model.discs:
+        series.append(_loop("discs", [_box(1e3 * x - 1.0, 1e3 * x + 1.0, -800.0 * tall, 800.0 * tall)
+                                      for _, x in model.discs], "cage"))  # fmt: skip
+    if model.load_places:
+        spots = np.array([1e3 * x for _, x in model.load_places])
+        series.append(Series("loads", spots, np.zeros(spots.size), "points", "ball"))
+    x = np.array([bearing.position_mm for bearing in report.bearings])
+    forces = np.array([bearing.force_N for bearing in report.bearings])
+    arrows = Arrows("reactions", "N", x, np.zeros(x.size), forces[:, 0], forces[:, 2])
+    marks = tuple(Mark(bearing.name, bearing.position_mm, "x") for bearing in report.bearings)
+    return Panel(
+        "shaft and bearings", Axis("position", "mm"), Axis("radius", "mm"), tuple(series), marks,
+        arrows=arrows, shape="plane",
+    )  # fmt: skip
+
+
+def _box(left: float, right: float, low: float, high: float) -> list[tuple[float, float]]:
+    return [(left, low), (left, high), (right, high), (right, low), (left, low)]
+
+
+def _loop(name: str, boxes: list[list[tuple[float, float]]], role: str) -> Series:
+    """Return boxes as one line, broken between them."""
+    points: FloatArray = np.array([point for box in boxes for point in [*box, (np.nan, np.nan)]])
+    return Series(name, points[:, 0], points[:, 1], "line", role)
+
+
+def _campbell(report: ShaftReport) -> ViewData:
+    """Return natural frequencies of bending over speed, with the line of one per revolution."""
+    speeds = np.array([row.speed_rpm for row in report.campbell])
+    series, seen = [], set()
+    for i in range(min(len(row.modes) for row in report.campbell)):
+        values = np.array([row.modes[i].frequency_Hz for row in report.campbell])
+        kind = report.campbell[0].modes[i].kind
+        series.append(Series(kind, speeds, values, "line", _ROLES[kind], unlisted=kind in seen))
+        seen.add(kind)
+    series.append(Series("once per revolution", speeds, speeds / 60.0, "line", "ball"))
+    panel = Panel("natural frequencies", Axis("speed", "1/min"), Axis("frequency", "Hz", low=0.0), tuple(series))
+    return ViewData(
+        "whirl", "Natural frequencies over speed", _source(report), (panel,), 1,
+        ("bearings as stiff as at the operating point",),
+    )  # fmt: skip

@@ -1,0 +1,296 @@
+"""One quasi-static equilibrium of a shaft in its bearings: Newton's method on shaft nodes and outer rings.
+
+Every bearing answers a pose of its inner ring against the outer one with a force, a moment and a stiffness, its balls
+in equilibrium throughout. Contacts let go and come back, so that the steps are damped as Levenberg and Marquardt do:
+a spring to the last state at every ring, softer as the residual falls; each step ends where the potential does.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import SolverError
+from lambda_core.elastic.beam import NODE
+from lambda_core.shaft.model import MountedBearing, ShaftModel
+from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
+from lambda_core.solver.drivers.equilibrium import free_contact_angle
+from lambda_core.solver.drivers.held_ring import POSE, HeldRing
+from lambda_core.system.bearing import BearingModel
+
+PLACES = (0, 1, 2, 4, 5)  # of a pose among the six rows of a node
+_GUESS = np.array([5e7, 1e8, 1e8, 1e3, 1e3])  # [N/m, N m/rad] of a bearing before its contacts are known
+_ITERATIONS, _FRAMES, _TRIES = 100, 6, 20
+_CONVERGED, _ROUNDING = 1e-9, 1e-6  # residual over the loads: wanted; where the balls' own tolerance may end it
+_DAMPING, _LEAST_DAMPING = 1e-3, 1e-10  # of _GUESS
+_SLOPE, _NARROW = 0.5, 1e-3  # of the first slope, of the step: where a search along a step ends
+_ARMS = np.array([1.0, 1.0, 1.0, 0.03, 0.03])  # [m] at which tilts are lengths
+_LONGEST = 2e-4  # [m] largest move of a ring per step; tilts count at the pitch radius
+
+
+@dataclass
+class ShaftState:
+    """The solution.
+
+    Attributes
+    ----------
+    displacement : float64[:], shape (6 n,)
+        Of the shaft's nodes [m, rad].
+    outer : float64[:, :], shape (bearings, 5)
+        Of the outer rings in the order of POSE.
+    reactions : float64[:, :], shape (bearings, 5)
+        Force and moment of each bearing on the shaft [N, N m].
+    stiffness : float64[:, :, :], shape (bearings, 5, 5)
+        Of each bearing alone.
+    rings : list of HeldRing
+        At their last poses.
+    drive_torque : float
+        Of the coupling on the shaft [N m].
+    residual : float
+        Largest unbalanced force over the loads.
+    """
+
+    displacement: FloatArray
+    outer: FloatArray
+    reactions: FloatArray
+    stiffness: FloatArray
+    rings: list[HeldRing]
+    drive_torque: float
+    residual: float
+    iterations: int
+
+    def pose(self, model: ShaftModel, index: int) -> FloatArray:
+        """Return the pose of a bearing's inner ring against its outer one, shape (5,)."""
+        rows = model.body.rows(model.bearings[index].position).start + np.array(PLACES)
+        return np.asarray(self.displacement[rows] - self.outer[index])
+
+
+class _Whole:
+    """The unknowns of shaft and outer rings in one vector, and the forces on them."""
+
+    def __init__(self, model: ShaftModel, rings: list[HeldRing]) -> None:
+        self.model, self.rings = model, rings
+        self.size = model.body.stiffness.shape[0]
+        self.inner = np.array([model.body.rows(b.position).start + np.array(PLACES) for b in model.bearings])
+        count = self.size + len(POSE) * len(rings)
+        self.outer = np.arange(self.size, count).reshape(len(rings), len(POSE))
+        self.linear = np.zeros((count, count))
+        self.linear[: self.size, : self.size] = model.body.stiffness
+        self.given = np.zeros(count)
+        self.given[: self.size] = model.loads + model.weight + model.growth
+        held = [model.drive]
+        self.start = np.zeros(count)
+        for rows, bearing in zip(self.outer, model.bearings, strict=True):
+            seating = bearing.seating
+            for row, k, shift in zip(rows, seating.stiffness, seating.shift, strict=True):
+                self.start[row] = shift
+                if math.isinf(k):
+                    held.append(int(row))
+                else:
+                    self.linear[row, row] = k
+                    self.given[row] += k * shift
+            self.given[rows[0]] += seating.force
+        self.free = np.setdiff1d(np.arange(count), held)
+        # lengths that make moments forces: residuals of one kind
+        arms = np.ones(count)
+        length = float(np.ptp(model.body.positions))
+        arms[: self.size].reshape(-1, NODE)[:, 3:] = length
+        arms[self.outer[:, 3:]] = length
+        self.arms = arms
+        loads = np.abs(model.loads + model.weight) / arms[: self.size]
+        preloads = [abs(b.seating.force) for b in model.bearings]
+        self.scale = max(float(loads.max()), *preloads, 1.0)
+        self.carried = 0.0  # largest reaction of a bearing at the last state [N]
+
+    def poses(self, q: FloatArray) -> FloatArray:
+        """Return the pose of every inner ring against its outer one, shape (bearings, 5)."""
+        return np.asarray(q[self.inner] - q[self.outer])
+
+    def residual(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return what is unbalanced [N, N m] and the reactions of the bearings on the shaft."""
+        reactions = np.array([ring.reaction(pose) for ring, pose in zip(self.rings, self.poses(q), strict=True)])
+        self.carried = float(np.abs(reactions[:, :3]).max())
+        unbalanced = self.given - self.linear @ q
+        for i in range(len(self.rings)):
+            unbalanced[self.inner[i]] += reactions[i]
+            unbalanced[self.outer[i]] -= reactions[i]
+        return unbalanced, reactions
+
+    def tangent(self, each: FloatArray) -> FloatArray:
+        """Return the stiffness of the whole with one of (5, 5) at every bearing."""
+        whole = self.linear.copy()
+        for i, k in enumerate(each):
+            a, b = self.inner[i], self.outer[i]
+            whole[np.ix_(a, a)] += k
+            whole[np.ix_(b, b)] += k
+            whole[np.ix_(a, b)] -= k
+            whole[np.ix_(b, a)] -= k
+        return whole
+
+    def merit(self, unbalanced: FloatArray) -> float:
+        """Return the size of the residual over the loads."""
+        return float(np.linalg.norm((unbalanced / self.arms)[self.free])) / max(self.scale, self.carried)
+
+    def step(self, tangent: FloatArray, unbalanced: FloatArray) -> FloatArray:
+        """Return the step of the free unknowns, zeros elsewhere."""
+        move = np.zeros(unbalanced.size)
+        block = np.ix_(self.free, self.free)
+        # equal lengths for angles: the matrix then is of one unit, and its condition that of the structure
+        scaled = tangent[block] / np.outer(self.arms[self.free], self.arms[self.free])
+        move[self.free] = np.linalg.solve(scaled, unbalanced[self.free] / self.arms[self.free]) / self.arms[self.free]
+        return move
+
+
+class SharedKernels:
+    """Compiled laws by their choice: bearings on one shaft mostly have the same, and laws are tried out once."""
+
+    def __init__(self, announce: Announce = None) -> None:
+        self._announce = announce
+        self._known: dict[tuple[tuple[str, str, str], ...], Kernels] = {}
+
+    def of(self, model: BearingModel) -> Kernels:
+        """Return the compiled laws of a bearing."""
+        choice = tuple((e, r, law.model.label) for e, roles in model.laws.items() for r, law in roles.items())
+        if choice not in self._known:
+            self._known[choice] = Kernels(model, self._announce)
+        return self._known[choice]
+
+
+def solve_shaft(model: ShaftModel, announce: Announce = None, kernels: SharedKernels | None = None) -> ShaftState:
+    """Find the equilibrium of shaft, bearings and housing.
+
+    Parameters
+    ----------
+    model : ShaftModel
+        From :func:`lambda_core.shaft.resolving.check_shaft`.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+    kernels : SharedKernels, optional
+        Of another shaft, whose laws need not be tried out again.
+
+    Raises
+    ------
+    SolverError
+        When there is none: nothing holds the shaft, or a bearing falls apart.
+    """
+    shared = kernels or SharedKernels(announce)
+    rings = [HeldRing(b.model, _first_angle(b), 1000.0, shared.of(b.model), announce) for b in model.bearings]
+    whole = _Whole(model, rings)
+    q = _first_guess(whole)
+    iterations = 0
+    for _ in range(_FRAMES):
+        q, used = _newton(whole, q)
+        iterations += used
+        moved = [ring.refresh() for ring in rings]
+        if not any(moved):
+            break
+    unbalanced, reactions = whole.residual(q)
+    _check_sides(model, reactions)
+    torque = -float(unbalanced[model.drive])
+    return ShaftState(
+        q[: whole.size], q[whole.outer], reactions, np.array([ring.stiffness() for ring in rings]), rings, torque,
+        whole.merit(unbalanced), iterations,
+    )  # fmt: skip
+
+
+def _first_angle(bearing: MountedBearing) -> float:
+    return free_contact_angle(bearing.model) if bearing.takes else 0.0
+
+
+def _first_guess(whole: _Whole) -> FloatArray:
+    """Return a state in which every loaded bearing is in contact: springs first, then the way to touching rings."""
+    model = whole.model
+    springs = np.array([np.diag(_GUESS)] * len(whole.rings))
+    tangent, q = whole.tangent(springs), whole.start.copy()
+    offset = np.zeros((len(whole.rings), len(POSE)))
+    for i, bearing in enumerate(model.bearings):
+        if bearing.takes:
+            offset[i, 0] = -whole.start[whole.outer[i, 0]]
+    for _ in range(2):
+        pull = whole.given - whole.linear @ whole.start
+        forces = np.array([k @ o for k, o in zip(springs, offset, strict=True)])
+        for i in range(len(whole.rings)):
+            gap = springs[i] @ (whole.start[whole.inner[i]] - whole.start[whole.outer[i]])
+            pull[whole.inner[i]] += forces[i] - gap
+            pull[whole.outer[i]] -= forces[i] - gap
+        q = whole.start + whole.step(tangent, pull)
+        for i, bearing in enumerate(model.bearings):
+            pushed = (whole.poses(q)[i] - offset[i])[1:3]
+            size = float(np.hypot(*pushed))
+            if not bearing.takes and size > 0.0:
+                offset[i, 1:3] = 0.5 * max(bearing.model.geometry.clearance, 0.0) * pushed / size
+    return q
+
+
+def _newton(whole: _Whole, q: FloatArray) -> tuple[FloatArray, int]:
+    """Return the state of balance next to `q`, and the number of iterations."""
+    unbalanced, _ = whole.residual(q)
+    merit = whole.merit(unbalanced)
+    for iteration in range(_ITERATIONS):
+        if merit < _CONVERGED:
+            return q, iteration
+        damping = min(_DAMPING, max(_LEAST_DAMPING, _DAMPING * merit))
+        each = np.array([ring.stiffness() for ring in whole.rings])
+        move = whole.step(whole.tangent(each + damping * np.diag(_GUESS)), unbalanced)
+        longest = float(np.abs((move[whole.inner] - move[whole.outer]) * _ARMS).max())
+        move *= min(1.0, _LONGEST / max(longest, 1e-300))
+        q, unbalanced = _along(whole, q, move, unbalanced)
+        before, merit = merit, whole.merit(unbalanced)
+        if merit < _ROUNDING and merit > 0.3 * before:
+            return q, iteration
+    raise SolverError(_no_balance(whole, unbalanced, merit))
+
+
+def _along(whole: _Whole, q: FloatArray, move: FloatArray, unbalanced: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the state along a step where the potential no longer falls, to a share of its first slope.
+
+    Forces of frictionless contacts have a potential; its slope along the step is the work of what is unbalanced. Where
+    a gap closes along the way it turns over, and a secant finds where.
+    """
+    first = float(unbalanced @ move)
+    if first <= 0.0:  # what is left is rounding
+        return q + move, whole.residual(q + move)[0]
+    low, at_low, high, at_high = 0.0, first, 1.0, math.nan
+    share = 1.0
+    for _ in range(_TRIES):
+        try:
+            trial, _ = whole.residual(q + share * move)
+        except SolverError:
+            high, at_high, share = share, math.nan, 0.5 * (low + share)
+            continue
+        slope = float(trial @ move)
+        if slope >= -_SLOPE * abs(first):
+            if math.isnan(at_high) or slope <= _SLOPE * abs(first) or high - low < _NARROW:
+                break
+            low, at_low = share, slope
+        else:
+            high, at_high = share, slope
+        secant = low + (high - low) * at_low / (at_low - at_high) if at_high < 0.0 else 0.5 * (low + high)
+        share = min(max(secant, low + 0.1 * (high - low)), high - 0.1 * (high - low))
+    else:
+        trial, _ = whole.residual(q + share * move)
+    return q + share * move, trial
+
+
+def _no_balance(whole: _Whole, unbalanced: FloatArray, merit: float) -> str:
+    worst = int(np.argmax(np.abs((unbalanced / whole.arms)[: whole.size])))
+    axis = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")[worst % NODE]
+    place = 1e3 * whole.model.body.positions[worst // NODE]
+    return (
+        f"{whole.model.name}: no equilibrium of the shaft: {merit:.1e} of the loads stay unbalanced, most along {axis} "
+        f"at {place:.4g} mm: is the shaft held in every direction, and does each bearing take what comes to it?"
+    )
+
+
+def _check_sides(model: ShaftModel, reactions: FloatArray) -> None:
+    """Refuse a solution in which an angular contact bearing is pushed against its open side."""
+    for bearing, reaction in zip(model.bearings, reactions, strict=True):
+        if bearing.takes and reaction[0] * bearing.takes > 1e-6 * max(1.0, float(np.abs(reaction[:3]).max())):
+            side = "+x" if bearing.takes > 0 else "-x"
+            raise SolverError(
+                f"{model.name}: {bearing.name} takes axial force along {side} and would have to take "
+                f"{abs(reaction[0]):.4g} N the other way: change the arrangement or give more preload"
+            )

@@ -1,0 +1,67 @@
+"""Stiffness of every bearing at the operating point, for other programs: JSON and CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from pathlib import Path
+
+from lambda_core.domain.errors import UsageError
+from lambda_core.domain.files import check_target
+from lambda_core.shaft.report import AXES, ShaftReport
+
+FORMAT = "lambda-bearing bearing stiffness 1"
+
+
+def stiffness_text(report: ShaftReport, kind: str) -> str:
+    """Return the matrices as text.
+
+    Parameters
+    ----------
+    kind : str
+        ``json``: one object with a 6 x 6 matrix per bearing, SI; ``csv``: one row per entry.
+    """
+    if kind == "json":
+        data = {
+            "format": FORMAT,
+            "case": report.case,
+            "speed_rpm": report.speed_rpm,
+            "axes": list(AXES),
+            "units": "N/m, N/rad, N m/m, N m/rad; inner ring against outer ring, x along the shaft, z up",
+            "bearings": [
+                {
+                    "name": b.name, "title": b.title, "position_mm": b.position_mm, "force_N": b.force_N,
+                    "stiffness": b.stiffness, "housed_stiffness": b.housed_stiffness,
+                }
+                for b in report.bearings
+            ],
+        }  # fmt: skip
+        return json.dumps(data, indent=2) + "\n"
+    stream = io.StringIO()
+    rows = csv.writer(stream, lineterminator="\n")
+    rows.writerow(["bearing", "position_mm", "row", "column", "stiffness", "housed_stiffness"])
+    for b in report.bearings:
+        for i, first in enumerate(AXES):
+            for j, second in enumerate(AXES):
+                rows.writerow([b.name, b.position_mm, first, second, b.stiffness[i][j], b.housed_stiffness[i][j]])
+    return stream.getvalue()
+
+
+def write_stiffness(report: ShaftReport, path: str | Path) -> Path:
+    """Write the matrices to a file whose name ends in .json or .csv.
+
+    Raises
+    ------
+    UsageError
+        When it ends otherwise, or cannot be written.
+    """
+    target = Path(path)
+    kind = target.suffix.lstrip(".").lower()
+    if kind not in ("json", "csv"):
+        raise UsageError(f'"{path}": stiffness is written as .json or .csv')
+    try:
+        check_target(target).write_text(stiffness_text(report, kind), encoding="utf-8")
+    except OSError as error:
+        raise UsageError(f'cannot write "{target}": {error.strerror}') from None
+    return target

@@ -1,0 +1,80 @@
+"""The commented case of a shaft to start from."""
+
+from __future__ import annotations
+
+import json
+
+_TEXT = """\
+# A shaft in two bearings with a helical gear. Check it:  lambda-bearing check FILE
+# Solve it:  lambda-bearing shaft FILE
+# x runs along the shaft from its left end, y is horizontal, z points up. Every option: docs/shaft.md.
+name = NAME
+description = "gearbox shaft: locating bearing left, floating bearing right, helical gear between them"
+
+[operation]
+speed = "3000 rpm"             # positive about +x
+
+[lubricant]
+name = "FVA3"
+temperature = "70 degC"
+
+# The shaft, piece by piece from the left. Hollow pieces have a bore.
+[shaft]
+# temperature = "80 degC"      # mean; with [housing] temperature for growth in length
+# drive = "0 mm"               # where the coupling holds it against turning; default: the left end
+
+[[shaft.sections]]
+length = "30 mm"
+diameter = "40 mm"
+
+[[shaft.sections]]
+length = "110 mm"
+diameter = "48 mm"
+
+[[shaft.sections]]
+length = "30 mm"
+diameter = "30 mm"
+
+# Bearings by name. What stands here is what stands in [bearing] of the case of one bearing; position is its middle.
+[bearings.left]
+designation = "SKF 6208"
+position = "21 mm"
+clearance = "CN"
+
+[bearings.right]
+designation = "SKF 6206"
+position = "148 mm"
+support.x = "free"             # floats in its seat; also y, z, tilt_y, tilt_z; or a stiffness: "200 N/um"
+
+# An angular contact bearing has a contact angle, the direction of the force on the shaft that it takes ("+x", "-x"),
+# and perhaps a preload: preload = "5 um" (rigid) or preload_force = "300 N" (spring).
+
+# Gears: forces follow from power (or torque) and geometry.
+[gears.wheel]
+position = "85 mm"
+pitch_diameter = "120 mm"
+power = "15 kW"
+role = "driven"                # pushed along the rotation; "driving": against it
+mesh = "90 deg"                # azimuth of the mesh from +y to +z: on top
+helix_angle = "15 deg"
+hand = "right"
+
+# Further forces and moments.
+# [loads.belt]
+# position = "5 mm"
+# force_z = "-800 N"
+
+# Wheels and rotors that are not part of the sections.
+[discs.wheel]
+position = "85 mm"
+mass = "2.5 kg"
+polar_inertia = "4500 kg mm2"
+
+[life]
+contamination = 0.6            # e_C of ISO 281, for the modified life
+"""
+
+
+def fresh_shaft(name: str) -> str:
+    """Return the text of a shaft's case called `name`."""
+    return _TEXT.replace("NAME", json.dumps(name), 1)

@@ -1,0 +1,79 @@
+"""A shaft in bearings, resolved: everything that its equilibrium needs, SI, immutable."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.gear_forces import GearForces
+from lambda_core.elastic.body import ElasticBody
+from lambda_core.system.bearing import BearingModel
+
+
+@dataclass(frozen=True)
+class Seating:
+    """How an outer ring sits in the housing, in the order of POSE.
+
+    Attributes
+    ----------
+    stiffness : tuple of 5 floats
+        Of the housing, [N/m] and [N m/rad]; inf where locked, 0 where free.
+    shift : tuple of 5 floats
+        Where the ring stands before any load against its drawn place [m, rad].
+    force : float
+        Of a spring on the outer ring along x [N].
+    """
+
+    stiffness: tuple[float, ...]
+    shift: tuple[float, ...]
+    force: float = 0.0
+
+
+@dataclass(frozen=True)
+class MountedBearing:
+    """A bearing at its place on the shaft."""
+
+    name: str
+    position: float  # [m]
+    model: BearingModel
+    seating: Seating
+    takes: int  # axial force on the shaft that it can take: +1, -1, 0 for both
+    nominal_angle: float  # contact angle of its ratings [rad]
+    dynamic_rating: float  # C [N]
+    static_rating: float  # C_0 [N]
+    fatigue_limit: float  # C_u [N]
+
+
+@dataclass(frozen=True)
+class ShaftModel:
+    """Shaft, bearings and loads.
+
+    Attributes
+    ----------
+    loads : float64[:], shape (6 n,)
+        Nodal forces of loads and gears [N, N m].
+    weight : float64[:], shape (6 n,)
+        Of shaft and discs [N, N m].
+    growth : float64[:], shape (6 n,)
+        Forces that stretch the shaft as much as its temperature does [N].
+    drive : int
+        Row of the turning of the node that the coupling holds.
+    outline, discs, load_places
+        What a drawing shows.
+    """
+
+    name: str
+    body: ElasticBody
+    bearings: tuple[MountedBearing, ...]
+    loads: FloatArray
+    weight: FloatArray
+    growth: FloatArray
+    gravity: tuple[float, float, float]  # [m/s2]
+    drive: int
+    speed: float  # [rad/s]
+    contamination: float | None
+    gears: dict[str, GearForces]
+    assumptions: tuple[str, ...]
+    outline: tuple[tuple[float, float, float, float], ...]  # begin, end, diameter, bore of each section [m]
+    discs: tuple[tuple[str, float], ...]  # name and position [m]
+    load_places: tuple[tuple[str, float], ...]  # of loads and gears [m]

@@ -1,0 +1,238 @@
+"""The equilibrium of a shaft in the words of the machine interface."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.life import system_life
+from lambda_core.domain.loading import Ring
+from lambda_core.elastic.beam import NODE
+from lambda_core.elastic.body import internal_forces
+from lambda_core.results.averages import finite
+from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
+from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.summary import Contact
+from lambda_core.shaft.equilibrium import ShaftState
+from lambda_core.shaft.model import MountedBearing, ShaftModel
+from lambda_core.shaft.rating import bearing_life
+from lambda_core.shaft.vibration import Mode, criticals, housed_stiffness, modes_at, supported
+from lambda_core.solver.drivers.equilibrium import Equilibrium
+
+_CAMPBELL = 9  # speeds
+_SHOWN = 8  # modes
+AXES = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
+
+
+class BearingOnShaft(Record):
+    """One bearing at the operating point."""
+
+    name: str
+    title: str
+    position_mm: float
+    force_N: list[float] = Field(description="of the bearing on the shaft: x, y, z")
+    moment_Nm: list[float] = Field(description="of the bearing on the shaft about y and z")
+    radial_load_N: float
+    axial_load_N: float = Field(description="along x on the bearing, with its sign")
+    displacement_um: list[float] = Field(description="of the inner ring against the outer ring: x, y, z")
+    misalignment_mrad: list[float] = Field(description="of the inner ring against the outer ring about y and z")
+    outer_ring_um: list[float] = Field(description="of the outer ring in the housing: x, y, z")
+    clearance_um: float = Field(description="in operation")
+    loaded_balls: int
+    max_load_N: float
+    max_load_ring: Ring
+    max_pressure_GPa: float
+    contact_angle_deg: list[float] = Field(description="smallest and largest of the loaded contacts, sizes")
+    equivalent_load_N: float = Field(description="P of ISO 281")
+    basic_rating_life_h: float | None = Field(description="L_10h of ISO 281; null at rest or without load")
+    reference_rating_life_h: float | None = Field(description="L_10rh of ISO/TS 16281, from the load of every ball")
+    modified_rating_life_h: float | None = Field(description="L_nmrh; needs life.contamination")
+    viscosity_ratio: float | None = Field(description="kappa")
+    static_safety: float | None = Field(description="C_0 over P_0")
+    friction_torque_Nmm: float | None
+    power_loss_W: float | None
+    film_um: list[float] = Field(description="smallest and largest central film under load")
+    stiffness: list[list[float]] = Field(
+        description="6 x 6, inner ring against outer ring, order of `axes` [N/m, N/rad, N m/rad]; no row turns about x"
+    )
+    housed_stiffness: list[list[float]] = Field(description="the same with the housing in series")
+    contacts: list[Contact]
+    warnings: list[str]
+
+
+class ModeAtSpeed(Record):
+    """A natural frequency of the turning shaft."""
+
+    frequency_Hz: float
+    direction: float = Field(description="+1 whirls with the shaft, -1 against it, between: elliptic or in a line")
+    kind: str
+
+
+class CampbellRow(Record):
+    """Natural frequencies at one speed."""
+
+    speed_rpm: float
+    modes: list[ModeAtSpeed]
+
+
+class CriticalSpeed(Record):
+    """A speed at which the shaft whirls as fast as it turns."""
+
+    speed_rpm: float
+    direction: float
+
+
+class ShaftReport(Record):
+    """Equilibrium of a shaft in its bearings, lives, and critical speeds at its stiffness."""
+
+    interface: int = INTERFACE
+    case: str
+    speed_rpm: float
+    axes: tuple[str, ...] = AXES
+    bearings: list[BearingOnShaft]
+    gears: dict[str, list[float]] = Field(description="tangential, radial and axial force [N]")
+    system_life_h: float | None = Field(description="of all bearings by their reference rating lives, 90 %")
+    friction_torque_Nmm: float | None = Field(description="of all bearings")
+    drive_torque_Nm: float = Field(description="of the coupling on the shaft, friction left out")
+    shaft_mass_kg: float = Field(description="with its discs")
+    positions_mm: list[float]
+    deflection_um: list[list[float]] = Field(description="x, y, z at each position")
+    slope_mrad: list[list[float]] = Field(description="tilts about y and z at each position")
+    cut_positions_mm: list[float] = Field(description="where section forces stand, both sides of every node")
+    shear_N: list[list[float]] = Field(description="along y and z")
+    bending_moment_Nm: list[list[float]] = Field(description="about y and z, of the right side on the left")
+    torque_Nm: list[float]
+    critical_speeds: list[CriticalSpeed] = Field(description="of bending, bearings as stiff as at the operating point")
+    campbell: list[CampbellRow]
+    iterations: int
+    residual: float = Field(description="largest unbalanced force over the loads")
+    assumptions: list[str]
+
+    def text(self, width: int | None = None) -> str:
+        """Return the lines for people, none longer than `width` where one is given."""
+        from lambda_core.shaft.text import report_text
+
+        return report_text(self, width)
+
+
+def report_of(model: ShaftModel, state: ShaftState) -> ShaftReport:
+    """Put the equilibrium into the units of the interface; every bearing is solved once more with its friction."""
+    housed = housed_stiffness(model, state)
+    bearings = [_bearing(model, state, i, housed[i]) for i in range(len(model.bearings))]
+    moved = state.displacement.reshape(-1, NODE)
+    cuts, forces = internal_forces(model.body, state.displacement, model.gravity)
+    stiffness = supported(model, state)
+    critical = criticals(model, stiffness)[:_SHOWN]
+    lives = [b.reference_rating_life_h for b in bearings if b.reference_rating_life_h is not None]
+    torques = [b.friction_torque_Nmm for b in bearings]
+    rpm = 30.0 / math.pi * model.speed
+    return ShaftReport(
+        case=model.name,
+        speed_rpm=rpm,
+        bearings=bearings,
+        gears={name: [g.tangential, g.radial, g.axial] for name, g in model.gears.items()},
+        system_life_h=finite(system_life(lives)) if lives else None,
+        friction_torque_Nmm=None if None in torques else sum(t for t in torques if t is not None),
+        drive_torque_Nm=state.drive_torque,
+        shaft_mass_kg=model.body.total_mass,
+        positions_mm=_listed(1e3 * model.body.positions),
+        deflection_um=_listed(1e6 * moved[:, :3]),
+        slope_mrad=_listed(1e3 * moved[:, 4:]),
+        cut_positions_mm=_listed(1e3 * cuts),
+        shear_N=_listed(forces[:, 1:3]),
+        bending_moment_Nm=_listed(forces[:, 4:]),
+        torque_Nm=_listed(forces[:, 3]),
+        critical_speeds=[
+            CriticalSpeed(speed_rpm=30.0 / math.pi * mode.frequency, direction=mode.direction) for mode in critical
+        ],
+        campbell=[
+            CampbellRow(speed_rpm=30.0 / math.pi * spin, modes=_modes(modes_at(model, stiffness, spin)))
+            for spin in np.linspace(0.0, _fastest(model, critical), _CAMPBELL).tolist()
+        ],
+        iterations=state.iterations,
+        residual=state.residual,
+        assumptions=[
+            *model.assumptions,
+            "critical speeds and natural frequencies: undamped, bearings as stiff as at this operating point",
+        ],
+    )
+
+
+def _fastest(model: ShaftModel, critical: list[Mode]) -> float:
+    """Return the end of the speeds at which the whirl is shown: beyond the first critical ones [rad/s]."""
+    return max(2.0 * abs(model.speed), *(1.2 * mode.frequency for mode in critical[:2]), 1.0)
+
+
+def _listed(values: FloatArray) -> Any:
+    return values.tolist()
+
+
+def _modes(found: list[Mode]) -> list[ModeAtSpeed]:
+    return [
+        ModeAtSpeed(frequency_Hz=mode.frequency / (2.0 * math.pi), direction=mode.direction, kind=mode.kind)
+        for mode in found[:_SHOWN]
+    ]
+
+
+def six(matrix: FloatArray) -> list[list[float]]:
+    """Return a matrix over POSE with the row and column of turning about x, which are zero."""
+    rows: list[list[float]] = np.insert(np.insert(matrix, 3, 0.0, axis=0), 3, 0.0, axis=1).tolist()
+    return rows
+
+
+def _bearing(model: ShaftModel, state: ShaftState, index: int, housed: FloatArray) -> BearingOnShaft:
+    """Return what there is to say of one bearing."""
+    bearing, reaction = model.bearings[index], state.reactions[index]
+    found = state.rings[index].equilibrium()
+    alone = quasistatic_of(found)
+    radial, axial = float(np.hypot(*reaction[1:3])), float(-reaction[0])
+    life = bearing_life(bearing, found, radial, abs(axial), model.contamination)
+    pose = state.pose(model, index)
+    return BearingOnShaft(
+        name=bearing.name,
+        title=bearing.model.title,
+        position_mm=1e3 * bearing.position,
+        force_N=_listed(reaction[:3]),
+        moment_Nm=_listed(reaction[3:]),
+        radial_load_N=radial,
+        axial_load_N=axial,
+        displacement_um=_listed(1e6 * pose[:3]),
+        misalignment_mrad=_listed(1e3 * pose[3:]),
+        outer_ring_um=_listed(1e6 * state.outer[index, :3]),
+        clearance_um=1e6 * bearing.model.geometry.clearance,
+        loaded_balls=alone.loaded_balls,
+        max_load_N=alone.max_load_N,
+        max_load_ring=alone.max_load_ring,
+        max_pressure_GPa=alone.max_pressure_GPa,
+        contact_angle_deg=_angles(alone),
+        equivalent_load_N=life.equivalent_load,
+        basic_rating_life_h=finite(life.basic),
+        reference_rating_life_h=finite(life.reference),
+        modified_rating_life_h=None if life.modified is None else finite(life.modified),
+        viscosity_ratio=life.viscosity_ratio,
+        static_safety=finite(life.static_safety),
+        friction_torque_Nmm=alone.friction_torque_Nmm if found.converged else None,
+        power_loss_W=finite(float(found.losses.sum())) if found.converged else None,
+        film_um=alone.film_um,
+        stiffness=six(state.stiffness[index]),
+        housed_stiffness=six(housed),
+        contacts=alone.contacts,
+        warnings=_warnings(bearing, found, alone),
+    )
+
+
+def _angles(alone: QuasiStatic) -> list[float]:
+    """Return the smallest and the largest contact angle, in size, of contacts that carry 1 % of the largest load."""
+    angles = [abs(c.contact_angle_deg) for c in alone.contacts if c.load_N > 0.01 * alone.max_load_N]
+    return [min(angles), max(angles)] if angles else []
+
+
+def _warnings(bearing: MountedBearing, found: Equilibrium, alone: QuasiStatic) -> list[str]:
+    told = list(alone.warnings)
+    if not found.converged:
+        told.append("the balls found no steady motion at this load: no friction torque")
+    return told

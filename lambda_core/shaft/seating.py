@@ -1,0 +1,88 @@
+"""How a bearing sits: the way to touching rings, preload, support by the housing, ratings."""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.case.shaft import ShaftBearing
+from lambda_core.domain.ratings import dynamic_rating, fatigue_load_limit, static_rating
+from lambda_core.domain.units import parse
+from lambda_core.shaft.model import MountedBearing, Seating
+from lambda_core.solver.drivers.held_ring import POSE
+from lambda_core.system.bearing import BearingModel
+from lambda_core.system.ledger import Ledger
+from lambda_core.system.resolve_clearance import picked
+
+_SIGN = {"+x": 1, "-x": -1, None: 0}
+
+
+def mounted(name: str, given: ShaftBearing, model: BearingModel, growth: float, ledger: Ledger) -> MountedBearing:
+    """Return a bearing at its place, its outer ring where preload and the housing's growth put it.
+
+    Parameters
+    ----------
+    growth : float
+        How far the warm housing carries the outer ring along x [m].
+    """
+    takes, angle = _SIGN[given.takes], given.contact_angle or 0.0
+    play = axial_play(given, model) if takes else 0.0
+    shift = growth - takes * (play + (given.preload or 0.0))
+    dynamic, static, fatigue = _ratings(name, angle, model, ledger)
+    return MountedBearing(
+        name=name,
+        position=given.position,
+        model=model,
+        seating=Seating(
+            stiffness=tuple(_stiffness(given, dof) for dof in POSE),
+            shift=(shift, 0.0, 0.0, 0.0, 0.0),
+            force=-takes * (given.preload_force or 0.0),
+        ),
+        takes=takes,
+        nominal_angle=angle,
+        dynamic_rating=dynamic,
+        static_rating=static,
+        fatigue_limit=fatigue,
+    )
+
+
+def axial_play(given: ShaftBearing, model: BearingModel) -> float:
+    """Return how far the inner ring moves from the middle until balls touch, as bought, without load [m].
+
+    A sin(alpha_0) with cos(alpha_0) = 1 - G_r/(2 A), A = r_i + r_o - D_w (Harris and Kotzalas 2006, eq. 2.9). What fits
+    and temperatures take of the clearance afterwards adds to the preload.
+    """
+    g = model.geometry
+    distance = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
+    bought = g.clearance if model.mounting is None else picked(model.mounting.bought, given.clearance_pick)
+    cosine = 1.0 - 0.5 * max(bought, 0.0) / distance
+    return distance * math.sqrt(max(0.0, 1.0 - cosine**2))
+
+
+def _stiffness(given: ShaftBearing, dof: str) -> float:
+    """Return the housing's stiffness in a degree of freedom; inf where locked, 0 where free."""
+    text: str = getattr(given.support, dof)
+    if dof == "x" and given.preload_force is not None and text == "locked":
+        return 0.0
+    if text in ("locked", "free"):
+        return math.inf if text == "locked" else 0.0
+    return parse(text, "angular_stiffness" if dof.startswith("tilt") else "stiffness")
+
+
+def _ratings(name: str, angle: float, model: BearingModel, ledger: Ledger) -> tuple[float, float, float]:
+    """Return C, C_0 and C_u [N]: the catalogue's or the case's where they are known, else of the inner geometry."""
+    known = {value.path: value.value for value in model.values if isinstance(value.value, float)}
+    g = model.geometry
+    dynamic, static, fatigue = (
+        known.get(f"bearing.{key}") for key in ("dynamic_rating", "static_rating", "fatigue_limit")
+    )
+    size = (g.ball_count, g.ball_diameter, g.pitch_diameter)
+    if dynamic is None:
+        dynamic = dynamic_rating(*size, contact_angle=angle)
+        ledger.assume(f"{name}: C = {dynamic * 1e-3:.1f} kN from the inner geometry (ISO 281)")
+    if static is None:
+        static = static_rating(*size, contact_angle=angle)
+        ledger.assume(f"{name}: C_0 = {static * 1e-3:.1f} kN from the inner geometry (ISO 76)")
+    if fatigue is None:
+        fatigue = fatigue_load_limit(static, g.pitch_diameter)
+        ledger.assume(f"{name}: C_u = {fatigue * 1e-3:.2f} kN from C_0 (ISO 281, simplified)")
+    return dynamic, static, fatigue

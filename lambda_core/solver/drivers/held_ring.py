@@ -1,0 +1,120 @@
+"""One bearing whose inner ring is held somewhere against the outer one: what it answers with, and how stiffly."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
+from lambda_core.solver.drivers.equilibrium import (
+    Equilibrium,
+    contact_channels,
+    continue_static,
+    first_state,
+    mean_frame,
+    solve,
+)
+from lambda_core.solver.drivers.solver_context import SolverContext, assemble
+from lambda_core.solver.drivers.stiffness import freed, stiffness_at
+from lambda_core.solver.entry import core
+from lambda_core.system.bearing import BearingModel, DofState, TimeFunction
+from lambda_core.system.law_context import ContactFrame
+
+POSE = ("x", "y", "z", "tilt_y", "tilt_z")  # [m], [rad] of the inner ring against the outer one
+_SAME_ANGLE = 1e-4  # [rad] change of the frozen contact angle that asks for another frame
+
+
+def held(model: BearingModel, pose: Sequence[float]) -> BearingModel:
+    """Return the model with its inner ring held at a pose and its outer ring at rest."""
+    inner = {
+        **model.inner_ring.dofs,
+        **{name: DofState("prescribed", TimeFunction.constant(float(v))) for name, v in zip(POSE, pose, strict=True)},
+    }
+    outer = {**model.outer_ring.dofs, **dict.fromkeys(POSE, DofState("locked"))}
+    return dataclasses.replace(
+        model,
+        inner_ring=dataclasses.replace(model.inner_ring, dofs=inner),
+        outer_ring=dataclasses.replace(model.outer_ring, dofs=outer),
+        links={},
+    )
+
+
+class HeldRing:
+    """A bearing by the pose of its inner ring; the balls find their places between the rings, without friction.
+
+    Parameters
+    ----------
+    model : BearingModel
+        The bearing; its ring's own boundary conditions and loads do not count.
+    angle, load : float
+        A guess of the contact angle [rad] and of the mean contact load [N], where radii and films are frozen first.
+    kernels : Kernels, optional
+        Of the same laws, from another bearing.
+    """
+
+    def __init__(
+        self, model: BearingModel, angle: float, load: float, kernels: Kernels | None = None, announce: Announce = None
+    ) -> None:
+        self.model = model
+        self._kernels, self._announce = kernels or Kernels(model, announce), announce
+        self._frame = ContactFrame((angle, angle), (load, load))
+        self._context = self._assembled()
+        self._freed: SolverContext | None = None
+        self._state = first_state(self._context)
+        self._pose = np.zeros(len(POSE))
+
+    def _assembled(self) -> SolverContext:
+        model = held(self.model, [0.0] * len(POSE))
+        oils = derive_oils(model, self._kernels, self._frame)
+        check_laws(model, self._kernels, self._frame, oils)
+        core(self._announce)
+        return assemble(model, self._kernels, self._frame, oils)
+
+    def reaction(self, pose: Sequence[float]) -> FloatArray:
+        """Return force and moment of the bearing on its inner ring at a pose, shape (5,) [N, N m].
+
+        Raises
+        ------
+        SolverError
+            When the balls find no equilibrium.
+        """
+        context, state = self._context, self._state.copy()
+        context.bundle.terms["value"][: len(POSE)] = pose
+        continue_static(core(), context, state, friction=False)
+        bundle, system = context.bundle, context.bundle.system[0]
+        system["friction_on"], system["guides_on"] = 0, 0
+        core().evaluate(0.0, state, bundle, np.zeros(state.size), np.zeros(L.power_count(bundle)), 1)
+        system["friction_on"], system["guides_on"] = 1, 1
+        self._state, self._pose = state, np.array(pose, dtype=float)
+        wrench: FloatArray = bundle.body_wrenches.view(np.float64)[:6]
+        return np.delete(wrench, 3)
+
+    def stiffness(self) -> FloatArray:
+        """Return d(reaction)/d(pose) with its sign turned at the last pose, shape (5, 5)."""
+        if self._freed is None:
+            self._freed = freed(self._context)
+        return stiffness_at(self._context, self._freed, self._state, self._pose.tolist())
+
+    @property
+    def frame(self) -> ContactFrame:
+        """Contact angles and loads at which radii and films are frozen."""
+        return self._frame
+
+    def refresh(self) -> bool:
+        """Freeze radii and films at the contact angles of the last pose; False where they stood there already."""
+        contacts, _ = contact_channels(core(), self._context, self._state)
+        new = mean_frame(contacts, self._frame)
+        change = max(abs(a - b) for a, b in zip(new.angles, self._frame.angles, strict=True))
+        if change < _SAME_ANGLE:
+            return False
+        self._frame, self._freed = new, None
+        self._context = self._assembled()
+        return True
+
+    def equilibrium(self) -> Equilibrium:
+        """Return the equilibrium at the last pose with the friction of the balls."""
+        return solve(held(self.model, self._pose.tolist()), self._kernels, self._announce, strict=False)

@@ -1,0 +1,216 @@
+"""Shafts in bearings against statics and beams on stiff supports; gear forces and life factors against textbooks."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lambda_core.domain.errors import SolverError
+from lambda_core.domain.gear_forces import gear_forces
+from lambda_core.domain.life import dynamic_equivalent_load, static_equivalent_load, system_life
+from lambda_core.shaft.equilibrium import ShaftState, SharedKernels, solve_shaft
+from lambda_core.shaft.model import ShaftModel
+from lambda_core.shaft.resolving import check_shaft
+
+PINNED = {"tilt_y": "free", "tilt_z": "free"}  # outer rings that follow, so that no bearing bears a moment
+SHARED: dict[str, Any] = {
+    "lubricant": {"name": "FVA3", "temperature": "60 degC"},
+    "operation": {"speed": "1500 rpm"},
+}
+GRAVITY = 9.80665
+
+KERNELS = SharedKernels()
+
+
+def bearing(position: str, designation: str = "SKF 6206", **more: Any) -> dict[str, Any]:
+    """Return a bearing that leaves the shaft to tilt."""
+    return {"position": position, "designation": designation, "support": PINNED, **more}
+
+
+def solved(case: dict[str, Any]) -> tuple[ShaftModel, ShaftState]:
+    model = check_shaft({"name": "shaft", **SHARED, **case})
+    return model, solve_shaft(model, kernels=KERNELS)
+
+
+@cache
+def overhung() -> tuple[ShaftModel, ShaftState]:
+    """Bearings at 30 and 150 mm, a force beyond the second one at 200 mm; the left one locates."""
+    return solved(
+        {
+            "shaft": {
+                "sections": [{"length": "120 mm", "diameter": "30 mm"}, {"length": "90 mm", "diameter": "28 mm"}]
+            },
+            "bearings": {
+                "left": bearing("30 mm"),
+                "right": bearing("150 mm", support={**PINNED, "x": "free"}),
+            },
+            "loads": {"gear": {"position": "200 mm", "force_z": "-1200 N", "force_y": "300 N", "force_x": "150 N"}},
+        }
+    )
+
+
+def test_reactions_of_a_statically_determinate_shaft() -> None:
+    """Levers alone: F l/a on the far bearing, F (l + a)/a on the near one, weight by its pieces; 1e-6 of the load."""
+    model, state = overhung()
+    pieces = [(7800.0 * math.pi / 4.0 * d**2 * b, x) for d, b, x in ((0.03, 0.12, 0.06), (0.028, 0.09, 0.165))]
+    density = model.body.total_mass / sum(m / 7800.0 for m, _ in pieces)
+    span, overhang = 0.12, 0.05
+    for axis, force in ((1, 300.0), (2, -1200.0)):
+        weights = [(-m / 7800.0 * density * GRAVITY, x) for m, x in pieces] if axis == 2 else []
+        right = -sum(w * (x - 0.03) for w, x in weights) / span - force * (span + overhang) / span
+        left = -force - right - sum(w for w, _ in weights)
+        assert state.reactions[:, axis] == pytest.approx([left, right], abs=1e-6 * 1200.0)
+    assert state.reactions[:, 0] == pytest.approx([-150.0, 0.0], abs=1e-6 * 1200.0)
+    assert np.abs(state.reactions[:, 3:]).max() < 1e-6 * 1200.0 * span
+
+
+def test_the_overhung_gear_without_weight() -> None:
+    """F l/a on the far bearing, F (a + l)/a on the near one (1e-6)."""
+    _, state = solved(
+        {
+            "shaft": {"sections": [{"length": "210 mm", "diameter": "30 mm"}]},
+            "bearings": {"left": bearing("30 mm"), "right": bearing("150 mm", support={**PINNED, "x": "free"})},
+            "loads": {"gear": {"position": "200 mm", "force_z": "-1200 N"}},
+            "gravity": {"z": "0 m/s2"},
+        }
+    )
+    assert state.reactions[:, 2] == pytest.approx([-1200.0 * 50 / 120, 1200.0 * 170 / 120], abs=1e-6 * 1200.0)
+    assert state.drive_torque == pytest.approx(0.0, abs=1e-6)
+
+
+def test_three_bearings_with_loads_at_midspan() -> None:
+    """5/16, 22/16, 5/16 of each load (Roark, continuous beam of two equal spans, stiff supports).
+
+    The bearings have no clearance and are a thousand times as stiff as the spans of a metre (0.2 %); shear of a bar 50
+    diameters long moves the numbers by less.
+    """
+    load = 200.0
+    _, state = solved(
+        {
+            "shaft": {"sections": [{"length": "2000 mm", "diameter": "20 mm"}]},
+            "bearings": {
+                name: bearing(place, "SKF 6204", clearance="0 um", support={**PINNED, **more})
+                for name, place, more in (
+                    ("a", "0 mm", {}),
+                    ("b", "1000 mm", {"x": "free"}),
+                    ("c", "2000 mm", {"x": "free"}),
+                )
+            },
+            "loads": {
+                "one": {"position": "500 mm", "force_z": f"-{load} N"},
+                "two": {"position": "1500 mm", "force_z": f"-{load} N"},
+            },
+            "gravity": {"z": "0 m/s2"},
+        }
+    )
+    assert state.reactions[:, 2] / load == pytest.approx([5 / 16, 22 / 16, 5 / 16], rel=5e-3)
+    assert state.reactions[:, 2].sum() == pytest.approx(2.0 * load, rel=1e-6)
+
+
+def test_six_bearings() -> None:
+    """Six bearings on one shaft carry its loads together, mirrored as the loads are (1e-6)."""
+    places = (10, 60, 110, 190, 240, 290)
+    _, state = solved(
+        {
+            "shaft": {"sections": [{"length": "300 mm", "diameter": "30 mm"}]},
+            "bearings": {
+                f"b{i}": {"position": f"{x} mm", "designation": "SKF 6206", "support": {} if i == 2 else {"x": "free"}}
+                for i, x in enumerate(places)
+            },
+            "loads": {"belt": {"position": "150 mm", "force_z": "-6 kN"}},
+            "gravity": {"z": "0 m/s2"},
+        }
+    )
+    up = state.reactions[:, 2]
+    assert up.sum() == pytest.approx(6000.0, rel=1e-6)
+    assert up == pytest.approx(up[::-1], abs=2.0)  # one of them locates, and its balls sit a little aside
+    assert up[2] > up[1]
+    assert state.residual < 1e-6
+
+
+def test_what_nothing_holds_is_said() -> None:
+    """Both outer rings float: the axial force goes nowhere."""
+    with pytest.raises(SolverError, match="is the shaft held in every direction"):
+        solved(
+            {
+                "shaft": {"sections": [{"length": "200 mm", "diameter": "30 mm"}]},
+                "bearings": {
+                    "left": bearing("30 mm", support={"x": "free"}),
+                    "right": bearing("150 mm", support={"x": "free"}),
+                },
+                "loads": {"gear": {"position": "100 mm", "force_x": "200 N", "force_z": "-500 N"}},
+            }
+        )
+
+
+def test_housing_in_series() -> None:
+    """An outer ring on springs moves by its reaction over their stiffness (exact)."""
+    _, state = solved(
+        {
+            "shaft": {"sections": [{"length": "200 mm", "diameter": "30 mm"}]},
+            "bearings": {
+                "left": bearing("30 mm", support={**PINNED, "z": "50 N/um", "y": "20 N/um"}),
+                "right": bearing("150 mm", support={**PINNED, "x": "free"}),
+            },
+            "loads": {"gear": {"position": "100 mm", "force_z": "-2 kN", "force_y": "500 N"}},
+        }
+    )
+    assert -state.outer[0, 1:3] * [20e6, 50e6] == pytest.approx(state.reactions[0, 1:3], rel=1e-6)
+
+
+def test_helical_gear_forces() -> None:
+    """Budynas and Nisbett, Shigley, example 13-9: 18-tooth pinion, P_n = 12, 20 degrees, helix 30, 1 hp at 1750 1/min.
+
+    d = 18/(12 cos(30)) = 1.732 in, V = 793.5 ft/min, W_t = 41.6 lbf, W_r = 17.5 lbf, W_a = 24.0 lbf (last digit).
+    """
+    inch, pound = 0.0254, 4.4482216
+    speed = 1750.0 * math.pi / 30.0
+    found = gear_forces(
+        745.7 / speed, 1.732 * inch, mesh=0.0, role="driving", spin=speed,
+        pressure_angle=math.radians(20.0), helix_angle=math.radians(30.0),
+    )  # fmt: skip
+    assert found.tangential / pound == pytest.approx(41.6, abs=0.06)
+    assert found.radial / pound == pytest.approx(17.5, abs=0.06)
+    assert found.axial / pound == pytest.approx(24.0, abs=0.06)
+
+
+def test_directions_of_gear_forces() -> None:
+    """Mesh on top, spin about +x: a driven gear is pushed to -y; a right-hand driving pinion is thrust along +x."""
+    angles = {"pressure_angle": math.radians(20.0), "helix_angle": math.radians(15.0), "hand": "right"}
+    driven = gear_forces(100.0, 0.1, mesh=0.5 * math.pi, role="driven", spin=100.0, **angles)
+    assert driven.force[1] == pytest.approx(-2000.0)
+    assert driven.force[2] == pytest.approx(-driven.radial)
+    assert driven.moment[0] == pytest.approx(100.0)
+    driving = gear_forces(100.0, 0.1, mesh=0.5 * math.pi, role="driving", spin=100.0, **angles)
+    assert driving.force[0] == pytest.approx(2000.0 * math.tan(math.radians(15.0)))
+    assert driving.moment[0] == pytest.approx(-100.0)
+    assert driving.moment[1] == pytest.approx(0.05 * driving.force[0])
+
+
+@pytest.mark.parametrize(
+    ("angle", "limit", "x", "y", "y_0"),
+    [
+        (15, 0.38, 0.44, 1.47, 0.46),
+        (25, 0.68, 0.41, 0.87, 0.38),
+        (30, 0.80, 0.39, 0.76, 0.33),
+        (40, 1.14, 0.35, 0.57, 0.26),
+    ],
+)
+def test_factors_of_angular_contact(angle: int, limit: float, x: float, y: float, y_0: float) -> None:
+    """ISO 281:2007, table 3 (15 degrees: f_0 F_a/C_0r = 0.178), ISO 76:2006, table 2; at and beside the limit e."""
+    radians, static = math.radians(angle), 10e3
+    axial = 0.178 * static / 14.0
+    found = dynamic_equivalent_load(0.1 * axial, axial, static, 14.0, radians)
+    assert (found.limit, found.radial_factor, found.axial_factor) == pytest.approx((limit, x, y))
+    assert dynamic_equivalent_load(axial / limit * 1.01, axial, static, 14.0, radians).load == axial / limit * 1.01
+    assert static_equivalent_load(100.0, 1000.0, radians) == pytest.approx(50.0 + 1000.0 * y_0)
+
+
+def test_life_of_a_system() -> None:
+    """Two equal bearings live 2^(-0.9) as long as one (Weibull slope 10/9), a much longer life does not count."""
+    assert system_life([1000.0, 1000.0]) == pytest.approx(1000.0 * 2.0**-0.9)
+    assert system_life([1000.0, 1e9]) == pytest.approx(1000.0, rel=1e-5)
