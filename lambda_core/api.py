@@ -31,9 +31,10 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.run.duty_cycle import duty
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.run.speed_curve import stribeck, stribeck_picture
-    from lambda_core.shaft.door import describe_shaft, init_shaft, is_shaft_file, shaft, shaft_pictures
     from lambda_core.shaft.export import write_stiffness
     from lambda_core.shaft.resolving import check_shaft
+    from lambda_core.shaft.ross import ross_rotor
+    from lambda_core.shaft.shaft_calls import describe_shaft, init_shaft, is_shaft_file, shaft, shaft_pictures
     from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, machines, save, schema
     from lambda_core.system.checking import check, describe, problems, resolve
     from lambda_core.system.law_trials import law_problems
@@ -62,7 +63,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.run.estimate import Estimate
     from lambda_core.run.progress import Progress
     from lambda_core.shaft.model import ShaftModel
-    from lambda_core.shaft.report import ShaftReport
+    from lambda_core.shaft.shaft_report import ShaftReport
     from lambda_core.system.bearing import BearingModel, Geometry
     from lambda_core.system.describe import ValueReport, value_reports
     from lambda_core.system.oil_table import oil_table

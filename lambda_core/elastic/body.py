@@ -45,6 +45,7 @@ class ElasticBody:
     mass: FloatArray
     gyroscopic: FloatArray
     elements: tuple[RoundSection, ...] = ()  # of a shaft, each over four nodes, the last one the next one's first
+    discs: tuple[Disc, ...] = ()  # of a shaft, counted in the matrices
 
     def node(self, position: float) -> int:
         """Return the number of the node at a place [m]; ValueError where there is none."""
@@ -130,7 +131,7 @@ def shaft_body(
         stiffness[rows, rows] += one.stiffness
         mass[rows, rows] += one.mass
         gyroscopic[rows, rows] += one.gyroscopic
-    body = ElasticBody(nodes, stiffness, mass, gyroscopic, tuple(elements))
+    body = ElasticBody(nodes, stiffness, mass, gyroscopic, tuple(elements), tuple(discs))
     for disc in discs:
         first = body.rows(disc.position).start
         for i, inertia in enumerate(

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_target
-from lambda_core.shaft.report import AXES, ShaftReport
+from lambda_core.shaft.shaft_report import AXES, ShaftReport
 
 FORMAT = "lambda-bearing bearing stiffness 1"
 
@@ -49,7 +49,19 @@ def stiffness_text(report: ShaftReport, kind: str) -> str:
 
 
 def write_stiffness(report: ShaftReport, path: str | Path) -> Path:
-    """Write the matrices to a file whose name ends in .json or .csv.
+    """Write the 6 x 6 stiffness of every bearing at its operating point to a file.
+
+    Parameters
+    ----------
+    report : ShaftReport
+        From :func:`shaft`.
+    path : path-like
+        Its name ends in .json or .csv.
+
+    Returns
+    -------
+    pathlib.Path
+        The file.
 
     Raises
     ------

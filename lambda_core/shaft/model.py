@@ -50,6 +50,10 @@ class ShaftModel:
 
     Attributes
     ----------
+    body : ElasticBody
+        The shaft with its discs.
+    bearings : tuple of MountedBearing
+        From left to right.
     loads : float64[:], shape (6 n,)
         Nodal forces of loads and gears [N, N m].
     weight : float64[:], shape (6 n,)
@@ -71,8 +75,8 @@ class ShaftModel:
     gravity: tuple[float, float, float]  # [m/s2]
     drive: int
     speed: float  # [rad/s]
-    contamination: float | None
-    gears: dict[str, GearForces]
+    contamination: float | None  # e_C of ISO 281
+    gears: dict[str, GearForces]  # forces of each mesh, by name
     assumptions: tuple[str, ...]
     outline: tuple[tuple[float, float, float, float], ...]  # begin, end, diameter, bore of each section [m]
     discs: tuple[tuple[str, float], ...]  # name and position [m]

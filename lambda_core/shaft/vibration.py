@@ -8,9 +8,9 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.beam import NODE
-from lambda_core.elastic.modes import Whirl, critical_speeds, whirls
-from lambda_core.shaft.equilibrium import PLACES, ShaftState
+from lambda_core.elastic.whirl import Whirl, critical_speeds, whirls
 from lambda_core.shaft.model import ShaftModel
+from lambda_core.shaft.shaft_equilibrium import PLACES, ShaftState
 
 _COUNT = 16  # modes that are looked at
 _LATERAL = 0.5  # of the motion squared, from which on a mode counts as bending

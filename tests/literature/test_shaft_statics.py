@@ -12,9 +12,9 @@ import pytest
 from lambda_core.domain.errors import SolverError
 from lambda_core.domain.gear_forces import gear_forces
 from lambda_core.domain.life import dynamic_equivalent_load, static_equivalent_load, system_life
-from lambda_core.shaft.equilibrium import ShaftState, SharedKernels, solve_shaft
 from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.resolving import check_shaft
+from lambda_core.shaft.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 
 PINNED = {"tilt_y": "free", "tilt_z": "free"}  # outer rings that follow, so that no bearing bears a moment
 SHARED: dict[str, Any] = {

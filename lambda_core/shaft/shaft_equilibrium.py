@@ -1,7 +1,7 @@
 """One quasi-static equilibrium of a shaft in its bearings: Newton's method on shaft nodes and outer rings.
 
 Every bearing answers a pose of its inner ring against the outer one with a force, a moment and a stiffness, its balls
-in equilibrium throughout. Contacts let go and come back, so that the steps are damped as Levenberg and Marquardt do:
+in equilibrium throughout. Contacts open and close, so that the steps are damped as Levenberg and Marquardt do:
 a spring to the last state at every ring, softer as the residual falls; each step ends where the potential does.
 """
 

@@ -17,9 +17,9 @@ from lambda_core.results.averages import finite
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Contact
-from lambda_core.shaft.equilibrium import ShaftState
 from lambda_core.shaft.model import MountedBearing, ShaftModel
-from lambda_core.shaft.rating import bearing_life
+from lambda_core.shaft.shaft_equilibrium import ShaftState
+from lambda_core.shaft.shaft_lives import bearing_life
 from lambda_core.shaft.vibration import Mode, criticals, housed_stiffness, modes_at, supported
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 
@@ -90,31 +90,31 @@ class ShaftReport(Record):
     """Equilibrium of a shaft in its bearings, lives, and critical speeds at its stiffness."""
 
     interface: int = INTERFACE
-    case: str
-    speed_rpm: float
-    axes: tuple[str, ...] = AXES
-    bearings: list[BearingOnShaft]
+    case: str = Field(description="name of the case")
+    speed_rpm: float = Field(description="of the shaft")
+    axes: tuple[str, ...] = Field(AXES, description="order of rows and columns of the stiffness matrices")
+    bearings: list[BearingOnShaft] = Field(description="from left to right")
     gears: dict[str, list[float]] = Field(description="tangential, radial and axial force [N]")
     system_life_h: float | None = Field(description="of all bearings by their reference rating lives, 90 %")
     friction_torque_Nmm: float | None = Field(description="of all bearings")
     drive_torque_Nm: float = Field(description="of the coupling on the shaft, friction left out")
     shaft_mass_kg: float = Field(description="with its discs")
-    positions_mm: list[float]
+    positions_mm: list[float] = Field(description="of the nodes along the shaft")
     deflection_um: list[list[float]] = Field(description="x, y, z at each position")
     slope_mrad: list[list[float]] = Field(description="tilts about y and z at each position")
     cut_positions_mm: list[float] = Field(description="where section forces stand, both sides of every node")
     shear_N: list[list[float]] = Field(description="along y and z")
     bending_moment_Nm: list[list[float]] = Field(description="about y and z, of the right side on the left")
-    torque_Nm: list[float]
+    torque_Nm: list[float] = Field(description="about x, of the right side on the left")
     critical_speeds: list[CriticalSpeed] = Field(description="of bending, bearings as stiff as at the operating point")
-    campbell: list[CampbellRow]
-    iterations: int
+    campbell: list[CampbellRow] = Field(description="natural frequencies over speed")
+    iterations: int = Field(description="of Newton's method")
     residual: float = Field(description="largest unbalanced force over the loads")
-    assumptions: list[str]
+    assumptions: list[str] = Field(description="values that nobody gave, and simplifications")
 
     def text(self, width: int | None = None) -> str:
         """Return the lines for people, none longer than `width` where one is given."""
-        from lambda_core.shaft.text import report_text
+        from lambda_core.shaft.shaft_text import report_text
 
         return report_text(self, width)
 

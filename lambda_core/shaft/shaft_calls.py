@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from lambda_core.shaft.model import ShaftModel
-    from lambda_core.shaft.report import ShaftReport
     from lambda_core.shaft.resolving import Source
+    from lambda_core.shaft.shaft_report import ShaftReport
     from lambda_core.views.chart import ViewData
 
 
@@ -37,10 +37,10 @@ def shaft(
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
-    from lambda_core.shaft.equilibrium import solve_shaft
     from lambda_core.shaft.model import ShaftModel
-    from lambda_core.shaft.report import report_of
     from lambda_core.shaft.resolving import check_shaft
+    from lambda_core.shaft.shaft_equilibrium import solve_shaft
+    from lambda_core.shaft.shaft_report import report_of
 
     model = source if isinstance(source, ShaftModel) else check_shaft(source, overrides)
     return report_of(model, solve_shaft(model, announce))
@@ -60,7 +60,7 @@ def shaft_pictures(model: ShaftModel, report: ShaftReport) -> list[ViewData]:
     -------
     list of ViewData
     """
-    from lambda_core.shaft.charts import pictures
+    from lambda_core.shaft.shaft_charts import pictures
 
     return pictures(model, report)
 
@@ -77,7 +77,7 @@ def describe_shaft(model: ShaftModel) -> str:
     -------
     str
     """
-    from lambda_core.shaft.text import model_text
+    from lambda_core.shaft.shaft_text import model_text
 
     return model_text(model)
 

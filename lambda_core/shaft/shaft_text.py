@@ -11,7 +11,7 @@ from lambda_core.domain.wrapping import HEAD, wrapped
 
 if TYPE_CHECKING:
     from lambda_core.shaft.model import ShaftModel
-    from lambda_core.shaft.report import BearingOnShaft, ShaftReport
+    from lambda_core.shaft.shaft_report import BearingOnShaft, ShaftReport
 
 _HEAD, _COLUMN = 24, 14
 _LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]

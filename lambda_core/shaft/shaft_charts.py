@@ -6,7 +6,7 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.shaft.model import ShaftModel
-from lambda_core.shaft.report import ShaftReport
+from lambda_core.shaft.shaft_report import ShaftReport
 from lambda_core.views.chart import Arrows, Axis, Mark, Panel, Series, ViewData
 
 _ROLES = {"bending": "inner", "axial": "reference", "torsion": "cage"}

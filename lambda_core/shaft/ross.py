@@ -1,0 +1,89 @@
+"""A shaft on its bearings as a rotor of ROSS, the open program for rotordynamics (package ross-rotordynamics).
+
+ROSS has z along the shaft: its x is our y, its y our z, its z our x; rotations likewise. Its bearing elements know
+radial and axial forces alone; moments and what couples them to forces are added to the rotor's stiffness.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import UsageError
+from lambda_core.elastic.beam import NODE, NODES
+from lambda_core.elastic.body import ElasticBody
+from lambda_core.shaft.model import ShaftModel
+from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
+from lambda_core.shaft.vibration import housed_stiffness
+from lambda_core.solver.drivers.compiled_laws import Announce
+
+# Ours: x, y, z, tilt_y, tilt_z; theirs: x, y, z, alpha, beta, theta about their axes.
+_THEIRS = (2, 0, 1, 3, 4)
+
+
+def ross_rotor(model: ShaftModel, state: ShaftState | None = None, announce: Announce = None) -> Any:
+    """Return the shaft, its discs and its bearings at the operating point as a ``ross.Rotor``.
+
+    Parameters
+    ----------
+    model : ShaftModel
+        From :func:`check_shaft`.
+    state : ShaftState, optional
+        Its equilibrium; default: it is solved.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    ross.Rotor
+
+    Raises
+    ------
+    UsageError
+        When ROSS is not installed.
+    """
+    try:
+        import ross
+    except ImportError:
+        raise UsageError("the package ross-rotordynamics is not installed: pip install ross-rotordynamics") from None
+    found = state if state is not None else solve_shaft(model, announce)
+    body = model.body
+    shaft = [_piece(ross, body, node) for node in range(body.positions.size - 1)]
+    discs = [
+        ross.DiskElement(n=body.node(disc.position), m=disc.mass, Id=disc.transverse_inertia, Ip=disc.polar_inertia)
+        for disc in body.discs
+    ]
+    nodes = [body.node(bearing.position) for bearing in model.bearings]
+    wholes = [_theirs(k) for k in housed_stiffness(model, found)]
+    rotor = ross.Rotor(shaft, discs, [_forces(ross, node, whole) for node, whole in zip(nodes, wholes, strict=True)])
+    for node, whole in zip(nodes, wholes, strict=True):
+        rest = whole.copy()
+        rest[:2, :2] = 0.0
+        rest[2, 2] = 0.0
+        rows = np.arange(NODE * node, NODE * (node + 1))
+        rotor.K0[np.ix_(rows, rows)] += rest
+    return rotor
+
+
+def _piece(ross: Any, body: ElasticBody, node: int) -> Any:
+    """Return the shaft between a node and the next one as an element of theirs."""
+    section = body.elements[node // (NODES - 1)]
+    own = section.material
+    material = ross.Material(name="shaft", rho=own.density, E=own.youngs_modulus, G_s=own.shear_modulus)
+    length = float(body.positions[node + 1] - body.positions[node])
+    return ross.ShaftElement(L=length, idl=section.bore, odl=section.outside_diameter, material=material, n=node)
+
+
+def _theirs(stiffness: FloatArray) -> FloatArray:
+    """Return the matrix of a bearing in their order, shape (6, 6)."""
+    whole = np.zeros((NODE, NODE))
+    whole[np.ix_(_THEIRS, _THEIRS)] = 0.5 * (stiffness + stiffness.T)
+    return whole
+
+
+def _forces(ross: Any, node: int, whole: FloatArray) -> Any:
+    """Return a bearing element with what theirs can say."""
+    (kxx, kxy), (kyx, kyy) = whole[:2, :2].tolist()
+    return ross.BearingElement(n=node, kxx=kxx, kxy=kxy, kyx=kyx, kyy=kyy, kzz=float(whole[2, 2]), cxx=0.0)

@@ -1,0 +1,34 @@
+"""The rotor of ROSS against this program's own modal analysis; skipped where ROSS is not installed."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+
+import pytest
+
+from lambda_core.shaft.fresh_shaft import fresh_shaft
+from lambda_core.shaft.resolving import check_shaft
+from lambda_core.shaft.ross import ross_rotor
+from lambda_core.shaft.shaft_equilibrium import solve_shaft
+from lambda_core.shaft.vibration import criticals, modes_at, supported
+
+pytest.importorskip("ross")
+
+
+def test_natural_frequencies_and_critical_speeds_agree() -> None:
+    """The same stiffness, discs and pieces: 1 % for the first six natural frequencies and four critical speeds.
+
+    ROSS has two-node elements and Hutchinson's shear coefficient.
+    """
+    model = check_shaft(tomllib.loads(fresh_shaft("box")))
+    state = solve_shaft(model)
+    rotor, stiffness = ross_rotor(model, state), supported(model, state)
+    own = [mode.frequency for mode in modes_at(model, stiffness, model.speed)][:6]
+    theirs = [w for w in sorted(rotor.run_modal(speed=model.speed, num_modes=24).wd) if w > 10.0]
+    assert theirs[:6] == pytest.approx(own, rel=0.01)
+    own_critical = [mode.frequency for mode in criticals(model, stiffness)][:4]
+    for speed in own_critical:  # at a critical speed one natural frequency is the speed
+        found = rotor.run_modal(speed=speed, num_modes=40).wd
+        assert min(abs(w / speed - 1.0) for w in found if w > 10.0) < 0.01
+    assert all(math.isfinite(w) for w in theirs)

@@ -1,0 +1,132 @@
+"""A shaft from its file to numbers, pictures and stiffness: init, check, shaft; every mistake at once."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lambda_cli.main import main
+
+from lambda_core import api
+
+WRONG = """
+name = "wrong"
+[[shaft.sections]]
+length = "100 mm"
+diameter = "30 mm"
+bore = "31 mm"
+[bearings.left]
+designation = "SKF 6206"
+positon = "10 mm"
+[bearings.right]
+designation = "SKF 62066"
+position = "90 mm"
+preload = "5 um"
+support.y = "stiff"
+[gears.wheel]
+position = "50 mm"
+pitch_diameter = "80 mm"
+role = "driver"
+mesh = "90 deg"
+power = "5 kW"
+[lubricant]
+name = "FVA33"
+temperature = "60 degC"
+[operation]
+speed = "3000 rpm"
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder with the case that init writes."""
+    found = tmp_path_factory.mktemp("shaft")
+    assert main(["init", "box", "--shaft", "--out", str(found / "box.toml")]) == 0
+    return found
+
+
+def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """One solution: JSON, pictures and both exports say the same; equilibrium about the left end to 1e-6."""
+    case, stiffness = str(folder / "box.toml"), folder / "k.json"
+    capsys.readouterr()
+    arguments = ["--json", "--quiet", "--draw", str(folder / "pictures"), "--stiffness", str(stiffness)]
+    assert main(["shaft", case, *arguments]) == 0
+    found = json.loads(capsys.readouterr().out)
+    left, right = found["bearings"]
+    wheel = api.check_shaft(case).gears["wheel"]
+    weight = 9.80665 * found["shaft_mass_kg"]
+    total = np.array(left["force_N"]) + right["force_N"] + wheel.force - [0.0, 0.0, weight]
+    assert np.abs(total).max() < 1e-6 * 1000.0
+    assert found["drive_torque_Nm"] == pytest.approx(-wheel.moment[0], rel=1e-9)
+    assert left["axial_load_N"] == pytest.approx(wheel.force[0], rel=1e-6)
+    assert 0.0 < left["friction_torque_Nmm"] < 500.0
+    assert left["basic_rating_life_h"] > 1e4 < found["system_life_h"]
+    ends = [moment for moment, place in zip(found["bending_moment_Nm"], found["cut_positions_mm"], strict=True)
+            if place in (found["positions_mm"][0], found["positions_mm"][-1])]  # fmt: skip
+    assert np.abs(ends).max() < 1e-6
+    assert [speed["speed_rpm"] for speed in found["critical_speeds"]] == sorted(
+        speed["speed_rpm"] for speed in found["critical_speeds"]
+    )
+    written = json.loads(stiffness.read_text())
+    assert written["bearings"][0]["stiffness"] == left["stiffness"]
+    assert np.array(left["stiffness"]).shape == (6, 6)
+    names = sorted(path.name for path in (folder / "pictures").iterdir())
+    assert names == ["box-shaft.png", "box-shaft.svg", "box-whirl.png", "box-whirl.svg"]
+    report = api.ShaftReport.model_validate(found)
+    rows = list(csv.reader(api.write_stiffness(report, folder / "k.csv").read_text().splitlines()))
+    assert len(rows) == 1 + 2 * 36
+    assert float(rows[1][4]) == left["stiffness"][0][0]
+    assert "Q_max N" in report.text(80)
+    with pytest.raises(api.UsageError, match=r"\.json or \.csv"):
+        api.write_stiffness(report, folder / "k.txt")
+
+
+def test_every_mistake_at_once(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "wrong.toml").write_text(WRONG)
+    assert main(["check", str(folder / "wrong.toml")]) == 3
+    said = capsys.readouterr().err
+    for place, hint in (
+        ("shaft.sections.0", "bore must be smaller"),
+        ("bearings.left.positon", "nearest: position"),
+        ("bearings.left.position", "is required"),
+        ("bearings.right.designation", "62066"),
+        ("bearings.right.support.y", '"locked" or "free"'),
+        ("gears.wheel.role", '"driving" or "driven"'),
+        ("lubricant.name", "FVA3"),
+    ):
+        assert any(line.split()[0] == place and hint in line for line in said.splitlines()[1:]), (place, said)
+
+
+def test_what_only_the_whole_shows(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A place beside the shaft, two bearings in one, a power at rest."""
+    changes = ["gears.wheel.position=300 mm", "bearings.right.position=21 mm", "operation.speed=0 rpm"]
+    arguments = [part for change in changes for part in ("--set", change)]
+    assert main(["check", str(folder / "box.toml"), *arguments]) == 3
+    said = capsys.readouterr().err
+    assert "gears.wheel.position" in said
+    assert "0 mm to 170 mm" in said
+    assert 'is that of "left" too' in said
+    assert "needs a speed" in said
+
+
+def test_a_shaft_is_not_one_bearing(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Each command names the one that is meant."""
+    assert main(["quasistatic", str(folder / "box.toml")]) == 3
+    assert "lambda-bearing shaft" in capsys.readouterr().err
+    (folder / "one.toml").write_text('name = "one"\n[bearing]\ndesignation = "SKF 6206"\n')
+    assert main(["shaft", str(folder / "one.toml")]) == 3
+    assert "lambda-bearing quasistatic" in capsys.readouterr().err
+    assert main(["init", "other", "--shaft", "--bearing", "SKF 6208"]) == 2
+    assert main(["init", "box", "--shaft", "--out", str(folder / "box.toml")]) == 2
+    assert main(["shaft", str(folder / "none.toml")]) == 2
+
+
+def test_check_says_what_the_shaft_is(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    capsys.readouterr()
+    assert main(["check", str(folder / "box.toml"), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["bearings"] == {"left": "6208 (SKF)", "right": "6206 (SKF)"}
+    assert "gear wheel" in api.describe_shaft(api.check_shaft(folder / "box.toml"))
