@@ -92,7 +92,7 @@ class ShaftReport(Record):
     interface: int = INTERFACE
     case: str = Field(description="name of the case")
     speed_rpm: float = Field(description="of the shaft")
-    axes: tuple[str, ...] = Field(AXES, description="order of rows and columns of the stiffness matrices")
+    axes: tuple[str, ...] = Field(default=AXES, description="order of rows and columns of the stiffness matrices")
     bearings: list[BearingOnShaft] = Field(description="from left to right")
     gears: dict[str, list[float]] = Field(description="tangential, radial and axial force [N]")
     system_life_h: float | None = Field(description="of all bearings by their reference rating lives, 90 %")
