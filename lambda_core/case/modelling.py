@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, create_model
 
@@ -11,7 +11,7 @@ from lambda_core.case.option import Section, option
 from lambda_core.domain.elements import ELEMENTS
 from lambda_core.domain.role import Role
 from lambda_core.domain.roles import DEFAULT_MODELS, MOTION_ROLES
-from lambda_core.domain.units import Time
+from lambda_core.domain.units import Frequency, Time
 
 
 def _finite(given: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
@@ -83,12 +83,23 @@ class Solver(Section):
     """Integrator and averages."""
 
     tolerance: float = option(1e-3, "error tolerance per step, on the absolute scales of the states", gt=0.0, le=0.1)
+    accuracy: Literal["auto", "averages", "vibration"] = option(
+        "auto",
+        "what has to be true: averages (loss, speeds, loads), or vibrations too, at two to four times the cost; "
+        "auto: vibrations where a raceway is not nominal or something shakes faster than the shaft turns",
+    )
+    resolve: Frequency | None = option(
+        None, "highest frequency that vibrations are followed to; absent: 2 kHz, or twice an excitation", gt=0.0
+    )
     duration: Time | None = option(None, "simulated time; absent: until converged", gt=0.0)
     max_duration: Time | None = option(None, "longest simulated time; absent: 30 turns of the cage", gt=0.0)
     discard_revolutions: float = option(1.0, "cage revolutions before averaging starts", ge=0.0)
     average_revolutions: float = option(4.0, "cage revolutions that are averaged at least", gt=0.0)
     max_step: Time | None = option(
-        None, "longest step; by default 1/20 of an excitation at most; absent: 1/400 of a cage turn", gt=0.0
+        None,
+        "longest step; by default 1/20 of an excitation at most, 1/6 of the shortest period to resolve; absent: 1/400 "
+        "of a cage turn, 1/100 for vibrations",
+        gt=0.0,
     )
     max_wall: Time | None = option(
         None, "wall time after which a run stops with what it has, resume goes on without it; absent: none", gt=0.0

@@ -17,7 +17,7 @@ from lambda_core.solver import layout
 from lambda_core.solver import sampling as observe
 from lambda_core.solver.code_files import compiled_sources
 from lambda_core.solver.contact import raceway, tangent
-from lambda_core.solver.integrator import bdf, handle, memory
+from lambda_core.solver.integrator import bdf, esdirk, handle, memory, stepping
 from lambda_core.solver.motion import forces, jacobian
 from lambda_core.solver.statics import continuation as statics
 
@@ -35,9 +35,11 @@ class Core:
     evaluate: Any
     jacobian: Any
     advance: Any
+    advance_finely: Any
     observe: Any
     solve_static: Any
     advance_pointer: Any
+    advance_finely_pointer: Any
     observe_pointer: Any
     make_context: Any
     integrate: Any
@@ -50,7 +52,8 @@ UNITS: dict[str, tuple[Any, Any]] = {
     "tangent": (tangent.contact_tangent, layout.tangent_sig),
     "evaluate": (forces.evaluate, memory.evaluate_sig),
     "jacobian": (jacobian.jacobian, memory.jacobian_sig),
-    "advance": (bdf.advance, bdf.advance_sig),
+    "advance": (bdf.advance, stepping.advance_sig),
+    "advance_finely": (esdirk.advance, stepping.advance_sig),
     "observe": (observe.observe, observe.observe_sig),
     "solve_static": (statics.solve_static, statics.solve_static_sig),
     "make_context": (handle.make_context, handle.make_context_sig),
@@ -63,6 +66,7 @@ GROUPS = (
     ("evaluate", "observe"),
     ("solve_static", "make_context", "integrate", "sample"),
     ("advance", "wrench", "tangent"),
+    ("advance_finely",),
 )
 # The equilibrium allocates its workspaces, a handle is allocated itself; all others run without reference counting.
 # What takes long lets other threads work: one of them hears the signals meanwhile.
@@ -139,9 +143,12 @@ def _load(announce: Callable[[str], None] | None) -> Core:
     built = {name: build(name, announce) for name in UNITS}
     pointers = {
         f"{name}_pointer": Pointer(built[name], UNITS[name][1])
-        for name in ("wrench", "tangent", "evaluate", "jacobian", "advance", "observe")
+        for name in ("wrench", "tangent", "evaluate", "jacobian", "advance", "advance_finely", "observe")
     }
-    names = ("evaluate", "jacobian", "advance", "observe", "solve_static", "make_context", "integrate", "sample")
+    names = (
+        "evaluate", "jacobian", "advance", "advance_finely", "observe", "solve_static", "make_context", "integrate",
+        "sample",
+    )  # fmt: skip
     return Core(**pointers, **{name: _call(built[name], UNITS[name][1]) for name in names})
 
 

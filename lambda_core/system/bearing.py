@@ -162,6 +162,7 @@ class Solver:
     average_revolutions: float  # cage revolutions that the averages need at least
     max_step: float  # [s]
     max_wall: float  # wall time after which the run stops with a partial result [s], inf for none
+    resolve: float = 0.0  # highest frequency that vibrations are followed to [Hz]; 0: averages are the answer
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,6 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-import math
 from collections.abc import Iterable, Mapping
 from typing import Any, Protocol
 
@@ -18,7 +17,7 @@ from pydantic import BaseModel
 from lambda_core.case.case import Case
 from lambda_core.case.case_writer import standalone_toml
 from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue
-from lambda_core.domain.elements import BODIES, DOFS
+from lambda_core.domain.elements import BODIES
 from lambda_core.domain.units import show
 from lambda_core.laws.context import Material
 from lambda_core.laws.jit.reach import reach
@@ -32,7 +31,6 @@ from lambda_core.system.bearing import (
     Geometry,
     Marker,
     Output,
-    Solver,
 )
 from lambda_core.system.law_packages import with_packages
 from lambda_core.system.ledger import Ledger
@@ -52,24 +50,17 @@ from lambda_core.system.resolve_geometry import check_clearance, resolve_geometr
 from lambda_core.system.resolve_laws import LawResolver, ModelSource
 from lambda_core.system.resolve_links import resolve_links
 from lambda_core.system.resolve_materials import resolve_lubricant, resolve_material, resolve_oil_level
+from lambda_core.system.resolve_solver import resolve_solver
 from lambda_core.system.resolve_states import check_states
 from lambda_core.system.resolve_thermal import check_thermal
 from lambda_core.system.resolve_watch import WatchSource, resolve_events, resolve_observers
 from lambda_core.system.shadowed_data import tell_shadows
-from lambda_core.system.time_functions import highest_frequency, peak, time_function
+from lambda_core.system.time_functions import peak, time_function
 from lambda_core.views.observer import Event, Observer
 
-# A run that has not converged after this many turns of the cage has something to say.
-LONGEST_RUN = 30.0  # [cage turns]
-MOST_TIME = 1e6  # [s] simulated; at a tenth of a millisecond per step that is a month of computing
 # [m/s] on the pitch circle: a ring of steel would be under rho v^2 = 7.9 GPa of hoop stress (Timoshenko and Goodier,
 # Theory of Elasticity, rotating rings), three times what bearing steel bears.
 FASTEST = 1000.0
-MOST_STEPS, MOST_SAMPLES = 1e9, 1e7  # of one run: half a day of computing, some ten gigabytes
-# Largest step: the cage must not skip over pocket contacts, nor any step over an excitation. With 200 steps per turn
-# a 6319 at 3000 rpm without a cage leaves 1.3e-3 of the energy unexplained, with 400 1.3e-4 for the same wall time.
-STEPS_PER_CAGE_TURN = 400.0
-STEPS_PER_PERIOD = 20.0
 
 
 class PluginSource(ModelSource, WatchSource, Protocol):
@@ -127,7 +118,7 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
     cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, materials["cage"], ledger)
     inertias = _inertias(case, geometry, materials, cage_estimate, ledger)
     _check_spins(case, geometry, ledger)
-    solver = _solver(case, geometry, ledger, is_static=is_static)
+    solver = resolve_solver(case, geometry, laws, ledger, is_static=is_static)
     names = (designation, oil.name, *(material.name for material in materials.values()), cage_row.name)
     check_states(laws, observers, ledger)
     tell_shadows(catalogue, registry, (case, names), laws, ledger)
@@ -237,43 +228,6 @@ def _settings(case: Case, ledger: Ledger) -> None:
             ledger.assume(sentence.format(show(value, quantity)) if "{}" in sentence else sentence)
 
 
-def cage_period(case: Case, geometry: Geometry) -> float:
-    """Return the duration of one epicyclic turn of the cage at the highest planned speed [s]; inf at rest.
-
-    omega_c = (Omega_i (1 - D_w/d_m) + Omega_o (1 + D_w/d_m))/2, contact angle 0.
-    """
-    ratio = geometry.ball_diameter / geometry.pitch_diameter
-    inner = peak(time_function(case.operation.speed))
-    outer = peak(time_function(case.bodies.outer_ring.spin.motion))
-    speed = 0.5 * (inner * (1.0 - ratio) + outer * (1.0 + ratio))
-    return 2.0 * math.pi / speed if speed > 0.0 else math.inf
-
-
-def _solver(case: Case, geometry: Geometry, ledger: Ledger, *, is_static: bool) -> Solver:
-    given, turn = case.solver, cage_period(case, geometry)
-    if math.isinf(turn) and given.duration is None and not is_static:
-        ledger.problem("solver.duration", "is required where nothing turns at first: averages need turns of the cage")
-    longest = given.max_duration or (LONGEST_RUN * turn if math.isfinite(turn) else given.duration or 0.0)
-    if given.duration is not None and given.max_duration is not None and given.duration > given.max_duration:
-        ledger.problem("solver.duration", f"is longer than solver.max_duration, {show(given.max_duration, 'time')}")
-    frequency = highest_frequency(*_all_signals(case))
-    steps = [turn / STEPS_PER_CAGE_TURN, *([1.0 / (STEPS_PER_PERIOD * frequency)] if frequency else [])]
-    largest = min(steps)
-    if math.isinf(largest):
-        largest = (given.duration or 1.0) / STEPS_PER_CAGE_TURN
-    if not is_static:
-        _end_in_sight(case, given.duration or longest, turn, ledger)
-    return Solver(
-        tolerance=given.tolerance,
-        duration=given.duration or 0.0,
-        max_duration=max(longest, given.duration or 0.0),
-        discard_revolutions=given.discard_revolutions,
-        average_revolutions=given.average_revolutions,
-        max_step=given.max_step or largest,
-        max_wall=given.max_wall or math.inf,
-    )
-
-
 def _check_spins(case: Case, geometry: Geometry, ledger: Ledger) -> None:
     """Refuse prescribed spins at which rings and cage would fly apart."""
     highest = 2.0 * FASTEST / geometry.pitch_diameter
@@ -283,40 +237,6 @@ def _check_spins(case: Case, geometry: Geometry, ledger: Ledger) -> None:
     for place, motion in spins.items():
         if peak(time_function(motion)) > highest:
             ledger.problem(place, f"is too fast: steel bursts far below {show(highest, 'rotational_speed', 3)}")
-
-
-def _end_in_sight(case: Case, end: float, turn: float, ledger: Ledger) -> None:
-    """Refuse what no machine finishes: too long a time, too many steps or samples in it."""
-    if end > MOST_TIME:
-        key = "duration" if case.solver.duration is not None else "max_duration"
-        slow = f": one turn of the cage takes {show(turn, 'time')}" if math.isfinite(turn) else ""
-        ledger.problem(
-            f"solver.{key}", f"is {show(end, 'time')}, at most {show(MOST_TIME, 'time')} are simulated{slow}"
-        )
-        return
-    counted = (
-        ("solver.max_step", case.solver.max_step, MOST_STEPS, "steps"),
-        ("output.interval", case.output.interval, MOST_SAMPLES, "samples"),
-    )
-    for place, interval, most, what in counted:
-        if interval is not None and end > most * interval:
-            ledger.problem(
-                place, f"makes {end / interval:.2g} {what} of {show(end, 'time')}; at most {most:.0e}: "
-                f"{show(end / most, 'time')} or longer, or a shorter solver.duration",
-            )  # fmt: skip
-
-
-def _all_signals(case: Case) -> list[Any]:
-    """Return every time function of the case."""
-    found = [case.operation.speed, case.operation.torque]
-    loads = case.loads
-    found += [loads.radial, loads.axial, loads.moment_y, loads.moment_z]
-    for own in (loads.inner_ring, loads.outer_ring, loads.cage):
-        if own is not None:
-            found += [getattr(own, name) for name in type(own).model_fields]
-    for body in (case.bodies.inner_ring, case.bodies.outer_ring, case.bodies.cage):
-        found += [getattr(getattr(body, dof), "motion", None) for dof in DOFS]
-    return [time_function(signal) for signal in found]
 
 
 def case_hash(model: BearingModel) -> str:
@@ -333,6 +253,8 @@ def case_hash(model: BearingModel) -> str:
     absent = [name for name in ("observers", "events", "links") if not getattr(model, name)]  # as before there were any
     names = [f.name for f in dataclasses.fields(model) if f.name not in (*silent, *absent)]
     data = {name: _plain(getattr(model, name)) for name in names}
+    if model.solver.resolve == 0.0:
+        del data["solver"]["resolve"]
     text = json.dumps(data, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()
 

@@ -22,6 +22,7 @@ from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.entry import core
 from lambda_core.solver.integrator import memory as M
 from lambda_core.solver.integrator.blocks import Blocks
+from lambda_core.solver.integrator.tableau import STAGES
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame
@@ -181,24 +182,42 @@ class Motion:
         return self.states[:, L.NB * j : L.NB * (j + 1)]
 
 
-def integrate(m: Machine, y: FloatArray, duration: float, tolerance: float, samples: int = 100) -> Motion:
-    """Integrate from any state, sampled at equal intervals from 0 on."""
-    a = m.context
-    return integrate_tables(a, y, duration, tolerance, samples)
+def integrate(
+    m: Machine,
+    y: FloatArray,
+    duration: float,
+    tolerance: float,
+    samples: int = 100,
+    *,
+    fine: bool = False,
+    longest: float | None = None,
+) -> Motion:
+    """Integrate from any state, sampled at equal intervals from 0 on; `fine` with the formula for vibrations."""
+    return integrate_tables(m.context, y, duration, tolerance, samples, fine=fine, longest=longest)
 
 
-def integrate_tables(context: SolverContext, y: FloatArray, duration: float, tolerance: float, samples: int) -> Motion:
+def integrate_tables(
+    context: SolverContext,
+    y: FloatArray,
+    duration: float,
+    tolerance: float,
+    samples: int,
+    *,
+    fine: bool = False,
+    longest: float | None = None,
+) -> Motion:
     """Integrate what tables describe."""
     bundle, blocks, factors = context.bundle, context.blocks, context.factors
-    mem = M.make_memory(y, context.scale, tolerance, bundle, samples + 8)
+    mem = M.make_memory(y, context.scale, tolerance, bundle, samples + 8, stages=STAGES if fine else 0)
     interval = duration / samples
     control = mem.control
-    control["step"], control["shortest_step"], control["longest_step"] = 1e-9, 1e-16, interval
+    control["step"], control["shortest_step"], control["longest_step"] = 1e-9, 1e-16, longest or interval
     control["sample_interval"] = interval
     mem.count["stale"] = 1
     compiled = core()
+    advance = compiled.advance_finely if fine else compiled.advance
     while control["time"][0] < duration:
-        status = compiled.advance(
+        status = advance(
             compiled.evaluate_pointer, compiled.jacobian_pointer, duration, 10_000, bundle, blocks, factors, mem
         )
         assert status in (Status.OK, Status.UNFINISHED), (Status(status), control["time"])

@@ -374,7 +374,38 @@ def test_solver_defaults_follow_the_cage() -> None:
     assert solver.max_step == pytest.approx(turn / 400.0)
     assert solver.duration == 0.0
     fast = {"kind": "harmonic", "amplitude": "1 N", "frequency": "2 kHz"}
-    assert model_of("6319-cp10-3000", loads={"axial": fast}).solver.max_step == pytest.approx(1.0 / 40000.0)
+    averages = model_of("6319-cp10-3000", loads={"axial": fast}, solver={"accuracy": "averages"}).solver
+    assert averages.max_step == pytest.approx(1.0 / 40000.0)
+    assert averages.resolve == 0.0
+
+
+def test_vibrations_are_followed_where_they_are_the_answer() -> None:
+    """Something shakes faster than the shaft turns (50 Hz), or a raceway is not nominal; and where a case says so."""
+
+    def shaken(frequency: str, **solver: object) -> BearingModel:
+        load = {"kind": "harmonic", "amplitude": "1 N", "frequency": frequency}
+        return model_of("6319-cp10-3000", loads={"axial": load}, solver=solver)
+
+    fast = shaken("2 kHz")
+    assert fast.solver.resolve == pytest.approx(4000.0)
+    assert fast.solver.max_step == pytest.approx(1.0 / 24000.0)
+    said = [text for text in fast.assumptions if "vibrations" in text]
+    assert len(said) == 1
+    assert "up to 4 kHz, since the bearing is excited at 2 kHz" in said[0]
+    assert shaken("100 Hz").solver.resolve == pytest.approx(2000.0)
+    assert shaken("40 Hz").solver.resolve == 0.0
+    assert shaken("40 Hz", accuracy="vibration").solver.resolve == pytest.approx(2000.0)
+    assert shaken("40 Hz", resolve="5 kHz").solver.resolve == pytest.approx(5000.0)
+    rough = {"ball_outer": {"models": {"surface": "waviness"}}}
+    surface = model_of("6319-cp10-3000", forces=rough)
+    assert surface.solver.resolve == pytest.approx(2000.0)
+    assert any("ball_outer has a surface of its own, waviness" in text for text in surface.assumptions)
+    for solver, words in (
+        ({"accuracy": "averages", "resolve": "1 kHz"}, "averages follow no frequency"),
+        ({"resolve": "1 kHz"}, "the case is excited at 2 kHz"),
+    ):
+        with pytest.raises(CaseError, match=words):
+            shaken("2 kHz", **solver)
 
 
 def test_markers() -> None:

@@ -23,6 +23,7 @@ from lambda_core.solver.drivers.tables import CAGE, running
 from lambda_core.solver.drivers.time_tables import FORCE, MOMENT
 from lambda_core.solver.entry import core
 from lambda_core.solver.integrator import memory
+from lambda_core.solver.integrator.tableau import STAGES
 from lambda_core.solver.sampling import CONTACT_CHANNELS
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel
@@ -44,6 +45,7 @@ _COUNTERS = (
     "factorisations",
 )
 _MUCH_FASTER = 1.5  # a planned cage speed over that at the start, from which on it counts
+_SAMPLES_PER_PERIOD = 2.56  # of the highest frequency that is followed; what spectrum analysers take (ISO 13373-2)
 _SPIN_FOR_SAMPLES = 1.0  # [rad/s] slowest cage speed that the default sampling interval is made for
 
 
@@ -93,9 +95,14 @@ class BearingEngine:
         self._balls = model.geometry.ball_count
         start = initial_state(self._equilibrium)
         self._memory = memory.make_memory(
-            start, self._context.scale, model.solver.tolerance, self._context.bundle, _CAPACITY
+            start,
+            self._context.scale,
+            model.solver.tolerance,
+            self._context.bundle,
+            _CAPACITY,
+            stages=STAGES if model.solver.resolve else 0,
         )
-        self.sample_interval = model.output.interval or 2.0 * math.pi / self._cage_speed() / SAMPLES_PER_REVOLUTION
+        self.sample_interval = model.output.interval or self._usual_interval()
         control, count = self._memory.control, self._memory.count
         control["longest_step"] = min(model.solver.max_step, longest_step(self._context))
         control["step"] = np.minimum(_FIRST_STEP, control["longest_step"])
@@ -107,6 +114,12 @@ class BearingEngine:
         self._start_angles = self._angles()
         self._start_energy = self._stored(0.0, start)
         self._drained: list[dict[str, FloatArray]] = []
+
+    def _usual_interval(self) -> float:
+        """Return the time between samples where none is asked for [s]."""
+        interval = 2.0 * math.pi / self._cage_speed() / SAMPLES_PER_REVOLUTION
+        resolve = self.model.solver.resolve
+        return min(interval, 1.0 / (_SAMPLES_PER_PERIOD * resolve)) if resolve else interval
 
     def _cage_speed(self) -> float:
         """Return the cage speed that samples are spaced for [rad/s]: the start's, or a much faster planned one."""

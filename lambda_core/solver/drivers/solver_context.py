@@ -61,9 +61,13 @@ class SolverContext:
         self.factors = make_factors(self.blocks.reach, self.bundle.active.size)
 
     def handle(self, memory: Memory) -> Any:
-        """Return what leads to all of it and to the integrator's memory, which compiled code takes as one argument."""
+        """Return what leads to all of it and to the integrator's memory, which compiled code takes as one argument.
+
+        The formula of integration is the one that the memory has room for.
+        """
         c = core()
-        pointers = (c.evaluate_pointer, c.jacobian_pointer, c.advance_pointer, c.observe_pointer)
+        advance = c.advance_finely_pointer if memory.stages.size else c.advance_pointer
+        pointers = (c.evaluate_pointer, c.jacobian_pointer, advance, c.observe_pointer)
         return c.make_context(*pointers, self.bundle, self.blocks, self.factors, memory)
 
     def parameters(self, element: str, role: str) -> FloatArray:

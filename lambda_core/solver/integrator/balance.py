@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 
+from lambda_core.solver.integrator.tableau import ERROR, LOSS, STAGES
 from lambda_core.solver.layout import (
     BESIDE_LOSSES,
     BPSI,
@@ -42,9 +43,7 @@ _OF_BDF = 0.7  # share of the BDF's error in its distance from the trapezium rul
 @helper
 def _quotient(mem, shared, k):
     """Return D(shared[k])."""
-    back = mem.control[0].back
-    base = mem.shared[k] + back * (mem.shared[k] - mem.shared1[k])
-    return (shared[k] - base) / mem.control[0].gamma
+    return (shared[k] - mem.shared_base[k]) / mem.control[0].gamma
 
 
 @helper
@@ -175,7 +174,8 @@ def _floor(mem, h):
 def _excess(mem, h, energy, share, floor):
     """Return an energy over what a step may lose: `share` tolerances of what flows, and the floor.
 
-    What flows is put in or dissipated, whichever is more, now or on the average so far.
+    What flows is put in or dissipated, whichever is more, now or on the average so far; where vibrations are the
+    answer, also what goes to and fro between motion and springs.
     """
     control, rates, integrals = mem.control[0], mem.rates, mem.integrals
     now, so_far = running_of(rates)[0], running_of(integrals)[0]
@@ -185,7 +185,7 @@ def _excess(mem, h, energy, share, floor):
         all_lost += integrals[i]
     flow = max(lost, now.input_abs)
     if control.time > 0.0:
-        flow = max(flow, max(all_lost, so_far.input_abs) / control.time)
+        flow = max(flow, max(all_lost, so_far.input_abs, control.turned_over) / control.time)
     return abs(energy) / (share * control.tolerance * h * flow + floor)
 
 
@@ -263,6 +263,40 @@ def leak_of_step(mem, h):
     error = _quadrature(mem, h, _OF_ONE) if losses == _OF_ONE else _quadrature(mem, h, losses)
     lost = _excess(mem, h, _dissipated(mem, h), _LEAK, _floor(mem, h))
     return max(lost, _excess(mem, h, error, _SCATTER, mem.control[0].leak_floor))
+
+
+@helper
+def leak_of_stages(mem, h):
+    """Return the energy that a step of several stages loses, over what a step may lose; see leak_of_step.
+
+    The scheme's own share is known from the matrix of its algebraic stability, and of either sign. The quadrature's
+    is the difference of the formula and the one embedded in it.
+    """
+    stages, taken, error = mem.stages, 0.0, 0.0
+    for i in range(mem.new.size):
+        if mem.inertia[i] > 0.0:
+            for j in range(STAGES):
+                along = 0.5 * LOSS[j, j] * stages[j, i]
+                for k in range(j):
+                    along += LOSS[j, k] * stages[k, i]
+                taken += mem.inertia[i] * stages[j, i] * along
+    for j in range(STAGES):
+        lost = 0.0
+        for i in range(mem.rates.size - BESIDE_LOSSES):
+            lost += mem.stage_rates[j, i]
+        error += ERROR[j] * lost
+    lost = _excess(mem, h, h * h * taken, _LEAK, _floor(mem, h))
+    return max(lost, _excess(mem, h, h * error, _SCATTER, mem.control[0].leak_floor))
+
+
+@helper
+def add_turn_over(mem, h):
+    """Add the energy that the forces of a step's last stage move to and fro."""
+    power = 0.0
+    for i in range(mem.new.size):
+        if mem.inertia[i] > 0.0:
+            power += abs(mem.inertia[i] * mem.new[i] * mem.stages[STAGES - 1, i])
+    mem.control[0].turned_over += h * power
 
 
 @helper

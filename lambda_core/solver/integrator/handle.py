@@ -12,16 +12,16 @@ from numba import types
 
 from lambda_core.laws.jit.unstable import structref
 from lambda_core.solver import sampling as observe
-from lambda_core.solver.integrator import bdf
 from lambda_core.solver.integrator import memory as memo
 from lambda_core.solver.integrator.arrow import factors_t
 from lambda_core.solver.integrator.blocks import blocks_t
+from lambda_core.solver.integrator.stepping import advance_sig
 from lambda_core.solver.layout import array1, array2, array3, array4, bundle_t, f8, i8
 
 FIELDS = (
     ("evaluate", memo.evaluate_t),
     ("jacobian", memo.jacobian_t),
-    ("advance", types.FunctionType(bdf.advance_sig)),
+    ("advance", types.FunctionType(advance_sig)),
     ("observe", types.FunctionType(observe.observe_sig)),
     ("bundle", bundle_t),
     ("blocks", blocks_t),
@@ -59,7 +59,7 @@ def make_context(evaluate, jacobian, advance, observe, bundle, blocks, factors, 
 
 
 def integrate(handle, until, max_work):
-    """Integrate; an entry point. See bdf.advance."""
+    """Integrate; an entry point. See stepping.take_steps."""
     return handle.advance(
         handle.evaluate, handle.jacobian, until, max_work, handle.bundle, handle.blocks, handle.factors, handle.memory
     )

@@ -34,6 +34,10 @@ jacobian_sig = i8(f8, array1, bundle_t, blocks_t)
 evaluate_t = types.FunctionType(evaluate_sig)
 jacobian_t = types.FunctionType(jacobian_sig)
 
+_NEWTON = 0.3  # of the error allowed per step, what the iteration may leave
+_FINE_NEWTON = 0.03  # the same where vibrations are followed: what it leaves shakes the modes that nothing damps
+PAST = 2  # slopes of the last step that a one-step formula keeps
+
 # How far the integrator has come, and with which steps.
 CONTROL = np.dtype(
     [
@@ -42,6 +46,7 @@ CONTROL = np.dtype(
         ("last_step", np.float64),  # [s]
         ("step_before", np.float64),  # the one before the last [s]
         ("longest_step", np.float64),  # [s]
+        ("newton_tolerance", np.float64),  # of the iteration, over the error allowed per step [-]
         ("shortest_step", np.float64),  # below which the integrator gives up [s]
         ("gamma", np.float64),  # of the step in hand: new = base + gamma f(new) [s]
         ("back", np.float64),  # base = y + back (y - y1) [-]
@@ -50,6 +55,8 @@ CONTROL = np.dtype(
         ("tolerance", np.float64),  # of errors, in scales of the states [-]
         ("leak_floor", np.float64),  # energy that the longest step may lose though nothing flows [J]
         ("dissipated_power", np.float64),  # at `time` [W]
+        ("fourth_powers", np.float64),  # of all steps, their sum: what the scheme takes of vibrations goes with it [s4]
+        ("turned_over", np.float64),  # energy that went to and fro between motion and forces; 0: not counted [J]
         ("sample_interval", np.float64),  # [s]
         ("next_sample", np.float64),  # time of it [s]
         ("samples_taken", np.float64),  # since the start
@@ -85,6 +92,10 @@ class Memory(NamedTuple):
     y2: Any  # (n,) two steps before
     shared: Any  # (3 NS,) the whole shared state at `control.time`
     shared1: Any  # (3 NS,) and one step before
+    shared_base: Any  # (3 NS,) base of the quotient D(u) of what is prescribed
+    stages: Any  # (8, n) dy/dt at the stages of a step, at the start and a later stage of the last one; or (0, n)
+    stage_rates: Any  # (6, powers) rates of the integrals at the stages of a step; or (0, powers)
+    stage_shared: Any  # (6, 3 NS) d/dt of the shared state there; or (0, 3 NS)
     integrals: Any  # (powers,)
     integrals1: Any  # (powers,) one step before
     rates: Any  # (powers,) rates of the integrals at the step in hand
@@ -108,24 +119,37 @@ _TYPES = {
     "control": types.Array(numba.from_dtype(CONTROL), 1, "C"),
     "count": types.Array(numba.from_dtype(COUNT), 1, "C"),
     "place": iarray1,
+    "stages": array2,
+    "stage_rates": array2,
+    "stage_shared": array2,
     "sample_y": array2,
 }
 memory_t = types.NamedTuple([_TYPES.get(name, array1) for name in Memory._fields], Memory)
 
 
-def make_memory(y0: np.ndarray, scale: np.ndarray, tolerance: float, bundle: Any, capacity: int = 256) -> Memory:
-    """Allocate for the initial state y0 and absolute scales, both (n,), of the bearing in `bundle`."""
+def make_memory(
+    y0: np.ndarray, scale: np.ndarray, tolerance: float, bundle: Any, capacity: int = 256, *, stages: int = 0
+) -> Memory:
+    """Allocate for the initial state y0 and absolute scales, both (n,), of the bearing in `bundle`.
+
+    `stages` are those of a one-step formula; a multistep formula has none.
+    """
     n, powers = y0.size, power_count(bundle)
     arrays: dict[str, np.ndarray] = {name: np.zeros(n) for name in Memory._fields}
     inertia = inertias(bundle)
     control = np.zeros(1, dtype=CONTROL)
     control["tolerance"] = tolerance
+    control["newton_tolerance"] = _FINE_NEWTON if stages else _NEWTON
     # Differences of one tolerance in every speed, over the longest step, are never too much.
     control["leak_floor"] = 0.25 * np.sum(inertia * (tolerance * scale) ** 2)
     arrays.update(
         y=y0.copy(),
         shared=np.zeros(bundle.shared.size),
         shared1=np.zeros(bundle.shared.size),
+        shared_base=np.zeros(bundle.shared.size),
+        stages=np.zeros((stages + PAST if stages else 0, n)),
+        stage_rates=np.zeros((stages, powers)),
+        stage_shared=np.zeros((stages, bundle.shared.size)),
         integrals=np.zeros(powers),
         integrals1=np.zeros(powers),
         rates=np.zeros(powers),

@@ -10,8 +10,7 @@ from lambda_core.solver.integrator.state_blocks import solve_states
 from lambda_core.solver.layout import BVX, NB, NS, SVX, helper
 from lambda_core.solver.status import Status
 
-_NEWTON_TOLERANCE = 0.3  # of the error allowed per step
-# The same while there is no history. Friction in a contact at rest changes sign within far less than the error allowed:
+# Of the error allowed per step, while there is no history. Friction in a contact at rest changes sign within far less:
 # what the first steps leave of it turns it over at every later step, and those stay at nanoseconds.
 _FIRST_STEPS = 0.03
 _MAX_NEWTON = 4
@@ -119,7 +118,7 @@ def solve_step(evaluate, jacobian, t, h, bundle, bl, fa, mem):
     moving = n - bundle.states.size  # states of motion; behind them stand those of contacts
     _start(bundle, mem)
     careful = count.careful > 0
-    tolerance = _FIRST_STEPS if count.history < 2 else _NEWTON_TOLERANCE
+    tolerance = _FIRST_STEPS if count.history < 2 else control.newton_tolerance
     before, limit = 0.0, _MAX_NEWTON
     for iteration in range(_MAX_NEWTON + _MAX_LOCAL):
         if iteration >= limit:

@@ -1,0 +1,147 @@
+"""Settings of the integrator: how long, how long a step at most, and whether averages or vibrations are the answer."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from lambda_core.case.case import Case
+from lambda_core.domain.elements import DOFS
+from lambda_core.domain.units import show
+from lambda_core.system.bearing import ChosenLaw, Geometry, Solver
+from lambda_core.system.ledger import Ledger
+from lambda_core.system.time_functions import highest_frequency, peak, time_function
+
+# A run that has not converged after this many turns of the cage has something to say.
+LONGEST_RUN = 30.0  # [cage turns]
+MOST_TIME = 1e6  # [s] simulated; at a tenth of a millisecond per step that is a month of computing
+MOST_STEPS, MOST_SAMPLES = 1e9, 1e7  # of one run: half a day of computing, some ten gigabytes
+# Largest step: the cage must not skip over pocket contacts, nor any step over an excitation. With 200 steps per turn
+# a 6319 at 3000 rpm without a cage leaves 1.3e-3 of the energy unexplained, with 400 1.3e-4 for the same wall time.
+STEPS_PER_CAGE_TURN = 400.0
+STEPS_PER_PERIOD = 20.0
+# The formula of order 4 for vibrations: it shifts a frequency by 0.1 % at six steps per period, by 0.006 % at twelve.
+FINE_STEPS_PER_CAGE_TURN = 100.0
+FINE_STEPS_PER_PERIOD = 6.0
+USUAL_RESOLVE = 2000.0  # [Hz]; modes of a ring between the raceways of bearings of usual size lie below
+OVER_EXCITATION = 2.0  # frequency that is followed over the highest that is excited
+
+
+def resolve_solver(
+    case: Case, geometry: Geometry, laws: Mapping[str, Mapping[str, ChosenLaw]], ledger: Ledger, *, is_static: bool
+) -> Solver:
+    """Return the settings of the integrator; what stands against them becomes a problem."""
+    given, turn = case.solver, cage_period(case, geometry)
+    if math.isinf(turn) and given.duration is None and not is_static:
+        ledger.problem("solver.duration", "is required where nothing turns at first: averages need turns of the cage")
+    longest = given.max_duration or (LONGEST_RUN * turn if math.isfinite(turn) else given.duration or 0.0)
+    if given.duration is not None and given.max_duration is not None and given.duration > given.max_duration:
+        ledger.problem("solver.duration", f"is longer than solver.max_duration, {show(given.max_duration, 'time')}")
+    frequency = highest_frequency(*_all_signals(case))
+    resolve = _resolve(case, frequency, laws, ledger, is_static=is_static)
+    if resolve:
+        largest = min(turn / FINE_STEPS_PER_CAGE_TURN, 1.0 / (FINE_STEPS_PER_PERIOD * resolve))
+    else:
+        steps = [turn / STEPS_PER_CAGE_TURN, *([1.0 / (STEPS_PER_PERIOD * frequency)] if frequency else [])]
+        largest = min(steps)
+    if math.isinf(largest):
+        largest = (given.duration or 1.0) / STEPS_PER_CAGE_TURN
+    if not is_static:
+        _end_in_sight(case, given.duration or longest, turn, ledger)
+    return Solver(
+        tolerance=given.tolerance,
+        duration=given.duration or 0.0,
+        max_duration=max(longest, given.duration or 0.0),
+        discard_revolutions=given.discard_revolutions,
+        average_revolutions=given.average_revolutions,
+        max_step=given.max_step or largest,
+        max_wall=given.max_wall or math.inf,
+        resolve=resolve,
+    )
+
+
+def _resolve(
+    case: Case, frequency: float, laws: Mapping[str, Mapping[str, ChosenLaw]], ledger: Ledger, *, is_static: bool
+) -> float:
+    """Return the highest frequency that is to be followed [Hz], 0 where averages are the answer; says what it chose.
+
+    Vibrations are the answer where the case asks for them, has a raceway that is not nominal, or is excited faster
+    than the shaft turns.
+    """
+    given, why = case.solver, _shaken(case, frequency, laws)
+    if given.accuracy == "averages":
+        if given.resolve is not None:
+            ledger.problem("solver.resolve", 'needs solver.accuracy = "vibration": averages follow no frequency')
+        return 0.0
+    if given.accuracy == "auto" and not why and given.resolve is None:
+        return 0.0
+    resolve = given.resolve or max(USUAL_RESOLVE, OVER_EXCITATION * frequency)
+    if frequency > resolve:
+        ledger.problem(
+            "solver.resolve", f"is {show(resolve, 'frequency')}: the case is excited at {show(frequency, 'frequency')}"
+        )
+    if is_static or (given.accuracy == "vibration" and given.resolve is not None):
+        return resolve
+    until = f"vibrations are followed up to {show(resolve, 'frequency')}"
+    chosen = f", since {why}" if given.accuracy == "auto" and given.resolve is None else ""
+    other = ' (solver.accuracy = "averages" costs less)' if chosen else ""
+    ledger.assume(f"{until}{chosen}{other}")
+    return resolve
+
+
+def _shaken(case: Case, frequency: float, laws: Mapping[str, Mapping[str, ChosenLaw]]) -> str:
+    """Return what makes vibrations the answer, or nothing."""
+    for element, roles in laws.items():
+        if "surface" in roles and roles["surface"].model.name != "none":
+            return f"{element} has a surface of its own, {roles['surface'].model.name}"
+    turning = max(peak(time_function(case.operation.speed)), peak(time_function(case.bodies.outer_ring.spin.motion)))
+    if frequency > turning / (2.0 * math.pi):
+        return f"the bearing is excited at {show(frequency, 'frequency')}"
+    return ""
+
+
+def cage_period(case: Case, geometry: Geometry) -> float:
+    """Return the duration of one epicyclic turn of the cage at the highest planned speed [s]; inf at rest.
+
+    omega_c = (Omega_i (1 - D_w/d_m) + Omega_o (1 + D_w/d_m))/2, contact angle 0.
+    """
+    ratio = geometry.ball_diameter / geometry.pitch_diameter
+    inner = peak(time_function(case.operation.speed))
+    outer = peak(time_function(case.bodies.outer_ring.spin.motion))
+    speed = 0.5 * (inner * (1.0 - ratio) + outer * (1.0 + ratio))
+    return 2.0 * math.pi / speed if speed > 0.0 else math.inf
+
+
+def _end_in_sight(case: Case, end: float, turn: float, ledger: Ledger) -> None:
+    """Refuse what no machine finishes: too long a time, too many steps or samples in it."""
+    if end > MOST_TIME:
+        key = "duration" if case.solver.duration is not None else "max_duration"
+        slow = f": one turn of the cage takes {show(turn, 'time')}" if math.isfinite(turn) else ""
+        ledger.problem(
+            f"solver.{key}", f"is {show(end, 'time')}, at most {show(MOST_TIME, 'time')} are simulated{slow}"
+        )
+        return
+    counted = (
+        ("solver.max_step", case.solver.max_step, MOST_STEPS, "steps"),
+        ("output.interval", case.output.interval, MOST_SAMPLES, "samples"),
+    )
+    for place, interval, most, what in counted:
+        if interval is not None and end > most * interval:
+            ledger.problem(
+                place, f"makes {end / interval:.2g} {what} of {show(end, 'time')}; at most {most:.0e}: "
+                f"{show(end / most, 'time')} or longer, or a shorter solver.duration",
+            )  # fmt: skip
+
+
+def _all_signals(case: Case) -> list[Any]:
+    """Return every time function of the case."""
+    found = [case.operation.speed, case.operation.torque]
+    loads = case.loads
+    found += [loads.radial, loads.axial, loads.moment_y, loads.moment_z]
+    for own in (loads.inner_ring, loads.outer_ring, loads.cage):
+        if own is not None:
+            found += [getattr(own, name) for name in type(own).model_fields]
+    for body in (case.bodies.inner_ring, case.bodies.outer_ring, case.bodies.cage):
+        found += [getattr(getattr(body, dof), "motion", None) for dof in DOFS]
+    return [time_function(signal) for signal in found]

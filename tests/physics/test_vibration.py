@@ -1,0 +1,145 @@
+"""The formula for vibrations: order, what it takes of a swing, energy, samples, continuation."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+
+from lambda_core import api
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.integrator.tableau import EMBEDDED, LOSS, NODES, WEIGHTS, A
+
+from .support import FloatArray, Machine, Motion, integrate, machine
+from .test_free_motion import EMPTY
+
+FREQUENCY = 474.0  # [Hz] of a ring of 5 kg on a 6208 under 1 300 N along the shaft
+AXIAL = "6208-axial-700"
+
+
+@cache
+def spring() -> Machine:
+    """Return a bearing without contacts whose inner ring hangs on a spring along the shaft."""
+    empty = machine(*EMPTY, "gravity.z=0 m/s2")
+    stiffness = float(empty.constant("mass")[0]) * (2.0 * np.pi * FREQUENCY) ** 2
+    held = f'bodies.inner_ring.x={{mode="free", stiffness="{stiffness!r} N/m"}}'
+    return machine(*EMPTY, "gravity.z=0 m/s2", held)
+
+
+def swing(amplitude: float, cycles: float, *, longest: float, samples: int, tolerance: float = 1e-3) -> Motion:
+    """Let the ring swing without a loss, from its turning point."""
+    m = spring()
+    start = m.at_rest()
+    start.shared[0, L.SX] = amplitude
+    return integrate(m, m.vector(start), cycles / FREQUENCY, tolerance, samples=samples, fine=True, longest=longest)
+
+
+def place(motion: Motion) -> FloatArray:
+    """Return where the ring is, of a motion in which all its directions are free."""
+    return np.array(motion.states[:, L.NB * spring().count + list(spring().active).index(L.SX)])
+
+
+def exact(motion: Motion, amplitude: float) -> FloatArray:
+    return np.array(amplitude * np.cos(2.0 * np.pi * FREQUENCY * motion.times))
+
+
+def test_the_tableau_has_its_order() -> None:
+    """Order conditions to order 4, and 3 of the embedded formula (Hairer, Norsett and Wanner, II.2); L-stability."""
+    c, ones = NODES, np.ones(NODES.size)
+    trees = (ones, c, c**2, A @ c, c**3, c * (A @ c), A @ c**2, A @ A @ c)
+    wanted = (1.0, 1 / 2, 1 / 3, 1 / 6, 1 / 4, 1 / 8, 1 / 12, 1 / 24)
+    assert [float(WEIGHTS @ tree) for tree in trees] == pytest.approx(wanted, abs=1e-14)
+    assert [float(EMBEDDED @ tree) for tree in trees[:4]] == pytest.approx(wanted[:4], abs=1e-14)
+    for weights in (WEIGHTS, EMBEDDED):
+        far = 1e9
+        assert abs(1.0 - far * weights @ np.linalg.solve(np.eye(6) + far * A, ones)) < 1e-7
+    assert ones @ LOSS @ ones == pytest.approx(0.0, abs=1e-14)  # 2 b.c - (sum b)^2
+
+
+def test_its_error_goes_with_the_fourth_power_of_the_step() -> None:
+    """Seen where the ring passes its middle, after 4.25 periods of steps as long as they may be."""
+    errors = []
+    for steps in (16, 32):
+        motion = swing(1e-6, 4.25, longest=1.0 / (steps * FREQUENCY), samples=17, tolerance=0.1)
+        assert motion.steps < 4.3 * steps + 40
+        errors.append(np.abs(place(motion) - exact(motion, 1e-6))[-1])
+    assert errors[0] / errors[1] == pytest.approx(16.0, rel=0.25)
+
+
+@pytest.mark.parametrize("amplitude", [0.1e-6, 20e-6])
+def test_a_swing_without_a_loss_stays(amplitude: float) -> None:
+    """Seven periods with steps for 1 kHz: 0.1 % of the energy in 28 at most; the frequency within 0.02 %."""
+    motion = swing(amplitude, 7.0, longest=1.0 / (6.0 * 1000.0), samples=280)
+    x, t = place(motion), 2.0 * np.pi * FREQUENCY * motion.times
+
+    def off(p: FloatArray) -> FloatArray:
+        return np.array(p[0] * np.exp(-p[1] * t) * np.cos((1.0 + p[2]) * t) - x / amplitude)
+
+    found = least_squares(off, [1.0, 0.0, 0.0], x_scale=[1.0, 1e-3, 1e-3])
+    assert 2.0 * found.x[1] * 28.0 * 2.0 * np.pi < 1e-3  # share of the energy in 28 periods
+    assert abs(found.x[2]) < 2e-4
+    # Samples between steps, w h = 1/2, are off by (w h)^6/720 x 0.14 at most; at the start by the cubic's (w h)^4/384.
+    assert np.abs(found.fun).max() < 2e-4
+
+
+@cache
+def decay(accuracy: str, amplitude: float) -> tuple[float, float]:
+    """Return frequency [Hz] and damping ratio of a ring of 5 kg set swinging along the shaft of a turning 6208.
+
+    The difference of two runs that are displaced to either side: balls passing, and what the start excites, cancel.
+    """
+    traces = []
+    for side in (-1.0, 1.0):
+        engine = BearingEngine(
+            api.check(
+                AXIAL,
+                [
+                    "bodies.inner_ring.shaft_mass=5 kg", "loads.axial=1300 N", "depth.cage=false",
+                    "output.interval=0.1 ms", "solver.duration=1 s", *accuracy.split(),
+                ],
+            )
+        )  # fmt: skip
+        tail = L.NB * engine.model.geometry.ball_count
+        x = tail + list(engine._context.bundle.active).index(L.SX)
+        engine._memory.y[x] += side * amplitude
+        assert engine.advance(20.0 / FREQUENCY).ok
+        times, states = engine.buffered()
+        traces.append(states[:400, x])
+    t, y = times[:400], (traces[1] - traces[0]) / (2.0 * amplitude)
+    late = t > 2e-3
+
+    def off(p: FloatArray) -> FloatArray:
+        phase = 2.0 * np.pi * p[0] * t[late]
+        wave = p[2] * np.cos(phase) + p[3] * np.sin(phase)
+        return np.array(np.exp(-2.0 * np.pi * p[0] * p[1] * t[late]) * wave + p[4] + p[5] * t[late] - y[late])
+
+    found = least_squares(off, [470.0, 0.01, 1.0, 0.0, 0.0, 0.0], x_scale=[1.0, 1e-3, 1.0, 1.0, 0.1, 1.0])
+    return float(found.x[0]), float(found.x[1])
+
+
+@pytest.mark.parametrize("amplitude", [0.1e-6, 20e-6])
+def test_a_swing_of_a_bearing_keeps_its_frequency_and_damping(amplitude: float) -> None:
+    """As a hundredfold tighter run does: frequency within 0.2 %, damping within 0.05 % of critical."""
+    fine = decay('solver.accuracy="vibration" solver.resolve="474Hz"', amplitude)
+    finer = decay('solver.accuracy="vibration" solver.resolve="4kHz" solver.tolerance=1e-5', amplitude)
+    assert fine[0] == pytest.approx(finer[0], rel=2e-3)
+    assert fine[1] == pytest.approx(finer[1], abs=5e-4)
+
+
+def test_energy_closes_and_a_continuation_is_the_run_itself() -> None:
+    overrides = ('solver.accuracy="vibration"', "solver.duration=1 s")
+    whole, first = (BearingEngine(api.check(AXIAL, overrides)) for _ in range(2))
+    assert first.advance(2e-3).ok
+    second = BearingEngine(api.check(AXIAL, overrides))
+    second.restore(first.state())
+    for engine in (whole, second):
+        assert engine.advance(6e-3).ok
+    assert np.array_equal(whole._memory.y, second._memory.y)
+    sums = whole.integrals()
+    assert sums == second.integrals()
+    losses = sum(value for name, value in sums.items() if name.startswith("loss."))
+    assert abs(sums["input"] - losses - sums["stored"]) < 1e-5 * sums["input_abs"]
+    assert min(value for name, value in sums.items() if name.startswith("loss.")) >= 0.0
