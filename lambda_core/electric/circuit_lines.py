@@ -11,9 +11,7 @@ if TYPE_CHECKING:
 
     from lambda_core.electric.current_limits import Limit
     from lambda_core.electric.outcome import Outcome
-    from lambda_core.electric.risk_map import RiskMap
-
-_METAL = 0.05  # share of contacts and time from which on a point of a map is called metal
+    from lambda_core.electric.risk_map import RiskMap, RiskPoint
 
 
 def outcome_text(found: Outcome) -> str:
@@ -81,12 +79,12 @@ def _worst(ring: str, shares: Sequence[float]) -> str:
 
 def map_text(found: RiskMap) -> str:
     """Return the discharges per second over speed and temperature, a row per speed."""
-    rates = found.grid("discharges_per_s")
-    metal = found.grid("metal_share")
     columns = found.temperatures_degC
+    cells = [_rate(point) for point in found.points]
     rows = [f"{'1/min':>9}" + "".join(f"{f'{value:.4g} degC':>10}" for value in columns)]
-    for speed, row, touching in zip(found.speeds_rpm, rates, metal, strict=True):
-        rows.append(f"{speed:9.5g}" + "".join(f"{_rate(*cell):>10}" for cell in zip(row, touching, strict=True)))
+    for k, speed in enumerate(found.speeds_rpm):
+        row = cells[k * len(columns) : (k + 1) * len(columns)]
+        rows.append(f"{speed:9.5g}" + "".join(f"{cell:>10}" for cell in row))
     return "\n".join(
         [
             line("source", found.source),
@@ -100,9 +98,10 @@ def map_text(found: RiskMap) -> str:
     )
 
 
-def _rate(value: float, metal: float) -> str:
-    if value != value:
+def _rate(point: RiskPoint) -> str:
+    value = point.discharges_per_s
+    if value is None:
         return "-"
-    if metal > _METAL and value == 0.0:
+    if point.quiet_because == "metal":
         return "metal"
     return f"{value:.3g}" if value < 1000.0 else f"{1e-3 * value:.3g}k"

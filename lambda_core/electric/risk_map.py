@@ -10,11 +10,15 @@ from typing import Any
 import numpy as np
 from pydantic import Field
 
+from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
 from lambda_core.electric.current_numbers import CurrentNumbers
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.views.chart import Axis, Panel, ViewData
+from lambda_core.views.chart import Axis, Panel, Series, ViewData
 from lambda_core.views.chart import Field as Mesh
+
+QUIET = ("films hold", "metal", "no equilibrium")  # why nothing discharges
+_METAL = 0.05  # share of contacts and time from which on a point where nothing discharges is called metal
 
 
 class _Place(Record):
@@ -26,6 +30,15 @@ class RiskPoint(CurrentNumbers, _Place):
     """One speed at one temperature; None where there is no equilibrium or nothing discharges."""
 
     message: str = Field("", description="why a point is empty")
+
+    @property
+    def quiet_because(self) -> str:
+        """Why nothing discharges: one of QUIET; "" where something does."""
+        if self.discharges_per_s is None:
+            return "no equilibrium"
+        if self.discharges_per_s > 0.0:
+            return ""
+        return "metal" if (self.metal_share or 0.0) > _METAL else "films hold"
 
 
 class RiskMap(Record):
@@ -115,9 +128,26 @@ class RiskMap(Record):
             values = self.grid(column)
             values = np.where(values > 0.0, values, np.nan) if log else values
             if np.isfinite(values).any():
-                panels.append(Panel(name, speed, temperature, field=Mesh(name, unit, x, y, values, log=log)))
-        notes = (f"{self.span} at each point, nothing broke down before; seed {self.seed}; white: quiet or metal",)
+                field = Mesh(name, unit, x, y, values, log=log)
+                panels.append(Panel(name, speed, temperature, self._empty(values), field=field))
+        notes = (f"{self.span} at each point, nothing broke down before; seed {self.seed}",)
         return ViewData("electric-map", "Bearing currents", f"{self.case}   {self.source}", tuple(panels), 2, notes)
+
+    def _empty(self, values: FloatArray) -> tuple[Series, ...]:
+        """Return marks on the points that have no value, by the reason."""
+        missing = [p for p, value in zip(self.points, values.ravel(), strict=True) if not np.isfinite(value)]
+        kinds = ((look, reason, [p for p in missing if p.quiet_because == reason]) for look, reason in enumerate(QUIET))
+        return tuple(
+            Series(
+                reason,
+                np.array([p.speed_rpm for p in points]),
+                np.array([p.temperature_degC for p in points]),
+                "points",
+                group=look,
+            )
+            for look, reason, points in kinds
+            if points
+        )
 
 
 def _is_even_in_log(values: Sequence[float]) -> bool:

@@ -103,6 +103,10 @@ def test_command(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert (tmp_path / "x.csv").is_file()
     assert main(arguments) == 0
     assert "not read in the original" in capsys.readouterr().out
+    assert main([*arguments, "--units", "us"]) == 0
+    text = capsys.readouterr().out
+    assert "correlation_length 394 uin" in text
+    assert " um" not in text
     assert main([*arguments, "--rise-time", "-5ns"]) == 3
     assert "electric.inverter.rise_time" in capsys.readouterr().err
     assert main([*arguments, "--out", str(tmp_path / "x.csv")]) == 2

@@ -35,6 +35,10 @@ def test_starved_bearing_is_recognised(tmp_path: Path, capsys: pytest.CaptureFix
     found = json.loads(capsys.readouterr().out)
     assert found["starvation"] == pytest.approx(0.6, rel=2e-3)
     assert found["film_scale_uncertainty"] == pytest.approx(0.05 * 0.6 / abs(found["sensitivity"]), rel=2e-3)
+    assert main(["electric-film", "6208-axial-1300", str(tmp_path / "m.csv"), "--quiet", "--units", "us"]) == 0
+    text = capsys.readouterr().out
+    assert " uin" in text
+    assert " um" not in text
     omega = 6.283185307179586 * 1e4
     (tmp_path / "z.csv").write_text(
         "time [s],impedance [kOhm]\n" + "".join(f"{i},{1e-3 / (omega * value * 1e-12)!r}\n" for i in range(5))

@@ -67,6 +67,33 @@ def test_map(capsys: pytest.CaptureFixture[str], tmp_path: Path, alone: Path) ->
     assert "discharges_per_s [1/s]" in capsys.readouterr().out
 
 
+def test_picture_says_why_a_point_is_empty(alone: Path) -> None:
+    """Films that hold, metal and no equilibrium are three marks with names; every empty point of a panel has one."""
+    found = map_of(alone)
+    kinds = {"films hold": {"discharges_per_s": 0.0, "metal_share": 0.0}, "metal": {"discharges_per_s": 0.0,
+             "metal_share": 0.3}, "no equilibrium": dict.fromkeys(UNITS), "": {"discharges_per_s": 9.0}}  # fmt: skip
+    chosen = [*kinds, *([""] * (POINTS - len(kinds)))]
+    points = [p.model_copy(update=kinds[kind]) for p, kind in zip(found.points, chosen, strict=True)]
+    assert [p.quiet_because for p in points] == chosen
+    changed = found.model_copy(update={"points": points})
+    panel = changed.picture().panels[0]
+    assert [s.name for s in panel.series] == ["films hold", "metal", "no equilibrium"]
+    assert len({s.group for s in panel.series}) == 3
+    assert sum(s.x.size for s in panel.series) == 3
+    assert panel.series[1].x[0] == points[1].speed_rpm
+    assert [p.name for p in changed.picture().panels[1].series] == ["no equilibrium"]
+    cells = changed.text().splitlines()[5].split() + changed.text().splitlines()[6].split()
+    assert cells[1:3] == ["0", "metal"]
+    assert cells[4] == "-"
+
+
+def test_map_in_customary_units(capsys: pytest.CaptureFixture[str], alone: Path) -> None:
+    assert main(["electric-map", str(alone), "--quiet", "--units", "us"]) == 0
+    text = capsys.readouterr().out
+    assert "86 degF" in text
+    assert "degC" not in text
+
+
 def test_point_is_what_the_circuit_of_its_case_gives(alone: Path) -> None:
     """The events behind a point: those of the circuit at three positions of the balls, with the map's seed."""
     from lambda_core.electric.circuit_run import simulate
