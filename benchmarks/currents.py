@@ -11,15 +11,20 @@ from lambda_core.electric.electrified import of_model
 
 CASE = "6208-axial-1300"  # 2750 1/min
 RADIAL = ("loads.axial=0 N", "loads.radial=2 kN")
-SMOOTH = "surface.roughness=0.1 um"  # films that stand most edges; docs/electric.md says what rougher ones cost
-# 10 kHz inverter with 800 V, as by default: many discharges; with 400 V: none.
-LINKS = (("800 V", "with discharges"), ("400 V", "without"))
+SMOOTH, SLOW = "surface.roughness=0.1 um", "operation.speed=500 rpm"
+# 10 kHz inverter with 800 V unless said; 0.16 um rough unless said.
+SITUATIONS: tuple[tuple[str, tuple[str, ...]], ...] = (
+    ("0.1 um, 400 V: nothing discharges", (SMOOTH, "electric.inverter.dc_link=400 V")),
+    ("0.1 um", (SMOOTH,)),
+    ("0.1 um, 500 1/min: every edge discharges", (SMOOTH, SLOW)),
+    ("default", ()),
+    ("500 1/min: metal bridges some films", (SLOW,)),
+)
 
 
-def one_second(link: str, repeats: int) -> tuple[float, float, float, float]:
+def one_second(changes: tuple[str, ...], repeats: int) -> tuple[float, float, float, float]:
     """Return wall time of a simulated second [s], discharges in it, residuals of energy and charge."""
-    changes = [*RADIAL, SMOOTH, "electric.duration=1 s", f"electric.inverter.dc_link={link}"]
-    model = api.check(CASE, changes)
+    model = api.check(CASE, [*RADIAL, "electric.duration=1 s", *changes])
     contacts, bearing = contacts_of_equilibria(equilibria(model), 1.0), of_model(model)
     found = simulate(contacts, bearing)  # what a process loads once is not the circuit's
     seconds = best(lambda: simulate(contacts, bearing), repeats)
@@ -36,9 +41,9 @@ def map_seconds(points: str) -> float:
 
 def measure(effort: Effort) -> Section:
     """Time a second of a 6208 on a 10 kHz inverter, and a map of 200 points."""
-    rows = [(f"dc link {link}, {words}", *one_second(link, effort.repeats)) for link, words in LINKS]
+    rows = [(words, *one_second(changes, effort.repeats)) for words, changes in SITUATIONS]
     table = Table(
-        "One simulated second of a 6208 at 2750 1/min, 2 kN radial, 0.1 um rough, on a 10 kHz inverter",
+        "One simulated second of a 6208 at 2750 1/min, 2 kN radial, 0.16 um rough, on a 10 kHz inverter of 800 V",
         ("circuit", "s", "discharges", "energy residual", "charge residual"),
         tuple(rows),
         ("Quasi-static films at twelve positions of the balls; the time is that of the circuit alone.",),
@@ -53,8 +58,8 @@ def measure(effort: Effort) -> Section:
     )
     targets = [
         Target("circuit per simulated second", "s", max(row[1] for row in rows), 0.3),
-        Target("energy residual with arcs", "", rows[0][3], 1e-6),
-        Target("energy residual without arcs", "", rows[1][3], 1e-9),
+        Target("energy residual with arcs", "", max(row[3] for row in rows[1:]), 1e-6),
+        Target("energy residual without arcs", "", rows[0][3], 1e-9),
         Target("map of 200 points", "s", seconds * (10.0 if effort.quick else 1.0), 60.0),
     ]
     return Section("currents", (table, chart), tuple(targets))

@@ -35,6 +35,121 @@ class Held(NamedTuple):
     rate: Any  # patches per second
 
 
+class Tables(NamedTuple):
+    """Contacts at the samples, arrays of shape (samples, Z, 2); units as in `Held`."""
+
+    capacitance: Any
+    conductance: Any
+    film: Any
+    thinnest: Any
+    area: Any
+    rolled: Any
+
+
+class Whole(NamedTuple):
+    """The whole network over one part of an interval, arrays of shape (n, n)."""
+
+    capacitance: Any  # [F]
+    conductance: Any  # [S]
+    factor: Any  # of Cholesky, of the capacitances
+    turned: Any  # workspace of the rotations
+    shape: Any  # row a: of mode a
+    share: Any  # row of a ring: minus the part of a ball's voltage change that follows it
+
+
+class Nodes(NamedTuple):
+    """Nodes and modes of the whole network, arrays of shape (n,)."""
+
+    charge: Any  # [C]
+    potential: Any  # [V]
+    ahead: Any  # potential at the end of a step [V]
+    amplitude: Any
+    after: Any  # amplitude at the end of a step
+    area: Any  # its integral over a step
+    drive: Any  # what the source does to it per second
+    decay: Any  # [1/s]
+    leak: Any  # current to ground per amplitude
+    mean: Any  # workspace of the start
+
+
+class Part(NamedTuple):
+    """The nodes that take part in a discharge, arrays of shape (m, m)."""
+
+    capacitance: Any  # [F]
+    conductance: Any  # [S]
+    opened: Any  # with the open channels
+    factor: Any
+    turned: Any
+    shape: Any
+    product: Any  # integrals of products of two amplitudes over a step
+    channel: Any  # row of a ring: voltage of its channel per amplitude
+    limit: Any  # row of a ring: voltage that the films of other balls stand, by ball; 0: not looked at
+
+
+class PartNodes(NamedTuple):
+    """Nodes and modes of a discharge, arrays of shape (m,)."""
+
+    charge: Any
+    potential: Any
+    ahead: Any
+    fall: Any  # currents of the channels' falls and of the source into the nodes [A]
+    amplitude: Any
+    after: Any
+    area: Any
+    drive: Any
+    decay: Any
+    lost: Any  # 1 - exp(-x), and this over x, of each mode at the end of a step
+    mean: Any
+    middle: Any  # amplitude halfway
+    other: Any  # potential of each ball [V]
+
+
+class Standing(NamedTuple):
+    """What films stand: the law of the role breakdown, and what it said last."""
+
+    law: Any
+    par: Any  # per ring
+    out: Any
+    roughness: Any  # composite, rms [m]
+    least: Any  # voltage below which nothing breaks down [V]
+    seed: Any
+    known: Any  # patch of each contact that `drawn` was found for
+    drawn: Any  # voltages [V]
+
+
+class Arcs(NamedTuple):
+    """What burns: the law of the role discharge, and the arcs of one discharge."""
+
+    law: Any
+    par: Any  # per ring
+    out: Any
+    state: Any  # Channels
+    rows: Any  # what they did, (2, N_EVENT)
+    stand: Any  # voltages that the films of the ball stand [V]
+    members: Any  # nodes of the whole network that take part
+    place: Any  # of each node among them, -1: it keeps its charge
+    watched: Any  # 1 where what other films stand is known, (1,)
+
+
+class Source(NamedTuple):
+    """Corners of the common-mode voltage."""
+
+    time: Any  # [s]
+    volt: Any  # [V]
+    place: Any  # number of the segment that the march is on, (1,)
+    winding: Any  # capacitance to the rotor [F]
+
+
+class Books(NamedTuple):
+    """What is written down."""
+
+    total: Any  # T_*
+    extremes: Any
+    events: Any  # E_*
+    trace: Any
+    window: Any  # times between which the trace is kept [s]
+
+
 class Channels(NamedTuple):
     """The two channels of a ball in a discharge, arrays of shape (2,)."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -142,6 +143,7 @@ class March:
 
 Corners = tuple[FloatArray, FloatArray]  # times [s], volts
 UNCHARGED: Corners = (np.zeros(0), np.zeros(0))
+_STRETCH = 64  # samples that are marched through at once
 _FIRST_ROOM = 4096  # events that there is room for at first
 _TRACE_ROOM = 20000
 _SUMS = slice(L.T_SOURCE, L.T_ARC_CHARGE + 1)
@@ -178,17 +180,27 @@ class Network:
         substeps: int = 2,
         announce: Any = None,
     ) -> None:
-        from lambda_core.electric.compiled import edges as code
-
         self._run = compiled(announce)
         self._circuit, self._strength, self._seed, self._substeps = circuit, strength, seed, substeps
         size = balls + 2
-        self._work = np.zeros((code.N_WORK, size, size))
-        self._vectors = np.zeros((code.N_VECTORS, size))
-        self._held, self._known = L.Held(*np.zeros((7, balls, 2))), np.zeros((balls, 2), dtype=np.int64)
-        self._drawn, self._outs = np.zeros((balls, 2)), (np.zeros(1), np.zeros(3))
-        self._channels = np.zeros((2, L.N_EVENT)), L.Channels(*np.zeros((5, 2)))
+        self._nodes = L.Nodes(*np.zeros((len(L.Nodes._fields), size)))
         self._total = np.zeros(L.N_TOTAL)
+        self._workspace = (
+            L.Part(*np.zeros((len(L.Part._fields), size, size))),
+            L.PartNodes(*np.zeros((len(L.PartNodes._fields), size))),
+            L.Held(*np.zeros((len(L.Held._fields), balls, 2))),
+            L.Channels(*np.zeros((len(L.Channels._fields), 2))),
+            np.zeros((balls, 2), dtype=np.int64),  # known
+            np.zeros((balls, 2)),  # drawn
+            np.zeros(1),  # break_out
+            np.zeros(3),  # arc_out
+            np.zeros((2, L.N_EVENT)),  # rows
+            np.zeros(2),  # stand
+            np.zeros((2, size), dtype=np.int64),  # members
+        )
+        self._place = np.zeros(2, dtype=np.int64)  # on the source, and whether a discharge watches other films
+        self._whole = L.Whole(*np.zeros((len(L.Whole._fields), size, size)))
+        self._room = _FIRST_ROOM
         self._began = False
 
     @property
@@ -222,26 +234,43 @@ class Network:
         SolverError
             When the network has no capacitance somewhere, a discharge does not end, or a law refuses a contact.
         """
-        before, vectors = self._total.copy(), self._vectors.copy()
-        room = _FIRST_ROOM
+        before = self._total.copy()
+        self._total[L.T_BEGAN] = self.time if self._began else films.time[0]
+        cuts = [*range(0, films.time.size - 1, _STRETCH), films.time.size - 1]
+        parts = [
+            self._stretch(films.part(slice(cut, end + 1)), source, np.array(window, dtype=np.float64), rest, cut)
+            for cut, end in pairwise(cuts)
+        ]
+        events, extremes, trace = (np.concatenate(kind) for kind in zip(*parts, strict=True))
+        total = self._total.copy()
+        total[_SUMS] -= before[_SUMS]
+        total[L.T_EVENTS], total[L.T_TRACE] = events.shape[0], trace.shape[0]
+        if before[L.T_TIME] > 0.0 or before[L.T_SEGMENTS] > 0.0:
+            total[L.T_STORED_0], total[L.T_CHARGE_0] = before[L.T_STORED], before[L.T_CHARGE]
+        return March(events, extremes, trace, total)
+
+    def _stretch(
+        self, films: Films, source: Corners, window: FloatArray, rest: Corners, first: int
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """March through few samples, again where there was too little room; return events, extremes, record."""
+        before, charge, potential = self._total.copy(), self._nodes.charge.copy(), self._nodes.potential.copy()
         while True:
-            events, extremes = np.zeros((room, L.N_EVENT)), np.zeros((films.time.size - 1, 2))
-            trace = np.zeros((_TRACE_ROOM, L.N_TRACE))
-            self._total[:], self._vectors[:] = before, vectors
+            events, extremes = np.empty((self._room, L.N_EVENT)), np.empty((films.time.size - 1, 2))
+            trace = np.empty((_TRACE_ROOM if window[0] <= window[1] else 0, L.N_TRACE))
+            self._total[:], self._nodes.charge[:], self._nodes.potential[:] = before, charge, potential
             self._total[L.T_EVENTS] = self._total[L.T_TRACE] = 0.0
-            status = self._march(films, rest, source, extremes, events, trace, np.array(window, dtype=np.float64))
+            self._place[0] = np.searchsorted(source[0][1:-1], self.time if self._began else films.time[0], side="right")
+            status = self._march(films, rest, source, extremes, events, trace, window)
             if status != L.EVENTS_FULL:
                 break
-            room *= 8
+            self._room *= 8
         if status != L.OK:
             raise SolverError(self._fault(status))
         self._began = True
         extremes[~np.isfinite(extremes)] = np.nan
-        total = self._total.copy()
-        total[_SUMS] -= before[_SUMS]
-        if before[L.T_TIME] > 0.0 or before[L.T_SEGMENTS] > 0.0:
-            total[L.T_STORED_0], total[L.T_CHARGE_0] = before[L.T_STORED], before[L.T_CHARGE]
-        return March(events[: int(total[L.T_EVENTS])].copy(), extremes, trace[: int(total[L.T_TRACE])].copy(), total)
+        events = events[: int(self._total[L.T_EVENTS])].copy()
+        events[:, L.E_SAMPLE] += first
+        return events, extremes, trace[: int(self._total[L.T_TRACE])].copy()
 
     def _march(
         self, films: Films, rest: Corners, source: Corners, extremes: FloatArray, events: FloatArray,
@@ -249,23 +278,14 @@ class Network:
     ) -> int:  # fmt: skip
         """Call the compiled march; return its status."""
         strength, circuit = self._strength, self._circuit
-        tables = (
-            films.time,
-            films.capacitance,
-            films.conductance,
-            films.film,
-            films.thinnest,
-            films.area,
-            films.rolled,
-        )
+        corners = (np.ascontiguousarray(a, dtype=np.float64) for a in (*rest, *source, films.time))
+        tables = L.Tables(*(np.ascontiguousarray(getattr(films, name), dtype=np.float64) for name in L.Tables._fields))
         breaks, arcs = strength.breakdown, strength.discharge
         status = self._run(
-            int(not self._began), *(np.ascontiguousarray(a, dtype=np.float64) for a in (*rest, *source, *tables)),
-            circuit.constants(), strength.roughness, strength.least_voltage,
+            int(not self._began), *corners, tables, circuit.constants(), strength.roughness, strength.least_voltage,
             breaks.kernel.pointer, breaks.par, arcs.kernel.pointer, arcs.par,
-            int(circuit.insulated), self._seed, self._substeps, self._work, self._vectors, self._held, self._known,
-            self._drawn, *self._outs, *self._channels, np.zeros(1, dtype=np.int64), extremes, events, trace, window,
-            self._total,
+            int(circuit.insulated), self._seed, self._substeps, self._whole, self._nodes, *self._workspace, self._place,
+            extremes, events, trace, window, self._total,
         )  # fmt: skip
         return int(status)
 

@@ -1,75 +1,81 @@
-"""Parts of a discharge: the network while arcs burn, when that changes, and what the arcs turn into heat.
+"""The network while arcs burn: the nodes that take part, and the channels between them.
 
 While arcs burn the network is linear too: an open channel is a resistance R with a voltage fall against the current.
-The nodes that matter are the rings and the ball; the other balls keep their charge, and are eliminated by it, unless
-metal joins one of them to a ring.
+The nodes that matter are the rings, the ball and balls that metal joins to a ring; the other balls keep their charge,
+and are eliminated by it. A cage couples all balls: then all of them take part.
 """
 
 from __future__ import annotations
 
 from lambda_core.electric import columns as L
 from lambda_core.electric.compiled.array_types import helper, shared_helper
-from lambda_core.electric.compiled.modes import charges, decay_functions, propagate, voltages
+from lambda_core.electric.compiled.matrices import across_bearing
+from lambda_core.electric.compiled.modes import charges
 
-_ROOT, _PLACE = 60, 1e-9  # steps of the search for a change at most; how well it is placed
-# Gauss and Legendre's four nodes on 0..1 and their weights.
-_NODE_1, _NODE_2 = 0.06943184420297371, 0.33000947820757187
-_WEIGHT_1, _WEIGHT_2 = 0.17392742256872692, 0.32607257743127308
-
-
-@shared_helper
-def reduce_network(n, shared, ball, keep, c, g, q, c_r, g_r, q_r):
-    """Write the network of the rings and one ball (of all balls where `keep` is 1); return its number of nodes."""
-    if keep == 1:
-        for i in range(n):
-            for k in range(n):
-                c_r[i, k] = c[i, k]
-                g_r[i, k] = g[i, k]
-            q_r[i] = q[i]
-        return n
-    size = shared + 1
-    for i in range(size):
-        p = i if i < shared else shared + ball
-        for k in range(size):
-            r = k if k < shared else shared + ball
-            c_r[i, k] = c[p, r]
-            g_r[i, k] = g[p, r]
-        q_r[i] = q[p]
-    for other in range(shared, n):
-        if other == shared + ball:
-            continue
-        for i in range(shared):
-            share = c[i, other] / c[other, other]
-            for k in range(shared):
-                c_r[i, k] -= share * c[other, k]
-            q_r[i] -= share * q[other]
-            g_r[i, i] += g[i, other]  # films that are not part of the discharge do not leak in its time
-    return size
-
-
-@shared_helper
-def restore_charges(n, shared, ball, keep, c, v_r, size, c_r, q, q_r):
-    """Write the charges of all nodes after a discharge."""
-    charges(size, c_r, v_r, q_r)
-    if keep == 1:
-        for i in range(n):
-            q[i] = q_r[i]
-        return
-    for i in range(shared):
-        q[i] = q_r[i]
-        for other in range(shared, n):
-            if other != shared + ball:
-                q[i] += c[i, other] / c[other, other] * q[other]
-    q[shared + ball] = q_r[shared]
+SHORT = 1e-6  # a film that leaks slower than this does nothing during a discharge [s]
+_AS_WEAK = 2.0  # times the least current
 
 
 @helper
-def _channel(shared, node, ring, s, y, size):
-    """Return the voltage of a contact from the modes' amplitudes [V]."""
-    total = 0.0
-    for a in range(size):
-        total += ((s[a, ring] if ring < shared else 0.0) - s[a, node]) * y[a]
-    return total
+def is_joined(node, whole):
+    """Tell whether metal joins a ball to a ring, so that charge flows through it in the time of a discharge."""
+    return whole.conductance[node, node] * SHORT > whole.capacitance[node, node]
+
+
+@helper
+def _choose(n, shared, ball, everyone, whole, members, place):
+    """Write which nodes take part, the ball behind the rings; return how many."""
+    for ring in range(shared):
+        members[ring] = ring
+    members[shared] = shared + ball
+    m = shared + 1
+    for other in range(shared, n):
+        place[other] = -1
+        if other != shared + ball and (everyone == 1 or is_joined(other, whole)):
+            place[other] = m
+            members[m] = other
+            m += 1
+    place[shared + ball] = shared
+    return m
+
+
+@shared_helper
+def take_part(n, shared, ball, everyone, whole, nodes, part, own, members, place):
+    """Write the network of the nodes that take part in a discharge; return how many there are."""
+    m = _choose(n, shared, ball, everyone, whole, members, place)
+    c, g = whole.capacitance, whole.conductance
+    for i in range(m):
+        p = members[i]
+        own.charge[i], own.potential[i] = nodes.charge[p], nodes.potential[p]
+        for k in range(m):
+            part.capacitance[i, k], part.conductance[i, k] = c[p, members[k]], g[p, members[k]]
+    for other in range(shared, n):
+        if place[other] != -1:
+            continue
+        for i in range(shared):
+            for k in range(shared):
+                part.capacitance[i, k] -= whole.share[i, other] * c[other, k]
+            own.charge[i] -= whole.share[i, other] * nodes.charge[other]
+            part.conductance[i, i] += g[i, other]  # such films do not leak in the time of a discharge
+    return m
+
+
+@shared_helper
+def give_back(n, m, shared, whole, nodes, part, own, members, place):
+    """Write the charges of all nodes after a discharge."""
+    charges(m, part.capacitance, own.potential, own.charge)
+    for i in range(m):
+        nodes.charge[members[i]] = own.charge[i]
+    for other in range(shared, n):
+        if place[other] == -1:
+            for i in range(shared):
+                nodes.charge[i] += whole.share[i, other] * nodes.charge[other]
+
+
+@helper
+def channel_voltage(ring, shared, v):
+    """Return the voltage of a contact of the ball: potential of the ring less that of the ball [V]."""
+    return (v[ring] if ring < shared else 0.0) - v[shared]
 
 
 @helper
@@ -79,108 +85,54 @@ def channel_current(voltage, ring, state):
 
 
 @shared_helper
-def open_network(size, shared, node, state, g_r, g, inject):
-    """Write the conductances with the open channels, and the currents of their falls into the nodes [A]."""
-    for i in range(size):
-        inject[i] = 0.0
-        for k in range(size):
-            g[i, k] = g_r[i, k]
-    for ring in range(2):
-        if state.burns[ring] == 0.0:
-            continue
-        part = 1.0 / state.resistance[ring]
-        fall = state.sign[ring] * state.fall[ring] * part
-        g[node, node] += part
-        inject[node] -= fall
-        if ring < shared:
-            g[ring, ring] += part
-            g[ring, node] -= part
-            g[node, ring] -= part
-            inject[ring] += fall
+def open_channel(ring, ball, now, shared, v, held, arcs):
+    """Let a channel conduct, in the direction that its voltage drives; return the status of its law, 0: it cannot."""
+    voltage, out, state, row = channel_voltage(ring, shared, v), arcs.out, arcs.state, arcs.rows[ring]
+    status = arcs.law(abs(voltage), held.film[ball, ring], held.area[ball, ring], arcs.par[ring], out)
+    if status != 1:
+        return status
+    if not abs(voltage) > out[1] + out[0] * out[2]:
+        return 0
+    state.burns[ring] = 1.0
+    state.sign[ring] = 1.0 if voltage >= 0.0 else -1.0
+    state.resistance[ring], state.fall[ring], state.least[ring] = out[0], out[1], out[2]
+    if row[L.E_CONTACT_VOLTAGE] == 0.0:
+        row[L.E_TIME] = now
+        row[L.E_CONTACT_VOLTAGE] = voltage
+        row[L.E_BEARING_VOLTAGE] = across_bearing(shared, v)
+    return 1
 
 
 @helper
-def _leaky(size, g_r):
-    """Return 1 where the network conducts besides its arcs."""
-    for i in range(size):
-        if g_r[i, i] > 0.0:
-            return 1
-    return 0
+def quench(ring, now, shared, v, arcs):
+    """Let an arc die, and the other one with it that is in series with it and as weak; tell whether none is left."""
+    state = arcs.state
+    for which in range(2):
+        if state.burns[which] == 0.0:
+            continue
+        current = abs(channel_current(channel_voltage(which, shared, v), which, state))
+        if which == ring or current < _AS_WEAK * state.least[which]:
+            state.burns[which] = 0.0
+            arcs.rows[which, L.E_DURATION] = now - arcs.rows[which, L.E_TIME]
+    return state.burns[0] == 0.0 and state.burns[1] == 0.0
 
 
-@shared_helper
-def book(size, shared, node, state, decay, s, y, drive, dt, at, g_r, v, rows, total):
-    """Add up heat, arc energies and charges over one step, by Gauss and Legendre's rule; `at` and `v` are workspace."""
-    leaky = _leaky(size, g_r)
-    for point in range(4):
-        place = _NODE_1 if point in (0, 3) else _NODE_2
-        weight = dt * (_WEIGHT_1 if point in (0, 3) else _WEIGHT_2)
-        moment = dt * (place if point < 2 else 1.0 - place)
-        for a in range(size):
-            gone, first, _ = decay_functions(decay[a] * moment)
-            at[a] = y[a] * gone + drive[a] * moment * first
-        if leaky == 1:
-            voltages(size, s, at, v)
-            for i in range(size):
-                flow = 0.0
-                for k in range(size):
-                    flow += g_r[i, k] * v[k]
-                total[L.T_OHMIC] += weight * v[i] * flow
-                total[L.T_LEAK] += weight * flow
-        for ring in range(2):
-            if state.burns[ring] != 0.0:
-                voltage = _channel(shared, node, ring, s, at, size)
-                current = channel_current(voltage, ring, state)
-                rows[ring, L.E_ENERGY] += weight * voltage * current
-                rows[ring, L.E_CHARGE] += weight * abs(current)
-                total[L.T_ARC] += weight * voltage * current
-                if ring >= shared:
-                    total[L.T_ARC_CHARGE] -= weight * current
-
-
-@shared_helper
-def _happens(size, shared, node, state, stand, s, y):
-    """Return how far the amplitudes are past the next change: > 0 past it, and which ring it is about."""
-    worst, which = -1.0, 0
+@helper
+def conduct(m, shared, state, part, own):
+    """Write the conductances with the open channels, and the currents of their falls into the nodes [A]."""
+    for i in range(m):
+        own.fall[i] = 0.0
+        for k in range(m):
+            part.opened[i, k] = part.conductance[i, k]
     for ring in range(2):
-        voltage = _channel(shared, node, ring, s, y, size)
-        if state.burns[ring] != 0.0:
-            # An arc dies where its current falls below the least one, or would turn round.
-            past = 1.0 - state.sign[ring] * channel_current(voltage, ring, state) / state.least[ring]
-        else:
-            past = abs(voltage) / stand[ring] - 1.0
-        if past > worst:
-            worst, which = past, ring
-    return worst, which
-
-
-@shared_helper
-def until_change(size, shared, node, state, stand, decay, s, y, drive, dt, after, area):
-    """Return the part of the step dt after which something changes, and the ring that it is about (-1: nothing does).
-
-    A channel that has just opened carries more than the least current, so the step starts before the change.
-    """
-    low = 0.0
-    low_past, ring = _happens(size, shared, node, state, stand, s, y)
-    if low_past >= 0.0:
-        return 0.0, ring
-    propagate(size, decay, y, drive, dt, after, area)
-    past, ring = _happens(size, shared, node, state, stand, s, after)
-    if past < 0.0:
-        return dt, -1
-    high, high_past, side = dt, past, 0
-    for _ in range(_ROOT):  # false position after the Illinois rule
-        at = (low * high_past - high * low_past) / (high_past - low_past)
-        propagate(size, decay, y, drive, at, after, area)
-        past, which = _happens(size, shared, node, state, stand, s, after)
-        if past >= 0.0:
-            high, high_past, ring = at, past, which
-            low_past *= 0.5 if side == 1 else 1.0
-            side = 1
-        else:
-            low, low_past = at, past
-            high_past *= 0.5 if side == -1 else 1.0
-            side = -1
-        if high - low <= _PLACE * dt or 0.0 <= past < _PLACE:
-            break
-    return high, ring
+        if state.burns[ring] == 0.0:
+            continue
+        conductance = 1.0 / state.resistance[ring]
+        fall = state.sign[ring] * state.fall[ring] * conductance
+        part.opened[shared, shared] += conductance
+        own.fall[shared] -= fall
+        if ring < shared:
+            part.opened[ring, ring] += conductance
+            part.opened[ring, shared] -= conductance
+            part.opened[shared, ring] -= conductance
+            own.fall[ring] += fall

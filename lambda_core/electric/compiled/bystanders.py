@@ -2,74 +2,78 @@
 
 from __future__ import annotations
 
-import math
-
 from lambda_core.electric.compiled.array_types import helper, shared_helper
 from lambda_core.electric.compiled.modes import propagate, voltages
 from lambda_core.electric.compiled.patches import threshold
 
-_HALVINGS = 40
-
-
-@helper
-def _potential(other, shared, keep, c, q, v):
-    """Return the potential of another ball [V], which keeps its charge where it is not among the nodes of `v`."""
-    if keep == 1:
-        return v[other]
-    found = q[other]
-    for i in range(shared):
-        found -= c[other, i] * v[i]
-    return found / c[other, other]
+_ROOT, _PLACE = 60, 1e-9  # steps of the search at most; how well the moment is placed
 
 
 @shared_helper
-def past_breakdown(n, shared, ball, keep, c, q, v, limits):
+def watch(ball, elapsed, held, films, limit):
+    """Write what the films of the other balls stand, on the patches that they are on `elapsed` after `held` began."""
+    for j in range(held.film.shape[0]):
+        for ring in range(2):
+            limit[ring, j] = 0.0
+            if j != ball and held.film[j, ring] > 0.0:
+                limit[ring, j] = max(threshold(j, ring, elapsed, held, films), 0.0)
+
+
+@shared_helper
+def past_breakdown(n, shared, whole, nodes, limit, v, place):
     """Return how far the film of another ball is past its breakdown, relative: >= 0 past it.
 
     Parameters
     ----------
-    limits : float64[:, :], shape (2, at least Z)
-        Voltages that the films stand [V]; 0 for films that are not looked at.
+    v : float64[:]
+        Potentials of the nodes that take part [V]; other balls keep their charge.
     """
     worst = -1.0
     for other in range(shared, n):
-        if other == shared + ball:
+        if place[other] == shared:
             continue
-        potential = _potential(other, shared, keep, c, q, v)
+        if place[other] >= 0:
+            potential = v[place[other]]
+        else:
+            potential = nodes.charge[other] / whole.capacitance[other, other]
+            for i in range(shared):
+                potential -= whole.share[i, other] * v[i]
         for ring in range(2):
-            limit = limits[ring, other - shared]
-            if limit > 0.0:
+            stands = limit[ring, other - shared]
+            if stands > 0.0:
                 voltage = (v[ring] if ring < shared else 0.0) - potential
-                worst = max(worst, abs(voltage) / limit - 1.0)
+                worst = max(worst, abs(voltage) / stands - 1.0)
     return worst
 
 
-@shared_helper
-def watch(
-    ball, held, elapsed, roughness, least, law, par, out, seed, known, drawn, limits
-):  # fmt: skip
-    """Write what the films of the other balls stand, on the patches that they are on `elapsed` after `held` began."""
-    for j in range(held.film.shape[0]):
-        for ring in range(2):
-            limits[ring, j] = 0.0
-            if j != ball and held.film[j, ring] > 0.0:
-                patch = math.floor(held.rolled[j, ring] + held.rate[j, ring] * elapsed)
-                stands = threshold(j, ring, patch, held, roughness, least, law, par, out, seed, known, drawn)
-                limits[ring, j] = max(stands, 0.0)
+@helper
+def breakdown_ahead(m, n, shared, dt, whole, nodes, part, own, place):
+    """Return how far the film of another ball is past its breakdown after dt."""
+    propagate(m, own.decay, own.amplitude, own.drive, dt, own.after, own.area)
+    voltages(m, part.shape, own.after, own.ahead)
+    return past_breakdown(n, shared, whole, nodes, part.limit, own.ahead, place)
 
 
 @shared_helper
-def first_moment(
-    dt, size, decay, s, y, drive, after, area, ahead, n, shared, ball, keep, c, q, limits
-):  # fmt: skip
-    """Return the part of the step dt after which the film of another ball breaks down [s], by halving; 0: at once."""
-    low, high = 0.0, dt
-    for _ in range(_HALVINGS):
-        at = 0.5 * (low + high)
-        propagate(size, decay, y, drive, at, after, area)
-        voltages(size, s, after, ahead)
-        if past_breakdown(n, shared, ball, keep, c, q, ahead, limits) >= 0.0:
-            high = at
+def first_moment(m, n, shared, low, high, high_past, whole, nodes, part, own, place):
+    """Return when between two times the film of another ball breaks down [s], on the far side.
+
+    False position after the Illinois rule; `high_past` is how far it is past its breakdown at the later time.
+    """
+    low_past, side = breakdown_ahead(m, n, shared, low, whole, nodes, part, own, place), 0
+    if low_past >= 0.0:
+        return low
+    for _ in range(_ROOT):
+        if high - low <= _PLACE * high or high_past < _PLACE:
+            break
+        at = (low * high_past - high * low_past) / (high_past - low_past)
+        found = breakdown_ahead(m, n, shared, at, whole, nodes, part, own, place)
+        if found >= 0.0:
+            high, high_past = at, found
+            low_past *= 0.5 if side == 1 else 1.0
+            side = 1
         else:
-            low = at
+            low, low_past = at, found
+            high_past *= 0.5 if side == -1 else 1.0
+            side = -1
     return high

@@ -61,6 +61,27 @@ def _cage(n, shared, machine, c):
 
 
 @helper
+def shares(n, shared, c, share):
+    """Write c_ri/c_ii of every ball i: a ball that keeps its charge follows ring r by minus this part of its change."""
+    for ring in range(shared):
+        for i in range(shared, n):
+            share[ring, i] = c[ring, i] / c[i, i]
+
+
+@helper
+def leaks(n, g, s, workspace, out):
+    """Write the current to ground through the conductances per amplitude of each mode."""
+    for i in range(n):
+        workspace[i] = 0.0
+        for k in range(n):
+            workspace[i] += g[k, i]
+    for a in range(n):
+        out[a] = 0.0
+        for i in range(n):
+            out[a] += workspace[i] * s[a, i]
+
+
+@helper
 def across(shared, v, ball, ring):
     """Return the voltage of a contact: potential of the ring less that of the ball [V]."""
     potential = v[ring] if ring < shared else 0.0

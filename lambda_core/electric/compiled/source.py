@@ -5,28 +5,28 @@ from __future__ import annotations
 import math
 
 from lambda_core.electric.columns import ROTOR
-from lambda_core.electric.compiled.array_types import helper, shared_helper
-
-
-@shared_helper
-def slope_at(now, source_t, source_v, place):
-    """Move `place` to the segment of the source at `now`; return its slope [V/s] and its end [s]."""
-    while place[0] < source_t.size - 2 and source_t[place[0] + 1] <= now:
-        place[0] += 1
-    k = place[0]
-    length = source_t[k + 1] - source_t[k]
-    if now >= source_t[k + 1]:
-        return 0.0, math.inf
-    return (source_v[k + 1] - source_v[k]) / length, source_t[k + 1]
+from lambda_core.electric.compiled.array_types import helper
 
 
 @helper
-def voltage_at(now, source_t, source_v, place):
-    """Return the source's voltage on the segment that `place` is at [V]."""
+def slope_at(now, source):
+    """Move `place` to the segment of the source at `now`; return its slope [V/s] and its end [s]."""
+    place, time, volt = source.place, source.time, source.volt
+    while place[0] < time.size - 2 and time[place[0] + 1] <= now:
+        place[0] += 1
     k = place[0]
-    if now >= source_t[k + 1]:
-        return source_v[k + 1]
-    return source_v[k] + (source_v[k + 1] - source_v[k]) / (source_t[k + 1] - source_t[k]) * (now - source_t[k])
+    if now >= time[k + 1]:
+        return 0.0, math.inf
+    return (volt[k + 1] - volt[k]) / (time[k + 1] - time[k]), time[k + 1]
+
+
+@helper
+def voltage_at(now, source):
+    """Return the source's voltage on the segment that `place` is at [V]."""
+    k, time, volt = source.place[0], source.time, source.volt
+    if now >= time[k + 1]:
+        return volt[k + 1]
+    return volt[k] + (volt[k + 1] - volt[k]) / (time[k + 1] - time[k]) * (now - time[k])
 
 
 @helper
