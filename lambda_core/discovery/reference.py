@@ -29,6 +29,7 @@ def _role(role: Role) -> str:
     ]
     for argument in role.arguments:
         kind = {"f": "float", "a": "array"}[argument.kind] + (", output" if argument.output else "")
+        kind += ", may be left out" if argument.optional else ""
         meaning = "; ".join(role.outputs) if argument.meaning == "results" else argument.meaning
         lines.append(f"| `{argument.name}` | {kind} | {meaning} |")
     return "\n".join([*lines, ""])

@@ -13,6 +13,7 @@ class Argument:
     kind: str  # "f": float64 scalar, "a": float64[:] contiguous
     meaning: str
     output: bool = False
+    optional: bool = False  # came later: a kernel that does not name it is not given it
 
 
 @dataclass(frozen=True)
@@ -39,9 +40,10 @@ class Role:
 
 
 def arguments_of(spec: str) -> tuple[Argument, ...]:
-    """Read ``name kind meaning; ...``; a kind of ``A`` is an output array."""
+    """Read ``name kind meaning; ...``; a kind of ``A`` is an output array, ``f?`` an optional number."""
     result = []
     for part in spec.split(";"):
         name, kind, meaning = part.strip().split(" ", 2)
-        result.append(Argument(name, kind.lower(), meaning, output=kind == "A"))
+        plain = kind.rstrip("?")
+        result.append(Argument(name, plain.lower(), meaning, output=plain == "A", optional=kind != plain))
     return tuple(result)

@@ -46,6 +46,10 @@ ROLES: dict[str, Role] = {
             "normal force opposing the penetration velocity",
             arguments_of(
                 "delta f penetration [m]; delta_dot f penetration velocity [m/s]; load f elastic load [N]; "
+                "u_mean f? mean surface velocity, >= 0 [m/s]; semi_a f? semi-axis across rolling [m]; "
+                "semi_b f? semi-axis along rolling [m]; R_x f? reduced radius along rolling [m]; "
+                "R_y f? reduced radius across rolling [m]; E_eff f? E' [Pa]; "
+                "eta0 f? viscosity at ambient pressure [Pa s]; alpha_p f? pressure-viscosity coefficient [1/Pa]; "
                 "par a parameters; out A results"
             ),
             ("force along the elastic load, of the sign of delta_dot [N]",),

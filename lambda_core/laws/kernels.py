@@ -148,7 +148,7 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
     start = time.perf_counter()
     kernel, reached = plain_function(model), kernel_reach(model)
     arguments, layout = argument_names(model.role), par_layout(model)
-    words = f"{model.role} {reached.key} {binding.source(arguments, layout)}"
+    words = f"{model.role} {reached.key} {binding.source(arguments, layout, binding.taken_by(kernel))}"
     key = hashlib.sha256(words.encode()).hexdigest()
     checked = is_checked() and project_of(model.distribution) != OWN
     folder = cache_folder() / f"{model.role}-{key[:24]}-{_environment()}{'-checked' if checked else ''}"
@@ -188,14 +188,18 @@ def _check_arguments(model: Law, kernel: FunctionType) -> None:
     """Compare names and order with the role: two swapped arrays would compile without a word."""
     if model.role not in ROLES:
         raise PluginError(unknown_name("role", model.role, ROLES))
-    taken, wanted = inspect.signature(kernel), argument_names(model.role)
+    taken = inspect.signature(kernel)
+    left_out = {each.name for each in ROLES[model.role].arguments if each.optional} - taken.parameters.keys()
+    wanted = tuple(name for name in argument_names(model.role) if name not in left_out)
     plain = all(each.kind is inspect.Parameter.POSITIONAL_OR_KEYWORD for each in taken.parameters.values())
     if tuple(taken.parameters) != wanted or not plain:
         bare = taken.replace(
             parameters=[each.replace(annotation=inspect.Parameter.empty) for each in taken.parameters.values()],
             return_annotation=inspect.Signature.empty,
         )
-        raise PluginError(f"{model.label} takes {bare}; {model.role} kernels take ({', '.join(wanted)})")
+        every = ", ".join(argument_names(model.role))
+        some = "" if len(wanted) == len(argument_names(model.role)) else f", and need only ({', '.join(wanted)})"
+        raise PluginError(f"{model.label} takes {bare}; {model.role} kernels take ({every}){some}")
 
 
 _in_memory: dict[Path, CompiledKernel] = {}

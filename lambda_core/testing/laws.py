@@ -17,6 +17,7 @@ from lambda_core.domain.roles import ROLES
 from lambda_core.laws import check
 from lambda_core.laws.check import ModelReport
 from lambda_core.laws.context import Context
+from lambda_core.laws.jit.binding import taken_by
 from lambda_core.laws.kernels import compile_kernel
 from lambda_core.laws.law import Law, law_of
 from lambda_core.laws.par import make_par
@@ -85,7 +86,7 @@ def evaluate(
     parameters, context
         As for :func:`check_model`; the context of the role's first force element by default.
     **arguments : float or array_like
-        Every argument of the role except ``par`` and the outputs, SI. Numbers stand for
+        Every argument of the role except ``par``, the outputs and what the kernel leaves out, SI. Numbers stand for
         arrays of the common length in elementwise roles.
 
     Returns
@@ -104,6 +105,8 @@ def evaluate(
     law = _model(model)
     role = ROLES[law.role]
     wanted = [a.name for a in role.arguments if not a.output and a.name != "par"]
+    spared = {a.name: np.nan for a in role.arguments if a.optional and a.name not in taken_by(law.kernel)}
+    arguments = {**spared, **arguments}
     missing = [name for name in wanted if name not in arguments]
     if missing:
         raise TypeError(f"{law.label} needs {', '.join(missing)}")

@@ -66,6 +66,37 @@ def cubic(delta: float, delta_dot: float, load: float, par: Onset, out: FloatArr
     return OK
 
 
+class HuntCrossley(Parameters):
+    """Constant of hysteretic damping."""
+
+    alpha: float = parameter(
+        0.08,
+        "loss per velocity of impact, alpha in e = 1 - alpha v [s/m]",
+        source="0.08 to 0.32 s/m of steel, bronze and ivory: Hunt and Crossley 1975 (as quoted, original not seen)",
+        status="unconfirmed",
+        published_range=(0.08, 0.32),
+        ge=0.0,
+    )
+
+
+@law(
+    "damping",
+    "hunt-crossley",
+    HuntCrossley,
+    role_api=2,
+    reference="Hunt and Crossley 1975, J. Appl. Mech. 42, 440",
+    validity="dry impacts at low speed, alpha v far below 1; no oil between the bodies",
+)
+def hunt_crossley(delta: float, delta_dot: float, load: float, par: HuntCrossley, out: FloatArray) -> int:
+    """Damping in proportion to the load, after Hunt and Crossley.
+
+    F_D = (3/2) alpha Q delta_dot: no force at first touch, none of tension, and a blow at v rebounds with
+    (1 - alpha v) v to first order. Hunt and Crossley 1975, J. Appl. Mech. 42, 440.
+    """
+    out[0] = at_least(1.5 * par.alpha * load * delta_dot, -load)
+    return OK
+
+
 @law("damping", "none", role_api=2, reference="-")
 def none(delta: float, delta_dot: float, load: float, par: NoParameters, out: FloatArray) -> int:
     """No damping."""

@@ -24,6 +24,7 @@ CHECKED: dict[str, tuple[str, str]] = {
     "normal_contact/hamrock-brewe": (CONTACT, "test_error_of_the_hamrock_brewe_fit_is_the_stated_one"),
     "normal_contact/hertz-exact": (CONTACT, "test_exact_hertz_meets_the_table_of_dimensionless_numbers"),
     "damping/cubic": (CLOSED, "test_cubic_damping"),
+    "damping/hunt-crossley": (CLOSED, "test_a_blow_rebounds_as_hunt_and_crossley_say"),
     "damping/none": NOTHING,
     "rheology/vogel-dicke": (LUBRICANT, "test_fva3_viscosity"),
     "rheology/bode": (LUBRICANT, "test_bode_viscosity"),

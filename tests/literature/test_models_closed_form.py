@@ -34,6 +34,20 @@ def test_cubic_damping() -> None:
     assert work == pytest.approx(2000.0 * 0.5 * 4e-6, rel=1e-5)
 
 
+def test_a_blow_rebounds_as_hunt_and_crossley_say() -> None:
+    """A mass of 0.1 kg on k delta^1.5, struck at 0.1 and 0.2 m/s; what is of second order in alpha v is left out."""
+    mass, stiffness, options = 0.1, 1e10, {"alpha": 0.1}
+    for speed in (0.1, 0.2):
+        delta, velocity, step = 0.0, speed, 5e-7
+        while delta >= 0.0:
+            load = stiffness * delta**1.5
+            damped = float(evaluate("damping/hunt-crossley", options, delta=delta, delta_dot=velocity, load=load)[0])
+            velocity -= step * (load + damped) / mass
+            delta += step * velocity
+        lost = 1.0 + velocity / speed
+        Published(0.1 * speed, "Hunt and Crossley 1975, e = 1 - alpha v", "second order", rel=0.03).check(lost)
+
+
 def test_damping_by_default_is_a_time_times_the_slope_of_hertz() -> None:
     """dQ/d(delta) = (3/2) Q/delta of any Hertzian contact; 4 % for the fit of Hamrock and Brewe."""
     context = trial_context("ball_inner")

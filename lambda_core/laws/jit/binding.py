@@ -7,6 +7,7 @@ is taken into the kernel, and reading ``par.limit_ratio`` is reading one number.
 
 from __future__ import annotations
 
+import inspect
 from collections import namedtuple
 from collections.abc import Callable, Iterator
 from functools import lru_cache
@@ -26,19 +27,21 @@ class PositionError(TypeError):
         self.index = index
 
 
-def source(arguments: tuple[str, ...], layout: Layout) -> str:
+def source(arguments: tuple[str, ...], layout: Layout, taken: tuple[str, ...]) -> str:
     """Return the generated function as text.
 
     Parameters
     ----------
     arguments : tuple of str
-        Of the kernel, in order; one of them is ``par``.
+        Of the role, in order; one of them is ``par``.
     layout : Layout
         Names of the record, in the order of the flat array.
+    taken : tuple of str
+        Arguments that the kernel has.
     """
     counts: list[str] = []
     record, _ = _record(layout, "0", counts, iter(range(1000)))
-    handed = ", ".join("record" if name == "par" else name for name in arguments)
+    handed = ", ".join("record" if name == "par" else name for name in taken)
     lines = [
         f"def flat({', '.join(arguments)}):",
         *counts,
@@ -46,6 +49,11 @@ def source(arguments: tuple[str, ...], layout: Layout) -> str:
         f"return kernel({handed})",
     ]
     return "\n    ".join(lines) + "\n"
+
+
+def taken_by(kernel: Callable[..., int]) -> tuple[str, ...]:
+    """Return the names of a kernel's arguments: it may leave out what its role had not at first."""
+    return tuple(inspect.signature(kernel).parameters)
 
 
 @lru_cache(maxsize=256)
@@ -67,7 +75,7 @@ def bound(
     for place, each in enumerate(_layouts(layout)):
         base: type = namedtuple(each.name, each.names)  # type: ignore[misc]
         scope[f"Record{place}"] = type(each.name, (_Strict, base), {}) if strict else base
-    exec(compile(source(arguments, layout), FILE, "exec"), scope)
+    exec(compile(source(arguments, layout, taken_by(kernel)), FILE, "exec"), scope)
     made: FunctionType = scope["flat"]
     made.__name__ = made.__qualname__ = kernel.__name__
     return made

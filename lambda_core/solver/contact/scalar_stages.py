@@ -29,6 +29,17 @@ def finite(values):
 
 
 @helper
+def damping_force(raceway, kin, velocity, laws, par, contact, out):
+    """Call the damping law of a contact at a penetration velocity: out[0]; returns its status."""
+    oil, rx, ry, e = raceway.oil, raceway.radius_x, raceway.radius_y, raceway.modulus
+    u = math.sqrt(kin.entrainment_t * kin.entrainment_t + kin.entrainment_s * kin.entrainment_s)
+    return laws.damping(
+        kin.penetration, velocity, contact.load, u, contact.semi_axis_a, contact.semi_axis_b, rx, ry, e,
+        oil.viscosity, oil.alpha_p, part(par, raceway.parameters.damping), out,
+    )  # fmt: skip
+
+
+@helper
 def normal_stage(raceway, kin, laws, par, system, contact, out, fault):
     """Elastic load, contact ellipse and damping force."""
     delta, ring, where = kin.penetration, raceway.number, raceway.parameters
@@ -43,7 +54,7 @@ def normal_stage(raceway, kin, laws, par, system, contact, out, fault):
         contact.damping_force = 0.0
         return 1
     out[0] = np.nan
-    status = laws.damping(delta, kin.normal_velocity, load, part(par, where.damping), out)
+    status = damping_force(raceway, kin, kin.normal_velocity, laws, par, contact, out)
     if status != 1 or not abs(out[0]) < np.inf:
         return report(fault, DAMPING, status, ring, delta, kin.normal_velocity, load, 0.0)
     # A contact never pulls: the damping force cannot exceed the elastic one.

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from lambda_core.solver.contact.raceway import pipeline
 from lambda_core.solver.contact.resultant import rolling_speeds, sum_wrench
-from lambda_core.solver.contact.scalar_stages import film_stage
+from lambda_core.solver.contact.scalar_stages import damping_force, film_stage
 from lambda_core.solver.contact.shear import CELL_VARIANCE, shear_stage
-from lambda_core.solver.layout import KINEMATIC_ROWS, cells_of, grid_of, helper, part, vector_helper
+from lambda_core.solver.layout import KINEMATIC_ROWS, cells_of, grid_of, helper, vector_helper
 from lambda_core.solver.vec import clear, store
 
 _RELATIVE = 1e-5  # relative step of the small differences; the laws are smooth at this scale
@@ -91,7 +91,7 @@ def _damping_column(raceway, kin, laws, par, contact, out, slope):
     """Write d(wrench)/d(normal velocity), which the damping law alone depends on."""
     step = 1e-4 * abs(kin.normal_velocity) + 1e-6
     out[0] = 0.0
-    laws.damping(kin.penetration, kin.normal_velocity + step, contact.load, part(par, raceway.parameters.damping), out)
+    damping_force(raceway, kin, kin.normal_velocity + step, laws, par, contact, out)
     slope.normal_velocity.force[2] = -(max(out[0], -contact.load) - contact.damping_force) / step
 
 
