@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from lambda_cli.options import JsonOption, Units, UnitsOption
+from lambda_cli.pictures import picture_kind, print_picture
 from lambda_core.domain.files import check_folder
 
 if TYPE_CHECKING:
@@ -30,6 +32,9 @@ def view(
     options: Annotated[
         list[str] | None, typer.Option("--set", metavar="OPTION=VALUE", help="Option of the view (see --list).")
     ] = None,
+    shown: Annotated[
+        bool, typer.Option("--show", help="Print the pictures in a terminal with kitty's graphics or sixel; no files.")
+    ] = False,
     show_list: Annotated[bool, typer.Option("--list", help="List the views and their options.")] = False,
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,
@@ -45,28 +50,39 @@ def view(
         return
     sources, name = _sorted_out(words or [])
     chosen = dict(_pairs(options or []))
-    if not (as_json or out.is_file()):  # of a file the drawing says what it would write instead
+    kind = picture_kind() if shown and not as_json else None
+    if not (as_json or kind or out.is_file()):  # of a file the drawing says what it would write instead
         check_folder(out, made=True)
     data = [api.view(sources, name, chosen)] if name else list(_all(sources))
     if as_json:
         plain = [one.as_dict() for one in data]
         typer.echo(json.dumps(plain[0] if name else {"version": 1, "views": plain}, indent=2, allow_nan=False))
         return
-    from lambda_core.domain.plugin_errors import PluginError, went_on_without
     from lambda_core.views.other_units import in_units
 
-    stem = api.view_stem(sources)
-    for one in data:
-        try:
-            drawn = api.draw(in_units(one, units.system), out, stem, formats or ("svg", "png"))
-        except PluginError as fault:
-            if name:
-                raise
-            went_on_without(str(fault))  # the other views are drawn
-            typer.echo(f"{one.view}: {fault}", err=True)
-            continue
-        for path in drawn:
-            typer.echo(str(path))
+    with TemporaryDirectory(prefix="lambda-bearing-") as unseen:
+        target, chosen_formats = (Path(unseen), ("png",)) if kind else (out, tuple(formats or ("svg", "png")))
+        for one in data:
+            for path in _drawn(in_units(one, units.system), target, api.view_stem(sources), chosen_formats, bool(name)):
+                if kind:
+                    print_picture(path, kind)
+                else:
+                    typer.echo(str(path))
+
+
+def _drawn(data: ViewData, out: Path, stem: str, formats: tuple[str, ...], alone: bool) -> list[Path]:
+    """Draw a view; one of a plugin that fails among others is told, and the others are drawn."""
+    from lambda_core import api
+    from lambda_core.domain.plugin_errors import PluginError, went_on_without
+
+    try:
+        return api.draw(data, out, stem, formats)
+    except PluginError as fault:
+        if alone:
+            raise
+        went_on_without(str(fault))
+        typer.echo(f"{data.view}: {fault}", err=True)
+        return []
 
 
 def _all(sources: list[str]) -> Iterable[ViewData]:

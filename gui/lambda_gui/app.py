@@ -22,6 +22,8 @@ from lambda_gui.runs import open_queue
 from lambda_gui.theme import DARK, LIGHT
 
 if TYPE_CHECKING:
+    from textual.widget import Widget
+
     from lambda_core.api import QueuedRun
     from lambda_gui.taken import Kind, Taken
 
@@ -39,6 +41,8 @@ class BuilderApp(CaseApp):
         Whether nothing else runs in this process.
     units : UnitSystem
         In which numbers that follow and results are shown; files and forms stay as they are written.
+    picture : type of Widget, optional
+        What shows a picture file in this terminal; without it views are text charts.
     """
 
     TITLE = "lambda-bearing"
@@ -60,9 +64,17 @@ class BuilderApp(CaseApp):
         text-style: bold; background-tint: $foreground 0%; }
     """
 
-    def __init__(self, case: str | None = None, *, is_alone: bool = False, units: UnitSystem = SI) -> None:
+    def __init__(
+        self,
+        case: str | None = None,
+        *,
+        is_alone: bool = False,
+        units: UnitSystem = SI,
+        picture: type[Widget] | None = None,
+    ) -> None:
         super().__init__()
         self.units = units
+        self.picture = picture
         self._start = case
         self._is_alone = is_alone
         self.queue = open_queue(self._run_ended)
@@ -294,4 +306,6 @@ class BuilderApp(CaseApp):
 
 def main(case: str | None = None, units: UnitSystem = SI) -> None:
     """Run the builder in this terminal."""
-    BuilderApp(case, is_alone=True, units=units).run()
+    from lambda_gui.pictures import picture_widget
+
+    BuilderApp(case, is_alone=True, units=units, picture=picture_widget()).run()

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from textual import work
 from textual.screen import Screen
 
 from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.unit_systems import UnitSystem
 from lambda_gui.dialogs import AskText
 from lambda_gui.helper import Helper
 
@@ -33,6 +34,11 @@ class ExportScreen(Screen[None]):
     def _say(self, text: str) -> None:
         if self.is_attached:
             self.say(text)
+
+    @property
+    def _units(self) -> UnitSystem:
+        found: UnitSystem = self.app.units  # type: ignore[attr-defined]
+        return found
 
     def say(self, words: str = "") -> None:
         """Say what is going on."""
@@ -96,7 +102,8 @@ class ExportScreen(Screen[None]):
         if answer is None:
             return
         target = str(Path(answer).expanduser())
-        more = {"name": self._view, "folder": target} if what == "draw" else {"target": target}
+        figure = {"name": self._view, "folder": target, "units": self._units.name, "formats": ["svg", "png"]}
+        more: Mapping[str, object] = figure if what == "draw" else {"target": target}
         try:
             written: Sequence[str] = await self._helper.ask(what, sources=paths, **more)
         except LambdaError as error:

@@ -122,6 +122,7 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
             ("PgUp PgDn", "scroll what is shown"),
             ("Space", "mark a result (in the upper list)"),
             ("e", "export the view as SVG and PNG"),
+            ("p", "pictures or text charts, in a terminal with kitty's graphics or sixel"),
             ("t", "write a report (HTML)"),
             ("c", "write the case of the result into a file of its own"),
             ("o", "open a result or a folder from elsewhere"),

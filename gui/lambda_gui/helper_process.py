@@ -55,13 +55,15 @@ def view(say: Say, sources: list[str], name: str) -> Any:
     return api.view(sources if len(sources) > 1 else sources[0], name)
 
 
-def draw(say: Say, sources: list[str], name: str, folder: str) -> list[str]:
+def draw(say: Say, sources: list[str], name: str, folder: str, units: str, formats: list[str]) -> list[str]:
     """Draw a view into files."""
     from lambda_core import api
+    from lambda_core.domain.unit_systems import unit_system
+    from lambda_core.views.other_units import in_units
 
     say("drawing ...")
-    data = api.view(sources if len(sources) > 1 else sources[0], name)
-    return [str(path) for path in api.draw(data, folder, api.view_stem(sources))]
+    data = in_units(api.view(sources if len(sources) > 1 else sources[0], name), unit_system(units))
+    return [str(path) for path in api.draw(data, folder, api.view_stem(sources), formats)]
 
 
 def report(say: Say, sources: list[str], target: str) -> list[str]:

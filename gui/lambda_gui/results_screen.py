@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, ClassVar
 
 from rich.text import Text
@@ -10,6 +11,7 @@ from textual import work
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Horizontal, Vertical, VerticalScroll
+from textual.widget import Widget
 from textual.widgets import DataTable, Footer, OptionList, Static
 from textual.widgets.option_list import Option
 
@@ -18,12 +20,12 @@ from lambda_core.views.other_units import in_units
 from lambda_gui.charts import lines_of, notes_text, shape_of, widget_for
 from lambda_gui.dialogs import AskText
 from lambda_gui.export import DIFFERENCES, SUMMARY, ExportScreen
+from lambda_gui.pictures import NONE_HERE
 from lambda_gui.result_files import is_study, named, results_in, stamp_of
 from lambda_gui.summary_view import summary_view
 from lambda_gui.table_views import differences_view, study_view
 
 if TYPE_CHECKING:
-    from lambda_core.domain.unit_systems import UnitSystem
     from lambda_core.views.chart import ViewData
 
 _LIVE = 2.0  # how often a result that grows is read again [s]
@@ -48,6 +50,7 @@ class ResultsScreen(ExportScreen):
         Binding("t", "report", "Report"),
         Binding("c", "case", "Case"),
         Binding("o", "other", "Open", show=False),
+        Binding("p", "pictures", "Pictures or text", show=False),
         Binding("tab", "switch", "Results or views", show=False, priority=True),
         Binding("pagedown", "scroll(1)", show=False, priority=True),
         Binding("pageup", "scroll(-1)", show=False, priority=True),
@@ -76,7 +79,8 @@ class ResultsScreen(ExportScreen):
         self._marked: set[Path] = set()
         self._stamp: object = None
         self._subject = ""  # what the listed views are of
-        self._data: ViewData | None = None
+        self._data: ViewData | None = None  # of the text charts that are shown
+        self._drawn: TemporaryDirectory[str] | None = None  # where pictures are drawn; none: text charts are shown
 
     def compose(self) -> ComposeResult:
         """Lay out files and views beside what is shown."""
@@ -91,6 +95,8 @@ class ResultsScreen(ExportScreen):
 
     def on_mount(self) -> None:
         """List what there is."""
+        if self.app.picture is not None:  # type: ignore[attr-defined]
+            self.action_pictures()
         table = self.query_one("#files", DataTable)
         table.add_column("", width=2)
         table.add_column("result")
@@ -103,6 +109,8 @@ class ResultsScreen(ExportScreen):
     async def on_unmount(self) -> None:
         """End the helper."""
         await self._helper.close()
+        if self._drawn is not None:
+            self._drawn.cleanup()
 
     def on_resize(self) -> None:
         """Lay the panels out for the new size."""
@@ -197,11 +205,6 @@ class ResultsScreen(ExportScreen):
 
     # -- views --
 
-    @property
-    def _units(self) -> UnitSystem:
-        found: UnitSystem = self.app.units  # type: ignore[attr-defined]
-        return found
-
     @work(exclusive=True, group="views")
     async def _fill_views(self) -> None:
         """List the views of one result, of several, or of a study."""
@@ -252,6 +255,10 @@ class ResultsScreen(ExportScreen):
                 self._data = None
                 await self._show_words(paths)
                 return
+            if self._drawn is not None:
+                self._data = None
+                await self._show_picture(paths, self._drawn.name)
+                return
             data = await self._helper.ask("view", sources=[str(path) for path in paths], name=self._view)
             self._data = in_units(data, self._units)
         except LambdaError as error:
@@ -260,6 +267,31 @@ class ResultsScreen(ExportScreen):
             self.say()
             return
         self._show_data(self._data)
+
+    def action_pictures(self) -> None:
+        """Change between pictures and text charts."""
+        if self.app.picture is None:  # type: ignore[attr-defined]
+            self.notify(NONE_HERE, severity="warning", timeout=8, markup=False)
+        elif self._drawn is None:
+            self._drawn = TemporaryDirectory(prefix="lambda-bearing-")
+            self._show()
+        else:
+            self._drawn.cleanup()
+            self._drawn = None
+            self._show()
+
+    async def _show_picture(self, paths: list[Path], folder: str) -> None:
+        """Show the view as it is drawn for files, as large as there is room."""
+        (drawn,) = await self._helper.ask(
+            "draw", sources=[str(path) for path in paths], name=self._view, folder=folder, units=self._units.name,
+            formats=["png"],
+        )  # fmt: skip
+        shown: Widget = self.app.picture(drawn)  # type: ignore[attr-defined]
+        room = self.query_one("#content", VerticalScroll).size
+        shown.styles.width, shown.styles.height = "auto", max(1, room.height - 1)
+        shown.styles.max_width = max(1, room.width - 3)
+        await self._put(shown)
+        self.say(f"{self._view.replace('-', ' ')}   p: as text")
 
     async def _show_words(self, paths: list[Path]) -> None:
         """Show what is no picture: summaries, a study, what differs."""
@@ -290,7 +322,7 @@ class ResultsScreen(ExportScreen):
             rows.append(row)
         self.run_worker(self._put(*rows, Static(notes_text(data.notes))), exclusive=True, group="put")
 
-    async def _put(self, *widgets: Static | Horizontal) -> None:
+    async def _put(self, *widgets: Widget) -> None:
         content = self.query_one("#content", VerticalScroll)
         async with self.batch():
             await content.remove_children()
