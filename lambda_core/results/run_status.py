@@ -52,6 +52,8 @@ class Status:
         Which process writes: host, pid, start.
     faults : tuple of str
         What plugins that only look on did wrong, one sentence each.
+    modes : tuple of tuples of 2 floats
+        Frequency [Hz] and damping ratio of the modes of the rings at the end of the last session.
     """
 
     state: State = "running"
@@ -61,6 +63,7 @@ class Status:
     statistics: dict[str, float] = field(default_factory=dict)
     process: dict[str, str] = field(default_factory=dict)
     faults: tuple[str, ...] = ()
+    modes: tuple[tuple[float, float], ...] = ()
 
     def to_bytes(self, size: int) -> bytes:
         """Return JSON of at most `size` bytes; an overlong message is cut."""
@@ -77,6 +80,7 @@ class Status:
             fields = json.loads(data)
             fields["message"] = printable(str(fields["message"]))
             fields["faults"] = tuple(printable(str(fault)) for fault in fields.get("faults", ()))
+            fields["modes"] = tuple((float(f), float(damping)) for f, damping in fields.get("modes", ()))
             return Status(**{**fields, "rows": Rows(**fields["rows"])})
         except (KeyError, TypeError) as error:
             raise ValueError(str(error)) from None

@@ -20,6 +20,7 @@ from lambda_core.results.averages import Interval, finite
 from lambda_core.results.convergence import shortfalls, window
 from lambda_core.results.currents import Currents, currents_of
 from lambda_core.results.event_rows import EventSeen, ObserverNumber
+from lambda_core.results.followed import FOURTH_POWERS, Followed, followed
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, tolerance_warning, warnings, worst
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
@@ -108,6 +109,7 @@ class Summary(Record):
     wall_s: float = Field(description="wall time of the integration")
     wall_per_simulated_second: float | None
     wall_per_revolution_s: float | None = Field(description="per revolution of the inner ring against the outer")
+    vibrations: Followed | None = Field(description="how far vibrations can be believed; null of an older result")
     solver_statistics: dict[str, float]
     equilibrium: Equilibrium
     assumptions: list[str]
@@ -185,7 +187,8 @@ def summarise(result: Result) -> Summary:
         wall_s=status.wall,
         wall_per_simulated_second=finite(_quotient(status.wall, time)),
         wall_per_revolution_s=finite(_quotient(status.wall, revolutions)),
-        solver_statistics=status.statistics,
+        vibrations=followed(settings, status, time),
+        solver_statistics={name: count for name, count in status.statistics.items() if name != FOURTH_POWERS},
         equilibrium=_equilibrium(result),
         assumptions=list(result.assumptions),
     )

@@ -64,6 +64,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *watched_lines(summary),
         line("shoulders", *(_margin(edge, units) for edge in summary.shoulders)),
         line("energy residual", f"{_small(summary.energy_residual)} of input"),
+        *([line("vibrations", summary.vibrations.sentence())] if summary.vibrations else []),
         line("wall time", *_wall(summary)),
         *assumption_lines(summary.assumptions, summary.file),
         line("result", summary.file),

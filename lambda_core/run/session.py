@@ -234,7 +234,15 @@ class Session:
             for name, count in self._engine.statistics().items()
         }
         wall = self._before.wall + time.perf_counter() - self._started
-        return Status(state, message, wall=wall, statistics=counters, process=this_process(), faults=self._watch.faults)
+        return Status(
+            state,
+            message,
+            wall=wall,
+            statistics=counters,
+            process=this_process(),
+            faults=self._watch.faults,
+            modes=tuple(self._engine.ring_modes()) if state != "running" else (),
+        )
 
     def _progress(self) -> Progress:
         turns = abs(self._last[COLUMNS.index("cage_angle")]) / (2.0 * math.pi)

@@ -16,12 +16,12 @@ from lambda_core.domain.channels import LOSSES
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.compiled_laws import Kernels, derive_oils
 from lambda_core.solver.drivers.equilibrium import fault_sentence
+from lambda_core.solver.drivers.modes import dense
 from lambda_core.solver.drivers.observation import observe
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.entry import core
 from lambda_core.solver.integrator import memory as M
-from lambda_core.solver.integrator.blocks import Blocks
 from lambda_core.solver.integrator.tableau import STAGES
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel
@@ -145,22 +145,6 @@ class Machine:
         """Return the whole shared state (3, 12), prescribed motions included."""
         self.evaluate(y, t, want=0)
         return np.array(self.context.bundle.shared).reshape(3, L.NS)
-
-
-def dense(blocks: Blocks) -> FloatArray:
-    """Return the block-arrow Jacobian as one matrix: what a ball does not reach stays zero."""
-    reach, tail = blocks.reach, L.NB * blocks.a.shape[0]
-    size = tail + blocks.d.shape[0]
-    matrix = np.zeros((size, size))
-    for r, width in enumerate(reach.width):
-        columns = tail + reach.columns[r, :width]
-        for j in range(reach.first[r], reach.first[r + 1]):
-            own = np.arange(L.NB * j, L.NB * (j + 1))
-            matrix[np.ix_(own, own)] = blocks.a[j]
-            matrix[np.ix_(own, columns)] = blocks.b[j, :, :width]
-            matrix[np.ix_(columns, own)] = blocks.c[j, :width]
-    matrix[tail:, tail:] = blocks.d
-    return matrix
 
 
 def time_function(m: Machine, kind: str, body: int, component: int, t: float) -> FloatArray:

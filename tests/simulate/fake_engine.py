@@ -131,6 +131,9 @@ class FakeEngine:
     def statistics(self) -> dict[str, float]:
         return {"steps": float(self._steps)}
 
+    def ring_modes(self) -> list[tuple[float, float]]:
+        return []
+
     def state(self) -> dict[str, FloatArray]:
         numbers = [self.time, self._chaos, self._loss, self._input, self._samples, self._steps]
         return {"numbers": np.array(numbers), "history": np.arange(3.0 + self._steps % 5)}

@@ -16,6 +16,7 @@ from lambda_core.solver import records as R
 from lambda_core.solver.drivers.compiled_laws import Announce
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION, Advance
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, solve
+from lambda_core.solver.drivers.modes import ring_modes
 from lambda_core.solver.drivers.observation import Scratch, channels_of
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.surface_steps import longest_step
@@ -209,7 +210,12 @@ class BearingEngine:
 
     def statistics(self) -> dict[str, float]:
         """Return counters of the integrator."""
-        return {name: float(self._memory.count[name][0]) for name in _COUNTERS}
+        counted = {name: float(self._memory.count[name][0]) for name in _COUNTERS}
+        return {**counted, "steps_to_the_fourth": float(self._memory.control["fourth_powers"][0])}
+
+    def ring_modes(self) -> list[tuple[float, float]]:
+        """Return frequency [Hz] and damping ratio of the modes of the rings at `time`."""
+        return ring_modes(self._context.bundle, self._context.blocks, self._memory.inertia)
 
     def state(self) -> dict[str, NDArray[np.float64]]:
         """Return everything that a continuation needs: memory, Jacobian blocks, factors."""

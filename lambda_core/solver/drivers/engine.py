@@ -64,7 +64,13 @@ class Engine(Protocol):
         """
 
     def statistics(self) -> dict[str, float]:
-        """Return counters: steps, rejected, newton_iterations, rhs_calls, jacobians, factorisations."""
+        """Return counters: steps, rejected, newton_iterations, rhs_calls, jacobians, factorisations.
+
+        With `steps_to_the_fourth`, the sum of the fourth powers of the steps [s4].
+        """
+
+    def ring_modes(self) -> list[tuple[float, float]]:
+        """Return frequency [Hz] and damping ratio of the modes of the rings at `time`."""
 
     def state(self) -> dict[str, NDArray[np.float64]]:
         """Return everything that a continuation needs."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from lambda_core.plugins import Axis, Mark, NotApplicable, Options, Panel, RunData, Series, View, ViewData
 from lambda_plugins.views.azimuth import AZIMUTH
-from lambda_plugins.views.common import averaging, of_ring, over_azimuth, source, spectrum, speeds, trace
+from lambda_plugins.views.common import averaging, integration, of_ring, over_azimuth, source, spectrum, speeds, trace
 
 _FLOOR = 1e-5  # of the largest amplitude: what is shown at most
 _WIDTH = 3.5  # times the highest characteristic frequency
@@ -31,6 +31,7 @@ def capacitance(run: RunData, options: Options) -> ViewData:
     notes = [f"over {span.words}; balls in parallel, inner and outer contact of a ball in series"]
     if known.all() and np.ptp(values) > _STEADY * values.mean():
         panels.append(_spectrum(run, time, values))
+        notes += integration(run, float(panels[-1].series[0].x[-1]))
     else:
         notes.append("no spectrum: the capacitance is steady, or a contact is shorted at times")
     panels.append(Panel("bearing", Axis("time", "ms"), Axis("capacitance", "pF"), (whole,)))

@@ -205,6 +205,12 @@ def spectrum(time: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArr
     return np.asarray(np.fft.rfftfreq(n, step)[1:], dtype=np.float64), amplitude[1:]
 
 
+def integration(run: RunData, frequency: float) -> tuple[str, ...]:
+    """Return what the integration does to vibrations in a spectrum that ends at a frequency [Hz]."""
+    found = run.summary().vibrations
+    return (found.note(frequency),) if found is not None and frequency > 0.0 else ()
+
+
 def trace(name: str, x: FloatArray, y: FloatArray, role: str = "") -> Series:
     """Return a line; of a long record every k-th point, so that at most some thousand are drawn."""
     step = max(1, -(-x.size // _MOST_POINTS))

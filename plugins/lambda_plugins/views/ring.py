@@ -8,7 +8,7 @@ import numpy as np
 
 from lambda_core.domain.channels import DIMENSIONS
 from lambda_core.plugins import Axis, Mark, NotApplicable, Options, Panel, RunData, Series, View, ViewData
-from lambda_plugins.views.common import BODY, averaging, source, spectrum, speeds, trace
+from lambda_plugins.views.common import BODY, averaging, integration, source, spectrum, speeds, trace
 
 _FLOOR = 1e-5  # of the largest amplitude: what is shown at most
 _WIDTH = 3.5  # times the highest characteristic frequency
@@ -89,6 +89,7 @@ def ring_spectrum(run: RunData, options: Options) -> ViewData:
         f"Hann window over {span.words}; x along the shaft, y horizontal, z up; a point every {step:.3g} Hz: "
         "longer runs tell more (solver.average_revolutions)",
         f"characteristic frequencies of rolling without slip [Hz]: {values}",
+        *integration(run, float(series[0].x[-1])),
     )
     return ViewData("ring-spectrum", "Spectrum of the inner ring's motion", source(run), panels, 1, notes)
 

@@ -1,0 +1,108 @@
+"""What the integration did to vibrations: the frequency that it shifts, the damping that it adds."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+from pydantic import Field
+
+from lambda_core.domain.units import show
+from lambda_core.results.record import Record
+from lambda_core.results.run_status import Status
+from lambda_core.solver.integrator.tableau import STAGES, WEIGHTS, A
+from lambda_core.system.bearing import Solver
+
+FOURTH_POWERS = "steps_to_the_fourth"  # of the statistics of a run: sum of the fourth powers of its steps [s4]
+_FASTEST = math.pi  # w h from which on a step sees nothing of a swing
+
+
+class Swing(Record):
+    """A mode of the rings near the end of a run, and what the integration did to it."""
+
+    frequency_Hz: float
+    damping_percent: float = Field(description="of critical, of the bearing itself")
+    added_percent: float = Field(description="of critical, by the integration")
+    shift_percent: float = Field(description="of the frequency, by the integration")
+
+
+class Followed(Record):
+    """How far vibrations can be believed."""
+
+    resolve_Hz: float = Field(description="to which they were followed; 0 where averages were the answer")
+    step_s: float = Field(description="length of a step, the cubic mean over time")
+    modes: list[Swing] = Field(description="modes of the rings by frequency, those that are damped least")
+
+    def at(self, frequency: float) -> tuple[float, float]:
+        """Return the damping that is added and the shift of a frequency [%]."""
+        damping, shift = added(2.0 * math.pi * frequency * self.step_s, fine=self.resolve_Hz > 0.0)
+        return 100.0 * damping, 100.0 * shift
+
+    def sentence(self) -> str:
+        """Return how far vibrations can be believed."""
+        worst = max(self.modes, key=lambda mode: mode.added_percent / mode.damping_percent, default=None)
+        if worst is not None and worst.added_percent > worst.damping_percent:
+            where = show(worst.frequency_Hz, "frequency", 3)
+            own = f"where the bearing has {worst.damping_percent:.2g} %"
+            return f"damped by the integration: {worst.added_percent:.2g} % at {where}, {own} ({self._advice()})"
+        if self.resolve_Hz:
+            return (
+                f"followed to {show(self.resolve_Hz, 'frequency')}, {self.at(self.resolve_Hz)[0]:.1g} % damping added"
+            )
+        if worst is None:
+            return f"{self.at(1000.0)[0]:.2g} % damping added at 1 kHz"
+        return f"{worst.added_percent:.2g} % damping added at {show(worst.frequency_Hz, 'frequency', 3)}"
+
+    def _advice(self) -> str:
+        if self.resolve_Hz:
+            return f"solver.resolve above {show(self.resolve_Hz, 'frequency')} follows it"
+        return 'solver.accuracy = "vibration" follows it'
+
+    def note(self, frequency: float) -> str:
+        """Return what stands beside a spectrum that ends at a frequency [Hz]."""
+        damping, shift = self.at(frequency)
+        half = self.at(0.5 * frequency)
+        where, middle = show(frequency, "frequency", 3), show(0.5 * frequency, "frequency", 3)
+        return (
+            f"the integration adds {damping:.2g} % of critical damping at {where} and shifts it by {shift:.2g} %, "
+            f"at {middle} {half[0]:.2g} % and {half[1]:.2g} %; {self.sentence()}"
+        )
+
+
+def added(angle: float, *, fine: bool) -> tuple[float, float]:
+    """Return the damping ratio that a formula adds to a swing, and the relative shift of its frequency.
+
+    The swing u' = i w u becomes u_n = rho^n, with the principal root rho of the formula at z = i w h (Hairer and Wanner
+    1996, Solving ODEs II, IV.3, V.1): arg(rho)/(w h) is the frequency over w, -ln|rho|/(w h) the damping ratio. For
+    small w h that is (w h)^3/4 and -(w h)^2/3 of BDF2. A step that is half a period or longer sees no swing.
+
+    Parameters
+    ----------
+    angle : float
+        w h [rad].
+    fine : bool
+        ESDIRK4(3)6L[2]SA; otherwise BDF2, in equal steps.
+    """
+    angle = min(max(angle, 1e-9), _FASTEST)
+    z = 1j * angle
+    if fine:
+        ones = np.ones(STAGES)
+        root = complex(1.0 + z * (WEIGHTS @ np.linalg.solve(np.eye(STAGES) - z * A, ones)))
+    else:
+        # (3/2 - z) rho^2 - 2 rho + 1/2 = 0
+        root = (2.0 + cmath.sqrt(1.0 + 2.0 * z)) / (3.0 - 2.0 * z)
+    return -math.log(abs(root)) / angle, cmath.phase(root) / angle - 1.0
+
+
+def followed(settings: Solver, status: Status, time: float) -> Followed | None:
+    """Return how far the vibrations of a run can be believed; None of a result of an older version."""
+    powers = status.statistics.get(FOURTH_POWERS, 0.0)
+    if not powers > 0.0 or not time > 0.0:
+        return None
+    found = Followed(resolve_Hz=settings.resolve, step_s=(powers / time) ** (1.0 / 3.0), modes=[])
+    for frequency, damping in status.modes:
+        more, shift = found.at(frequency)
+        swing = Swing(frequency_Hz=frequency, damping_percent=100.0 * damping, added_percent=more, shift_percent=shift)
+        found.modes.append(swing)
+    return found

@@ -1,0 +1,57 @@
+"""Vibrations that a bearing can make where it stands: eigenvalues of the Jacobian that the integrator has in hand."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.solver import layout as L
+from lambda_core.solver.integrator.blocks import Blocks
+
+_RING = 0.5  # share of a mode's kinetic energy in the rings, from which on it is one of theirs
+_SLOWEST = 20.0  # [Hz]
+_DAMPED = 0.3  # of critical; what is damped by more rings in no spectrum
+_MOST = 8  # modes that are told, those damped least
+
+
+def dense(blocks: Blocks) -> FloatArray:
+    """Return the block-arrow Jacobian as one matrix: what a ball does not reach stays zero."""
+    reach, tail = blocks.reach, L.NB * blocks.a.shape[0]
+    size = tail + blocks.d.shape[0]
+    matrix = np.zeros((size, size))
+    for r, width in enumerate(reach.width):
+        columns = tail + reach.columns[r, :width]
+        for j in range(reach.first[r], reach.first[r + 1]):
+            own = np.arange(L.NB * j, L.NB * (j + 1))
+            matrix[np.ix_(own, own)] = blocks.a[j]
+            matrix[np.ix_(own, columns)] = blocks.b[j, :, :width]
+            matrix[np.ix_(columns, own)] = blocks.c[j, :width]
+    matrix[tail:, tail:] = blocks.d
+    return matrix
+
+
+def ring_modes(bundle: Any, blocks: Blocks, inertia: FloatArray) -> list[tuple[float, float]]:
+    """Return frequency [Hz] and damping ratio [-] of the modes of the rings, by frequency.
+
+    A mode belongs to the rings where half of its kinetic energy or more is theirs. Those of the Jacobian blocks are
+    those of the last steps: loaded balls go round, and the modes with them.
+
+    Parameters
+    ----------
+    inertia : float64[:]
+        Mass or moment of inertia of each state, 0 for a position; (n,).
+    """
+    matrix = dense(blocks)
+    if not np.isfinite(matrix).all():
+        return []
+    values, vectors = np.linalg.eig(matrix)
+    energy = np.abs(vectors) ** 2 * inertia[: matrix.shape[0], None]
+    bodies = np.asarray(bundle.active) // L.NS
+    rings = L.NB * blocks.a.shape[0] + np.flatnonzero(bundle.bodies["is_cage"][bodies] == 0)
+    share = energy[rings].sum(axis=0) / (energy.sum(axis=0) + 1e-300)
+    frequency, damping = np.abs(values) / (2.0 * np.pi), -values.real / (np.abs(values) + 1e-300)
+    mine = (values.imag > 0.0) & (share > _RING) & (frequency > _SLOWEST) & (damping > 0.0) & (damping < _DAMPED)
+    found = sorted(zip(damping[mine].tolist(), frequency[mine].tolist(), strict=True))[:_MOST]
+    return sorted((f, d) for d, f in found)
