@@ -105,7 +105,7 @@ def warm_up(
     from lambda_core.thermal.transient import warm_up as integrate
 
     if not duration > 0.0:
-        raise UsageError(f"a warm-up takes more than {duration:g} s")
+        raise UsageError(f"a warm-up takes more than 0 s, not {duration:g} s")
     model = model_of(source, overrides)
     loop = Loop(model, _section(model), announce)
     return course_of(loop, integrate(loop, duration))

@@ -65,7 +65,9 @@ def constant(
 class InletDistance(Parameters):
     """Where the inlet begins."""
 
-    distance: float = parameter(..., "m, inlet meniscus from the centre over semi-axis b", source="to be given", gt=1.0)
+    distance: float = parameter(
+        ..., "m, inlet meniscus from the centre over semi-axis b", source="to be given", gt=1.0, le=1e12
+    )
 
 
 class Meniscus(NamedTuple):

@@ -12,7 +12,8 @@ from lambda_plugins.starved_inlet import CHEVALIER, INLET, ROLLING, meniscus, st
 _SIDE_FLOW = (
     "van Zoelen, Venner and Lugt 2009, Proc. IMechE J 223, 541; Venner, van Zoelen and Lugt 2012, Tribol. Int. 47, 175"
 )
-HALVINGS = 44  # of an interval, down to rounding
+HALVINGS = 54  # of an interval on a logarithmic scale, down to rounding
+FAR = 30.0  # of the layer that replenishment keeps up: from here on a series has all digits of its clock
 
 
 class OilLayer(Parameters):
@@ -121,9 +122,15 @@ def density_ratio(p: float) -> float:
 
 
 def _clock(y: float) -> float:
-    """Return the integral of dy/(1 - y^3), up to a constant."""
+    """Return how long dy/dtau = 1 - y^3 takes: to y from nothing below 1, from endlessly much above 1."""
+    if y > FAR:  # the closed form would leave 1/y^2 of its digits
+        cube = y**-3.0
+        return float((0.5 + cube * (0.2 + cube * (0.125 + cube / 11.0))) / (y * y))
     root = math.sqrt(3.0)
-    return -math.log(abs(1.0 - y)) / 3.0 + math.log(y * y + y + 1.0) / 6.0 + math.atan((2.0 * y + 1.0) / root) / root
+    logarithms = math.log(y * y + y + 1.0) / 6.0 - math.log(at_least(abs(1.0 - y), 1e-300)) / 3.0
+    if y > 1.0:
+        return logarithms - math.atan(root / (2.0 * y + 1.0)) / root
+    return logarithms + math.atan(root * y / (y + 2.0)) / root
 
 
 def layer_after(fresh: float, time: float, flow: float, replenishment: float) -> float:
@@ -139,14 +146,14 @@ def layer_after(fresh: float, time: float, flow: float, replenishment: float) ->
     if abs(start - 1.0) < 1e-12:
         return float(steady)
     end = _clock(start) + 2.0 * replenishment * time / steady
-    low, high = 0.0, 1.0  # share of the way from the start that is left
+    passed, ahead = start, 1.0
     for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        if _clock(1.0 + (start - 1.0) * middle) > end:
-            low = middle
+        middle = math.sqrt(passed) * math.sqrt(ahead)
+        if _clock(middle) > end:
+            ahead = middle
         else:
-            high = middle
-    return float(steady * (1.0 + (start - 1.0) * 0.5 * (low + high)))
+            passed = middle
+    return float(steady * math.sqrt(passed) * math.sqrt(ahead))
 
 
 @law(

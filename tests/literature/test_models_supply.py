@@ -170,6 +170,21 @@ def test_limits_of_a_layer_that_flows_aside() -> None:
         assert layer_after(fresh, time, flow, feed) == pytest.approx(way.y[0, -1], rel=1e-6)
 
 
+@pytest.mark.parametrize("feed", [1e-200, 1e-24, 1e-16, 1e-13])
+@pytest.mark.parametrize("time", [0.0, 1.0, 3600.0])
+def test_layer_that_is_hardly_fed(feed: float, time: float) -> None:
+    """A fresh layer 1e3 to 1e65 times the one that is kept up: what little is added must not take the layer away.
+
+    Below h the feed matters by (h_eq/h)^3; the exact layer lies between the one without feed and that plus 2 R t.
+    """
+    from lambda_plugins.supply_layers import layer_after
+
+    fresh, flow = 1e-4, 1e13
+    bare = layer_after(fresh, time, flow, 0.0)
+    fed = layer_after(fresh, time, flow, feed)
+    assert bare * (1.0 - 1e-12) <= fed <= (bare + 2.0 * feed * time) * (1.0 + 1e-12)
+
+
 # 6319 at 38 mm2/s: speed [1/min] and phi_rs.
 @pytest.mark.parametrize(("rpm", "share"), [(500.0, 0.980), (1500.0, 0.941), (3000.0, 0.885)])
 def test_replenishment_of_the_6319(rpm: float, share: float) -> None:
