@@ -75,19 +75,36 @@ def show(
         str,
         typer.Argument(
             metavar="ROLE/NAME",
-            help="For example traction/ree-eyring; ree-eyring is enough where one role alone has it.",
+            help="For example traction/ree-eyring; ree-eyring is enough where one role alone has it. Or FILE.py, or a "
+            "package: all of its laws.",
         ),
     ],
     as_json: JsonOption = False,
 ) -> None:
-    """Show one model: parameters with units, limits, defaults and sources; validity and reference."""
+    """Show one model, or those of a file or package: parameters with units, limits and sources; validity, reference."""
     from lambda_core import api
 
-    card = api.plugin_model(model)
-    if as_json:
-        typer.echo(card.model_dump_json(indent=2))
+    name = named_plugin(model)
+    listed = api.plugins().items
+    if not any(item.distribution.split(" ")[0] == name for item in listed):
+        card = api.plugin_model(model)
+        if as_json:
+            typer.echo(card.model_dump_json(indent=2))
+        else:
+            _show_card(card)
         return
-    _show_card(card)
+    own = [item for item in listed if item.role and item.distribution.split(" ")[0] == name]
+    cards = [api.plugin_model(f"{item.role}/{item.name}") for item in own]
+    if as_json:
+        models = [json.loads(card.model_dump_json()) for card in cards]
+        typer.echo(json.dumps({"version": 1, "models": models}, indent=2))
+        return
+    if not cards:
+        _print(f"{name} brings no law; lambda-bearing plugins list has what it brings")
+    for number, card in enumerate(cards):
+        if number:
+            _print("")
+        _show_card(card)
 
 
 def _show_card(card: ModelCard) -> None:
@@ -98,6 +115,8 @@ def _show_card(card: ModelCard) -> None:
         "reference": card.reference,
         "validity": card.validity,
         "returns": "; ".join(card.outputs),
+        "keeps": "; ".join(card.states),
+        "reads": ", ".join(card.reads),
         "used by": ", ".join(card.elements),
     }
     for title, text in lines.items():

@@ -46,6 +46,8 @@ class ModelCard(BaseModel):
     outputs: list[str]  # what the kernel writes, with units
     errors: dict[int, str]  # sentence of each status from 2 on
     parameters: list[ParameterCard]  # with units, limits, defaults and sources
+    states: list[str] = []  # what every contact keeps by it, with units
+    reads: list[str] = []  # states of the contact that it reads
 
 
 class Item(BaseModel):
@@ -161,6 +163,8 @@ def model_card(registry: Registry, label: str) -> ModelCard:
         outputs=list(ROLES[role].outputs),
         errors=dict(found.errors),
         parameters=[_parameter(found, field, info) for field, info in found.parameters.model_fields.items()],
+        states=[f"{state.name} [{state.unit}], {state.meaning}" for state in found.states],
+        reads=list(found.reads),
     )
 
 

@@ -85,6 +85,22 @@ USED = {
 }
 
 
+def test_show_has_every_law_of_a_package_or_a_file(site: Installation, tmp_path: Path) -> None:
+    package = site.program("plugins", "show", "warm-contact", "--json").data["models"]
+    assert {(card["role"], card["name"]) for card in package} == {
+        ("traction", "warm-eyring"),
+        ("contact_state", "warm"),
+    }
+    assert {card["role"]: card["reads"] for card in package}["traction"] == ["contact_temperature"]
+    text = (EXAMPLES / "spring-damper" / "spring_damper" / "__init__.py").read_text()
+    (tmp_path / "own.py").write_text(text.replace('"spring-damper"', '"own-spring"'))
+    file = site.program("plugins", "show", str(tmp_path / "own.py"))
+    assert file.code == 0, file.err
+    assert file.out.startswith("force_element/own-spring   own.py")
+    observer = site.program("plugins", "show", "sliding-wear")
+    assert observer.out.startswith("sliding-wear brings no law")
+
+
 def test_all_of_them_in_one_run_close_their_energy(site: Installation, tmp_path: Path) -> None:
     out = tmp_path / "all.h5"
     changes = [word for each in USED.values() for change in each for word in ("--set", change)]
