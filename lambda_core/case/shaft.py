@@ -59,10 +59,16 @@ class Shaft(Section):
 
 
 class Housing(Section):
-    """What holds the outer rings, for its growth in length; how far it gives way stands with each bearing."""
+    """What holds the outer rings: its growth in length, and an elastic model of it where there is one."""
 
     material: MaterialChoice = option("100Cr6", "catalogue name or a table of properties")
     temperature: Temperature = option("20 degC", "mean temperature")
+    reduced: str | None = option(
+        None,
+        "file with stiffness, mass and nodes of an elastic housing that is held somewhere (a finite-element program's, "
+        "reduced to the bearing seats); it holds the outer rings where their support is locked",
+        min_length=1,
+    )
 
 
 class Support(Section):

@@ -9,6 +9,8 @@ from lambda_core.domain.gear_forces import GearForces
 from lambda_core.elastic.body import ElasticBody
 from lambda_core.system.bearing import BearingModel
 
+PLACES = (0, 1, 2, 4, 5)  # of a pose (solver.drivers.held_ring) among the six rows of a node
+
 
 @dataclass(frozen=True)
 class Seating:
@@ -60,6 +62,8 @@ class ShaftModel:
         Of shaft and discs [N, N m].
     growth : float64[:], shape (6 n,)
         Forces that stretch the shaft as much as its temperature does [N].
+    housing : float64[:, :], shape (5 bearings, 5 bearings), or None
+        Stiffness between all outer rings in an elastic housing, zeros where a ring is free; None: rigid seats.
     drive : int
         Row of the turning of the node that the coupling holds.
     outline, discs, load_places
@@ -72,6 +76,7 @@ class ShaftModel:
     loads: FloatArray
     weight: FloatArray
     growth: FloatArray
+    housing: FloatArray | None
     gravity: tuple[float, float, float]  # [m/s2]
     drive: int
     speed: float  # [rad/s]

@@ -21,6 +21,7 @@ from lambda_core.domain.gear_forces import GearForces, gear_forces
 from lambda_core.domain.units import show
 from lambda_core.elastic.body import Disc, ElasticBody, shaft_body
 from lambda_core.elastic.sections import BodyMaterial, RoundSection
+from lambda_core.shaft.elastic_housing import housing_stiffness
 from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.seating import mounted
 from lambda_core.system.bearing import BearingModel
@@ -108,10 +109,18 @@ def _shaft(
         return None
     body = _body(case, material)
     growth = around.thermal_expansion * (case.housing.temperature - REFERENCE_TEMPERATURE)
-    bearings = tuple(
-        mounted(name, case.bearings[name], model, growth * case.bearings[name].position, ledger)
-        for name, model in models.items()
+    bearings = sorted(
+        (
+            mounted(name, case.bearings[name], model, growth * case.bearings[name].position, ledger)
+            for name, model in models.items()
+        ),
+        key=lambda one: one.position,
     )
+    housing = None
+    if case.housing.reduced is not None:
+        housing = housing_stiffness((case.folder or Path()) / case.housing.reduced, bearings, ledger)
+        if housing is None:
+            return None
     shared: dict[str, list[str]] = {}
     for name, model in models.items():
         for sentence in model.assumptions:
@@ -124,7 +133,8 @@ def _shaft(
     return ShaftModel(
         name=case.name,
         body=body,
-        bearings=tuple(sorted(bearings, key=lambda one: one.position)),
+        bearings=tuple(bearings),
+        housing=housing,
         loads=_loads(case, body, gears),
         growth=_growth(case, body, material),
         weight=body.weight((case.gravity.x, case.gravity.y, case.gravity.z)),

@@ -15,13 +15,12 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.elastic.beam import NODE
-from lambda_core.shaft.model import MountedBearing, ShaftModel
+from lambda_core.shaft.model import PLACES, MountedBearing, ShaftModel
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
 from lambda_core.solver.drivers.equilibrium import free_contact_angle
 from lambda_core.solver.drivers.held_ring import POSE, HeldRing
 from lambda_core.system.bearing import BearingModel
 
-PLACES = (0, 1, 2, 4, 5)  # of a pose among the six rows of a node
 _GUESS = np.array([5e7, 1e8, 1e8, 1e3, 1e3])  # [N/m, N m/rad] of a bearing before its contacts are known
 _ITERATIONS, _FRAMES, _TRIES = 100, 6, 20
 _CONVERGED, _ROUNDING = 1e-9, 1e-6  # residual over the loads: wanted; where the balls' own tolerance may end it
@@ -88,11 +87,16 @@ class _Whole:
             for row, k, shift in zip(rows, seating.stiffness, seating.shift, strict=True):
                 self.start[row] = shift
                 if math.isinf(k):
-                    held.append(int(row))
+                    if model.housing is None:
+                        held.append(int(row))
                 else:
                     self.linear[row, row] = k
                     self.given[row] += k * shift
             self.given[rows[0]] += seating.force
+        if model.housing is not None:
+            rows = self.outer.ravel()
+            self.linear[np.ix_(rows, rows)] += model.housing
+            self.given[rows] += model.housing @ self.start[rows]
         self.free = np.setdiff1d(np.arange(count), held)
         # lengths that make moments forces: residuals of one kind
         arms = np.ones(count)

@@ -23,8 +23,8 @@ def _digits(value: float | None, digits: int = 4) -> str:
     return f"{0.0 if abs(value) < 5e-5 else value:.{digits}g}"
 
 
-def _span(values: list[float]) -> str:
-    return "..".join(f"{value:.3g}" for value in dict.fromkeys(values)) or NONE
+def _span(values: list[float], digits: int = 3) -> str:
+    return "..".join(f"{value:.{digits}g}" for value in dict.fromkeys(values)) or NONE
 
 
 def hours(value: float | None) -> str:
@@ -58,7 +58,7 @@ _ROWS: tuple[tuple[str, Callable[[BearingOnShaft], str]], ...] = (
     ("static safety", lambda b: _digits(b.static_safety, 3)),
     ("friction torque N mm", lambda b: _digits(b.friction_torque_Nmm, 3)),
     ("power loss W", lambda b: _digits(b.power_loss_W, 3)),
-    ("film um", lambda b: _span(b.film_um)),
+    ("film um", lambda b: _span(b.film_um, 2)),
     ("stiffness x N/um", lambda b: _digits(1e-6 * b.stiffness[0][0], 3)),
     ("  y", lambda b: _digits(1e-6 * b.stiffness[1][1], 3)),
     ("  z", lambda b: _digits(1e-6 * b.stiffness[2][2], 3)),

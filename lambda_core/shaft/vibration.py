@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.whirl import Whirl, critical_speeds, whirls
-from lambda_core.shaft.model import ShaftModel
-from lambda_core.shaft.shaft_equilibrium import PLACES, ShaftState
+from lambda_core.shaft.model import PLACES, ShaftModel
+from lambda_core.shaft.shaft_equilibrium import ShaftState
 
 _COUNT = 16  # modes that are looked at
 _LATERAL = 0.5  # of the motion squared, from which on a mode counts as bending
@@ -28,23 +29,35 @@ class Mode:
 def housed_stiffness(model: ShaftModel, state: ShaftState) -> FloatArray:
     """Return the stiffness of each bearing with the housing behind it, on the shaft, shape (bearings, 5, 5).
 
-    In series: K - K (K + H)^-1 K over the degrees of freedom in which the outer ring moves, H of the housing.
+    What the others add through an elastic housing is left out: it stands in :func:`supported`.
     """
-    found = []
-    for bearing, k in zip(model.bearings, state.stiffness, strict=True):
-        housing = np.array(bearing.seating.stiffness)
-        moves = np.flatnonzero(np.isfinite(housing))
-        inner = k[np.ix_(moves, moves)] + np.diag(housing[moves])
-        found.append(k - k[:, moves] @ np.linalg.solve(inner, k[moves]) if moves.size else k)
-    return np.array(found)
+    whole, size = _in_series(model, state), len(PLACES)
+    return np.array([whole[size * i : size * (i + 1), size * i : size * (i + 1)] for i in range(len(model.bearings))])
+
+
+def _in_series(model: ShaftModel, state: ShaftState) -> FloatArray:
+    """Return the stiffness that the shaft feels at all bearings together, shape (5 bearings, 5 bearings).
+
+    In series: K - K (K + H)^-1 K over the degrees of freedom in which outer rings move, H of the housing.
+    """
+    k = np.asarray(block_diag(*state.stiffness))
+    springs = np.concatenate([bearing.seating.stiffness for bearing in model.bearings])
+    housing = np.diag(np.where(np.isfinite(springs), springs, 0.0))
+    if model.housing is not None:
+        housing, springs = housing + model.housing, np.zeros_like(springs)
+    moves = np.flatnonzero(np.isfinite(springs))
+    if not moves.size:
+        return k
+    inner = (k + housing)[np.ix_(moves, moves)]
+    return np.asarray(k - k[:, moves] @ np.linalg.solve(inner, k[moves]))
 
 
 def supported(model: ShaftModel, state: ShaftState) -> FloatArray:
     """Return the stiffness of the shaft on its bearings, shape (6 n, 6 n)."""
     whole = model.body.stiffness.copy()
-    for bearing, k in zip(model.bearings, housed_stiffness(model, state), strict=True):
-        rows = model.body.rows(bearing.position).start + np.array(PLACES)
-        whole[np.ix_(rows, rows)] += 0.5 * (k + k.T)
+    k = _in_series(model, state)
+    rows = np.concatenate([model.body.rows(b.position).start + np.array(PLACES) for b in model.bearings])
+    whole[np.ix_(rows, rows)] += 0.5 * (k + k.T)
     return whole
 
 

@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from lambda_core.domain.errors import SolverError
+from lambda_core.domain.errors import CaseError, SolverError
 from lambda_core.domain.gear_forces import gear_forces
 from lambda_core.domain.life import dynamic_equivalent_load, static_equivalent_load, system_life
+from lambda_core.elastic.body import shaft_body
+from lambda_core.elastic.reduced import write_reduced
+from lambda_core.elastic.sections import BodyMaterial, RoundSection
+from lambda_core.elastic.whirl import craig_bampton
 from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
+from lambda_core.shaft.vibration import supported
 
 PINNED = {"tilt_y": "free", "tilt_z": "free"}  # outer rings that follow, so that no bearing bears a moment
 SHARED: dict[str, Any] = {
@@ -160,6 +167,45 @@ def test_housing_in_series() -> None:
         }
     )
     assert -state.outer[0, 1:3] * [20e6, 50e6] == pytest.approx(state.reactions[0, 1:3], rel=1e-6)
+
+
+def test_an_elastic_housing_from_a_file(tmp_path: Path) -> None:
+    """A beam that joins both seats, on two springs to the ground, as a reduced model: the seats move as the beam does.
+
+    Against the beam's own flexibility under the reactions found (1e-6); a housing that floats is refused.
+    """
+    material = BodyMaterial(210e9, 0.3, 7850.0)
+    beam = shaft_body([(0.2, RoundSection(0.05, 0.0, material))], places=[0.03, 0.15])
+    ground = np.diag([5e7, 5e7, 5e7, 1e4, 1e4, 1e4])
+    stiffness = beam.stiffness.copy()
+    for end in (0.0, 0.2):
+        stiffness[beam.rows(end), beam.rows(end)] += ground
+    held = craig_bampton(replace(beam, stiffness=stiffness), [0.03, 0.15], 2)
+    write_reduced(held, tmp_path / "housing.json")
+    case = {
+        "shaft": {"sections": [{"length": "200 mm", "diameter": "30 mm"}]},
+        "bearings": {
+            "left": bearing("30 mm", support={}),
+            "right": bearing("150 mm", support={"x": "free"}),
+        },
+        "loads": {"gear": {"position": "100 mm", "force_z": "-2 kN", "force_y": "500 N", "force_x": "300 N"}},
+        "housing": {"reduced": str(tmp_path / "housing.json")},
+    }
+    model, state = solved(case)
+    pushed = np.zeros(stiffness.shape[0])
+    rows = [beam.rows(place).start + np.array([0, 1, 2, 4, 5]) for place in (0.03, 0.15)]
+    for place, force in zip(rows, state.reactions, strict=True):
+        pushed[place] -= force
+    moved = np.linalg.solve(stiffness, pushed)
+    assert state.outer[0] == pytest.approx(moved[rows[0]], rel=1e-6, abs=1e-12)
+    assert state.outer[1, 1:] == pytest.approx(moved[rows[1]][1:], rel=1e-6, abs=1e-12)
+    assert np.linalg.eigvalsh(supported(model, state))[1] > 0.0  # only turning is free
+    write_reduced(craig_bampton(beam, [0.03, 0.15], 2), tmp_path / "housing.json")
+    with pytest.raises(CaseError, match="held by nothing"):
+        solved(case)
+    write_reduced(craig_bampton(replace(beam, stiffness=stiffness), [0.03], 2), tmp_path / "housing.json")
+    with pytest.raises(CaseError, match="right: there is no node at 0.15 m; nodes stand at 30 mm"):
+        solved(case)
 
 
 def test_helical_gear_forces() -> None:

@@ -1,0 +1,81 @@
+"""A ring that bends in its own plane without stretching: Fourier modes n >= 2, in a bedding or free. SI in and out.
+
+Radial displacement w = sum of c_n cos(n th) + s_n sin(n th), and a tangential one that keeps the length,
+v = -integral of w dth (Love 1927, Theory of Elasticity, art. 293; Timoshenko, Vibration Problems in Engineering).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+
+
+@dataclass(frozen=True)
+class ElasticRing:
+    """A thin ring of one section.
+
+    Attributes
+    ----------
+    radius : float
+        Of the line through the sections' centres [m].
+    area, second_moment : float
+        Of the section [m2], [m4]; about the axis along the bearing's axis.
+    youngs_modulus, density : float
+        [Pa], [kg/m3]
+    bedding : float
+        Radial stiffness of what the ring lies in, per length of its circumference (Winkler) [N/m2].
+    """
+
+    radius: float
+    area: float
+    second_moment: float
+    youngs_modulus: float
+    density: float
+    bedding: float = 0.0
+
+    def stiffness(self, order: int) -> float:
+        """Return k_n = pi E I (n^2 - 1)^2/R^3 + pi R k of the amplitude of cos(n th) or sin(n th) [N/m]."""
+        bending = math.pi * self.youngs_modulus * self.second_moment * (order**2 - 1) ** 2 / self.radius**3
+        return bending + math.pi * self.radius * self.bedding
+
+    def mass(self, order: int) -> float:
+        """Return m_n = pi rho A R (1 + 1/n^2), radial and tangential motion together [kg]."""
+        return math.pi * self.density * self.area * self.radius * (1.0 + 1.0 / order**2)
+
+    def frequency(self, order: int) -> float:
+        """Return the natural angular frequency of a pattern with `order` waves [rad/s].
+
+        Free: n (n^2 - 1)/sqrt(n^2 + 1) sqrt(E I/(rho A R^4)) (Hoppe 1871; Love 1927, art. 293).
+        """
+        return math.sqrt(self.stiffness(order) / self.mass(order))
+
+    def flexibility(self, angles: FloatArray, orders: int = 10) -> FloatArray:
+        """Return radial displacements under unit radial forces at the same places, outwards, shape (m, m) [m/N].
+
+        Bending alone: translation (n = 1) is the rigid body's. Forces are to be in balance, as far as no bedding holds.
+
+        Parameters
+        ----------
+        angles : float64[:], shape (m,)
+            Azimuths [rad].
+        orders : int
+            Highest number of waves.
+        """
+        apart = angles[:, None] - angles[None, :]
+        waves = range(2, orders + 1)
+        return np.asarray(sum(np.cos(n * apart) / self.stiffness(n) for n in waves), dtype=float)
+
+    def whirl_frequencies(self, order: int, spin: float) -> tuple[float, float]:
+        """Return the angular frequencies of a wave against and with the spin, in the turning ring's frame [rad/s].
+
+        Coriolis forces couple both amplitudes: m_n (c'' + ...) with the gyroscopic term 4 spin n/(n^2 + 1), so that
+        w = -+ 2 n spin/(n^2 + 1) + sqrt(w_n^2 + (2 n spin/(n^2 + 1))^2); the inward pull of rotation left out. The
+        pattern lags behind the ring by 2/(n^2 + 1) of its speed (Bryan 1890, Proc. Camb. Phil. Soc. 7, 101).
+        """
+        half = 2.0 * order * spin / (order**2 + 1)
+        root = math.sqrt(self.frequency(order) ** 2 + half**2)
+        return root + half, root - half

@@ -1,0 +1,62 @@
+"""An elastic housing from a file, reduced to the outer rings that it holds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.elastic.reduced import read_reduced
+from lambda_core.shaft.model import PLACES, MountedBearing
+from lambda_core.system.ledger import Ledger
+
+_WHERE = "housing.reduced"
+_LOOSE = 1e-9  # of the largest eigenvalue: below, the housing moves without force
+
+
+def housing_stiffness(path: Path, bearings: Sequence[MountedBearing], ledger: Ledger) -> FloatArray | None:
+    """Return the stiffness between the outer rings, shape (5 bearings, 5 bearings); None after a problem.
+
+    What the rings do not hold, further nodes and modes, follows without force: K_kk - K_ko K_oo^-1 K_ok.
+
+    Parameters
+    ----------
+    bearings : sequence of MountedBearing
+        The housing has a node at each of their places; it holds them in their locked degrees of freedom.
+    """
+    body = ledger.ask(_WHERE, lambda: read_reduced(path))
+    if body is None:
+        return None
+    rows: list[int] = []
+    own: list[int] = []
+    for i, bearing in enumerate(bearings):
+        try:
+            first = body.rows(bearing.position).start
+        except ValueError as error:
+            places = ", ".join(f"{1e3 * x:.6g}" for x in body.positions)
+            ledger.problem(_WHERE, f"{bearing.name}: {error}; nodes stand at {places} mm")
+            continue
+        held = [d for d, k in enumerate(bearing.seating.stiffness) if math.isinf(k)]
+        rows += [first + PLACES[d] for d in held]
+        own += [len(PLACES) * i + d for d in held]
+    if ledger.problems:
+        return None
+    others = np.setdiff1d(np.arange(body.stiffness.shape[0]), rows)
+    k = body.stiffness
+    try:
+        follows = np.linalg.solve(k[np.ix_(others, others)], k[np.ix_(others, rows)])
+        condensed = k[np.ix_(rows, rows)] - k[np.ix_(rows, others)] @ follows
+    except np.linalg.LinAlgError:
+        ledger.problem(_WHERE, "some of it is held by nothing: its stiffness is singular beside the bearings")
+        return None
+    scale = np.sqrt(np.abs(np.diag(condensed)))
+    stretch = np.linalg.eigvalsh(condensed / np.outer(scale, scale))
+    if stretch[0] < _LOOSE * stretch[-1]:
+        ledger.problem(_WHERE, "the housing is held by nothing: fix it to the ground before it is reduced")
+        return None
+    whole = np.zeros((len(PLACES) * len(bearings),) * 2)
+    whole[np.ix_(own, own)] = 0.5 * (condensed + condensed.T)
+    return whole
