@@ -36,19 +36,20 @@ def housing_stiffness(path: Path, bearings: Sequence[MountedBearing], ledger: Le
         try:
             first = body.rows(bearing.position).start
         except ValueError as error:
-            places = ", ".join(f"{1e3 * x:.6g}" for x in body.positions)
-            ledger.problem(_WHERE, f"{bearing.name}: {error}; nodes stand at {places} mm")
+            nodes = ", ".join(f"{1e3 * x:.6g}" for x in body.positions)
+            ledger.problem(_WHERE, f"{bearing.name}: {error}; nodes stand at {nodes} mm")
             continue
         held = [d for d, k in enumerate(bearing.seating.stiffness) if math.isinf(k)]
         rows += [first + PLACES[d] for d in held]
         own += [len(PLACES) * i + d for d in held]
     if ledger.problems:
         return None
-    others = np.setdiff1d(np.arange(body.stiffness.shape[0]), rows)
+    kept, places = np.array(rows), np.array(own)
+    others = np.setdiff1d(np.arange(body.stiffness.shape[0]), kept)
     k = body.stiffness
     try:
-        follows = np.linalg.solve(k[np.ix_(others, others)], k[np.ix_(others, rows)])
-        condensed = k[np.ix_(rows, rows)] - k[np.ix_(rows, others)] @ follows
+        follows = np.linalg.solve(k[np.ix_(others, others)], k[np.ix_(others, kept)])
+        condensed: FloatArray = k[np.ix_(kept, kept)] - k[np.ix_(kept, others)] @ follows
     except np.linalg.LinAlgError:
         ledger.problem(_WHERE, "some of it is held by nothing: its stiffness is singular beside the bearings")
         return None
@@ -58,5 +59,5 @@ def housing_stiffness(path: Path, bearings: Sequence[MountedBearing], ledger: Le
         ledger.problem(_WHERE, "the housing is held by nothing: fix it to the ground before it is reduced")
         return None
     whole = np.zeros((len(PLACES) * len(bearings),) * 2)
-    whole[np.ix_(own, own)] = 0.5 * (condensed + condensed.T)
+    whole[np.ix_(places, places)] = 0.5 * (condensed + condensed.T)
     return whole
