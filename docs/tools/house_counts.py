@@ -170,7 +170,7 @@ FIGURES = (
     Figure(
         "lines of the core", "<= 24 000", _lines_of_core, None, "see below",
     ),
-    Figure("of these lines, outside the rooms elastic, electric, shaft and thermal, which are new", "", _lines_of_before),
+    Figure("of these lines, outside elastic, electric, shaft, thermal, which are new", "", _lines_of_before),
     Figure("of all these lines, with code: no blank line, comment, docstring", "", _statements),
 )  # fmt: skip
 
