@@ -122,7 +122,7 @@ def _others(low, at, m, n, shared, ball, elapsed, opened, whole, nodes, part, ow
 
 @helper
 def _until_change(
-    first, limit, now, volt, slope, spent, m, n, shared, ball, begin, opened, whole, nodes, part, own, held, films,
+    first, limit, now, volt, slope, spent, m, n, shared, ball, elapsed, opened, whole, nodes, part, own, held, films,
     arcs, books,
 ):  # fmt: skip
     """Return the part of `limit` until something changes [s], and what (NOTHING: nothing does).
@@ -147,9 +147,7 @@ def _until_change(
         past, ring = _worst(m, part, own.after, arcs)
         at, ring = _moment(m, part, own, arcs, low, high, past, ring) if past >= 0.0 else (high, NOTHING)
         if low > spent:
-            sooner = _others(
-                low, at, m, n, shared, ball, now - begin, opened, whole, nodes, part, own, held, films, arcs
-            )
+            sooner = _others(low, at, m, n, shared, ball, elapsed, opened, whole, nodes, part, own, held, films, arcs)
             if sooner >= 0.0:
                 return sooner, OTHER
         if ring != NOTHING or at == limit:
@@ -207,15 +205,15 @@ def _channels(m, shared, part):
 
 
 @helper
-def burn(now, m, n, shared, ball, begin, opened, whole, nodes, part, own, held, films, arcs, source, books):
+def burn(now, m, n, shared, ball, elapsed, opened, whole, nodes, part, own, held, films, arcs, source, books):
     """March with the same channels open until something changes.
 
     Parameters
     ----------
     m : int
         Nodes that take part; the ball is the one behind the rings.
-    begin : float
-        Time from which `held` counts what was rolled [s].
+    elapsed : float
+        Time since `held` began that says which patches films are on [s].
     opened : float
         Voltage of the bearing that the discharge began at [V].
 
@@ -243,7 +241,7 @@ def burn(now, m, n, shared, ball, begin, opened, whole, nodes, part, own, held, 
         for a in range(m):
             own.drive[a] += part.shape[a, L.ROTOR] * source.winding * slope
         dt, ring = _until_change(
-            first, end - now, now, volt, slope, spent - now, m, n, shared, ball, begin, opened, whole, nodes, part,
+            first, end - now, now, volt, slope, spent - now, m, n, shared, ball, elapsed, opened, whole, nodes, part,
             own, held, films, arcs, books,
         )  # fmt: skip
         propagate(m, own.decay, own.amplitude, own.drive, dt, own.after, own.area)

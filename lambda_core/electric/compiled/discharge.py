@@ -28,13 +28,13 @@ def _cut(now, arcs):
 
 
 @helper
-def discharge(n, shared, ball, ring, begin, everyone, whole, nodes, part, own, held, films, arcs, source, books):
+def discharge(n, shared, ball, ring, elapsed, everyone, whole, nodes, part, own, held, films, arcs, source, books):
     """Follow a discharge that begins now in one contact; return a status of the march.
 
     Parameters
     ----------
-    begin : float
-        Time from which `held` counts what was rolled [s].
+    elapsed : float
+        Time since `held` began that says which patches films are on [s].
     everyone : int
         1 where all balls take part.
     nodes : Nodes
@@ -68,7 +68,7 @@ def discharge(n, shared, ball, ring, begin, everyone, whole, nodes, part, own, h
         charges(m, part.capacitance, own.potential, own.charge)
         amplitudes(m, part.shape, own.charge, own.amplitude)
         now, ring = burn(
-            now, m, n, shared, ball, begin, opened, whole, nodes, part, own, held, films, arcs, source, books
+            now, m, n, shared, ball, elapsed, opened, whole, nodes, part, own, held, films, arcs, source, books
         )
         if ring == NEVER:
             return L.ENDLESS

@@ -143,7 +143,7 @@ def _segment(
         total[L.T_STATUS] = -refused - 1.0
         return L.NO_VOLTAGE
     status = discharge(
-        n, shared, ball, ring, begin, everyone, whole, nodes, part, own, held, films, arcs, source, books
+        n, shared, ball, ring, elapsed, everyone, whole, nodes, part, own, held, films, arcs, source, books
     )
     if status != L.OK:
         return status
