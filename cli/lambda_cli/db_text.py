@@ -70,7 +70,7 @@ def list_bearings(rows: list[BearingRow], json: bool) -> None:
 
 def list_lubricants(rows: list[LubricantRow], json: bool) -> None:
     """Print one line per oil."""
-    from lambda_db.presentation import lubricant_summary
+    from lambda_db.presentation import kind_of, lubricant_summary
 
     if json:
         print_json(kind="lubricants", rows=[lubricant_summary(row) for row in rows])
@@ -80,7 +80,7 @@ def list_lubricants(rows: list[LubricantRow], json: bool) -> None:
     for row in rows:
         s = lubricant_summary(row)
         numbers = (_number(s[name], 4) for name in ("nu40_mm2s", "nu100_mm2s", "alpha40_per_GPa"))
-        table.add_row(row.name, row.base_type, *numbers, row.rheology, *([row.note] if told else []))
+        table.add_row(row.name, kind_of(row), *numbers, row.rheology, *([row.note] if told else []))
     _print(table)
     if not told:
         _print("what each is: lambda-bearing db show NAME")

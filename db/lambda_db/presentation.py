@@ -154,6 +154,11 @@ def bearing_summary(row: BearingRow) -> dict[str, Any]:
     }
 
 
+def kind_of(row: LubricantRow) -> str:
+    """Return what a lubricant is called in a list: its base stock, or grease."""
+    return "grease" if "nlgi" in row.properties else row.base_type
+
+
 def lubricant_summary(row: LubricantRow) -> dict[str, Any]:
     """One line of a list of lubricants."""
 

@@ -232,10 +232,10 @@ def _bearing_cells(row: BearingRow) -> list[Text]:
 
 
 def _lubricant_cells(row: LubricantRow) -> list[Text]:
-    from lambda_db.presentation import lubricant_summary
+    from lambda_db.presentation import kind_of, lubricant_summary
 
     s = lubricant_summary(row)
     numbers = ("" if s[n] is None else f"{s[n]:.4g}" for n in ("nu40_mm2s", "nu100_mm2s", "alpha40_per_GPa"))
     own = "" if row.layer == "core" else " (own)"
-    cells = [Text(row.name + own, style="bold"), Text(row.base_type)]
+    cells = [Text(row.name + own, style="bold"), Text(kind_of(row))]
     return [*cells, *(Text(number, justify="right") for number in numbers), Text(row.rheology, style="dim")]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from rich.text import Text
 
-from lambda_core.domain.number_text import interval, number
+from lambda_core.domain.number_text import NONE, hours, interval, number
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_gui.shown_units import fact_in_units
 
@@ -85,11 +85,15 @@ def _rated(summary: Summary) -> list[tuple[str, str, str]]:
     return [
         ("  SKF", number(rating.skf_torque_Nmm, 0), "N mm"),
         ("  Schaeffler", number(rating.schaeffler_torque_Nmm, 0), "N mm"),
-        ("life L10rh", number(rating.reference_life_h, 0), "h (ISO/TS 16281)"),
-        ("life L10h", number(rating.basic_life_h, 0), "h (ISO 281)"),
+        ("life L10rh", _life(rating.reference_life_h), "h (ISO/TS 16281)"),
+        ("life L10h", _life(rating.basic_life_h), "h (ISO 281)"),
         ("static safety", number(rating.static_safety, 1), "C0/P0"),
         ("kappa", number(rating.viscosity_ratio, 1), ""),
     ]
+
+
+def _life(life_h: float | None) -> str:
+    return NONE if life_h is None else hours(life_h).removesuffix(" h")
 
 
 def _breakdown(text: Text, summary: Summary, units: UnitSystem) -> None:

@@ -221,3 +221,10 @@ def test_a_grease_is_shown_with_its_class_and_temperatures(capsys: pytest.Captur
     shown = {name: (value["value"], value["unit"]) for name, value in values.items()}
     assert shown["nlgi"] == (2, "")
     assert (shown["lowest_temperature"], shown["highest_temperature"]) == ((-30, "degC"), (120, "degC"))
+
+
+def test_greases_stand_out_among_the_oils(capsys: pytest.CaptureFixture[str]) -> None:
+    _, out, _ = run(capsys, "db", "search", "--lubricants", "mineral-vg100")
+    assert "mineral  " in out
+    _, out, _ = run(capsys, "db", "search", "--lubricants", "multi2")
+    assert "arcanol-multi2  grease" in out
