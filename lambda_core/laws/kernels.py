@@ -145,8 +145,7 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
         When the kernel cannot be compiled, returns anything but int64, or reaches something
         whose content cannot be followed; the sentence names the model and its distribution.
     """
-    start = time.perf_counter()
-    kernel, reached = plain_function(model), kernel_reach(model)
+    start, kernel, reached = time.perf_counter(), plain_function(model), kernel_reach(model)
     arguments, layout = argument_names(model.role), par_layout(model)
     words = f"{model.role} {reached.key} {binding.source(arguments, layout, binding.taken_by(kernel))}"
     key = hashlib.sha256(words.encode()).hexdigest()
@@ -188,18 +187,17 @@ def _check_arguments(model: Law, kernel: FunctionType) -> None:
     """Compare names and order with the role: two swapped arrays would compile without a word."""
     if model.role not in ROLES:
         raise PluginError(unknown_name("role", model.role, ROLES))
-    taken = inspect.signature(kernel)
-    left_out = {each.name for each in ROLES[model.role].arguments if each.optional} - taken.parameters.keys()
-    wanted = tuple(name for name in argument_names(model.role) if name not in left_out)
+    taken, every = inspect.signature(kernel), ROLES[model.role].arguments
+    wanted = tuple(each.name for each in every if not each.optional or each.name in taken.parameters)
     plain = all(each.kind is inspect.Parameter.POSITIONAL_OR_KEYWORD for each in taken.parameters.values())
     if tuple(taken.parameters) != wanted or not plain:
         bare = taken.replace(
             parameters=[each.replace(annotation=inspect.Parameter.empty) for each in taken.parameters.values()],
             return_annotation=inspect.Signature.empty,
         )
-        every = ", ".join(argument_names(model.role))
-        some = "" if len(wanted) == len(argument_names(model.role)) else f", and need only ({', '.join(wanted)})"
-        raise PluginError(f"{model.label} takes {bare}; {model.role} kernels take ({every}){some}")
+        some = "" if len(wanted) == len(every) else f", and need only ({', '.join(wanted)})"
+        known = ", ".join(argument_names(model.role))
+        raise PluginError(f"{model.label} takes {bare}; {model.role} kernels take ({known}){some}")
 
 
 _in_memory: dict[Path, CompiledKernel] = {}
