@@ -24,7 +24,7 @@ def parameter(
     description: str,
     *,
     source: str = "",
-    status: Literal["published", "unconfirmed", "assumed", "numerical", "lubricant"] = "published",
+    status: Literal["published", "unconfirmed", "assumed", "numerical", "lubricant"] | None = None,
     published_range: tuple[Bound, Bound] | None = None,
     **constraints: Any,
 ) -> Any:
@@ -38,10 +38,11 @@ def parameter(
         What the number is, for files, help and forms.
     source : str
         Where default and range come from.
-    status : str
-        "published"; "unconfirmed" for a value in common use whose original was not seen; "assumed" for an
-        assumption to be printed with results; "numerical" for a regularisation without physical meaning;
-        "lubricant" for a property that the oil's catalogue row brings.
+    status : str, optional
+        "published", what it is where a source is named; "unconfirmed" for a value in common use whose original
+        was not seen; "assumed" for an assumption to be printed with results, what a default without a source is;
+        "numerical" for a regularisation without physical meaning; "lubricant" for a property that the oil's
+        catalogue row brings.
     published_range : tuple of float or str, optional
         Range found in the literature, written as in a case file; studies sample it.
     **constraints
@@ -52,7 +53,8 @@ def parameter(
     Any
         A field of a pydantic model, for the class body of `Parameters`.
     """
-    extra: dict[str, Any] = {"status": status}
+    sourced = bool(source) or default is ...  # who has to give a value answers for it
+    extra: dict[str, Any] = {"status": status or ("published" if sourced else "assumed")}
     if source:
         extra["source"] = source
     if published_range is not None:

@@ -78,6 +78,20 @@ def test_a_file_is_used_once_it_is_named(file: Path) -> None:
     assert 'traction = "short.py:short"' in api.check("6319-cp10-1500", CHOICE).case_toml
 
 
+def test_a_default_is_published_only_where_a_source_is_named(tmp_path: Path) -> None:
+    text = """from lambda_core.plugins import OK, Parameters, law, parameter
+class Mine(Parameters):
+    guess: float = parameter(0.07, "a guess")
+    known: float = parameter(0.05, "a finding", source="Bair 2019, eq. 7.3")
+"""
+    file = tmp_path / "graded.py"
+    file.write_text(text + LAW.split("\n\n")[1].replace('"short",', '"graded", Mine,').replace("exp(", "1.0 * ("))
+    api.use_plugin(file)
+    said = api.check("6319-cp10-1500", ["models.traction=graded"]).assumptions
+    assert any("guess 0.07, default (a guess; assumed)" in line for line in said)
+    assert any("known 0.05, default (Bair 2019, eq. 7.3; published)" in line for line in said)
+
+
 def test_an_edited_file_is_another_text(file: Path) -> None:
     api.use_plugin(file)
     before = traction("6319-cp10-1500").distribution
