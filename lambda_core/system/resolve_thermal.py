@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from lambda_core.case.case import Case
 from lambda_core.case.thermal import Thermal
 from lambda_core.domain.errors import unknown_name
+from lambda_core.domain.units import show
 from lambda_core.system.ledger import Ledger
 
 # The bearing's own nodes, in the order in which every network has them.
@@ -31,6 +32,8 @@ OUTSIDE: dict[str, tuple[Pair, ...]] = {
     "none": (),
 }
 _PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
+# No weather is colder (-89 degC), and beyond a furnace no bearing stands: what lies outside is a slip of the unit.
+_SURROUNDINGS = (173.15, 773.15)  # [K]
 
 
 def node_names(thermal: Thermal) -> tuple[str, ...]:
@@ -67,6 +70,7 @@ def check_thermal(case: Case, ledger: Ledger) -> None:
     """Note everything that makes the thermal network of a case impossible."""
     thermal = case.thermal
     names = node_names(thermal)
+    _check_surroundings(thermal, ledger)
     _check_nodes(thermal, ledger)
     fine = _check_links(thermal, names, ledger)
     if thermal.oil_supply is not None and thermal.oil_flow == 0.0:
@@ -79,6 +83,46 @@ def check_thermal(case: Case, ledger: Ledger) -> None:
             ledger.problem(f"thermal.nodes.{name}", "no way leads from it to a held temperature: thermal.links")
     if case.operation.temperatures == "computed":
         _check_computed(case, ledger)
+
+
+def network_assumptions(thermal: Thermal) -> list[str]:
+    """Return what every network assumes, and what this one fills in where the case says nothing."""
+    given = thermal.model_fields_set
+    found = [
+        "heat of sheared films and of rolling goes into the two surfaces by their effusivities, of hysteresis by their "
+        "compliance, of drag into the oil",
+        "each part has one temperature; oil wets all its surfaces and is mixed",
+        "contacts see the oil at the temperature of "
+        + ("the oil node" if thermal.inlet == "oil" else "rings and balls (mean of both contacts)"),
+    ]
+    if "ambient" not in given:
+        found.append(f"surroundings at {show(thermal.ambient, 'temperature', 6)}: thermal.ambient")
+    if thermal.oil_flow > 0.0 and thermal.oil_supply is None:
+        found.append(f"oil flows in at the surroundings' {show(thermal.ambient, 'temperature', 6)}: thermal.oil_supply")
+    if "conductances" not in given:
+        found.append(f"conductances to the surroundings from the set {thermal.conductances}: thermal.conductances")
+    if thermal.conductances in ("harris", "palmgren"):
+        if thermal.housing_area is None:
+            found.append("housing: a cast-iron pillow block of height 1.5 D and width D: thermal.housing_area")
+        found.append(f"seats conduct {thermal.seat_conductance:g} W/(m2 K)")
+    if thermal.conductances == "harris" and "emissivity" not in given:
+        found.append(f"the housing's surface has an emissivity of {thermal.emissivity:g}")
+    if thermal.conductances == "iso-15312":
+        found.append("shaft and housing take q_r A_r per 50 K, shared by the areas of the seats (ISO 15312)")
+    return found
+
+
+def _check_surroundings(thermal: Thermal, ledger: Ledger) -> None:
+    """Refuse surroundings in which no bearing stands."""
+    coldest, hottest = _SURROUNDINGS
+    for name in ("ambient", "oil_supply"):
+        temperature = getattr(thermal, name)
+        if temperature is not None and not coldest <= temperature <= hottest:
+            ledger.problem(
+                f"thermal.{name}",
+                f"{show(temperature, 'temperature', 6)} is outside {show(coldest, 'temperature', 6)} to "
+                f"{show(hottest, 'temperature', 6)}: is another unit meant?",
+            )
 
 
 def _check_nodes(thermal: Thermal, ledger: Ledger) -> None:
@@ -108,7 +152,9 @@ def _check_links(thermal: Thermal, names: tuple[str, ...], ledger: Ledger) -> bo
 
 
 def _check_computed(case: Case, ledger: Ledger) -> None:
-    """Refuse temperatures that are given and to be found at once."""
+    """Refuse temperatures that are given and to be found at once; say what finding them assumes."""
+    for sentence in network_assumptions(case.thermal):
+        ledger.assume(sentence)
     given = case.bearing.temperatures
     for part in _PARTS:
         if given is not None and getattr(given, part) is not None:

@@ -11,6 +11,7 @@ from lambda_core.case.case_io import parse_case
 from lambda_core.results.convergence import window
 from lambda_core.results.reader import Result
 from lambda_core.system.bearing import BearingModel
+from lambda_core.system.resolve_thermal import network_assumptions
 from lambda_core.thermal.feedback import Loop, Steady
 from lambda_core.thermal.losses import Announce
 
@@ -54,7 +55,7 @@ def _with_temperatures(case: Case, loop: Loop, found: Steady, sentence: str) -> 
     at = dict(zip(loop.bearing.names, found.temperatures.tolist(), strict=True))
     parts = {part: _degrees(at[part]) for part in _PARTS if part in at}
     return case.with_(
-        assumptions=[*case.assumptions, sentence],
+        assumptions=[*case.assumptions, *network_assumptions(case.thermal), sentence],
         lubricant={"temperature": _degrees(found.point.inlet)},
         bearing={"temperatures": parts},
         operation={"temperatures": None},

@@ -13,6 +13,7 @@ from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import merged_cage
 from lambda_core.system.describe import headline
 from lambda_core.system.resolve_clearance import CLEARANCE_HOLDS
+from lambda_core.system.resolve_thermal import network_assumptions
 from lambda_core.thermal.feedback import Gain, Loop, Steady, runaway_sentence
 from lambda_core.thermal.losses import Point
 from lambda_core.thermal.transient import Course, rise_time
@@ -79,7 +80,8 @@ class SteadyTemperatures(Record):
     gain: LoopGain = Field(description="of the torque-temperature loop")
     energy_residual: float = Field(description="(heat put in - heat that leaves)/heat put in")
     iterations: int = Field(description="of Newton's method")
-    assumptions: list[str]
+    network_assumptions: list[str] = Field(description="of the thermal network, and what it fills in")
+    assumptions: list[str] = Field(description="of the case beside them")
 
     def text(self) -> str:
         """Return the lines for people."""
@@ -120,7 +122,8 @@ class TemperaturesOverTime(Record):
     energy_residual: float = Field(description="(in - out - stored)/in")
     points_solved: int = Field(description="quasi-static points; those between are interpolated")
     gain: LoopGain | None = Field(description="at the end, where the limit was passed")
-    assumptions: list[str]
+    network_assumptions: list[str] = Field(description="of the thermal network, and what it fills in")
+    assumptions: list[str] = Field(description="of the case beside them")
 
     def text(self) -> str:
         """Return the lines for people."""
@@ -129,26 +132,14 @@ class TemperaturesOverTime(Record):
         return course_text(self)
 
 
-def assumptions(loop: Loop) -> list[str]:
-    """Return what every network assumes, and what this one fills in."""
-    thermal = loop.thermal
-    found = [
-        "heat of sheared films and of rolling goes into the two surfaces by their effusivities, of hysteresis by their "
-        "compliance, of drag into the oil",
-        "each part has one temperature; oil wets all its surfaces and is mixed",
-        "contacts see the oil at the temperature of "
-        + ("the oil node" if thermal.inlet == "oil" else "rings and balls (mean of both contacts)"),
-    ]
-    if thermal.conductances in ("harris", "palmgren"):
-        found.append("housing: a cast-iron pillow block of height 1.5 D and width D where the case does not say")
-        found.append(f"seats conduct {thermal.seat_conductance:g} W/(m2 K)")
-    if thermal.conductances == "iso-15312":
-        found.append("shaft and housing take q_r A_r per 50 K, shared by the areas of the seats (ISO 15312)")
+def _assumptions(loop: Loop) -> tuple[list[str], list[str]]:
+    """Return what the network assumes, and what the case does beside it."""
+    found = network_assumptions(loop.thermal)
     if loop.model.mounting is not None and not loop.model.mounting.shaft:
         found.append("the stated clearance is that of the mounted bearing at the reference temperature")
     # What the case assumes of the clearance holds for temperatures that are not those found here.
-    kept = [text for text in loop.model.assumptions if not text.startswith(("clearance in operation", CLEARANCE_HOLDS))]
-    return [*kept, *found]
+    passed = ("clearance in operation", CLEARANCE_HOLDS)
+    return found, [text for text in loop.model.assumptions if text not in found and not text.startswith(passed)]
 
 
 def _headline(loop: Loop, point: Point) -> str:
@@ -159,6 +150,7 @@ def _headline(loop: Loop, point: Point) -> str:
 def steady_of(loop: Loop, found: Steady, losses_from: str = "quasi-static point") -> SteadyTemperatures:
     """Put steady temperatures into the units of the interface."""
     model, network = loop.model, found.network
+    of_network, of_case = _assumptions(loop)
     names, flows = loop.bearing.names, network.flows(found.temperatures)
     heat = float(network.heat.sum())
     pairs = [(i, j) for i in range(len(names)) for j in range(len(names)) if flows[i, j] > 0.0]
@@ -184,7 +176,8 @@ def steady_of(loop: Loop, found: Steady, losses_from: str = "quasi-static point"
         gain=LoopGain.of(found.gain),
         energy_residual=(heat - network.leaving(found.temperatures)) / heat if heat > 0.0 else 0.0,
         iterations=found.iterations,
-        assumptions=assumptions(loop),
+        network_assumptions=of_network,
+        assumptions=of_case,
     )
 
 
@@ -209,6 +202,7 @@ def _state(found: Steady) -> State:
 def course_of(loop: Loop, course: Course) -> TemperaturesOverTime:
     """Put temperatures over time into the units of the interface."""
     model, names = loop.model, loop.bearing.names
+    of_network, of_case = _assumptions(loop)
     celsius = course.temperatures - _ZERO_CELSIUS
     reason = ""
     if course.beyond_limit:
@@ -239,5 +233,6 @@ def course_of(loop: Loop, course: Course) -> TemperaturesOverTime:
         energy_residual=course.residual,
         points_solved=course.solved,
         gain=LoopGain.of(course.gain) if course.gain else None,
-        assumptions=assumptions(loop),
+        network_assumptions=of_network,
+        assumptions=of_case,
     )

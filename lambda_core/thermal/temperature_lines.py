@@ -45,7 +45,7 @@ def steady_text(found: SteadyTemperatures) -> str:
             line("clearance", f"{number(state.clearance_um)} um in operation"),
             line("loop gain", _gain(found.gain)),
             line("energy residual", f"{found.energy_residual:.1e} of input"),
-            *assumption_lines(found.assumptions),
+            *_assumed(found),
         ]
     )
 
@@ -78,10 +78,18 @@ def course_text(found: TemperaturesOverTime) -> str:
     ]
     if found.gain is not None:
         lines.append(line("loop gain", _gain(found.gain)))
-    lines += assumption_lines(found.assumptions)
+    lines += _assumed(found)
     if found.reason:
         lines.append(line("ENDED EARLY", found.reason))
     return "\n".join(lines)
+
+
+def _assumed(found: SteadyTemperatures | TemperaturesOverTime) -> list[str]:
+    """Return what the network assumes in full, and where the rest stands."""
+    return [
+        *(line("network" if i == 0 else "", text) for i, text in enumerate(found.network_assumptions)),
+        *assumption_lines(found.assumptions),
+    ]
 
 
 def _gain(gain: LoopGain) -> str:

@@ -57,6 +57,8 @@ def problems(ordinary: dict[str, Any], thermal: dict[str, Any], **more: Any) -> 
         ),
         ({"conductances": "none"}, "thermal.links", "no way leads from the bearing to a held temperature"),
         ({"oil_supply": "40 degC"}, "thermal.oil_supply", "has no effect without thermal.oil_flow"),
+        ({"ambient": "35 K"}, "thermal.ambient", "-238.15 degC is outside -100 degC to 500 degC"),
+        ({"oil_supply": "40 K", "oil_flow": "1 l/min"}, "thermal.oil_supply", "is another unit meant?"),
     ],
 )
 def test_a_mistake_has_its_path(ordinary: dict[str, Any], thermal: dict[str, Any], where: str, said: str) -> None:
@@ -90,3 +92,17 @@ def test_computed_temperatures_are_part_of_what_a_run_is(ordinary: dict[str, Any
     assert hash_of() == hash_of(thermal={"ambient": "30 degC"})
     assert hash_of(**computed) != hash_of()
     assert hash_of(**computed) != hash_of(**computed, thermal={"ambient": "30 degC"})
+
+
+def test_what_the_network_fills_in_is_an_assumption(ordinary: dict[str, Any]) -> None:
+    computed = {"operation": {"temperatures": "computed"}}
+    found = "\n".join(api.check(merged(ordinary, {"thermal": {"oil_flow": "1 l/min"}, **computed})).assumptions)
+    assert "oil flows in at the surroundings' 20 degC: thermal.oil_supply" in found
+    assert "cast-iron pillow block" in found
+    assert "emissivity of 0.9" in found
+    given = {"oil_flow": "1 l/min", "oil_supply": "40 degC", "ambient": "25 degC", "conductances": "palmgren"}
+    found = "\n".join(api.check(merged(ordinary, {"thermal": given, **computed})).assumptions)
+    assert "thermal.oil_supply" not in found
+    assert "thermal.ambient" not in found
+    assert "thermal.conductances" not in found
+    assert "emissivity" not in found
