@@ -172,9 +172,18 @@ def check(
     """Try models against the contract of their role; exit 3 when one does not keep it."""
     from lambda_core import api
     from lambda_core.api import Verdict
+    from lambda_core.domain.plugin_errors import PluginError
 
     cards = []
-    names = [named_plugin(name) for name in names or ()]
+    try:
+        names = [named_plugin(name) for name in names or ()]
+    except PluginError:
+        if not as_json:
+            raise
+        typer.echo(
+            Verdict(models=[], faults=api.plugin_faults(map(_plain_name, names or ()))).model_dump_json(indent=2)
+        )
+        raise typer.Exit(3) from None
     for card in api.check_plugins(names, announce=lambda text: typer.echo(text, err=True)):
         cards.append(card)
         if not as_json:
@@ -187,6 +196,11 @@ def check(
             _print(f"not in use: {fault.distribution} ({fault.entry_point}): {fault.message}")
     if faults or not all(card.ok for card in cards):
         raise typer.Exit(3)
+
+
+def _plain_name(name: str) -> str:
+    """Return what a plugin is called: a file by its name without the folder."""
+    return Path(name).name if name.endswith(".py") else name
 
 
 def _verdict(card: CheckCard) -> str:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Literal
 
-from pydantic import GetJsonSchemaHandler, model_serializer, model_validator
+from pydantic import GetJsonSchemaHandler, field_validator, model_serializer, model_validator
 from pydantic_core import CoreSchema
 
 from lambda_core.case.option import Section, option
@@ -35,7 +36,11 @@ class _Dof(Section):
     @model_validator(mode="before")
     @classmethod
     def _short_form(cls, value: Any) -> Any:
-        return {"mode": value} if isinstance(value, str) else value
+        if not isinstance(value, str):
+            return value
+        if value[:1] in "+-.0123456789" and "motion" in cls.model_fields:
+            raise ValueError(f'a motion is written {{ mode = "prescribed", motion = "{value}" }}')
+        return {"mode": value}
 
     @model_validator(mode="after")
     def _consistent(self) -> _Dof:
@@ -166,6 +171,13 @@ class Loads(Section):
     inner_ring: BodyLoads | None = option(None, "further loads on the inner ring")
     outer_ring: BodyLoads | None = option(None, "loads on the outer ring")
     cage: BodyLoads | None = option(None, "loads on the cage")
+
+    @field_validator("radial_direction")
+    @classmethod
+    def _within_a_turn(cls, angle: float) -> float:
+        if abs(angle) > 2.0 * math.pi:
+            raise ValueError(f"must lie within a full turn, -360 deg to 360 deg, not {math.degrees(angle):.6g} deg")
+        return angle
 
 
 class Operation(Section):

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from lambda_core.views.chart import ViewData
     from lambda_core.views.view import Subject
 
+_PAGES = (".html", ".htm")
+
 
 def views(subject: Subject | None = None) -> list[ViewCard]:
     """Return the installed views with their options.
@@ -252,6 +254,8 @@ def report(
     cover = _cover(project, author, appendices, units)
     _refuse_existing(path, overwrite)
     is_pdf = path.suffix.lower() == ".pdf"
+    if not is_pdf and path.suffix.lower() not in _PAGES:
+        raise UsageError(f"{path}: a report is written as {', '.join(_PAGES)} or .pdf")
     if is_pdf:
         check_printer()
     subject, kind = subject_of(source)

@@ -85,12 +85,13 @@ class Watch:
         return found | {f"event/{name}": chosen.item.key for name, chosen in self._events.items()}
 
     def take(self, samples: Mapping[str, NDArray[np.float64]]) -> Seen:
-        """Call every observer and event with a stretch of samples, channel -> array."""
+        """Call every observer and event with a stretch of samples, channel -> array; events see observers' channels."""
         shown = {name: _locked(values) for name, values in samples.items()}
         channels: dict[str, FloatArray] = {}
         for name, chosen in self._observers.items():
             channels |= self._observed(name, chosen, shown)
         self._before |= {name: values[-1] for name, values in {"time": samples["time"], **channels}.items()}
+        shown |= {name: _locked(values) for name, values in channels.items()}
         starts = [self._happened(name, chosen, number, shown) for number, (name, chosen) in enumerate(self._chosen())]
         rows = np.array(sorted(row for found in starts for row in found)).reshape(-1, len(EVENTS))
         return Seen(channels, {channel.name: rows[:, i] for i, channel in enumerate(EVENTS)})
@@ -102,7 +103,7 @@ class Watch:
         last = {channel.name: result[channel.name][rows.samples - 1 : rows.samples] for channel in result.channels}
         written = {channel.name for channel in self.channels}
         self._before = {name: last[name][0] for name in ("time", *written)}
-        shown = {name: _locked(values) for name, values in last.items() if name not in written}
+        shown = {name: _locked(values) for name, values in last.items()}
         for name, chosen in self._chosen():
             found = self._called(f"event/{name}", chosen, shown)
             self._was[name] = bool(found is not None and found[-1])

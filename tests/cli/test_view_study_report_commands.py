@@ -138,6 +138,13 @@ def test_a_study_from_file_to_table(call: Call, tmp_path: Path, monkeypatch: pyt
     assert "--force" in err
 
 
+def test_a_report_is_a_page_or_a_pdf(call: Call, combined_run: Result, tmp_path: Path) -> None:
+    code, _, err = call("report", str(combined_run.path), "--out", str(tmp_path / "motor.docx"))
+    assert code == 2
+    assert "a report is written as .html, .htm or .pdf" in err
+    assert not (tmp_path / "motor.docx").exists()
+
+
 def test_an_invalid_study_ends_with_3(call: Call, tmp_path: Path) -> None:
     path = tmp_path / "bad.toml"
     path.write_text(STUDY.replace("loads.radial", "loads.radal"), encoding="utf-8")

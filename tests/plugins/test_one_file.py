@@ -236,3 +236,13 @@ def test_from_saved_file_to_result(file: Path, tmp_path: Path) -> None:
     assert (refused.returncode, refused.stdout) == (3, "")
     missing = program("check", "6208-axial-1300", "--plugin", "none.py")
     assert (missing.returncode, missing.stderr.strip()) == (2, '"none.py" is no file: a plugin of one file is FILE.py')
+
+
+def test_a_file_that_cannot_be_used_is_an_answer_in_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "never.py"
+    path.write_text('raise ValueError("no")\n', encoding="utf-8")
+    from lambda_cli.main import main
+
+    assert main(["plugins", "check", str(path), "--json"]) == 3
+    (fault,) = json.loads(capsys.readouterr().out)["faults"]
+    assert "ValueError: no (never.py, line 1)" in fault["message"]

@@ -232,6 +232,13 @@ def test_clearance_against_raceway_diameters(problems: Problems) -> None:
         ),
         ({"bodies": {"cage": {"land_clearance": "0.3 mm"}}}, "bodies.cage.land_clearance", "has no guiding land"),
         ({"bodies": {"cage": {"guidance": "outer ring"}}}, "bodies.cage.land_clearance", "is required"),
+        # 500 meant for the axial load, typed one field too early
+        ({"loads": {"radial_direction": "500 deg"}}, "loads.radial_direction", "-360 deg to 360 deg, not 500 deg"),
+        (
+            {"bodies": {"inner_ring": {"tilt_y": "4 mrad"}}},
+            "bodies.inner_ring.tilt_y",
+            'a motion is written { mode = "prescribed", motion = "4 mrad" }',
+        ),
     ],
 )
 def test_contradiction(problems: Problems, changes: dict[str, Any], where: str, said: str) -> None:

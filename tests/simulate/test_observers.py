@@ -118,6 +118,16 @@ def test_an_event_ends_the_run_and_says_so(tmp_path: Path) -> None:
     assert seen.first_s == pytest.approx(2.1e-3, abs=1e-4)
 
 
+def test_an_event_reads_what_observers_wrote(tmp_path: Path) -> None:
+    def worn(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any]) -> Any:
+        return samples["work_lost"] > 1e-3
+
+    watched = with_observer(observer()) | {"events": {"worn": ChosenEvent(event(worn), NoParameters(), "record")}}
+    result = launch(model(**watched), tmp_path / "worn.h5")
+    (begun,) = result.events()["time"]
+    assert result["work_lost"][result["time"] < begun].max() <= 1e-3 < result["work_lost"][-1]
+
+
 def test_an_event_that_is_recorded_begins_again_and_again(tmp_path: Path) -> None:
     def often(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any]) -> Any:
         return np.sin(2.0 * np.pi * samples["time"] / 1e-3 + 1.0) > 0.0
