@@ -181,7 +181,9 @@ def check(
         if not as_json:
             raise
         typer.echo(
-            Verdict(models=[], faults=api.plugin_faults(map(_plain_name, names or ()))).model_dump_json(indent=2)
+            Verdict(models=[], faults=api.plugin_faults([_plain_name(name) for name in names or ()])).model_dump_json(
+                indent=2
+            )
         )
         raise typer.Exit(3) from None
     for card in api.check_plugins(names, announce=lambda text: typer.echo(text, err=True)):
