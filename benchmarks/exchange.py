@@ -54,7 +54,7 @@ RING_GUIDED = ("bodies.cage.guidance=outer ring", "bodies.cage.land_clearance=0.
 
 EXCHANGES: tuple[Exchange, ...] = (
     Exchange("normal_contact", (Law("hamrock-brewe"), Law("hertz-exact"))),
-    Exchange("damping", (Law("cubic"), Law("none"))),
+    Exchange("damping", (Law("cubic"), Law("hunt-crossley"), Law("none"))),
     Exchange(
         "rheology",
         (

@@ -18,7 +18,8 @@ def of_role(role: str) -> list[str]:
 
 
 def test_every_built_in_law_of_every_role_is_exchanged() -> None:
-    assert [exchange.role for exchange in EXCHANGES] == list(MOTION_ROLES)
+    # a role of which the program has one law, contact_state, has nothing to exchange
+    assert [exchange.role for exchange in EXCHANGES] == [role for role in MOTION_ROLES if len(of_role(role)) > 1]
     for exchange in EXCHANGES:
         assert sorted(law.name for law in exchange.laws) == sorted(of_role(exchange.role))
 

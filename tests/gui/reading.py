@@ -105,7 +105,8 @@ def _cut_cells(table: DataTable[object]) -> Iterator[str]:
 def _cut_options(app: BuilderApp, options: OptionList, region: Region) -> Iterator[str]:
     """Entries that begin on the screen, and whose successor does, must stand there as a whole."""
     lines = screen_text(app).splitlines()[region.y : region.bottom]
-    shown = "".join("".join(line[region.x : region.right].split()) for line in lines)
+    right = region.right - (options.scrollbar_size_vertical if options.show_vertical_scrollbar else 0)
+    shown = "".join("".join(line[region.x : right].split()) for line in lines)
     texts = ["".join(str(option.prompt).split()) for option in options.options if not isinstance(option.prompt, Table)]
     for text, following in pairwise(texts):
         if text[:20] in shown and following[:20] in shown and text not in shown:

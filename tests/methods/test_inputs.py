@@ -122,7 +122,7 @@ def test_the_load_of_catalogue_methods_does_not_change_with_speed() -> None:
 def test_permittivity_uses_the_chosen_laws() -> None:
     from lambda_plugins.bode import constant
 
-    def thin(p: np.ndarray, t: np.ndarray, par: np.ndarray, ln_eta: np.ndarray, rho: np.ndarray) -> int:
+    def thin(p: np.ndarray, T: np.ndarray, par: np.ndarray, ln_eta: np.ndarray, rho: np.ndarray) -> int:
         rho[0] = 870.0
         return 2 if p[0] > 1e9 else 1
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,8 @@ import numpy as np
 import pytest
 
 from lambda_core import api
+from lambda_core.discovery import manager
+from lambda_core.domain import handed_laws
 from lambda_core.domain.errors import CaseError
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.plugins import OK, Parameters, State, law, parameter
@@ -20,6 +23,16 @@ from lambda_core.solver.entry import core
 
 NAME = "6208-axial-1300"
 TURN = 3.0  # turns of the spiral over its decay
+
+
+@pytest.fixture(scope="module", autouse=True)
+def untouched() -> Iterator[None]:
+    """Take back the laws that were handed over: other tests of this process know nothing of them."""
+    before = dict(handed_laws._laws)
+    yield
+    handed_laws._laws.clear()
+    handed_laws._laws.update(before)
+    manager.registry.cache_clear()
 
 
 class Tau(Parameters):

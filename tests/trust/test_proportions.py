@@ -47,7 +47,7 @@ def test_the_ranges_are_those_of_the_catalogue() -> None:
         filling.append(2.0 * (row.ball_count.value - 1) * math.degrees(math.asin(ball / pitch)))
         wall += [0.5 * (pitch - ball - bore) / ball, 0.5 * (outside - pitch - ball) / ball]
         width.append(broad / ball)
-    assert len(filling) == 286
+    assert len(filling) == 349
     for found, (least, most), step in (
         (filling, proportions.FILLING, 1.0), (wall, proportions.WALL, 0.01), (width, proportions.WIDTH, 0.01)
     ):  # fmt: skip
