@@ -46,6 +46,7 @@ def test_one_cell_along_rolling_overestimates_sliding(point: Point) -> None:
     assert 0.01 < (found["sliding"] or 0.0) / hand["sliding"] - 1.0 < 0.04
 
 
+@pytest.mark.slow
 def test_what_an_estimate_without_the_unloaded_balls_leaves_out(monkeypatch: pytest.MonkeyPatch) -> None:
     """A first estimate had 248, 519 and 733 N mm of rolling: 30 um of clearance, loaded balls only.
 
@@ -73,6 +74,7 @@ def test_strips_of_an_unloaded_ball_against_the_formula_of_a_point_contact() -> 
     assert 0.6 < contact.rolling(u) * (1.0 + 0.29 * L**0.78) / point < 1.0
 
 
+@pytest.mark.slow
 def test_heat_takes_off_more_the_faster_it_runs() -> None:
     """Film temperature alone: 2 % less sliding at 500 1/min, 10 to 12 % less at 3000 1/min.
 
