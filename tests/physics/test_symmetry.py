@@ -21,7 +21,7 @@ RADIAL, AXIAL, DIRECTION, MOMENT_Y, MOMENT_Z = 16.0, 4.0, 281.0, 60.0, -25.0
 
 def loads(direction: float, axial: float, moment_y: float, moment_z: float, speed: float) -> tuple[str, ...]:
     return (
-        f"loads.radial={RADIAL!r} kN", f"loads.radial_direction={direction!r} deg", f"loads.axial={axial!r} kN",
+        f"loads.radial={RADIAL!r} kN", f"loads.radial_direction={direction % 360.0!r} deg", f"loads.axial={axial!r} kN",
         f"loads.moment_y={moment_y!r} N m", f"loads.moment_z={moment_z!r} N m", f"operation.speed={speed!r} rpm",
     )  # fmt: skip
 
