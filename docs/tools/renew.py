@@ -14,6 +14,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))
 
 import page_examples as examples
+import page_sources
 import reference_errors as errors
 from gallery import gallery
 from reference_api import api_page
@@ -52,6 +53,10 @@ def wanted() -> dict[Path, str]:
             head, _, rest = text.partition(begin)
             text = f"{head}{begin}\n{make()}\n{end}{rest.partition(end)[2]}"
         found[DOCS / name] = text
+    for path in sorted(DOCS.rglob("*.md")):
+        text = found.get(path) or path.read_text(encoding="utf-8")
+        if page_sources.taken(text):
+            found[path] = page_sources.renewed(text)
     return found
 
 

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import page_sources
 import pytest
 import reference_errors
 from lambda_cli.commands import entries
@@ -44,12 +45,23 @@ def test_a_stale_page_is_found(tmp_path: Path) -> None:
 
     copy = tmp_path / "docs"
     shutil.copytree(DOCS, copy)
+    (tmp_path / "examples").symlink_to(DOCS.parent / "examples")
     stale = copy / "reference" / "case.md"
     stale.write_text(stale.read_text().replace("`depth.strips`", "`depth.slices`"))
     command = [sys.executable, str(copy / "tools" / "renew.py"), "--check"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 1
     assert "stale: docs/reference/case.md" in done.stdout
+
+
+def test_code_of_examples_on_pages_follows_the_files() -> None:
+    shown = [file for path in DOCS.rglob("*.md") for file, _ in page_sources.taken(path.read_text(encoding="utf-8"))]
+    packages = {file.split("/")[1] for file in shown}
+    assert packages == {"sliding-wear", "cage-whirl", "magnetic-pull", "spring-damper", "warm-contact"}
+    block = f"<!-- from {shown[0]}: RATE VOLUME -->\n```python\nRATE = 1\n```\n"
+    assert 'VOLUME = Integral("wear_volume"' in page_sources.renewed(block)
+    with pytest.raises(ValueError, match="defines no Archart"):
+        page_sources.renewed(block.replace("RATE VOLUME", "Archart"))
 
 
 def _described(path: str) -> str:

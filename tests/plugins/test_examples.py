@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import re
+import tomllib
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -75,14 +78,21 @@ def test_a_package_with_its_test_is_at_most_60_lines(name: str) -> None:
     assert len([line for line in lines if line.strip()]) <= 60
 
 
-# What a case says to use each package; together they cover every hook of the motion.
-USED = {
-    "sliding-wear": ["observers.sliding-wear.coefficient=1e-8"],
-    "cage-whirl": ["events.cage-whirl.action=record"],
-    "magnetic-pull": ["elements.m.law=magnetic-pull", "elements.m.first=outer_ring", "elements.m.second=inner_ring"],
-    "spring-damper": ["elements.s.law=spring-damper", "elements.s.second=inner_ring"],
-    "warm-contact": ["models.contact_state=warm", "models.traction=warm-eyring"],
-}
+def settings_on_the_page() -> list[str]:
+    """Return what docs/plugins.md writes into cases to use the packages, as ``--set`` takes it."""
+    page = (EXAMPLES.parent / "docs" / "plugins.md").read_text()
+    below = page[page.index("## Channels and events of your own") :]
+    return [
+        line for text in re.findall(r"^```toml\n(.*?)^```$", below, re.M | re.S) for line in flat(tomllib.loads(text))
+    ]
+
+
+def flat(table: dict[str, Any], path: str = "") -> Iterator[str]:
+    for name, value in table.items():
+        if isinstance(value, dict):
+            yield from flat(value, f"{path}{name}.")
+        else:
+            yield f"{path}{name}={value}"
 
 
 def test_show_has_every_law_of_a_package_or_a_file(site: Installation, tmp_path: Path) -> None:
@@ -103,7 +113,10 @@ def test_show_has_every_law_of_a_package_or_a_file(site: Installation, tmp_path:
 
 def test_all_of_them_in_one_run_close_their_energy(site: Installation, tmp_path: Path) -> None:
     out = tmp_path / "all.h5"
-    changes = [word for each in USED.values() for change in each for word in ("--set", change)]
+    used = settings_on_the_page()
+    assert {"observers", "events", "elements", "models"} <= {line.partition(".")[0] for line in used}
+    used += ["events.cage-whirl.action=record", "elements.s.law=spring-damper", "elements.s.second=inner_ring"]
+    changes = [word for change in used for word in ("--set", change)]
     answer = site.program(
         "run", "6208-axial-1300", "--duration", "10 ms", "--quiet", "--json", "--out", str(out), *changes
     )
