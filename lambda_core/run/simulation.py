@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from lambda_core.run.answers import result
 from lambda_core.system.checking import resolve
@@ -130,11 +130,14 @@ def iterate(
     overrides: Iterable[str] = (),
     *,
     interval: float | None = None,
+    exact: bool = False,
+    couple: Literal["force", "motion"] = "force",
     announce: Callable[[str], None] | None = None,
 ) -> Stepping:
     """Simulate a case step by step, without a result file: ``for step in iterate(case)``.
 
-    For programs that look at every step, or that push the inner ring with what another program says: co-simulation.
+    For programs that look at every step, or that give the loads on the inner ring or the motion of both rings:
+    co-simulation.
 
     Parameters
     ----------
@@ -142,6 +145,10 @@ def iterate(
         As for :func:`check`, or a resolved model.
     interval : float, optional
         Time between steps [s]; default: that of the samples of a run. No step of the integrator is longer.
+    exact : bool
+        Steps end at the multiples of `interval`, not with the first step of the integrator past them.
+    couple : "force" or "motion"
+        What comes from outside: loads on the inner ring, or the poses of both rings.
     announce : callable, optional
         Called with a sentence before something is compiled.
 
@@ -157,7 +164,7 @@ def iterate(
     """
     from lambda_core.run.stepping import Stepping
 
-    return Stepping(ready_model(source, overrides, announce), interval, announce)
+    return Stepping(ready_model(source, overrides, announce), interval, announce, exact=exact, couple=couple)
 
 
 def resume(

@@ -1,7 +1,7 @@
-"""A run step by step, for programs that look at every step or push the inner ring: co-simulation.
+"""A run step by step, for programs that look at every step, or give loads and motions: co-simulation.
 
-No result file is written and nothing is averaged. As long as nobody pushes, the dynamics are those of a run with the
-same longest step, bit for bit.
+No result file is written and nothing is averaged. As long as nobody pushes and steps need not end anywhere, the
+dynamics are those of a run with the same longest step, bit for bit.
 """
 
 from __future__ import annotations
@@ -11,17 +11,26 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+from numpy.typing import NDArray
+
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES
+from lambda_core.domain.elements import BODIES
 from lambda_core.domain.errors import SolverError, UsageError, unknown_name
 from lambda_core.run.record_times import next_multiple
 from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.given import Coupling, given_names, start
 
 if TYPE_CHECKING:
     from lambda_core.solver.drivers.compiled_laws import Announce
     from lambda_core.system.bearing import BearingModel
 
-_AXES = {"force": ("x", "y", "z"), "moment": ("tilt_y", "tilt_z")}  # what has to be free to be pushed
+# What push gives, and the direction in which the ring has to be free.
+_PUSHES = {
+    "force": {"force_x": "x", "force_y": "y", "force_z": "z"},
+    "moment": {"moment_y": "tilt_y", "moment_z": "tilt_z"},
+}
 
 
 @dataclass(frozen=True)
@@ -34,12 +43,16 @@ class Step:
         [s]
     channels : mapping of str to float64 array
         Every channel of a result file at this moment, SI: ``channels["load"]`` has shape (balls, 2).
+    reactions : mapping of str to float64 array
+        By body what the bearing puts on it, without its loads, weight and support: force x, y, z [N], moment x, y, z
+        about its centre [N m], shape (6,).
     friction_torque_Nmm : float
         Dissipated power over the relative speed of the rings, mean over the step; NaN when they do not turn.
     """
 
     time_s: float
     channels: Mapping[str, FloatArray]
+    reactions: Mapping[str, FloatArray]
     friction_torque_Nmm: float
 
     def __getitem__(self, name: str) -> FloatArray:
@@ -61,31 +74,72 @@ class Stepping(Iterator[Step]):
         first step of the integrator past a multiple of it; no step of the integrator is longer.
     announce : callable, optional
         Called with a sentence before something is compiled.
+    exact : bool
+        Steps end at the multiples themselves.
+    couple : "force" or "motion"
+        Who owns the inner ring's motion: this bearing, pushed by loads, or another program, which gives the poses of
+        both rings and takes the reactions.
+
+    Attributes
+    ----------
+    given : tuple of str
+        What :meth:`give` takes.
 
     Raises
     ------
     UsageError
-        When `interval` is no positive time.
+        When `interval` is no positive time, or the model cannot be coupled so.
     SolverError
         When there is no equilibrium to start from.
     """
 
-    def __init__(self, model: BearingModel, interval: float | None = None, announce: Announce | None = None) -> None:
+    def __init__(
+        self,
+        model: BearingModel,
+        interval: float | None = None,
+        announce: Announce | None = None,
+        *,
+        exact: bool = False,
+        couple: Coupling = "force",
+    ) -> None:
         if interval is not None and not 0.0 < interval < math.inf:
             raise UsageError(f"{interval:g} s between steps is no time: give a positive number of seconds")
-        if interval is not None and interval < model.solver.max_step:
+        if interval is not None and interval < model.solver.max_step and not exact:
             model = replace(model, solver=replace(model.solver, max_step=interval))
-        self.model = model
-        self._engine = BearingEngine(model, announce, pushed=True)
-        self._load = self._engine.external_load
+        self.model, equilibrium = start(model, couple, announce)
+        self.given = given_names(model, couple)
+        self._engine = BearingEngine(self.model, announce, equilibrium, given=self.given)
         self.interval = interval or self._engine.sample_interval
-        self._end = model.solver.duration or model.solver.max_duration
+        self._exact, self._end = exact, model.solver.duration or model.solver.max_duration
         self._before = self._spent()
 
     @property
     def time_s(self) -> float:
         """Where the bearing stands [s]."""
         return self._engine.time
+
+    def give(self, name: str, value: float, rate: float = 0.0, acceleration: float = 0.0) -> None:
+        """Give a load or motion, from now on until it is given anew.
+
+        Parameters
+        ----------
+        name : str
+            One of :attr:`given`: ``inner_ring.force_z`` [N], ``inner_ring.x`` [m], ``inner_ring.tilt_y`` [rad],
+            ``inner_ring.spin`` [rad/s].
+        value, rate, acceleration : float
+            Now, with its first and second derivative: ``value + rate t + acceleration t^2 / 2`` from here.
+
+        Raises
+        ------
+        UsageError
+            When there is no such signal, or a number is not finite.
+        """
+        if name not in self.given:
+            raise UsageError(unknown_name("signal", name, self.given))
+        if not all(map(math.isfinite, (value, rate, acceleration))):
+            raise UsageError(f"{name} is given as {value:g}, {rate:g}, {acceleration:g}: finite numbers are due")
+        row = self._engine.given[self.given.index(name)]
+        row["value"], row["rate"], row["acceleration"], row["begin"] = value, rate, acceleration, self.time_s
 
     def push(self, force: Sequence[float] = (0.0, 0.0, 0.0), moment: Sequence[float] = (0.0, 0.0)) -> None:
         """Put a load on the inner ring, beside those of the case, from now on until the next call.
@@ -103,33 +157,61 @@ class Stepping(Iterator[Step]):
             When a number is not finite, or a load points where the inner ring cannot move.
         """
         given = {"force": force, "moment": moment}
-        for name, axes in _AXES.items():
+        for name, axes in _PUSHES.items():
             values = given[name]
             if len(values) != len(axes) or not all(math.isfinite(value) for value in values):
                 raise UsageError(f"a {name} on the inner ring has {len(axes)} finite numbers, not {list(values)}")
-            for axis, value in zip(axes, values, strict=True):
+            for (load, axis), value in zip(axes.items(), values, strict=True):
                 mode = self.model.inner_ring.dofs[axis].mode
-                if value != 0.0 and mode != "free":
+                if mode == "free":
+                    self.give(f"inner_ring.{load}", value)
+                elif value != 0.0:
                     raise UsageError(f"the inner ring is {mode} in {axis}: a {name} there does nothing")
-        self._load[:] = [*force, *moment]
 
     def __iter__(self) -> Stepping:
         return self
 
     def __next__(self) -> Step:
         """Return the next step; SolverError when the integrator cannot go on."""
-        engine = self._engine
-        if engine.time >= self._end:
+        if self.time_s >= self._end:
             raise StopIteration
-        advance = engine.advance(min(next_multiple(engine.time, self.interval), self._end))
+        return self._go(min(next_multiple(self.time_s, self.interval), self._end), exactly=self._exact)
+
+    def step_to(self, time_s: float) -> Step:
+        """Return the step that ends at a time of the caller's choice, exactly.
+
+        Raises
+        ------
+        UsageError
+            When the time is not ahead.
+        SolverError
+            When the integrator cannot go on.
+        """
+        if not self.time_s < time_s < math.inf:
+            raise UsageError(f"a step from {self.time_s:g} s to {time_s:g} s: it has to end later than it begins")
+        return self._go(time_s, exactly=True)
+
+    def state(self) -> dict[str, NDArray[np.float64]]:
+        """Return everything that a continuation from here needs: to look ahead, and :meth:`restore`."""
+        return {**self._engine.state(), "before": np.array(self._before)}
+
+    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
+        """Go back to where :meth:`state` was asked; what follows is what followed then, bit for bit."""
+        self._before = (float(state["before"][0]), float(state["before"][1]))
+        self._engine.restore({name: part for name, part in state.items() if name != "before"})
+
+    def _go(self, until: float, *, exactly: bool) -> Step:
+        engine = self._engine
+        advance = engine.advance_exactly(until) if exactly else engine.advance(until)
         if not advance.ok:
             raise SolverError(advance.message)
         channels = engine.now()
+        reactions = dict(zip(BODIES, engine.reactions(), strict=True))
         engine.forget_samples()
         loss, turned = self._spent()
         torque = 1e3 * (loss - self._before[0]) / (turned - self._before[1]) if turned > self._before[1] else math.nan
         self._before = loss, turned
-        return Step(engine.time, channels, torque)
+        return Step(engine.time, channels, reactions, torque)
 
     def _spent(self) -> tuple[float, float]:
         """Return the dissipated energy [J] and the relative angle of the rings [rad] since the start."""

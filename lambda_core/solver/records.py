@@ -228,11 +228,13 @@ INPUTS = record(  # of one body
     ("force", SIGNAL, (3,)),  # inertial [N]
     ("moment", SIGNAL, (3,)),  # about the centre, inertial [N m]
 )
-CONSTANT, RAMP, HARMONIC, TABLE = range(4)
+CONSTANT, RAMP, HARMONIC, TABLE, GIVEN = range(5)
 TERM = record(  # what a signal is the sum of
     ("signal", i8),  # 12 per body, in the order of INPUTS
     ("kind", i8),
-    ("value", f8),  # CONSTANT
+    ("value", f8),  # CONSTANT; GIVEN from outside at the time `begin`, with the derivatives
+    ("rate", f8),  # GIVEN
+    ("acceleration", f8),
     ("before", f8),  # RAMP: values and times
     ("after", f8),
     ("begin", f8),

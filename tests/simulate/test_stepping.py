@@ -96,3 +96,60 @@ def test_loads_without_sense_are_refused() -> None:
     stepping = api.iterate(CASE, ["solver.duration=1 ms", "bodies.inner_ring.tilt_y.mode=locked"])
     with pytest.raises(UsageError, match="the inner ring is locked in tilt_y: a moment there does nothing"):
         stepping.push(moment=(1.0, 0.0))
+
+
+def test_steps_end_exactly_where_they_are_asked_to() -> None:
+    """Cutting steps to end at given times changes the motion by less than the integration error."""
+    changes = ["solver.duration=3 ms"]
+    free, exact = (list(api.iterate(CASE, changes, interval=0.1e-3, exact=exact)) for exact in (False, True))
+    assert [step.time_s for step in exact[:-1]] == [0.1e-3 * (i + 1) for i in range(len(exact) - 1)]
+    assert exact[-1].time_s == 3e-3
+    assert exact[-1]["body_position"][0] == pytest.approx(free[-1]["body_position"][0], abs=0.1e-6)
+    stepping = api.iterate(CASE, changes)
+    for time_s in (1e-9, 0.7e-3, 0.7e-3 + 3e-12, 2e-3):
+        assert stepping.step_to(time_s).time_s == time_s
+    with pytest.raises(UsageError, match="has to end later than it begins"):
+        stepping.step_to(1e-3)
+
+
+def test_going_back_and_on_gives_the_same_bits() -> None:
+    stepping = api.iterate(CASE, ["solver.duration=5 ms"], exact=True)
+    stepping.step_to(0.5e-3)
+    stepping.push((0.0, 0.0, -500.0))
+    kept = stepping.state()
+    first = stepping.step_to(1e-3)
+    stepping.push((0.0, 0.0, 0.0))
+    stepping.step_to(1.7e-3)
+    stepping.restore(kept)
+    again = stepping.step_to(1e-3)
+    assert again.friction_torque_Nmm == first.friction_torque_Nmm
+    for name in first.channels:
+        assert np.array_equal(again[name], first[name], equal_nan=True), name
+
+
+def test_a_ring_that_is_led_answers_with_the_load_of_its_place() -> None:
+    """Led from the place of 14 kN to that of 16 kN, the ring is pushed back with 16 kN."""
+    at = {load: api.quasistatic(CASE, [f"loads.radial={load} kN"]).inner_ring_displacement_um[2] for load in (14, 16)}
+    stepping = api.iterate(CASE, ["solver.duration=12 ms", "loads.radial=14 kN"], interval=0.1e-3, couple="motion")
+    begin, down = 1e-6 * at[14], 1e-6 * (at[16] - at[14])
+    lifts = []
+    for step in stepping:
+        lifts.append(step.reactions["inner_ring"][2])
+        share = min(step.time_s / 6e-3, 1.0)
+        stepping.give("inner_ring.z", begin + share * down, down / 6e-3 if share < 1.0 else 0.0)
+    weight = 9.80665 * stepping.model.inner_ring.mass
+    assert lifts[0] == pytest.approx(14e3 + weight, rel=0.02)
+    assert np.mean(lifts[-50:]) == pytest.approx(16e3 + weight, rel=0.02)
+    assert stepping.step_to(13e-3).reactions["outer_ring"][2] == pytest.approx(-lifts[-1], rel=0.1)
+
+
+def test_what_is_given_without_sense_is_refused() -> None:
+    stepping = api.iterate(CASE, ["solver.duration=1 ms"], couple="motion")
+    with pytest.raises(UsageError, match="finite numbers"):
+        stepping.give("inner_ring.x", math.nan)
+    with pytest.raises(UsageError, match="nearest: inner_ring"):
+        stepping.give("inner_ring.xx", 0.0)
+    with pytest.raises(UsageError, match="is prescribed in z"):
+        stepping.push((0.0, 0.0, 1.0))
+    with pytest.raises(UsageError, match="force or motion"):
+        api.iterate(CASE, couple="both")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,12 +16,11 @@ from lambda_core.solver import records as R
 from lambda_core.solver.drivers.compiled_laws import Announce
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION, Advance
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, solve
+from lambda_core.solver.drivers.given import make_room
 from lambda_core.solver.drivers.modes import ring_modes
 from lambda_core.solver.drivers.observation import Scratch, channels_of
-from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import CAGE, running
-from lambda_core.solver.drivers.time_tables import FORCE, MOMENT
 from lambda_core.solver.entry import core
 from lambda_core.solver.integrator import memory
 from lambda_core.solver.integrator.tableau import STAGES
@@ -62,16 +61,17 @@ class BearingEngine:
     equilibrium : Equilibrium, optional
         Start from this instead of solving for it.
 
-    pushed : bool
-        Make room for a load from outside.
+    given : sequence of str
+        Loads and motions from outside, see :mod:`lambda_core.solver.drivers.given`.
+    capacity : int
+        Samples that the buffer holds.
 
     Attributes
     ----------
     channels : tuple of Channel
         What every sample carries.
-    external_load : float64[:]
-        With `pushed` a load on the inner ring beside those of the case, which may be written to between two calls of
-        :meth:`advance`: force x, y, z [N], moment about y, z [N m], shape (5,). Without it empty.
+    given : records.TERM[:]
+        One row for each of the signals from outside, which may be written to between two calls of :meth:`advance`.
 
     Raises
     ------
@@ -85,14 +85,15 @@ class BearingEngine:
         announce: Announce = None,
         equilibrium: Equilibrium | None = None,
         *,
-        pushed: bool = False,
+        given: Sequence[str] = (),
+        capacity: int = _CAPACITY,
     ) -> None:
         self.model = model
         self.channels = (*CHANNELS, *state_channels(model))
         self._equilibrium = equilibrium or solve(model, announce=announce, strict=False)
         self._core = core(announce)
         self._context = self._equilibrium.context
-        self.external_load = _room_for_load(self._context) if pushed else np.zeros(0)
+        self.given = make_room(self._context, given)
         self._balls = model.geometry.ball_count
         start = initial_state(self._equilibrium)
         self._memory = memory.make_memory(
@@ -100,7 +101,7 @@ class BearingEngine:
             self._context.scale,
             model.solver.tolerance,
             self._context.bundle,
-            _CAPACITY,
+            capacity,
             stages=STAGES if model.solver.resolve else 0,
         )
         self.sample_interval = model.output.interval or self._usual_interval()
@@ -155,6 +156,14 @@ class BearingEngine:
             return Advance(False, fault_sentence(self._context, self.time))
         return Advance(False, f"the time step fell below {_SMALLEST_STEP:g} s at t = {self.time:.6g} s")
 
+    def advance_exactly(self, until: float) -> Advance:
+        """Integrate until `time` == `until` [s]: steps on the way there are cut to end at it."""
+        self._memory.control["stop"] = until
+        try:
+            return self.advance(until)
+        finally:
+            self._memory.control["stop"] = math.inf
+
     def samples(self) -> dict[str, FloatArray]:
         """Return and clear the buffered samples: channel -> array, first axis is time."""
         self._drain()
@@ -167,6 +176,15 @@ class BearingEngine:
         """Return every channel at `time`."""
         found = self._observe(np.array([self.time]), self._memory.y.reshape(1, -1))
         return {name: values[0] for name, values in found.items()}
+
+    def reactions(self) -> FloatArray:
+        """Return what the bearing puts on its bodies where :meth:`now` looked last, shape (bodies, 6).
+
+        Force x, y, z [N] and moment x, y, z about the body's centre [N m] of all contacts and force elements on it:
+        without its loads, weight and support.
+        """
+        wrenches: FloatArray = self._context.bundle.body_wrenches.view(np.float64).reshape(-1, 6)
+        return wrenches.copy()
 
     def forget_samples(self) -> None:
         """Empty the buffer of samples without looking at them."""
@@ -226,6 +244,8 @@ class BearingEngine:
         for name in ("a", "b", "c", "d", "shared", "parts"):
             parts[f"blocks.{name}"] = getattr(self._context.blocks, name).copy()
         parts["start"] = np.array([*self._start_angles, self._start_energy])
+        if self.given.size:
+            parts["given"] = self.given.view(np.float64).copy()
         return parts
 
     def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
@@ -240,6 +260,9 @@ class BearingEngine:
         for key, saved in state.items():
             if key == "start":
                 self._start_angles, self._start_energy = (float(saved[0]), float(saved[1])), float(saved[2])
+                continue
+            if key == "given":
+                self.given.view(np.float64)[:] = saved
                 continue
             group, name = key.split(".")
             array = getattr(groups[group], name)
@@ -275,15 +298,6 @@ class BearingEngine:
         scratch = Scratch.of(times.size, self._context)
         ok = self._core.sample(self._handle, times, states, SHORTED, *scratch)
         return channels_of(ok, self._context, times, states, scratch)
-
-
-def _room_for_load(context: SolverContext) -> FloatArray:
-    """Add constant loads on the inner ring to the time functions of an context; returns a view of their values."""
-    rows = np.zeros(5, R.TERM)
-    rows["signal"], rows["kind"] = [FORCE, FORCE + 1, FORCE + 2, MOMENT + 1, MOMENT + 2], R.CONSTANT
-    context.bundle = context.bundle._replace(terms=np.concatenate([context.bundle.terms, rows]))
-    load: FloatArray = context.bundle.terms["value"][-rows.size :]
-    return load
 
 
 def initial_state(equilibrium: Equilibrium) -> FloatArray:

@@ -18,7 +18,7 @@ _VALUES = {
     "ramp": ("before", "after", "begin", "end"),
     "harmonic": ("amplitude", "frequency", "phase"),
 }
-MOTION, FORCE, MOMENT, _PER_BODY = 0, 6, 9, 12  # places of the signals of a body, in the order of records.INPUTS
+MOTION, FORCE, MOMENT, PER_BODY = 0, 6, 9, 12  # places of the signals of a body, in the order of records.INPUTS
 _CAGE = 2
 
 
@@ -53,7 +53,7 @@ def build_times(model: BearingModel) -> tuple[NDArray[np.void], FloatArray, NDAr
         for d, name in enumerate(DOFS):
             dof = body.dofs[name]
             if dof.mode == "prescribed":
-                _terms(_PER_BODY * b + MOTION + d, dof.motion, rows, table)
+                _terms(PER_BODY * b + MOTION + d, dof.motion, rows, table)
             if dof.mode == "free":
                 # Turning about y moves a_z, turning about z moves a_y.
                 position = {3: L.SAZ, 4: L.SAY}.get(d, d)
@@ -61,7 +61,7 @@ def build_times(model: BearingModel) -> tuple[NDArray[np.void], FloatArray, NDAr
             elif d == 5 and dof.mode == "prescribed":
                 active.append(L.NS * b + L.STHETA)
         for axis in range(3):
-            _terms(_PER_BODY * b + FORCE + axis, body.force[axis], rows, table)
-            _terms(_PER_BODY * b + MOMENT + axis, body.moment[axis], rows, table)
+            _terms(PER_BODY * b + FORCE + axis, body.force[axis], rows, table)
+            _terms(PER_BODY * b + MOMENT + axis, body.moment[axis], rows, table)
     terms = np.concatenate([np.zeros(0, R.TERM), *rows])
     return terms, np.array(table or [0.0]), np.array(sorted(active), dtype=np.int64)

@@ -46,6 +46,7 @@ CONTROL = np.dtype(
         ("last_step", np.float64),  # [s]
         ("step_before", np.float64),  # the one before the last [s]
         ("longest_step", np.float64),  # [s]
+        ("stop", np.float64),  # time that no step passes; one that is behind `time` stops nothing [s]
         ("newton_tolerance", np.float64),  # of the iteration, over the error allowed per step [-]
         ("shortest_step", np.float64),  # below which the integrator gives up [s]
         ("gamma", np.float64),  # of the step in hand: new = base + gamma f(new) [s]
@@ -138,7 +139,7 @@ def make_memory(
     arrays: dict[str, np.ndarray] = {name: np.zeros(n) for name in Memory._fields}
     inertia = inertias(bundle)
     control = np.zeros(1, dtype=CONTROL)
-    control["tolerance"] = tolerance
+    control["tolerance"], control["stop"] = tolerance, np.inf
     control["newton_tolerance"] = _FINE_NEWTON if stages else _NEWTON
     # Differences of one tolerance in every speed, over the longest step, are never too much.
     control["leak_floor"] = 0.25 * np.sum(inertia * (tolerance * scale) ** 2)

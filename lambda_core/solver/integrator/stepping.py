@@ -15,6 +15,7 @@ from lambda_core.solver.status import Status
 _WORN = 0.5  # convergence rate at the end of a step beyond which it is renewed for all
 _SAFETY = 0.55  # of the step that the error would just allow: few steps are refused
 _GROWTH = 1.7  # of the step, at most; BDF2 is stable up to 2.4
+_REGROWTH = 2.4  # the same behind a step that was cut to end at a stop
 _STAY_CAREFUL = 4  # steps for which the iteration keeps beginning at the last speeds once that was needed
 _MAX_AGE = 60  # steps after which the Jacobian is renewed in any case
 
@@ -36,13 +37,28 @@ def _take_samples(interpolate, mem, h):
 
 
 @helper
+def _length(control, history):
+    """Return the length of the step in hand: as planned, or what ends at the stop, or halfway to it.
+
+    Halfway, so that no step is cut to a small part of those before it. One that was cut does not change the plan.
+    """
+    h = control.step
+    if history > 0:
+        h = min(h, _REGROWTH * control.last_step)
+    left = control.stop - control.time
+    if left <= 0.0 or left >= 2.0 * h:
+        return h
+    return left if left <= h else 0.5 * left
+
+
+@helper
 def _accept(interpolate, shift, bundle, mem, h):
     """Make the new point the current one, add to the integrals, take samples."""
     control, count = mem.control[0], mem.count[0]
     _take_samples(interpolate, mem, h)
     shift(bundle, mem, h)
     control.step_before, control.last_step = control.last_step, h
-    control.time += h
+    control.time = control.stop if h == control.stop - control.time else control.time + h
     control.fourth_powers += h * h * h * h
     if count.history < 2:
         count.history += 1
@@ -90,7 +106,7 @@ def take_steps(begin, attempt, interpolate, shift, evaluate, jacobian, until, ma
             count.stale = 1
         renewed = count.stale == 1
         while True:
-            h = control.step
+            h = _length(control, count.history)
             outcome, error, power = attempt(evaluate, jacobian, h, bundle, bl, fa, mem)
             if outcome == Status.OK:
                 factor = _SAFETY * (error + 1e-10) ** power
@@ -113,6 +129,7 @@ def take_steps(begin, attempt, interpolate, shift, evaluate, jacobian, until, ma
         if control.convergence_rate > _WORN and control.convergence_rate < 1.0:
             count.stale = 1
         # Small changes of step are not worth a new factorisation.
-        if factor > 1.15 or factor < 1.0:
-            control.step = min(h * min(_GROWTH, factor), control.longest_step)
+        longer = min(h * min(_GROWTH, factor), control.longest_step)
+        if factor < 1.0 or (factor > 1.15 and (h == control.step or longer > control.step)):
+            control.step = longer
     return Status.OK if control.time >= until else Status.UNFINISHED

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from lambda_core.solver.layout import NB, helper
-from lambda_core.solver.records import CONSTANT, HARMONIC, PRESCRIBED, RAMP
+from lambda_core.solver.records import CONSTANT, GIVEN, HARMONIC, PRESCRIBED, RAMP
 
 
 @helper
@@ -19,6 +19,11 @@ def evaluate_signals(t, terms, table, signals):
         signal = signals[term.signal]
         if term.kind == CONSTANT:
             signal.value += term.value
+        elif term.kind == GIVEN:
+            u = t - term.begin
+            signal.value += term.value + u * (term.rate + 0.5 * u * term.acceleration)
+            signal.rate += term.rate + u * term.acceleration
+            signal.acceleration += term.acceleration
         elif term.kind == RAMP:
             if t <= term.begin:
                 signal.value += term.before
