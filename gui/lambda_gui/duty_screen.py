@@ -18,9 +18,9 @@ from lambda_gui.dialogs import AskText
 from lambda_gui.duty_values import COLUMNS, FIRST_TIME, NAME, TIME, Phase, column_card, cycle_tables, cycle_view
 from lambda_gui.entry import Entry
 from lambda_gui.helper import Helper
+from lambda_gui.new_files import save_beside
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.rows import Rows
-from lambda_gui.study_files import save_beside
 
 if TYPE_CHECKING:
     from lambda_core.api import BearingModel, Draft

@@ -12,6 +12,7 @@ from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.unit_systems import UnitSystem
 from lambda_gui.dialogs import AskText
 from lambda_gui.helper import Helper
+from lambda_gui.new_files import save_new
 
 SUMMARY, DIFFERENCES = "summary", "what differs"  # words, no pictures
 
@@ -71,8 +72,6 @@ class ExportScreen(Screen[None]):
 
     @work
     async def _ask_case(self, path: Path) -> None:
-        from lambda_core.api import save_text
-
         try:
             text = await self._helper.ask("case_text", path=str(path))
         except LambdaError as error:
@@ -81,16 +80,9 @@ class ExportScreen(Screen[None]):
         answer = await self.app.push_screen_wait(AskText("Write the case as", str(path.with_suffix(".toml"))))
         if answer is None:
             return
-        target = Path(answer).expanduser()
-        if target.exists():
-            self.notify(f"{target} exists: choose another name", severity="error")
-            return
-        try:
-            save_text(text, target)
-        except LambdaError as error:
-            self.notify(str(error), severity="error")
-            return
-        self.notify(f"wrote {target}")
+        target = save_new(self, text, answer)
+        if target is not None:
+            self.notify(f"wrote {target}")
 
     @work
     async def _export(self, what: str, words: str, *, sources: bool) -> None:
