@@ -218,23 +218,39 @@ def from_si(value: float, quantity: str, unit: str | None = None) -> float:
     return float(exact / _factor(quantity, unit))
 
 
+_FEW_DIGITS = 8
+
+
+def _digits(number: str) -> int:
+    """Return how many digits of a number people read: zeros before and behind do not count."""
+    return len(number.partition("e")[0].replace(".", "").strip("-0"))
+
+
+def _decades_off(number: float) -> float:
+    """Return how many decades, begun ones counted, a number lies outside 0.1 to 1000."""
+    if number == 0.0 or 0.1 <= abs(number) < 1000.0:
+        return 0.0
+    decades = math.log10(abs(number))
+    return max(-1.0 - decades, math.floor(decades - 3.0) + 1.0)
+
+
 def show(value: float, quantity: str, digits: int | None = None) -> str:
     """Write an SI float as a unit string; exact (reads back equal) unless `digits` is given.
 
-    The exact spelling takes the first unit of the quantity in which the number is short and
-    between 0.1 and 1000.
+    The exact spelling takes the first unit of the quantity in which the number has few digits and lies between 0.1 and
+    1000, or comes nearest to that.
     """
     if digits is not None:
         return _rounded(value, quantity, digits)
-    spellings: list[tuple[bool, bool, str]] = []
+    spellings: list[tuple[bool, float, str]] = []
     for unit in UNITS[quantity]:
         converted = from_si(value, quantity, unit)
         if not math.isfinite(converted):
             continue
         for number in (f"{converted:.12g}", repr(converted)):
             if _to_si(number, quantity, unit) == value:
-                handy = value == 0.0 or 0.1 <= abs(converted) < 1000.0 or quantity == "temperature"
-                spellings.append((len(number) > 9, not handy, f"{number} {unit}"))
+                off = 0.0 if quantity == "temperature" else _decades_off(converted)
+                spellings.append((_digits(number) > _FEW_DIGITS, off, f"{number} {unit}"))
                 break
     if not spellings:
         raise ValueError(f"{value!r} has no exact spelling as a {quantity}")
