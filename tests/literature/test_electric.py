@@ -98,6 +98,7 @@ def test_first_breakdown() -> None:
     assert fast / np.median(PUBLISHED[7000]) == pytest.approx(7.7, rel=0.15)
 
 
+@pytest.mark.slow
 def test_first_breakdown_at_own_temperatures() -> None:
     """The same bearing as warm as its losses make it: it does not rise with speed, the level follows the roughness.
 

@@ -214,11 +214,11 @@ def test_a_defect_is_struck_at_the_ball_pass_frequency(ring: str) -> None:
     """BPFO = Z f_c, BPFI = Z (f_i - f_c) (Harris and Kotzalas 2006, section 8.3): all lines of the axial vibration."""
     found = vibration(
         ring, "models.surface=defect", "parameters.surface.width=0.6 mm", "parameters.surface.azimuth=30 deg",
-        duration=0.3,
+        duration=0.2,
     )  # fmt: skip
     passing = found.balls * (found.cage if ring == "outer" else found.inner - found.cage)
     harmonic = found.strongest(0) / passing
-    assert harmonic == pytest.approx(round(harmonic), abs=2e-3)
+    assert harmonic == pytest.approx(round(harmonic), abs=5e-3)  # a sixth of a line of the spectrum
     at = [found.amplitude(0, i * passing) for i in range(1, 7)]
     beside = [found.amplitude(0, (i + 0.5) * passing) for i in range(1, 7)]
     assert min(at) > 10.0 * max(beside)

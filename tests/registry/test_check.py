@@ -255,7 +255,7 @@ def driving(slip, p, u_mean, par, mu):
 def slow_cells(slip, p, u_mean, par, mu):
     for i in range(mu.size):
         total = 0.0
-        for k in range(2000):
+        for k in range(300):
             total += math.sin(slip[i] + k) ** 2
         mu[i] = slip[i] * total / 1e6
     return 1

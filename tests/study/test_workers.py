@@ -51,7 +51,7 @@ def reference(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[dict[s
     from studies import Inline
 
     found = {}
-    for name, text in (("map", MAP), ("runs", RUNS.format(duration="0.02 s", speeds=2, loads=3))):
+    for name, text in (("map", MAP), ("runs", RUNS.format(duration="0.02 s", speeds=2, loads=2))):
         folder = tmp_path_factory.mktemp("reference") / name
         path = folder.with_suffix(".toml")
         path.write_text(text, encoding="utf-8")
@@ -70,6 +70,7 @@ def test_processes_give_the_same_table(write: Write, tmp_path: Path, reference: 
     assert reports[-1].done == 6
 
 
+@pytest.mark.slow
 def test_a_dask_cluster_gives_the_same_table(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
     pytest.importorskip("distributed")
     status = api.study_run(write(MAP), tmp_path / "map", executor="dask", workers=2)
@@ -135,7 +136,7 @@ def test_a_killed_study_goes_on_to_the_same_table(
     start: Start, write: Write, tmp_path: Path, reference: dict[str, Any]
 ) -> None:
     folder = tmp_path / "killed"
-    killed_and_resumed(start, write(RUNS.format(duration="0.02 s", speeds=2, loads=3)), folder, 1, seed=1)
+    killed_and_resumed(start, write(RUNS.format(duration="0.02 s", speeds=2, loads=2)), folder, 1, seed=1)
     assert differences(numbers(folder), reference["runs"]) == []
 
 
@@ -167,7 +168,7 @@ def children(pid: int) -> list[int]:
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks for workers in /proc")
 def test_a_lost_worker_loses_no_point(start: Start, write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
     folder = tmp_path / "lost"
-    path = write(RUNS.format(duration="0.02 s", speeds=2, loads=3))
+    path = write(RUNS.format(duration="0.02 s", speeds=2, loads=2))
     study = start("run", path, "--out", str(folder), "--workers", "2")
     try:
         wait_for(lambda: files(folder) > 0 or study.poll() is not None)
@@ -213,7 +214,7 @@ def test_ctrl_c_stops_the_runs_in_hand_and_begins_no_other(start: Start, write: 
 @pytest.mark.slow
 def test_a_lost_dask_worker_loses_no_point(write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
     distributed: Any = pytest.importorskip("distributed")
-    path = write(RUNS.format(duration="0.02 s", speeds=2, loads=3))
+    path = write(RUNS.format(duration="0.02 s", speeds=2, loads=2))
     folder = tmp_path / "dask"
     with (
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
