@@ -99,6 +99,7 @@ def show_bearing(catalogue: SqlCatalogue, name: str, row: BearingRow, json: bool
             designation=row.designation,
             maker=row.maker,
             series=row.series,
+            bearing_kind=row.kind,
             layer=row.layer,
             rating_type=row.rating_type,
             values={value.pop("name"): value for value in values},
@@ -108,7 +109,8 @@ def show_bearing(catalogue: SqlCatalogue, name: str, row: BearingRow, json: bool
         )
         return
     whose = "" if row.layer == "core" else f"   ({row.layer} row)"
-    _print(f"{row.designation}  {row.maker}   series {row.series or '-'}   ratings {row.rating_type or '-'}{whose}")
+    about = f"{row.kind}   series {row.series or '-'}   ratings {row.rating_type or '-'}{whose}"
+    _print(f"{row.designation}  {row.maker}   {about}")
     _print("")
     _print_values(values)
     if candidates:
@@ -121,8 +123,11 @@ def show_bearing(catalogue: SqlCatalogue, name: str, row: BearingRow, json: bool
             table.add_row(design, _number(c["pitch_diameter_mm"]), *rest)
         _print(table)
     _print("")
-    classes = "   ".join(f"{c['class']} {c['minimum_um']:g}-{c['maximum_um']:g}" for c in clearances)
-    _print(f"radial internal clearance, um   {classes or 'not tabulated for this bore'}")
+    if row.contact_angle is None:
+        classes = "   ".join(f"{c['class']} {c['minimum_um']:g}-{c['maximum_um']:g}" for c in clearances)
+        _print(f"radial internal clearance, um   {classes or 'not tabulated for this bore'}")
+    else:
+        _print("its clearance follows from the contact angle; a pair is preloaded on a shaft: docs/shaft.md")
     for line in suffixes:
         _print(f"suffix {line['suffix']:<8} {line['meaning']}")
     _print("")

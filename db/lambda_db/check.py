@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -13,8 +14,8 @@ from lambda_core.discovery.registry import Registry
 from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.ratings import dynamic_rating, static_rating
 from lambda_db.catalogue import SqlCatalogue
-from lambda_db.derive import FILLING_LIMIT, UPRATED, filling_angle
-from lambda_db.estimate import is_uprated
+from lambda_db.derive import UPRATED, filling_angle
+from lambda_db.estimate import is_uprated, printed_of
 from lambda_db.paths import user_database
 from lambda_db.records import Row
 from lambda_db.references import known_names, reference_problems
@@ -66,16 +67,17 @@ def _bearing(row: Row) -> Iterator[Finding]:
         return
     where = f"bearing {row['designation']} {row['maker']}"
     count, ball, pitch = row["ball_count"], row["ball_diameter_mm"], row["pitch_diameter_mm"]
-    angle = float(filling_angle(count, ball, pitch))
-    if angle > FILLING_LIMIT:
-        message = f"{count} balls of {ball:g} mm span {angle:.0f} deg: more than a Conrad bearing can be filled with"
+    filled, most = float(filling_angle(count, ball, pitch)), printed_of(row).filling[2]
+    if filled > most:
+        message = f"{count} balls of {ball:g} mm span {filled:.0f} deg: more than the {most:g} that can be filled in"
         yield Finding("warning", where, message)
     if row["geometry_grade"] not in ("A", "A-", "B"):
         return
     uprating = UPRATED if is_uprated(row["rating_type"]) else 1.0
+    size, angle = (count, ball * 1e-3, pitch * 1e-3), math.radians(row["contact_angle_deg"] or 0.0)
     computed = {
-        "dynamic_rating": dynamic_rating(count, ball * 1e-3, pitch * 1e-3) * uprating,
-        "static_rating": static_rating(count, ball * 1e-3, pitch * 1e-3, outer_conformity=0.52),
+        "dynamic_rating": dynamic_rating(*size, contact_angle=angle) * uprating,
+        "static_rating": static_rating(*size, contact_angle=angle, outer_conformity=0.52),
     }
     for name, expected in computed.items():
         printed = row[f"{name}_kN"]

@@ -6,6 +6,7 @@ from sqlalchemy import CheckConstraint
 
 GRADES = ("A", "A-", "B", "B-", "C", "D")
 STATUSES = ("published", "derived", "assumed")
+KINDS = ("angular contact",)  # of bearings; a row that names none is a deep groove ball bearing
 
 
 def check(name: str, condition: str, sentence: str) -> CheckConstraint:
@@ -33,6 +34,19 @@ def together(group: str, columns: tuple[str, ...]) -> CheckConstraint:
         f"NOT ({some}) OR ({group}_source IS NOT NULL AND {group}_grade IS NOT NULL)",
         f"{', '.join(columns)}: a value needs {group}_source and {group}_grade",
     )
+
+
+def kinds() -> list[CheckConstraint]:
+    """Require a known kind of bearing, and a contact angle with its source where the kind has one."""
+    return [
+        one_of("kind", KINDS),
+        together("angle", ("contact_angle_deg",)),
+        check(
+            "angle_of_kind",
+            "(kind IS NULL) = (contact_angle_deg IS NULL) AND coalesce(contact_angle_deg, 45) BETWEEN 1 AND 45",
+            'contact_angle_deg, 1 to 45, belongs to kind "angular contact", which needs it',
+        ),
+    ]
 
 
 # Constraint's name -> pattern of the property or parameter names that it rules.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from lambda_core.catalogue.protocol import BearingRow
+from lambda_core.system.resolve_geometry import HIGH_SHOULDERS
 
 RING, BALL, AIR = "█", "░", " "
 # Shoulder height over ball diameter where no shoulder is printed: D_1 - d_1 = 1.21 D_w (lambda_db.derive)
@@ -28,6 +29,7 @@ class Section:
     groove_outer: float
     shoulder_inner: float
     shoulder_outer: float
+    angle: float = 0.0  # contact angle; above zero the inner ring's right and the outer ring's left shoulder are low
 
     def cell(self, x: float, r: float) -> str:
         """Return what fills the point."""
@@ -36,10 +38,10 @@ class Section:
         if self._chamfered(x, r):
             return AIR
         inner_centre = 0.5 * self.race_inner + self.groove_inner
-        if r <= 0.5 * self.shoulder_inner:
+        if r <= 0.5 * (self.race_inner if self.angle and x > 0.0 else self.shoulder_inner):
             return RING if x * x + (r - inner_centre) ** 2 > self.groove_inner**2 else AIR
         outer_centre = 0.5 * self.race_outer - self.groove_outer
-        if r >= 0.5 * self.shoulder_outer:
+        if r >= 0.5 * (self.race_outer if self.angle and x < 0.0 else self.shoulder_outer):
             return RING if x * x + (r - outer_centre) ** 2 > self.groove_outer**2 else AIR
         return AIR
 
@@ -60,6 +62,8 @@ def section_of(row: BearingRow) -> Section | None:
         return otherwise if value is None else float(1e3 * value.value)
 
     race_inner, race_outer = known("race_diameter_inner", pitch - ball), known("race_diameter_outer", pitch + ball)
+    angle = 0.0 if row.contact_angle is None else row.contact_angle.value
+    heights = HIGH_SHOULDERS if angle else {"inner": _SHOULDER, "outer": _SHOULDER}
     return Section(
         bore=1e3 * row.bore_diameter.value,
         outside=1e3 * row.outside_diameter.value,
@@ -71,8 +75,9 @@ def section_of(row: BearingRow) -> Section | None:
         race_outer=race_outer,
         groove_inner=groove_inner,
         groove_outer=groove_outer,
-        shoulder_inner=known("shoulder_diameter_inner", race_inner + 2.0 * _SHOULDER * ball),
-        shoulder_outer=known("shoulder_diameter_outer", race_outer - 2.0 * _SHOULDER * ball),
+        shoulder_inner=known("shoulder_diameter_inner", race_inner + 2.0 * heights["inner"] * ball),
+        shoulder_outer=known("shoulder_diameter_outer", race_outer - 2.0 * heights["outer"] * ball),
+        angle=angle,
     )
 
 
@@ -82,7 +87,8 @@ def cross_section(row: BearingRow, height: int = 17) -> str:
     Parameters
     ----------
     row : BearingRow
-        Needs ball, pitch and groove radii; shoulders that are not printed are drawn at D_1 - d_1 = 1.21 D_w.
+        Needs ball, pitch and groove radii; shoulders that are not printed are drawn at D_1 - d_1 = 1.21 D_w, those
+        of angular contact high on the loaded side and down to the raceway on the other.
     height : int
         Lines for the radial height of the section.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from lambda_db.derive import Printed, RankedDesign, candidates, grade_of, relative_rounding
@@ -33,6 +34,7 @@ def printed_of(row: Row) -> Printed:
         shoulder_diameter_inner=row["shoulder_diameter_inner_mm"],
         shoulder_diameter_outer=row["shoulder_diameter_outer_mm"],
         known_pitch=row["pitch_diameter_mm"],
+        contact_angle=math.radians(row["contact_angle_deg"] or 0.0),
     )
 
 

@@ -13,7 +13,7 @@ from sqlalchemy import Float, Integer, Text
 from sqlalchemy.dialects.sqlite import REAL
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
 
-from lambda_db.constraints import GRADES, STATUSES, check, named, one_of, positive, positive_names, together
+from lambda_db.constraints import GRADES, STATUSES, check, kinds, named, one_of, positive, positive_names, together
 
 Key = Annotated[str, mapped_column(Text(collation="NOCASE"), primary_key=True)]
 Rank = Annotated[int, mapped_column(Integer, primary_key=True)]
@@ -77,6 +77,7 @@ class Bearing(Base):
         together("geometry", (*_GEOMETRY, *_RACES)),
         together("groove", _GROOVES),
         together("shoulder", _SHOULDERS),
+        *kinds(),
         check(
             "design_complete",
             "(ball_count IS NULL) = (ball_diameter_mm IS NULL) AND (ball_count IS NULL) = (pitch_diameter_mm IS NULL)",
@@ -119,7 +120,7 @@ class Bearing(Base):
             "shoulder diameters must satisfy bore < inner shoulder < outer shoulder < outside diameter",
         ),
         *(one_of(f"{g}_grade", GRADES) for g in ("dimensions", "dynamic_rating", "static_rating", "catalogue")),
-        *(one_of(f"{g}_grade", GRADES) for g in ("geometry", "groove", "shoulder")),
+        *(one_of(f"{g}_grade", GRADES) for g in ("geometry", "groove", "shoulder", "angle")),
         *(one_of(f"{g}_status", STATUSES) for g in ("dynamic_rating", "static_rating", "geometry", "groove")),
         _STRICT,
     )
@@ -165,6 +166,10 @@ class Bearing(Base):
     shoulder_diameter_outer_mm: Mapped[float | None]
     shoulder_source: Mapped[str | None]
     shoulder_grade: Mapped[str | None]
+    kind: Mapped[str | None]  # none: deep groove
+    contact_angle_deg: Mapped[float | None]
+    angle_source: Mapped[str | None]
+    angle_grade: Mapped[str | None]
     layer: Mapped[str] = mapped_column(server_default="core")
 
 

@@ -39,6 +39,7 @@ _SHOWN: dict[str, tuple[str, str]] = {
     **dict.fromkeys(("dynamic_rating", "static_rating", "fatigue_limit"), ("force", "kN")),
     **dict.fromkeys(("reference_speed", "limiting_speed"), ("rotational_speed", "rpm")),
     "mass": ("mass", "kg"),
+    "contact_angle": ("angle", "deg"),
     "youngs_modulus": ("modulus", "GPa"),
     "density": ("density", "kg/m3"),
     "maximum_temperature": ("temperature", "degC"),
@@ -115,8 +116,10 @@ def candidate_lines(row: BearingRow) -> list[dict[str, Any]]:
 
 
 def clearance_lines(catalogue: SqlCatalogue, row: BearingRow) -> list[dict[str, Any]]:
-    """Clearance classes that are tabulated for the bearing's bore, in um."""
-    lines = []
+    """Clearance classes that are tabulated for the bearing's bore, in um; those of radial contact alone have any."""
+    lines: list[dict[str, Any]] = []
+    if row.contact_angle is not None:
+        return lines
     for name in _CLASSES:
         try:
             limits = catalogue.clearance(row.bore_diameter.value, name)
@@ -141,6 +144,8 @@ def bearing_summary(row: BearingRow) -> dict[str, Any]:
         "designation": row.designation,
         "maker": row.maker,
         "series": row.series,
+        "kind": row.kind,
+        "contact_angle_deg": number("contact_angle"),
         "bore_mm": number("bore_diameter"),
         "outside_mm": number("outside_diameter"),
         "width_mm": number("width"),
@@ -229,7 +234,7 @@ def found_some(catalogue: SqlCatalogue, kind: Literal["bearing", "lubricant"], t
     hint = f"; nearest: {', '.join(close)}" if close else ""
     if kind == "bearing":
         makers = ", ".join(sorted({row.maker for row in catalogue.bearings("", 1_000_000)}))
-        holds = f"deep groove ball bearings only, of {makers}; oils and greases: --lubricants"
+        holds = f"deep groove and angular contact ball bearings of {makers}; oils and greases: --lubricants"
     else:
         greases = sum("nlgi" in row.properties for row in catalogue.lubricants("", 1_000_000))
         holds = f"{len(names) - greases} oils and {greases} greases"

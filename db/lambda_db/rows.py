@@ -53,6 +53,7 @@ BEARING_GROUPS: dict[str, tuple[str, ...]] = {
     ),
     "groove": ("groove_radius_inner_mm", "groove_radius_outer_mm"),
     "shoulder": ("shoulder_diameter_inner_mm", "shoulder_diameter_outer_mm"),
+    "angle": ("contact_angle_deg",),
 }
 
 
@@ -99,6 +100,7 @@ def bearing_row(row: Bearing, candidates: Iterable[Candidate], sources: Sources)
         maker=row.maker,
         series=row.series,
         rating_type=row.rating_type,
+        kind=row.kind or "deep groove",
         candidates=designs,
         layer=cast(Layer, row.layer),
         **cast(dict[str, Any], values),

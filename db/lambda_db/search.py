@@ -22,12 +22,13 @@ KEYS: dict[str, Any] = {
     "C0": Bearing.static_rating_kN,
     "Z": Bearing.ball_count,
     "Dw": Bearing.ball_diameter_mm,
+    "alpha": Bearing.contact_angle_deg,
     "series": Bearing.series,
     "maker": Bearing.maker,
     "grade": Bearing.geometry_grade,
 }
 _COMPARISON = re.compile(r"^(\w+)(<=|>=|=|<|>)(.*)$")
-_NUMBER = re.compile(r"^(\d+(?:\.\d+)?)(?:mm|kN)?$")
+_NUMBER = re.compile(r"^(\d+(?:\.\d+)?)(?:mm|kN|deg)?$")
 
 
 def _compare(word: str, key: str, operator: str, text: str) -> ColumnElement[bool]:
@@ -63,6 +64,7 @@ def _word(word: str) -> tuple[ColumnElement[bool], ColumnElement[int]]:
         ranks.append((Bearing.outside_diameter_mm == number, 3))
         ranks.append((Bearing.width_mm == number, 4))
     ranks.append((starts, 2))
+    ranks.append((Bearing.kind.startswith(word, autoescape=True), 3))
     ranks.append((Bearing.designation.contains(word, autoescape=True), 5))
     ranks.append((Bearing.maker.startswith(word, autoescape=True), 5))
     return or_(*(condition for condition, _ in ranks)), case(*ranks, else_=9)

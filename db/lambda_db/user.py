@@ -18,12 +18,32 @@ from lambda_db.seal import ChangedError, check_seal, create_seal, differences, r
 from lambda_db.seed_tables import VIEWED
 from lambda_db.soundness import ADVICE, UNREADABLE, DamagedError, check_sound, is_damage, reason_of
 
+
+def _renew_bearings(connection: Connection) -> None:
+    """Make the table of bearings again with the columns and constraints of today, its rows in it."""
+    name, table = "bearing", Base.metadata.tables["bearing"]
+    found = [row[1] for row in connection.exec_driver_sql(f"PRAGMA table_info({name})")]
+    if len(found) == len(table.columns):  # an earlier step has made it
+        return
+    columns = ", ".join(found)
+    connection.exec_driver_sql(f"ALTER TABLE {name} RENAME TO before_{name}")
+    table.create(connection)
+    connection.exec_driver_sql(f"INSERT INTO {name} ({columns}) SELECT {columns} FROM before_{name}")
+    connection.exec_driver_sql(f"DROP TABLE before_{name}")
+
+
+def _with_seal(connection: Connection) -> None:
+    _renew_bearings(connection)  # what is sealed are the columns of today
+    create_seal(connection)
+
+
 # Steps from version n to n + 1; the newest schema is Base.metadata itself.
 MIGRATIONS: dict[int, Callable[[Connection], None]] = {
     1: lambda connection: Base.metadata.tables["suffix"].create(connection),
-    2: create_seal,
+    2: _with_seal,
+    3: _renew_bearings,
 }
-SCHEMA_VERSION = 3
+SCHEMA_VERSION = 4
 
 
 @contextmanager

@@ -34,7 +34,7 @@ def bearing_text(row: BearingRow, catalogue: Catalogue) -> Text:
 
     sources = Sources()
     text = Text(f"{row.designation}  {row.maker}", style="bold")
-    about = "  ".join(filter(None, (f"series {row.series}" if row.series else "", row.rating_type)))
+    about = "  ".join(filter(None, (row.kind, f"series {row.series}" if row.series else "", row.rating_type)))
     text.append(f"  {about}\n", style="not bold dim")
     _values(text, values_of(row), sources)
     limits = clearance_lines(cast("SqlCatalogue", catalogue), row)

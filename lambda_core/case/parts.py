@@ -45,7 +45,7 @@ class InlineGeometry(Section):
     bore_diameter: Length | None = option(None, "bore d", gt=0.0)
     outside_diameter: Length | None = option(None, "outside diameter D", gt=0.0)
     width: Length | None = option(None, "width B", gt=0.0)
-    series: Literal["60", "62", "63", "64", "618", "619"] | None = option(None, "dimension series")
+    series: Literal["60", "62", "63", "64", "618", "619", "70", "72", "73"] | None = option(None, "dimension series")
     dynamic_rating: Force | None = option(None, "basic dynamic load rating C", gt=0.0)
     static_rating: Force | None = option(None, "basic static load rating C0", gt=0.0)
 
@@ -85,7 +85,7 @@ class Bearing(Section):
 
     designation: str | None = option(
         None,
-        'catalogue designation, for example "6208"; suffixes ("6208-2RS1/C3") decide what the case leaves open',
+        'catalogue designation, as "6208" or "7208B"; suffixes ("6208-2RS1/C3") decide what the case leaves open',
         min_length=1,
     )
     maker: str | None = option(None, "whose design, where several makers are in the catalogue", min_length=1)
@@ -100,7 +100,7 @@ class Bearing(Section):
     contact_angle: Angle | None = option(
         None,
         "free contact angle of an angular contact bearing, in place of a clearance: 2 A (1 - cos(alpha_0)) of the "
-        "distance A of the groove centres",
+        "distance A of the groove centres; absent: the catalogue's, where the bearing is one of angular contact",
         gt=0.0,
         le=0.7854,
         reference="Harris and Kotzalas 2006, eq. 2.9",

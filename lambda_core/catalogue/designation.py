@@ -55,7 +55,7 @@ def read_designation(text: str, known: list[str], suffixes: Sequence[Suffix]) ->
         When something behind the bearing is no known suffix.
     """
     names = {name.casefold(): name for name in known}
-    words = text.split()
+    words = _joined(text.split(), names)
     for index, word in enumerate(words):
         base = _base(word, names)
         if base is None:
@@ -104,6 +104,16 @@ def without_suffixes(text: str, known: list[str], suffixes: Sequence[Suffix]) ->
         elif not (follows and parts and all(parts) and not word.isalpha()):
             kept.append(word)
     return " ".join(kept)
+
+
+def _joined(words: list[str], names: dict[str, str]) -> list[str]:
+    """Join what makers write apart: "7208 B" is 7208B, where the catalogue has that and no 7208."""
+    for index in range(len(words) - 1):
+        pair = words[index] + words[index + 1]
+        base = _base(pair, names)
+        if base is not None and len(base) > len(words[index]) and _base(words[index], names) is None:
+            return [*words[:index], pair, *words[index + 2 :]]
+    return words
 
 
 def _base(word: str, names: dict[str, str]) -> str | None:

@@ -55,7 +55,7 @@ class Design(Frozen):
 
 
 class BearingRow(Frozen):
-    """A deep-groove ball bearing: boundary dimensions, ratings and inner geometry (SI)."""
+    """A ball bearing: boundary dimensions, ratings and inner geometry (SI)."""
 
     designation: str
     maker: str
@@ -68,6 +68,7 @@ class BearingRow(Frozen):
     static_rating: Value | None = None  # C0 [N]
     fatigue_limit: Value | None = None  # Cu [N]
     rating_type: str = ""
+    kind: str = "deep groove"  # or "angular contact"
     reference_speed: Value | None = None  # [rad/s]
     limiting_speed: Value | None = None  # [rad/s]
     mass: Value | None = None  # [kg]
@@ -80,6 +81,7 @@ class BearingRow(Frozen):
     groove_radius_outer: Value | None = None
     shoulder_diameter_inner: Value | None = None
     shoulder_diameter_outer: Value | None = None
+    contact_angle: Value | None = None  # free one, of angular contact [rad]
     candidates: tuple[Design, ...] = ()
     layer: Literal["core", "plugin", "user"] = "core"
 

@@ -52,7 +52,7 @@ class Context:
     bore_diameter: float  # [m]
     outside_diameter: float  # [m]
     width: float  # [m]
-    series: str  # "60", "62", "63", "64", "618", "619" or "" when unknown
+    series: str  # "60", "62", "63", "64", "618", "619", "70", "72", "73" or "" when unknown
     speed: float  # |Omega_i - Omega_o| at the start or its largest planned value [rad/s]
     mean_load: float  # mean normal load of the loaded contacts at equilibrium [N]
     ball: Material  # of the balls

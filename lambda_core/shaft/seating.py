@@ -24,7 +24,9 @@ def mounted(name: str, given: ShaftBearing, model: BearingModel, growth: float, 
     growth : float
         How far the warm housing carries the outer ring along x [m].
     """
-    takes, angle = _SIGN[given.takes], given.contact_angle or 0.0
+    takes, angle = _SIGN[given.takes], model.geometry.contact_angle
+    if angle and not takes:
+        ledger.problem(f"bearings.{name}.takes", 'is required: an angular contact bearing needs "+x" or "-x"')
     play = axial_play(given, model) if takes else 0.0
     shift = growth - takes * (play + (given.preload or 0.0))
     dynamic, static, fatigue = _ratings(name, angle, model, ledger)

@@ -68,6 +68,7 @@ class Geometry:
     outside_diameter: float  # [m]
     width: float  # [m]
     series: str
+    contact_angle: float = 0.0  # free one of an angular contact bearing, which ratings go by; 0: radial contact [rad]
 
 
 @dataclass(frozen=True)

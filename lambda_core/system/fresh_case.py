@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from lambda_core.catalogue.protocol import BearingRow
 
 _TEXT = """\
-# Deep-groove ball bearing {designation} of {maker}{words}: change what differs on your machine.
+# {kind} {designation} of {maker}{words}: change what differs on your machine.
 name = "{name}"
 description = "{designation} of {maker}{words}"
 
@@ -20,7 +20,6 @@ description = "{designation} of {maker}{words}"
 designation = "{designation}"
 maker = "{maker}"
 {clearance}
-clearance_pick = "middle"
 
 [lubricant]
 {oil}
@@ -37,6 +36,10 @@ clearance_pick = "middle"
 _NO_RATING = 10e3  # [N], where the catalogue has no rating to take a share of
 _MOST_SPEED = 0.5  # of the limiting speed that a new case starts with
 _MEASURED = 'or a measured value such as "14 um"'
+_KINDS = {"deep groove": "Deep-groove ball bearing", "angular contact": "Angular contact ball bearing"}
+# Thrust over radial load times tan(alpha) at which half the circumference is loaded (NSK, CAT. No. E728, 5.1);
+# with less fewer balls carry, and an angular contact bearing alone comes apart.
+_HALF_LOADED = 1.216
 
 
 def fresh_case(name: str, bearing: BearingRow, read: Designation, machine: Machine = GENERAL) -> str:
@@ -44,30 +47,47 @@ def fresh_case(name: str, bearing: BearingRow, read: Designation, machine: Machi
 
     Suffixes of the designation stay in it and decide what they stand for.
     """
-    classes = [written for written, suffix in read.suffixes if suffix.kind == "clearance"]
     rating = bearing.dynamic_rating
     radial = machine.load * (rating.value if rating else _NO_RATING)
     part = "a tenth of C" if machine.load == 0.1 else f"{machine.load:.2g} of C"
     share = f"{part} = {rating.value / 1e3:.4g} kN" if rating else "the catalogue has no load rating"
     oil, load, speed = machine.about
-    thrust = f"{machine.thrust:.2g} of it, along the shaft" if machine.thrust else "along the shaft"
+    share_of, why = _thrust(machine, bearing)
     return _TEXT.format(
+        kind=_KINDS[bearing.kind],
         name=name,
         designation=read.text,
         words=f", {machine.words}" if machine.words else "",
         maker=bearing.maker,
-        clearance=_told(
-            f'# clearance = "{classes[0]}"', f"stands in the designation; {_MEASURED.removeprefix('or ')} would win"
-        )
-        if classes
-        else _told(f'clearance = "{machine.clearance}"', f"class of ISO 5753-1, {_MEASURED}"),
+        clearance=_clearance(machine, bearing, read),
         oil=_told(f'name = "{machine.oil}"', oil),
         temperature=_told(f'temperature = "{machine.temperature} degC"', ""),
         radial=_told(f'radial = "{_newton(radial)}"', f"{share}; {load}"),
-        axial=_told(f'axial = "{_newton(machine.thrust * radial)}"', thrust),
+        axial=_told(f'axial = "{_newton(share_of * radial)}"', why),
         speed=_told(f'speed = "{_speed(machine, bearing):.4g} rpm"', speed),
         tail=machine.tail,
     )
+
+
+def _clearance(machine: Machine, bearing: BearingRow, read: Designation) -> str:
+    """Return the lines that say the clearance, or the contact angle that it follows from."""
+    if bearing.contact_angle is not None:
+        angle = f"{math.degrees(bearing.contact_angle.value):.3g} deg"
+        return _told(f'# contact_angle = "{angle}"', "of the catalogue: the clearance follows from it")
+    pick = '\nclearance_pick = "middle"'
+    classes = [written for written, suffix in read.suffixes if suffix.kind == "clearance"]
+    if classes:
+        why = f"stands in the designation; {_MEASURED.removeprefix('or ')} would win"
+        return _told(f'# clearance = "{classes[0]}"', why) + pick
+    return _told(f'clearance = "{machine.clearance}"', f"class of ISO 5753-1, {_MEASURED}") + pick
+
+
+def _thrust(machine: Machine, bearing: BearingRow) -> tuple[float, str]:
+    """Return axial over radial load, and the comment on it; angular contact needs enough to be held together."""
+    least = _HALF_LOADED * math.tan(bearing.contact_angle.value) if bearing.contact_angle is not None else 0.0
+    if least > machine.thrust:
+        return 1.1 * least, "along the shaft; less opens an angular contact bearing that stands alone"
+    return machine.thrust, f"{machine.thrust:.2g} of it, along the shaft" if machine.thrust else "along the shaft"
 
 
 def _told(text: str, why: str) -> str:

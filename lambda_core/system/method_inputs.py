@@ -139,4 +139,5 @@ def method_inputs(
         state=state,
         designation=next((str(v.value) for v in model.values if v.path == "bearing.designation"), ""),
         shoulder_diameter_inner=geometry.shoulder_diameter_inner,
+        contact_angle=geometry.contact_angle,
     )

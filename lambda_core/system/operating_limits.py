@@ -107,9 +107,9 @@ def _mode(body: Body, dof: str) -> str:
 def _ratings(model: BearingModel) -> tuple[float, float]:
     """Return C and C_0 [N]: the catalogue's, or from the geometry (ISO 281, ISO 76)."""
     g = model.geometry
-    size = (g.ball_count, g.ball_diameter, g.pitch_diameter)
+    size, angle = (g.ball_count, g.ball_diameter, g.pitch_diameter), g.contact_angle
     dynamic, static = _known(model, "bearing.dynamic_rating"), _known(model, "bearing.static_rating")
-    return dynamic or dynamic_rating(*size), static or static_rating(*size)
+    return dynamic or dynamic_rating(*size, contact_angle=angle), static or static_rating(*size, contact_angle=angle)
 
 
 def _load(model: BearingModel) -> Iterator[str]:
@@ -118,9 +118,10 @@ def _load(model: BearingModel) -> Iterator[str]:
         return
     radial, axial = loads
     dynamic, static = _ratings(model)
-    factor = static_factor(model.geometry.ball_diameter / model.geometry.pitch_diameter)
-    equivalent = dynamic_equivalent_load(radial, axial, static, factor).load
-    resting = static_equivalent_load(radial, axial)
+    g = model.geometry
+    factor = static_factor(g.ball_diameter * math.cos(g.contact_angle) / g.pitch_diameter)
+    equivalent = dynamic_equivalent_load(radial, axial, static, factor, g.contact_angle).load
+    resting = static_equivalent_load(radial, axial, g.contact_angle)
     turns = _relative_speed(model) > 0.0
     if turns and equivalent < MINIMUM_LOAD * dynamic:
         yield (

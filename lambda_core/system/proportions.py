@@ -1,7 +1,8 @@
 """Proportions of a geometry against those of the bearings in the catalogue: what no maker builds is told.
 
 A geometry may be possible and still a slip of the pen: three balls, an outside diameter of 99 m. The ranges are those
-of all 286 deep-groove ball bearings with known balls in the built-in catalogue; a test computes them anew.
+of all ball bearings with known balls in the built-in catalogue; a test computes them anew. Angular contact bearings are
+filled over a low shoulder and hold more balls than deep groove ones, whose rings must go apart for it.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from collections.abc import Iterator
 from lambda_core.system.bearing import Geometry
 
 FILLING = (165.0, 198.0)  # angle that the balls span side by side, as at assembly [deg]
+ANGULAR_FILLING = (220.0, 312.0)  # of angular contact [deg]
 WALL = (0.25, 0.61)  # radial wall of a ring under the groove, over the ball diameter
 WIDTH = (1.20, 2.21)  # over the ball diameter
 
@@ -23,10 +25,11 @@ def proportion_warnings(g: Geometry) -> Iterator[str]:
     """
     ball = g.ball_diameter
     angle = 2.0 * (g.ball_count - 1) * math.degrees(math.asin(min(ball / g.pitch_diameter, 1.0)))
-    if not FILLING[0] <= angle <= FILLING[1]:
+    fewest, most = ANGULAR_FILLING if g.contact_angle else FILLING
+    if not fewest <= angle <= most:
         yield (
             f"{g.ball_count} balls of {ball * 1e3:.6g} mm side by side span {angle:.0f} deg of the pitch circle: "
-            f"bearings of the catalogue are filled to {FILLING[0]:g} to {FILLING[1]:g} deg"
+            f"bearings of the catalogue are filled to {fewest:g} to {most:g} deg"
         )
     inner = 0.5 * (g.race_diameter_inner - g.bore_diameter)
     outer = 0.5 * (g.outside_diameter - g.race_diameter_outer)

@@ -32,6 +32,10 @@ class Inertia:
         """Return both parts together, their centres in one place."""
         return Inertia(self.mass + other.mass, self.transverse + other.transverse, self.polar + other.polar)
 
+    def half(self) -> Inertia:
+        """Return half of everything."""
+        return Inertia(0.5 * self.mass, 0.5 * self.transverse, 0.5 * self.polar)
+
 
 def hollow_cylinder(mass: float, inner_radius: float, outer_radius: float, length: float) -> Inertia:
     """Return the inertia of a hollow cylinder: m (R^2 + r^2)/2 and m (3 (R^2 + r^2) + l^2)/12."""
@@ -52,7 +56,11 @@ def groove_volume(groove_radius: float, race_diameter: float, shoulder_diameter:
 
 
 def ring_inertia(geometry: Geometry, ring: Literal["inner", "outer"], density: float) -> Inertia:
-    """Estimate a ring as a hollow cylinder from its seat to its shoulders, less the groove."""
+    """Estimate a ring as a hollow cylinder from its seat to its shoulders, less the groove.
+
+    On one side of an angular contact ring the shoulder is gone, down to the raceway: with that on both rings, these,
+    the balls and the cage have the mass that a catalogue prints (tests/literature/test_kinds.py).
+    """
     g = geometry
     if ring == "inner":
         small, large = g.bore_diameter, g.shoulder_diameter_inner
@@ -61,7 +69,16 @@ def ring_inertia(geometry: Geometry, ring: Literal["inner", "outer"], density: f
         small, large = g.shoulder_diameter_outer, g.outside_diameter
         groove = groove_volume(g.groove_radius_outer, g.race_diameter_outer, g.shoulder_diameter_outer)
     volume = math.pi / 4.0 * (large**2 - small**2) * g.width - groove
-    return hollow_cylinder(density * volume, small / 2.0, large / 2.0, g.width)
+    whole = hollow_cylinder(density * volume, small / 2.0, large / 2.0, g.width)
+    if g.contact_angle == 0.0:
+        return whole
+    if ring == "inner":
+        large = g.race_diameter_inner
+    else:
+        small = g.race_diameter_outer
+    low = math.pi / 4.0 * (large**2 - small**2) * g.width
+    # half of each: the halves of a cylinder have half of its inertia about its middle
+    return whole.half() + hollow_cylinder(density * low, small / 2.0, large / 2.0, g.width).half()
 
 
 def resolve_cage(

@@ -22,6 +22,9 @@ LARGEST_INTERFERENCE = 0.007
 # Shoulder diameters differ by 1.21 ball diameters: mean of catalogue shoulders, the same figure from
 # which missing inner geometry is derived.
 SHOULDER_SPREAD = 1.21
+# Height of the high shoulder over the raceway in ball diameters: means of SKF's 72 BE and 73 BE from 17 to 65 mm bore
+# (0.31 to 0.35 and 0.23 to 0.33; SKF general catalogue, single-row angular contact ball bearings).
+HIGH_SHOULDERS = {"inner": 0.33, "outer": 0.285}
 # ISO 76 and ISO 281 rate grooves up to 0.52 and 0.53; what is made lies below, as in the catalogue's estimates.
 CONFORMITY_INNER, CONFORMITY_OUTER = 0.515, 0.525
 # From a thousandth of the smallest bearing made to ten times the largest: beyond, a unit is wrong.
@@ -90,15 +93,16 @@ def resolve_geometry(
     races = _races(picker)
     pitch = _pitch(picker, races, bore, outside)
     grooves = (_groove(picker, "inner", ball), _groove(picker, "outer", ball))
-    if bearing.contact_angle is None:
+    angle = _contact_angle(bearing, row, ledger)
+    if angle == 0.0:
         bought = clearance_as_bought(bearing, races, ball, bore, catalogue, ledger)
     else:
-        bought = _clearance_of_angle(bearing.contact_angle, sum(grooves) - ball, ledger)
+        bought = _clearance_of_angle(angle, sum(grooves) - ball, ledger)
     _ratings(picker)
     if bought is None or any(math.isnan(x) for x in (bore, outside, width, count, ball, pitch, *grooves)):
         return None
     clearance = picked(bought, bearing.clearance_pick)
-    shoulders = (_shoulder(picker, "inner", ball, pitch), _shoulder(picker, "outer", ball, pitch))
+    shoulders = (_shoulder(picker, "inner", ball, pitch, angle), _shoulder(picker, "outer", ball, pitch, angle))
     series = inline.series or (row.series if row else "")
     as_bought = Geometry(
         ball_count=round(count),
@@ -115,15 +119,28 @@ def resolve_geometry(
         outside_diameter=outside,
         width=width,
         series=series,
+        contact_angle=angle,
     )
     geometry = with_clearance(as_bought, clearance)
     check_geometry(geometry, races, ledger)
     return geometry, bought
 
 
+def _contact_angle(bearing: Bearing, row: BearingRow | None, ledger: Ledger) -> float:
+    """Return the free contact angle of angular contact: the case's, else the row's; 0 of radial contact [rad].
+
+    A clearance in the case takes the place of the row's angle.
+    """
+    if bearing.contact_angle is not None:
+        ledger.given("bearing.contact_angle", bearing.contact_angle, "angle")
+        return bearing.contact_angle
+    if row is None or row.contact_angle is None or bearing.clearance is not None:
+        return 0.0
+    return ledger.row("bearing.contact_angle", row.contact_angle, "angle")
+
+
 def _clearance_of_angle(angle: float, distance: float, ledger: Ledger) -> Limits:
     """Return the clearance of a contact angle, 2 A (1 - cos(alpha_0)) (Harris and Kotzalas 2006, eq. 2.9)."""
-    ledger.given("bearing.contact_angle", angle, "angle")
     clearance = 2.0 * distance * (1.0 - math.cos(angle))
     ledger.record("bearing.clearance", clearance, "small_length", "from the free contact angle", "derived")
     return Limits(clearance, clearance)
@@ -213,11 +230,18 @@ def _groove(picker: Picker, ring: str, ball: float) -> float:
     return radius
 
 
-def _shoulder(picker: Picker, ring: str, ball: float, pitch: float) -> float:
+def _shoulder(picker: Picker, ring: str, ball: float, pitch: float, angle: float) -> float:
+    """Return the diameter of a ring's shoulder; of angular contact that of the high one, which carries the load."""
     name = f"shoulder_diameter_{ring}"
     diameter = picker.take(name)
-    if diameter is None:
-        sign = -1.0 if ring == "inner" else 1.0
+    sign = -1.0 if ring == "inner" else 1.0
+    if diameter is None and angle > 0.0:
+        height = HIGH_SHOULDERS[ring]
+        diameter = pitch + sign * (1.0 - 2.0 * height) * ball
+        text = f"high shoulder {height:g} D_w over the raceway"
+        picker.ledger.record(f"bearing.{name}", diameter, "length", text, "assumed")
+        picker.ledger.assume(f"{ring} ring: {text}, the mean of SKF's 72 and 73 BE; the low one is not in the model")
+    elif diameter is None:
         diameter = pitch + sign * 0.5 * SHOULDER_SPREAD * ball
         picker.ledger.record(f"bearing.{name}", diameter, "length", "pitch -+ 0.605 D_w", "assumed")
         picker.ledger.assume("shoulder diameters: pitch diameter -+ 0.605 D_w, the mean of catalogue shoulders")

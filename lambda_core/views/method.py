@@ -67,7 +67,7 @@ class MethodInputs:
     """Everything a method may look at: plain SI numbers, frozen. None means that the case does not say."""
 
     title: str  # the bearing for people: "6319 (Syla2026)"
-    series: str  # "60", "62", "63", "64", "618", "619" or "" when unknown
+    series: str  # "60", "62", "63", "64", "618", "619", "70", "72", "73" or "" when unknown
     bore_diameter: float  # [m]
     outside_diameter: float  # [m]
     width: float  # [m]
@@ -96,6 +96,7 @@ class MethodInputs:
     state: EquilibriumState | None = None  # quasi-static loads, displacement, stiffness and friction
     designation: str = ""  # as it is written, with its suffixes
     shoulder_diameter_inner: float | None = None  # of the inner ring, on which lips of seals slide [m]
+    contact_angle: float = 0.0  # free one of an angular contact bearing, which ratings go by; 0: radial contact [rad]
 
     @property
     def mean_diameter(self) -> float:

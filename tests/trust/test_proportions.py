@@ -37,19 +37,23 @@ def test_what_is_impossible_is_refused(change: str) -> None:
 
 
 def test_the_ranges_are_those_of_the_catalogue() -> None:
-    filling, wall, width = [], [], []
+    filling: dict[str, list[float]] = {"deep groove": [], "angular contact": []}
+    wall, width = [], []
     for row in api.catalogue().bearings(limit=10_000):
         if row.ball_count is None or row.ball_diameter is None:
             continue
         ball = row.ball_diameter.value
         bore, outside, broad = row.bore_diameter.value, row.outside_diameter.value, row.width.value
         pitch = row.pitch_diameter.value if row.pitch_diameter else 0.5 * (bore + outside)
-        filling.append(2.0 * (row.ball_count.value - 1) * math.degrees(math.asin(ball / pitch)))
+        filling[row.kind].append(2.0 * (row.ball_count.value - 1) * math.degrees(math.asin(ball / pitch)))
         wall += [0.5 * (pitch - ball - bore) / ball, 0.5 * (outside - pitch - ball) / ball]
         width.append(broad / ball)
-    assert len(filling) == 349
+    assert {kind: len(found) for kind, found in filling.items()} == {"deep groove": 349, "angular contact": 166}
     for found, (least, most), step in (
-        (filling, proportions.FILLING, 1.0), (wall, proportions.WALL, 0.01), (width, proportions.WIDTH, 0.01)
-    ):  # fmt: skip
+        (filling["deep groove"], proportions.FILLING, 1.0),
+        (filling["angular contact"], proportions.ANGULAR_FILLING, 1.0),
+        (wall, proportions.WALL, 0.01),
+        (width, proportions.WIDTH, 0.01),
+    ):
         assert least == pytest.approx(math.floor(min(found) / step) * step)
         assert most == pytest.approx(math.ceil(max(found) / step) * step)
