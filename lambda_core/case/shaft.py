@@ -25,6 +25,7 @@ from lambda_core.domain.units import (
     RotationalSpeed,
     SmallLength,
     Temperature,
+    Unbalance,
     parse,
 )
 
@@ -140,6 +141,8 @@ class ShaftDisc(Section):
     mass: Mass = option(description="mass", gt=0.0)
     polar_inertia: Inertia = option("0 kg m2", "moment of inertia about the axis", ge=0.0)
     transverse_inertia: Inertia | None = option(None, "about a diameter; absent: half the polar one", ge=0.0)
+    unbalance: Unbalance = option("0 g mm", "mass times eccentricity; counts in motion (shaft --run)", ge=0.0)
+    unbalance_angle: Angle = option("0 deg", "azimuth of the unbalance at t = 0, from +y to +z")
 
 
 class PointLoad(Section):

@@ -47,6 +47,15 @@ class MountedBearing:
 
 
 @dataclass(frozen=True)
+class Unbalance:
+    """A mass that turns with the shaft beside its axis."""
+
+    position: float  # [m]
+    amount: float  # mass times eccentricity [kg m]
+    angle: float  # azimuth at t = 0, from +y to +z [rad]
+
+
+@dataclass(frozen=True)
 class ShaftModel:
     """Shaft, bearings and loads.
 
@@ -86,3 +95,4 @@ class ShaftModel:
     outline: tuple[tuple[float, float, float, float], ...]  # begin, end, diameter, bore of each section [m]
     discs: tuple[tuple[str, float], ...]  # name and position [m]
     load_places: tuple[tuple[str, float], ...]  # of loads and gears [m]
+    unbalances: tuple[Unbalance, ...] = ()

@@ -22,7 +22,7 @@ from lambda_core.domain.units import show
 from lambda_core.elastic.body import Disc, ElasticBody, shaft_body
 from lambda_core.elastic.sections import BodyMaterial, RoundSection
 from lambda_core.shaft.elastic_housing import housing_stiffness
-from lambda_core.shaft.model import ShaftModel
+from lambda_core.shaft.model import ShaftModel, Unbalance
 from lambda_core.shaft.seating import mounted
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.checking import check
@@ -147,6 +147,11 @@ def _shaft(
         outline=_outline(case),
         discs=tuple((name, disc.position) for name, disc in case.discs.items()),
         load_places=tuple(places),
+        unbalances=tuple(
+            Unbalance(disc.position, disc.unbalance, disc.unbalance_angle)
+            for disc in case.discs.values()
+            if disc.unbalance
+        ),
     )
 
 

@@ -154,6 +154,9 @@ class Bundle(NamedTuple):
     raceways: Any  # RACEWAY (raceways,)
     lands: Any  # LAND (stations,)
     links: Any  # LINK (force elements between bodies,)
+    tied: Any  # int64 (n,): entries of the shared state that elastic structures tie together; mostly none
+    tie_stiffness: Any  # (n, n): of shafts and housings between them [N/m, N, N m]
+    tie_rest: Any  # (n,): where they are without force
     slots: Any  # SLOT (places where laws read states of contacts,)
     state_steps: Any  # (states of contacts,): for differences
     laws: Any  # Laws
@@ -188,6 +191,9 @@ _TYPES = {
     "raceways": table_t(R.RACEWAY),
     "lands": table_t(R.LAND),
     "links": table_t(R.LINK),
+    "tied": iarray1,
+    "tie_stiffness": array2,
+    "tie_rest": array1,
     "slots": table_t(R.SLOT),
     "state_steps": array1,
     "laws": laws_t,

@@ -101,6 +101,9 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: O
     inputs, now, rates = np.zeros(bodies, R.INPUTS), np.zeros(bodies, R.BODY_STATE), np.zeros(bodies, R.BODY_STATE)
     bundle = L.Bundle(
         **tables._asdict(),
+        tied=np.zeros(0, dtype=np.int64),
+        tie_stiffness=np.zeros((0, 0)),
+        tie_rest=np.zeros(0),
         laws=kernels.pointers(),
         wrench=compiled.wrench_pointer,
         tangent=compiled.tangent_pointer,

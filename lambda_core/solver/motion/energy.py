@@ -13,6 +13,7 @@ from lambda_core.solver.cage.guides import (
 from lambda_core.solver.contact.contact_kinematics import axis_x, contact_kinematics, surface_lift
 from lambda_core.solver.layout import NB, guide_law, helper, part, raceway_laws
 from lambda_core.solver.motion.prescribed import fill_shared
+from lambda_core.solver.motion.structures import structure_energy
 from lambda_core.solver.records import BALL
 from lambda_core.solver.vec import length
 
@@ -112,4 +113,4 @@ def stored_energy(t, y, bundle):
     if system.guides_on == 1:
         for i in range(bundle.lands.size):
             total += _land_energy(bundle.lands[i], bundle)
-    return total
+    return total + structure_energy(bundle)

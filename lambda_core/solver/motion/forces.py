@@ -9,6 +9,7 @@ from lambda_core.solver.motion.equations import ball_rates, body_rates
 from lambda_core.solver.motion.force_elements import cage_forces, clear_forces, drag_force, land_forces, raceway_forces
 from lambda_core.solver.motion.links import link_forces
 from lambda_core.solver.motion.prescribed import fill_shared
+from lambda_core.solver.motion.structures import structure_forces
 from lambda_core.solver.records import BALL
 from lambda_core.solver.vec import dot, increase, turning
 
@@ -109,6 +110,7 @@ def evaluate(t, y, bundle, dydt, rates, want):
         return 0
     if link_forces(t, bundle, running) != 1:
         return 0
+    structure_forces(bundle)
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         for j in range(row.first_ball, row.first_ball + row.balls):

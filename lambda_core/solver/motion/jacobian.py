@@ -24,6 +24,7 @@ from lambda_core.solver.motion.force_elements import drag_force
 from lambda_core.solver.motion.links import link_columns
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.motion.steps import add_slope, ball_step
+from lambda_core.solver.motion.structures import structure_columns
 from lambda_core.solver.records import BALL
 from lambda_core.solver.vec import clear
 
@@ -126,6 +127,7 @@ def jacobian(t, y, bundle, bl):
         return 0
     if link_columns(t, bundle, bl) != 1:
         return 0
+    structure_columns(bundle, bl)
     for r in range(bundle.rows.size):
         for j in range(bl.reach.first[r], bl.reach.first[r + 1]):
             bl.due[j] = 1

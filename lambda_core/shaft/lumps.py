@@ -1,0 +1,160 @@
+"""A shaft as rigid lumps on its exact static stiffness: what the dynamics of the whole move.
+
+Lumps stand at every bearing and disc, in the middle of the pieces between them, and at the ends of long overhangs.
+Their stiffness is that of the beam condensed to them (Guyan 1965, AIAA J. 3, 380), so that static deflections under
+any load are exact. The mass of a piece goes to its two ends and its middle by the weights of the parabola through them
+(Simpson's rule where it is uniform: m/6, 2 m/3, m/6), which keep its mass, its centre and its moment of inertia.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.elastic.beam import NODE, NODES
+from lambda_core.elastic.body import ElasticBody
+from lambda_core.shaft.model import PLACES, ShaftModel
+
+_SAME = 1e-6  # [m] places nearer than this are one
+_LONG_OVERHANG = 1.0  # diameters, from which on the end of the shaft has a lump of its own
+_LONG_PIECE = 4.0  # diameters of the longest piece with one lump in its middle
+_SHORT_PIECE = 0.5  # diameters of the longest piece without one
+_GAUSS = np.polynomial.legendre.leggauss(3)  # exact for parabola times constant
+_LEAST = 0.05  # of the mass that a lump of equal lumps has, that each of them has to have
+
+
+@dataclass(frozen=True)
+class LumpedShaft:
+    """Rigid lumps of a shaft with its discs, SI.
+
+    Attributes
+    ----------
+    positions, mass, transverse_inertia, polar_inertia : float64[:], shape (n,)
+    stiffness : float64[:, :], shape (5 n, 5 n)
+        Between x, y, z and tilts about y and z of the lumps.
+    follow : float64[:, :], shape (6 nodes, 5 n)
+        How all nodes of the beam follow the lumps; turned round, how forces on nodes go to the lumps.
+    """
+
+    positions: FloatArray
+    mass: FloatArray
+    transverse_inertia: FloatArray
+    polar_inertia: FloatArray
+    stiffness: FloatArray
+    follow: FloatArray
+
+    def at(self, position: float) -> int:
+        """Return the number of the lump at a place [m]."""
+        return int(np.argmin(np.abs(self.positions - position)))
+
+
+def lump(model: ShaftModel) -> LumpedShaft:
+    """Cut the shaft into lumps."""
+    body = model.body
+    mains = _distinct([*(b.position for b in model.bearings), *(place for _, place in model.discs)])
+    places = _between(model, _with_ends(model, mains, _LONG_OVERHANG))
+    masses = _masses(body, places)
+    if masses.min() < _LEAST * masses.sum() / masses.size:  # an overhang that its neighbours cannot carry
+        places = _between(model, _with_ends(model, mains, 0.0))
+        masses = _masses(body, places)
+    polar = _hats(body, places)
+    transverse = 0.5 * polar
+    for disc in body.discs:
+        i = int(np.argmin(np.abs(places - disc.position)))
+        masses[i] += disc.mass
+        polar[i] += disc.polar_inertia
+        transverse[i] += disc.transverse_inertia
+    follow, stiffness = _condensed(body, places)
+    return LumpedShaft(places, masses, transverse, polar, stiffness, follow)
+
+
+def _distinct(places: Sequence[float]) -> FloatArray:
+    ordered = np.array(sorted(places))
+    return ordered[np.concatenate([[True], np.diff(ordered) > _SAME])]
+
+
+def _diameter(model: ShaftModel, place: float) -> float:
+    return next((d for begin, end, d, _ in model.outline if begin <= place <= end), model.outline[-1][2])
+
+
+def _with_ends(model: ShaftModel, mains: FloatArray, long: float) -> FloatArray:
+    """Add the ends of the shaft where they stand out."""
+    ends = (model.outline[0][0], model.outline[-1][1])
+    apart = (mains[0] - ends[0], ends[1] - mains[-1])
+    added = [end for end, far in zip(ends, apart, strict=True) if far > max(_SAME, long * _diameter(model, end))]
+    if mains.size + len(added) < 2:
+        added = list(ends)
+    return _distinct([*mains, *added])
+
+
+def _between(model: ShaftModel, mains: FloatArray) -> FloatArray:
+    """Add lumps between those that are needed, at nodes of the beam."""
+    nodes, found = model.body.positions, [float(mains[0])]
+    for begin, end in itertools.pairwise(mains):
+        wide = _diameter(model, 0.5 * (begin + end))
+        parts = 0 if end - begin < _SHORT_PIECE * wide else 2 * math.ceil((end - begin) / (_LONG_PIECE * wide))
+        marks = [begin + (end - begin) * i / parts for i in range(1, parts)]
+        found += [float(nodes[np.argmin(np.abs(nodes - mark))]) for mark in marks]
+        found.append(float(end))
+    return _distinct(found)
+
+
+def _pieces(places: FloatArray, marks: FloatArray) -> list[tuple[int, int, float, float]]:
+    """Return first and last lump of every piece, and what of the beam belongs to it [m]."""
+    edges = [0]
+    while edges[-1] < places.size - 1:
+        edges.append(min(edges[-1] + 2, places.size - 1))
+    bounds = [float(marks[0]), *(float(places[i]) for i in edges[1:-1]), float(marks[-1])]
+    return [(i, k, *ends) for (i, k), ends in zip(itertools.pairwise(edges), itertools.pairwise(bounds), strict=True)]
+
+
+def _cells(body: ElasticBody, begin: float, end: float) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
+    """Return points [m], masses [kg] and polar inertias [kg m2] of quadrature over a part of the beam."""
+    marks, found = body.positions[:: NODES - 1], []
+    for section, (left, right) in zip(body.elements, itertools.pairwise(marks), strict=True):
+        low, high = max(left, begin), min(right, end)
+        if high > low:
+            x, w = 0.5 * (low + high) + 0.5 * (high - low) * _GAUSS[0], 0.5 * (high - low) * _GAUSS[1]
+            density = section.material.density
+            found.append((x, density * section.area * w, 2.0 * density * section.second_moment * w))
+    return found
+
+
+def _masses(body: ElasticBody, places: FloatArray) -> FloatArray:
+    """Return the mass of the beam at every lump [kg]."""
+    total = np.zeros(places.size)
+    for first, last, begin, end in _pieces(places, body.positions):
+        own = places[first : last + 1]
+        for x, mass, _ in _cells(body, begin, end):
+            for i, place in enumerate(own):
+                others = np.delete(own, i)
+                total[first + i] += mass @ np.prod((x[:, None] - others) / (place - others), axis=1)
+    return total
+
+
+def _hats(body: ElasticBody, places: FloatArray) -> FloatArray:
+    """Return the polar inertia of the beam at every lump [kg m2], shared in a straight line between neighbours."""
+    total: FloatArray = np.zeros(places.size)
+    for x, _, polar in _cells(body, float(body.positions[0]), float(body.positions[-1])):
+        for i in range(places.size):
+            total[i] += polar @ np.interp(x, places, np.eye(places.size)[i])
+    return total
+
+
+def _condensed(body: ElasticBody, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return how all nodes follow the lumps, and the stiffness between these; nothing twists."""
+    size = body.stiffness.shape[0]
+    kept = np.concatenate([body.rows(float(place)).start + np.array(PLACES) for place in places])
+    straight = np.flatnonzero(np.arange(size) % NODE != 3)
+    inner = np.setdiff1d(straight, kept)
+    k = body.stiffness
+    follow = np.zeros((size, kept.size))
+    follow[kept, np.arange(kept.size)] = 1.0
+    follow[inner] = -np.linalg.solve(k[np.ix_(inner, inner)], k[np.ix_(inner, kept)])
+    stiffness: FloatArray = follow.T @ k @ follow
+    return follow, 0.5 * (stiffness + stiffness.T)

@@ -1,0 +1,339 @@
+"""The dynamics of a whole: one integration of the lumps of a shaft, its bearings with every ball, and the housing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import LOSSES, SHORTED
+from lambda_core.domain.errors import SolverError
+from lambda_core.shaft.lumps import lump
+from lambda_core.shaft.model import ShaftModel
+from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
+from lambda_core.shaft.whole_start import load_terms, start_state
+from lambda_core.shaft.whole_tables import Part, all_free, lump_bodies, make_parts, whole_bundle
+from lambda_core.solver import layout as L
+from lambda_core.solver import records as R
+from lambda_core.solver.drivers.compiled_laws import Announce
+from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION, Advance
+from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
+from lambda_core.solver.drivers.observation import Scratch, channels_of
+from lambda_core.solver.drivers.solver_context import state_scales
+from lambda_core.solver.drivers.surface_steps import longest_step
+from lambda_core.solver.drivers.tables import CAGE, INNER, OUTER, running
+from lambda_core.solver.entry import core
+from lambda_core.solver.integrator import memory
+from lambda_core.solver.integrator.arrow import make_factors
+from lambda_core.solver.integrator.blocks import make_blocks
+from lambda_core.solver.status import Status
+
+_CAPACITY = 512
+_FIRST_STEP, _SMALLEST_STEP = 1e-7, 1e-14  # [s]
+_WORK_PER_CALL = 500  # Newton iterations
+_COUNTERS = (
+    "steps", "rejected", "failed", "newton_iterations", "rhs_calls", "jacobians", "ball_jacobians", "factorisations",
+)  # fmt: skip
+_PER_RACEWAY, _SHARED = 12, ("pocket", "land", "drag")  # losses of raceways; those that only samples part by bearing
+
+
+@dataclass(frozen=True)
+class WholeSamples:
+    """What was sampled: of the whole, and of every bearing as a run of it alone writes it."""
+
+    whole: dict[str, FloatArray]
+    each: list[dict[str, FloatArray]]
+
+
+class WholeEngine:
+    """Dynamics of a shaft in its bearings, started from the quasi-static equilibrium of the whole.
+
+    Parameters
+    ----------
+    model : ShaftModel
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Attributes
+    ----------
+    parts : tuple of Part
+        The bearings, from left to right.
+    equilibria : list of Equilibrium
+        That each of them starts from.
+    """
+
+    def __init__(self, model: ShaftModel, announce: Announce = None) -> None:
+        self.model = model
+        self.start: ShaftState = solve_shaft(model, announce)
+        self._core, self.shaft = core(announce), lump(model)
+        self.equilibria: list[Equilibrium] = [ring.equilibrium() for ring in self.start.rings]
+        self.parts = make_parts(model, self.shaft, [all_free(found.context) for found in self.equilibria])
+        bundle = whole_bundle(model, self.shaft, self.parts)
+        self._bundle = bundle._replace(terms=load_terms(model, self.shaft, self.parts))
+        self._blocks = make_blocks(self._bundle)
+        self._factors = make_factors(self._blocks.reach, self._bundle.active.size)
+        start = start_state(model, self.shaft, self.parts, self._bundle.active, self.start, self.equilibria)
+        tolerance = min(part.bearing.model.solver.tolerance for part in self.parts)
+        self._memory = memory.make_memory(start, self._scale(), tolerance, self._bundle, _CAPACITY)
+        self.sample_interval = min(map(_usual_interval, self.equilibria))
+        control, count = self._memory.control, self._memory.count
+        control["longest_step"] = min(
+            min(part.bearing.model.solver.max_step, longest_step(part.alone)) for part in self.parts
+        )
+        control["step"] = np.minimum(_FIRST_STEP, control["longest_step"])
+        control["shortest_step"], control["sample_interval"] = _SMALLEST_STEP, self.sample_interval
+        count["stale"] = 1
+        c = self._core
+        self._handle = c.make_context(
+            c.evaluate_pointer, c.jacobian_pointer, c.advance_pointer, c.observe_pointer, self._bundle, self._blocks,
+            self._factors, self._memory,
+        )  # fmt: skip
+        self._drained: list[WholeSamples] = []
+        self._sampled = np.zeros((len(self.parts), len(_SHARED) + 4))  # integrals of what only samples say
+        self._last: list[FloatArray] = []  # their rates at the last sample
+        self._last_time = 0.0
+        self._start_cages = self._cage_angles()
+        self._start_energy = self._stored()
+
+    def _scale(self) -> FloatArray:
+        """Return the absolute scales that the tolerance multiplies."""
+        shared = np.zeros(self._bundle.shared.size)
+        balls, kept, lumps = [], [], np.zeros(L.NS)
+        for part in self.parts:
+            alone = part.alone
+            n = L.NB * part.balls
+            whole = state_scales(alone.model, np.arange(3 * L.NS))
+            balls.append(whole[:n])
+            kept.append(whole[n + 3 * L.NS :])
+            bodies = whole[n : n + 3 * L.NS].reshape(3, L.NS)
+            lumps += bodies[INNER] / len(self.parts)
+            for b in (OUTER, CAGE):
+                shared[L.NS * part.bodies[b] :][: L.NS] = bodies[b]
+        for body in lump_bodies(self.shaft):
+            shared[L.NS * body :][: L.NS] = lumps
+        return np.concatenate([*balls, shared[self._bundle.active], *kept])
+
+    @property
+    def time(self) -> float:
+        """Start of the next step [s]."""
+        return float(self._memory.control["time"][0])
+
+    @property
+    def states(self) -> int:
+        """Number of states."""
+        return int(self._memory.y.size)
+
+    def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
+        """Integrate until `time` >= `until` [s] or `pause` says so; samples gather meanwhile."""
+        status = Status.UNFINISHED
+        while self.time < until:
+            status = self._core.integrate(self._handle, until, _WORK_PER_CALL)
+            if status == Status.BUFFER_FULL:
+                self._drain()
+            elif status not in (Status.OK, Status.UNFINISHED):
+                break
+            if self.time < until and pause is not None and pause():
+                break
+        if status in (Status.OK, Status.UNFINISHED, Status.BUFFER_FULL):
+            return Advance(True, "")
+        if status == Status.REFUSED:
+            return Advance(False, self._fault())
+        return Advance(False, f"the time step fell below {_SMALLEST_STEP:g} s at t = {self.time:.6g} s")
+
+    def _fault(self) -> str:
+        """Say which law of which bearing refused."""
+        fault = self._bundle.scratch[0].fault
+        part = next(p for p in reversed(self.parts) if fault.ball >= p.first_ball or p is self.parts[0])
+        own = part.alone.bundle.scratch[0].fault
+        for name in fault.dtype.names:
+            own[name] = fault[name]
+        own["ball"] -= part.first_ball
+        if own["place"] >= part.first_raceway:
+            own["place"] -= part.first_raceway
+        return f"{part.bearing.name}: {fault_sentence(part.alone, self.time)}"
+
+    def fingerprint(self) -> bytes:
+        """Return the numbers that the motion is made of: another case or code has others."""
+        tables = (self._bundle.bodies, self._bundle.par, self._bundle.tie_stiffness, self._bundle.terms)
+        start = np.concatenate([self._start_cages, [self._start_energy, self.sample_interval]])
+        return b"".join(table.tobytes() for table in (*tables, start))
+
+    # -- what is written --
+
+    def samples(self) -> WholeSamples | None:
+        """Return and clear the buffered samples; None where there are none."""
+        self._drain()
+        blocks, self._drained = self._drained, []
+        if not blocks:
+            return None
+        return WholeSamples(_joined([b.whole for b in blocks]), [
+            _joined([block.each[i] for block in blocks]) for i in range(len(self.parts))
+        ])  # fmt: skip
+
+    def _drain(self) -> None:
+        n = int(self._memory.count["samples_waiting"][0])
+        if not n:
+            return
+        times, states = self._memory.sample_t[:n].copy(), self._memory.sample_y[:n].copy()
+        self._memory.count["samples_waiting"] = 0
+        flat = self._bodies(states)
+        found = [self._observe(part, times, states, flat) for part in self.parts]
+        lumps = flat.view(R.BODY_STATE)[:, lump_bodies(self.shaft)]
+        whole = {
+            "time": times,
+            "shaft_position": lumps["position"].copy(),
+            "shaft_tilt": np.stack([-lumps["tilt"][:, :, 1], lumps["tilt"][:, :, 0]], axis=2),
+            "reaction_force": np.stack([wrenches[:, :3] for _, wrenches in found], axis=1),
+            "reaction_moment": np.stack([wrenches[:, 3:] for _, wrenches in found], axis=1),
+            "power_loss": sum((channels["loss"].sum(axis=1) for channels, _ in found), np.zeros(n)),
+        }
+        each = [channels for channels, _ in found]
+        for i, channels in enumerate(each):
+            self._add_up(i, channels)
+        self._last_time = float(times[-1])
+        self._drained.append(WholeSamples(whole, each))
+
+    def _bodies(self, states: FloatArray) -> FloatArray:
+        """Return the whole shared state of samples, shape (n, 12 bodies)."""
+        bundle = self._bundle
+        flat = np.zeros((len(states), bundle.shared.size))
+        bodies = flat.view(R.BODY_STATE)
+        bodies["spin"][:, lump_bodies(self.shaft)] = self.model.speed
+        for part in self.parts:
+            for dof, value in enumerate(part.bearing.seating.shift[:3]):
+                bodies["position"][:, part.bodies[OUTER], dof] = value  # where it is free its state comes over it
+        tail = L.NB * int(bundle.system["balls"][0])
+        flat[:, bundle.active] = states[:, tail : tail + bundle.active.size]
+        return flat
+
+    def _observe(
+        self, part: Part, times: FloatArray, states: FloatArray, flat: FloatArray
+    ) -> tuple[dict[str, FloatArray], FloatArray]:
+        """Return every channel of a bearing, and force and moment of its contacts on the shaft, (n, 6)."""
+        context, n = part.alone, times.size
+        begin = L.NB * part.first_ball
+        kept = states.shape[1] - self._bundle.states.size + part.first_state
+        own = flat.reshape(n, -1, L.NS)[:, list(part.bodies)].reshape(n, -1)[:, context.bundle.active]
+        y = np.ascontiguousarray(np.concatenate([
+            states[:, begin : begin + L.NB * part.balls], own, states[:, kept : kept + context.bundle.states.size]
+        ], axis=1))  # fmt: skip
+        scratch, wrenches = Scratch.of(n, context), np.zeros((n, 6))
+        for i in range(n):
+            rows = [array[i : i + 1] for array in scratch[:-1]]
+            ok = self._core.observe(
+                times[i : i + 1], y[i : i + 1], context.bundle, self._core.evaluate_pointer, SHORTED, *rows, scratch.dydt
+            )
+            if ok != 1:
+                raise SolverError(f"{part.bearing.name}: {fault_sentence(context, float(times[i]))}")
+            wrenches[i] = context.bundle.body_wrenches.view(np.float64)[:6]
+        return channels_of(1, context, times, y, scratch), wrenches
+
+    def _add_up(self, i: int, channels: Mapping[str, FloatArray]) -> None:
+        """Go on with the integrals of what only samples say, by the trapezium rule."""
+        columns = [channels["loss"][:, LOSSES.index(name)] for name in _SHARED]
+        speed = channels["body_spin"][:, INNER]
+        rates = np.column_stack([*columns, channels["input_torque"] * speed, channels["body_position"][:, INNER]])
+        if len(self._last) <= i:
+            self._last.append(rates[0])
+        steps = np.diff(np.concatenate([[self._last_time], channels["time"]]))[:, None]
+        around = np.concatenate([self._last[i][None], rates])
+        self._sampled[i] += (0.5 * steps * (around[1:] + around[:-1])).sum(axis=0)
+        self._last[i] = rates[-1]
+
+    # -- running integrals --
+
+    def _stored(self) -> float:
+        """Return kinetic and elastic energy now [J]."""
+        powers = L.power_count(self._bundle)
+        extra, one = np.zeros((1, powers + 2)), np.zeros((1, 1, 3))
+        self._core.sample(
+            self._handle, np.array([self.time]), self._memory.y.reshape(1, -1), -1.0, np.zeros((1, 1, 2, 16)), one,
+            one.copy(), extra, np.zeros((1, self._bundle.shared.size)), np.zeros((1, powers)), np.zeros(self.states),
+        )  # fmt: skip
+        return float(extra[0, 0])
+
+    def _cage_angles(self) -> FloatArray:
+        bodies = self._bodies(self._memory.y.reshape(1, -1)).view(R.BODY_STATE)[0]
+        found = [float(bodies["angle"][part.bodies[CAGE]]) for part in self.parts]
+        return np.array(found)
+
+    def integrals(self) -> list[dict[str, float]]:
+        """Return the running integrals of every bearing since the start, as a run of it alone has them.
+
+        What its raceways dissipate is exact; pocket, land and drag are known exactly for all bearings together and are
+        parted by their samples. Energy is balanced for the whole: input is that of the whole less what the other
+        bearings dissipate, stored that of the whole, so that the residual is the whole's.
+        """
+        self._drain()
+        values, count = self._memory.integrals, len(self.parts)
+        so_far = running(values)
+        raceways = values[: L.MECHANISMS * 2 * count].reshape(L.MECHANISMS, count, 2)
+        parted = self._sampled[:, : len(_SHARED)]
+        sums = parted.sum(axis=0)
+        shares = np.where(sums > 0.0, parted / np.where(sums > 0.0, sums, 1.0), 1.0 / count)
+        losses = []
+        for i in range(count):
+            own = dict(zip(LOSSES, [*raceways[:, i].ravel().tolist(), 0.0, 0.0, 0.0, 0.0], strict=True))
+            own |= {name: float(so_far[name]) * float(shares[i, k]) for k, name in enumerate(_SHARED)}
+            losses.append(own)
+        every = sum(sum(own.values()) for own in losses)
+        cages, angle = self._cage_angles() - self._start_cages, self.model.speed * self.time
+        return [
+            {
+                **{f"loss.{name}": value for name, value in own.items()},
+                "input": float(so_far["input"]) - (every - sum(own.values())),
+                "input_abs": float(so_far["input_abs"]),
+                "drive": float(self._sampled[i, len(_SHARED)]),
+                "stored": self._stored() - self._start_energy,
+                "relative_angle": abs(angle),
+                "cage_angle": float(cages[i]),
+                "inner_angle": angle,
+                **dict(zip("xyz", self._sampled[i, len(_SHARED) + 1 :].tolist(), strict=True)),
+            }
+            for i, own in enumerate(losses)
+        ]
+
+    def statistics(self) -> dict[str, float]:
+        """Return counters of the integrator."""
+        counted = {name: float(self._memory.count[name][0]) for name in _COUNTERS}
+        return {**counted, "steps_to_the_fourth": float(self._memory.control["fourth_powers"][0])}
+
+    def state(self) -> dict[str, NDArray[np.float64]]:
+        """Return everything that a continuation needs."""
+        parts: dict[str, NDArray[np.float64]] = {}
+        for prefix, group in (("memory", self._memory), ("factors", self._factors)):
+            for name, array in zip(group._fields, group, strict=True):
+                parts[f"{prefix}.{name}"] = np.array(array, copy=True)
+        for name in ("a", "b", "c", "d", "shared", "parts"):
+            parts[f"blocks.{name}"] = getattr(self._blocks, name).copy()
+        parts["sampled"], parts["last"] = self._sampled.copy(), np.array(self._last)
+        parts["start"] = np.array([self._last_time, self._start_energy, *self._start_cages])
+        return parts
+
+    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
+        """Continue from what `state` returned; SolverError when that is of another model."""
+        groups = {"memory": self._memory, "factors": self._factors, "blocks": self._blocks}
+        for key, saved in state.items():
+            group, _, name = key.partition(".")
+            if not name:
+                continue
+            array = getattr(groups[group], name)
+            if array.shape != saved.shape or array.dtype != saved.dtype:
+                raise SolverError(f"the checkpoint does not fit this model: {key} has shape {saved.shape}")
+            array[...] = saved
+        self._sampled, self._last = state["sampled"].copy(), list(state["last"])
+        self._last_time, self._start_energy = float(state["start"][0]), float(state["start"][1])
+        self._start_cages = state["start"][2:].copy()
+
+
+def _usual_interval(found: Equilibrium) -> float:
+    """Return 1/100 of a turn of the cage [s]."""
+    return 2.0 * math.pi / max(abs(found.orbit), 1.0) / SAMPLES_PER_REVOLUTION
+
+
+def _joined(blocks: list[dict[str, FloatArray]]) -> dict[str, FloatArray]:
+    return {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}

@@ -1,0 +1,250 @@
+"""Tables of compiled code for a whole: the lumps of a shaft, and of every bearing its rings, cage, balls and laws.
+
+Bodies stand in the order: first lump, outer ring of the first bearing, the other lumps, then the other outer rings and
+cages bearing by bearing. A bearing's inner ring is the lump at its place; every bearing has its own origin at its place
+along the shaft, so that all positions are displacements.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import DOFS
+from lambda_core.shaft.lumps import LumpedShaft
+from lambda_core.shaft.model import MountedBearing, ShaftModel
+from lambda_core.solver import layout as L
+from lambda_core.solver import records as R
+from lambda_core.solver.drivers.solver_context import SolverContext, assemble
+from lambda_core.solver.drivers.tables import CAGE, INNER, OUTER
+from lambda_core.solver.drivers.time_tables import FORCE, MOMENT, MOTION
+from lambda_core.system.bearing import DofState
+
+# State that each displacement of PLACES or POSE moves, and its sign: turning about +y moves a_z towards -.
+STATES = np.array([L.SX, L.SY, L.SZ, L.SAZ, L.SAY])
+SIGNS = np.array([1.0, 1.0, 1.0, -1.0, 1.0])
+_RATES = np.array([L.SVX, L.SVY, L.SVZ, L.SWY, L.SWZ])
+_SIGNALS = 12  # of a body
+_OFFSETS = {"guide_law": 3, "drag_law": 1}  # laws of one bearing in these tables
+
+
+@dataclass(frozen=True)
+class Part:
+    """Where a bearing stands in the tables and states of the whole.
+
+    Attributes
+    ----------
+    bearing : MountedBearing
+    alone : SolverContext
+        Of the bearing alone, rings and cage free in every direction: what its results are read by.
+    bodies : tuple of 3 ints
+        Lump that carries the inner ring, outer ring, cage.
+    first_ball, first_raceway, first_state, first_slot : int
+    """
+
+    bearing: MountedBearing
+    alone: SolverContext
+    bodies: tuple[int, int, int]
+    first_ball: int
+    first_raceway: int
+    first_state: int
+    first_slot: int
+
+    @property
+    def balls(self) -> int:
+        """How many."""
+        return self.alone.model.geometry.ball_count
+
+
+def all_free(found: SolverContext) -> SolverContext:
+    """Return the context of the same bearing whose bodies are free in every direction."""
+    model = found.model
+    loose = dict.fromkeys(DOFS, DofState("free"))
+    bodies = {name: dataclasses.replace(getattr(model, name), dofs=loose)
+              for name in ("inner_ring", "outer_ring", "cage_body")}  # fmt: skip
+    return assemble(dataclasses.replace(model, **bodies, links={}), found.kernels, found.frame, found.oils)
+
+
+def make_parts(model: ShaftModel, shaft: LumpedShaft, contexts: list[SolverContext]) -> tuple[Part, ...]:
+    """Give every bearing its places."""
+    found: list[Part] = []
+    balls, states, slots = 0, 0, 0
+    for i, (bearing, context) in enumerate(zip(model.bearings, contexts, strict=True)):
+        lump = shaft.at(bearing.position)
+        inner = lump + 1 if lump else 0
+        outer = 1 if i == 0 else shaft.positions.size + 2 * i
+        cage = shaft.positions.size + 2 * i + 1
+        found.append(Part(bearing, context, (inner, outer, cage), balls, 2 * i, states, slots))
+        balls += found[-1].balls
+        states += context.bundle.states.size
+        slots += context.bundle.slots.size
+    return tuple(found)
+
+
+def lump_bodies(shaft: LumpedShaft) -> NDArray[np.int64]:
+    """Return the body of every lump."""
+    return np.array([0, *range(2, shaft.positions.size + 1)])
+
+
+def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> L.Bundle:
+    """Return everything that compiled code works on; loads are those of :func:`add_loads`."""
+    first, bundles = parts[0].alone.bundle, [part.alone.bundle for part in parts]
+    spans = np.concatenate([[0], np.cumsum([b.par.size for b in bundles])])
+    bodies = _bodies(model, shaft, parts)
+    raceways = np.concatenate([_raceways(part, i, int(spans[i])) for i, part in enumerate(parts)])
+    system = first.system.copy()
+    system["balls"] = sum(part.balls for part in parts)
+    system["surfaces"] = int(raceways["surface_on"].any())
+    tied, stiffness, rest = _ties(model, shaft, parts)
+    inputs, now, rates = (np.zeros(bodies.size, kind) for kind in (R.INPUTS, R.BODY_STATE, R.BODY_STATE))
+    states = np.concatenate([b.states for b in bundles])
+    most = max(b.state_pivots.size for b in bundles)
+    laws = (np.ascontiguousarray(np.concatenate(tables)) for tables in zip(*(b.laws for b in bundles), strict=True))
+    return first._replace(
+        system=system, bodies=bodies, rows=np.concatenate([_row(p, i, int(spans[i])) for i, p in enumerate(parts)]),
+        raceways=raceways, lands=np.concatenate([_lands(p, i, int(spans[i])) for i, p in enumerate(parts)]),
+        slots=np.concatenate([_slots(p, int(spans[i])) for i, p in enumerate(parts)]), tied=tied,
+        tie_stiffness=stiffness, tie_rest=rest, state_steps=np.concatenate([b.state_steps for b in bundles]),
+        laws=L.Laws(*laws), par=np.concatenate([b.par for b in bundles]), terms=np.zeros(0, R.TERM),
+        table=np.zeros(1), active=_active(bodies, parts), inputs=inputs, signals=inputs.view(R.SIGNAL),
+        cells=np.zeros_like(first.cells), scratch=np.zeros(1, R.SCRATCH), shared=now.view(np.float64), bodies_now=now,
+        shared_rates=rates.view(np.float64), body_rates=rates, body_wrenches=np.zeros(bodies.size, R.WRENCH),
+        ball_wrenches=np.zeros(int(system["balls"][0]), R.WRENCH), states=states, state_rates=np.zeros(states.size),
+        state_slopes=np.zeros((states.size, most)), state_pivots=np.zeros(most, dtype=np.int64),
+    )  # fmt: skip
+
+
+def _bodies(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> Any:
+    bodies = np.zeros(shaft.positions.size + 2 * len(parts), R.BODY)
+    bodies["moves"] = 1
+    lumps = bodies[lump_bodies(shaft)]
+    lumps["mass"], lumps["polar_inertia"] = shaft.mass, shaft.polar_inertia
+    lumps["transverse_inertia"] = shaft.transverse_inertia
+    lumps["mode"] = [R.FREE] * 5 + [R.PRESCRIBED]
+    bodies[lump_bodies(shaft)] = lumps
+    for i, part in enumerate(parts):
+        inner, outer, cage = part.bodies
+        alone = part.alone.bundle.bodies
+        for name in ("mass", "transverse_inertia", "polar_inertia"):  # the ring turns with its lump
+            bodies[name][inner] += alone[name][INNER]
+        bodies[outer], bodies[cage] = alone[OUTER], alone[CAGE]
+        bodies["mode"][outer] = [*_outer_modes(model, i), R.LOCKED]
+        bodies["mode"][cage] = R.FREE
+    return bodies
+
+
+def _outer_modes(model: ShaftModel, i: int) -> list[int]:
+    """Return how an outer ring is held: springs and elastic housings tie it, and it is free between them."""
+    seating = model.bearings[i].seating
+    found = []
+    for stiffness, shift in zip(seating.stiffness, seating.shift, strict=True):
+        if math.isfinite(stiffness) or model.housing is not None:
+            found.append(R.FREE)
+        else:
+            found.append(R.PRESCRIBED if shift else R.LOCKED)
+    return found
+
+
+def _active(bodies: Any, parts: tuple[Part, ...]) -> NDArray[np.int64]:
+    """Return the free entries of the shared state."""
+    found: list[int] = []
+    for b, body in enumerate(bodies):
+        if not body["moves"]:
+            continue
+        for mode, state, rate in zip(body["mode"][:5], STATES, _RATES, strict=True):
+            if mode == R.FREE:
+                found += [L.NS * b + int(state), L.NS * b + int(rate)]
+        if body["mode"][5] != R.LOCKED:
+            found.append(L.NS * b + L.STHETA)
+        if body["mode"][5] == R.FREE:
+            found.append(L.NS * b + L.SSIGMA)
+    return np.array(sorted(found), dtype=np.int64)
+
+
+def _raceways(part: Part, i: int, begin: int) -> Any:
+    raceways = part.alone.bundle.raceways.copy()
+    count = len(part.alone.bundle.raceways)
+    for k, raceway in enumerate(raceways):
+        raceway["number"], raceway["body"] = part.first_raceway + k, part.bodies[int(raceway["body"])]
+        raceway["laws"] += count * i
+        raceway["first_state"] += part.first_state - part.first_ball * int(raceway["states"])
+        raceway["slots"] += part.first_slot
+        for role in R.RACEWAY_ROLES:
+            raceway["parameters"][role] += begin
+    return raceways
+
+
+def _row(part: Part, i: int, begin: int) -> Any:
+    row = part.alone.bundle.rows.copy()
+    row["number"], row["first_ball"], row["first_raceway"] = i, part.first_ball, part.first_raceway
+    row["cage"] = part.bodies[CAGE]
+    for name, each in _OFFSETS.items():
+        row[name] += each * i
+    row["pocket"] += begin
+    row["drag"] += begin
+    return row
+
+
+def _lands(part: Part, i: int, begin: int) -> Any:
+    lands = part.alone.bundle.lands.copy()
+    for land in lands:
+        land["cage"], land["ring"] = part.bodies[int(land["cage"])], part.bodies[int(land["ring"])]
+    lands["law"] += _OFFSETS["guide_law"] * i
+    lands["parameters"] += begin
+    return lands
+
+
+def _slots(part: Part, begin: int) -> Any:
+    slots = part.alone.bundle.slots.copy()
+    slots["place"] += begin
+    return slots
+
+
+def _ties(
+    model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]
+) -> tuple[NDArray[np.int64], FloatArray, FloatArray]:
+    """Return the entries of the shared state that shaft and housing tie, their stiffness, and where they rest."""
+    size = STATES.size
+    bodies = [*lump_bodies(shaft), *(part.bodies[OUTER] for part in parts)]
+    tied = np.concatenate([L.NS * int(b) + STATES for b in bodies])
+    signs, lumps = np.tile(SIGNS, len(bodies)), size * shaft.positions.size
+    stiffness, rest = np.zeros((tied.size, tied.size)), np.zeros(tied.size)
+    stiffness[:lumps, :lumps] = shaft.stiffness
+    springs = np.concatenate([b.seating.stiffness for b in model.bearings])
+    springs = np.where(np.isfinite(springs), springs, 0.0)
+    stiffness[lumps:, lumps:] = np.diag(springs) + (0.0 if model.housing is None else model.housing)
+    rest[lumps:] = np.concatenate([b.seating.shift for b in model.bearings])
+    used = np.flatnonzero(np.abs(stiffness).sum(axis=1))
+    stiffness = (stiffness * np.outer(signs, signs))[np.ix_(used, used)]
+    return tied[used].astype(np.int64), np.ascontiguousarray(stiffness), (rest * signs)[used]
+
+
+def constant(signal: int, value: float) -> Any:
+    """Return a term that does not change."""
+    term = np.zeros(1, R.TERM)
+    term["signal"], term["kind"], term["value"] = signal, R.CONSTANT, value
+    return term
+
+
+def harmonic(signal: int, amplitude: float, frequency: float, phase: float) -> Any:
+    """Return the term amplitude sin(2 pi frequency t + phase)."""
+    term = np.zeros(1, R.TERM)
+    term["signal"], term["kind"], term["amplitude"] = signal, R.HARMONIC, amplitude
+    term["frequency"], term["phase"] = frequency, phase
+    return term
+
+
+def load_signals(body: int) -> list[int]:
+    """Return the signals of a body that forces and moments in the order of PLACES have."""
+    return [_SIGNALS * body + signal for signal in (FORCE, FORCE + 1, FORCE + 2, MOMENT + 1, MOMENT + 2)]
+
+
+def motion_signal(body: int, dof: int) -> int:
+    """Return the signal of a prescribed degree of freedom."""
+    return _SIGNALS * body + MOTION + dof

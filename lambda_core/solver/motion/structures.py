@@ -1,0 +1,60 @@
+"""Elastic structures that tie bodies together, shafts and housings: one matrix of stiffness between their places.
+
+Forces are -K (u - u_0) of positions and components of axes, with the potential (u - u_0).K (u - u_0)/2: small
+deflections of linear bodies. A force along a component of a body's axis is a moment on the body.
+"""
+
+from __future__ import annotations
+
+from lambda_core.solver.contact.contact_kinematics import axis_x
+from lambda_core.solver.layout import NS, SAY, helper
+
+
+@helper
+def _pull(i, bundle):
+    """Return the generalised force of the structures on tied entry i."""
+    force = 0.0
+    for k in range(bundle.tied.size):
+        force -= bundle.tie_stiffness[i, k] * (bundle.shared[bundle.tied[k]] - bundle.tie_rest[k])
+    return force
+
+
+@helper
+def structure_forces(bundle):
+    """Add the forces of all structures to those on the bodies.
+
+    The power of a force f along the axis a of a body is f.da/dt = (a x f).omega.
+    """
+    for i in range(bundle.tied.size):
+        b, c = bundle.tied[i] // NS, bundle.tied[i] % NS
+        wrench, force = bundle.body_wrenches[b], _pull(i, bundle)
+        if c < SAY:
+            wrench.force[c] += force
+            continue
+        ay, az = bundle.bodies_now[b].tilt[0], bundle.bodies_now[b].tilt[1]
+        ax = axis_x(ay, az)
+        if c == SAY:
+            wrench.moment[0] -= az * force
+            wrench.moment[2] += ax * force
+        else:
+            wrench.moment[0] += ay * force
+            wrench.moment[1] -= ax * force
+
+
+@helper
+def structure_columns(bundle, bl):
+    """Add the slopes of these forces, to the first order of small tilts."""
+    for i in range(bundle.tied.size):
+        b, c = bundle.tied[i] // NS, bundle.tied[i] % NS
+        row, sign = (c, 1.0) if c < SAY else ((5, 1.0) if c == SAY else (4, -1.0))
+        for k in range(bundle.tied.size):
+            bl.shared[b, row, bundle.tied[k]] -= sign * bundle.tie_stiffness[i, k]
+
+
+@helper
+def structure_energy(bundle):
+    """Return the elastic energy of all structures [J]."""
+    energy = 0.0
+    for i in range(bundle.tied.size):
+        energy -= 0.5 * _pull(i, bundle) * (bundle.shared[bundle.tied[i]] - bundle.tie_rest[i])
+    return energy
