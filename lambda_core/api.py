@@ -29,6 +29,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.report.pictures import animate, draw, report, view, view_all, view_stem, views
     from lambda_core.run.answers import cite, compare, result, side_by_side, summary
     from lambda_core.run.duty_cycle import duty
+    from lambda_core.run.shaft_motion import is_shaft_run, shaft_motion_pictures, shaft_result, shaft_resume, shaft_run
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.run.speed_curve import stribeck, stribeck_picture
     from lambda_core.shaft.export import write_stiffness
@@ -64,6 +65,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.run.progress import Progress
     from lambda_core.shaft.model import ShaftModel
     from lambda_core.shaft.shaft_report import ShaftReport
+    from lambda_core.shaft.whole_summary import WholeSummary
     from lambda_core.system.bearing import BearingModel, Geometry
     from lambda_core.system.describe import ValueReport, value_reports
     from lambda_core.system.oil_table import oil_table

@@ -9,11 +9,13 @@ import typer
 
 from lambda_cli.options import JsonOption, Units, UnitsOption
 from lambda_cli.run import DurationOption, WallOption, finish, limits
+from lambda_cli.shaft import finish as finish_shaft
+from lambda_cli.shaft import seconds, tell
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 
 
 def resume(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Result file of the run.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Result file of the run, or the folder of a shaft's.")],
     duration: DurationOption = None,
     max_wall: WallOption = None,
     as_json: JsonOption = False,
@@ -29,6 +31,15 @@ def resume(
     """
     from lambda_core import api
 
+    if api.is_shaft_run(file):
+        with talk(progress, quiet) as speaker:
+            found = api.shaft_resume(
+                file, duration=seconds("--duration", duration), max_wall=seconds("--max-wall", max_wall),
+                progress=speaker.update, announce=speaker.say,
+            )  # fmt: skip
+        tell(found, as_json=as_json)
+        finish_shaft(found)
+        return
     with talk(progress, quiet) as speaker:
         for line in api.result(file).headline.splitlines():
             speaker.say(units.system.sentence(line))

@@ -16,7 +16,10 @@ from lambda_core.domain.wrapping import wrapped
 def show(
     files: Annotated[
         list[Path],
-        typer.Argument(metavar="FILE...", help="Result file, also of a run that still goes on; or several of them."),
+        typer.Argument(
+            metavar="FILE...",
+            help="Result file, also of a run that still goes on; or several; or a folder of a shaft's run.",
+        ),
     ],
     as_json: JsonOption = False,
     assumptions: Annotated[bool, typer.Option("--assumptions", help="List what was assumed.")] = False,
@@ -28,6 +31,10 @@ def show(
     """
     from lambda_core import api
 
+    if len(files) == 1 and api.is_shaft_run(files[0]) and not assumptions:
+        whole = api.shaft_result(files[0])
+        typer.echo(whole.model_dump_json(indent=2) if as_json else whole.text(columns()))
+        return
     if len(files) > 1 and not assumptions:
         found = api.side_by_side(files)
         typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))

@@ -47,23 +47,25 @@ class Ends:
 
 
 def launch_whole(
-    model: ShaftModel, case_toml: str, out: Path | None, ends: Ends, *, force: bool, report: Report | None,
+    model: ShaftModel, out: Path | None, ends: Ends, *, force: bool, report: Report | None,
     announce: Callable[[str], None] | None,
 ) -> WholeFile:  # fmt: skip
     """Run a shaft from its quasi-static equilibrium into a new folder."""
     folder = _folder(model, out, force)
     engine = WholeEngine(model, announce)
     if announce is not None:
-        announce(f"{len(engine.parts)} bearings, {engine.shaft.positions.size} lumps of the shaft, {engine.states} states")
+        announce(
+            f"{len(engine.parts)} bearings, {engine.shaft.positions.size} lumps of the shaft, {engine.states} states"
+        )
     folder.mkdir(exist_ok=True)
     for old in folder.glob("*.h5") if force else ():
         old.unlink()
     channels, writers, status = _channels(engine), [], Status(process=this_process())
     for i, own in enumerate(channels):
-        provenance = Provenance(_alone(engine, i, case_toml), _keys(engine, i))
+        provenance = Provenance(_alone(engine, i), _keys(engine, i))
         name = engine.parts[i].bearing.name
         writers.append(ResultWriter.create(folder / f"{name}.h5", provenance, own, status, force=force))
-    texts = {"case": model.name, "case_toml": case_toml, "code": _code(engine)}
+    texts = {"case": model.name, "case_toml": model.case_toml, "code": _code(engine)}
     whole = WholeWriter.create(
         folder / WHOLE,
         {**texts, "speed": model.speed, "drive_torque": engine.start.drive_torque},  # type: ignore[dict-item]
@@ -141,7 +143,7 @@ def _code(engine: WholeEngine) -> str:
     return hashlib.sha256("\n".join(keys).encode() + numbers).hexdigest()
 
 
-def _alone(engine: WholeEngine, i: int, case_toml: str) -> BearingModel:
+def _alone(engine: WholeEngine, i: int) -> BearingModel:
     """Return a bearing as its own result says it: under the load that it has in the equilibrium of the whole."""
     model, reaction = engine.parts[i].bearing.model, engine.start.reactions[i]
     name = engine.parts[i].bearing.name
@@ -151,7 +153,7 @@ def _alone(engine: WholeEngine, i: int, case_toml: str) -> BearingModel:
     note = f"a bearing of the shaft {shaft}: its rings move with shaft and housing; energy is balanced for the whole"
     return dataclasses.replace(
         model, name=f"{shaft}-{name}", title=f"{model.title}, {name} of {shaft}", inner_ring=inner,
-        case_toml=case_toml, assumptions=(*model.assumptions, note),
+        case_toml=engine.model.case_toml, assumptions=(*model.assumptions, note),
     )  # fmt: skip
 
 
@@ -331,7 +333,9 @@ class _Session:
             time_s=now,
             percent=min(100.0 * now / end, 100.0) if end > 0.0 else 0.0,
             cage_revolutions=turns[slowest],
-            cage_revolutions_wanted=float(wanted[slowest]) if not self._ends.duration else end / max(now, 1e-12) * turns[slowest],
+            cage_revolutions_wanted=float(wanted[slowest])
+            if not self._ends.duration
+            else end / max(now, 1e-12) * turns[slowest],
             averaged=min(w.revolutions for w in self._windows),
             friction_torque_Nmm=finite(1e3 * sum(torques)),
             friction_torque_ci_Nmm=finite(1e3 * math.hypot(*widths)),

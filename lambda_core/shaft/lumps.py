@@ -25,6 +25,7 @@ _LONG_OVERHANG = 1.0  # diameters, from which on the end of the shaft has a lump
 _LONG_PIECE = 4.0  # diameters of the longest piece with one lump in its middle
 _SHORT_PIECE = 0.5  # diameters of the longest piece without one
 _GAUSS = np.polynomial.legendre.leggauss(3)  # exact for parabola times constant
+_MIDDLE = 0.36  # share of a piece from which on a lump counts as in its middle: all weights are positive
 _LEAST = 0.05  # of the mass that a lump of equal lumps has, that each of them has to have
 
 
@@ -75,7 +76,8 @@ def lump(model: ShaftModel) -> LumpedShaft:
 
 def _distinct(places: Sequence[float]) -> FloatArray:
     ordered = np.array(sorted(places))
-    return ordered[np.concatenate([[True], np.diff(ordered) > _SAME])]
+    found: FloatArray = ordered[np.concatenate([[True], np.diff(ordered) > _SAME])]
+    return found
 
 
 def _diameter(model: ShaftModel, place: float) -> float:
@@ -105,10 +107,15 @@ def _between(model: ShaftModel, mains: FloatArray) -> FloatArray:
 
 
 def _pieces(places: FloatArray, marks: FloatArray) -> list[tuple[int, int, float, float]]:
-    """Return first and last lump of every piece, and what of the beam belongs to it [m]."""
+    """Return first and last lump of every piece, and what of the beam belongs to it [m].
+
+    Where the middle one of three stands too near to one of the others, the piece ends there.
+    """
     edges = [0]
     while edges[-1] < places.size - 1:
-        edges.append(min(edges[-1] + 2, places.size - 1))
+        three = places[edges[-1] : edges[-1] + 3]
+        share = (three[1] - three[0]) / np.ptp(three) if three.size == 3 else 0.0
+        edges.append(edges[-1] + (2 if _MIDDLE <= share <= 1.0 - _MIDDLE else 1))
     bounds = [float(marks[0]), *(float(places[i]) for i in edges[1:-1]), float(marks[-1])]
     return [(i, k, *ends) for (i, k), ends in zip(itertools.pairwise(edges), itertools.pairwise(bounds), strict=True)]
 

@@ -96,3 +96,4 @@ class ShaftModel:
     discs: tuple[tuple[str, float], ...]  # name and position [m]
     load_places: tuple[tuple[str, float], ...]  # of loads and gears [m]
     unbalances: tuple[Unbalance, ...] = ()
+    case_toml: str = ""  # the case, complete: it runs again as it stands

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from lambda_core.case.case_io import overridden
+from lambda_core.case.case_writer import tables_toml
 from lambda_core.case.parts import InlineMaterial
 from lambda_core.case.shaft import ShaftCase, bearing_tables
 from lambda_core.case.shaft_io import shaft_tables, validate_shaft
@@ -72,7 +74,15 @@ def check_shaft(source: Source, overrides: Iterable[str] = ()) -> ShaftModel:
         resolved = _shaft(case, models, catalogue, ledger) if case else None
     if found or ledger.problems or resolved is None:
         raise CaseError(name, [*found, *(p for p in ledger.problems if p not in found)])
-    return resolved
+    return replace(resolved, case_toml=tables_toml(_anywhere(tables, folder)))
+
+
+def _anywhere(tables: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:
+    """Return tables whose files are found from any folder."""
+    housing = tables.get("housing")
+    if not isinstance(housing, Mapping) or "reduced" not in housing:
+        return dict(tables)
+    return {**tables, "housing": {**housing, "reduced": str(((folder or Path()) / housing["reduced"]).absolute())}}
 
 
 def _bearings(

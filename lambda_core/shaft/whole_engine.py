@@ -221,11 +221,11 @@ class WholeEngine:
         y = np.ascontiguousarray(np.concatenate([
             states[:, begin : begin + L.NB * part.balls], own, states[:, kept : kept + context.bundle.states.size]
         ], axis=1))  # fmt: skip
-        scratch, wrenches = Scratch.of(n, context), np.zeros((n, 6))
+        scratch, wrenches, evaluate = Scratch.of(n, context), np.zeros((n, 6)), self._core.evaluate_pointer
         for i in range(n):
             rows = [array[i : i + 1] for array in scratch[:-1]]
             ok = self._core.observe(
-                times[i : i + 1], y[i : i + 1], context.bundle, self._core.evaluate_pointer, SHORTED, *rows, scratch.dydt
+                times[i : i + 1], y[i : i + 1], context.bundle, evaluate, SHORTED, *rows, scratch.dydt
             )
             if ok != 1:
                 raise SolverError(f"{part.bearing.name}: {fault_sentence(context, float(times[i]))}")
