@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.loading import Ring
+from lambda_core.domain.loading import CARRYING, Ring
 from lambda_core.results.record import Record
 from lambda_core.system.operating_limits import tilt_warning
 
@@ -31,11 +32,18 @@ class Shoulder(Record):
     ellipse_end_deg: float = Field(description="contact angle at the end of the ellipse, towards the shoulder")
     shoulder_deg: float = Field(description="contact angle of the shoulder's edge")
     margin_um: float = Field(description="along the groove from the end of the ellipse to the edge; below 0: beyond it")
+    low: bool = Field(default=False, description="whether it is the low shoulder of angular contact, at the groove's bottom")
 
     def warning(self) -> list[str]:
         """Return a sentence where the ellipse runs over the edge, else nothing."""
         if self.margin_um >= 0.0:
             return []
+        if self.low:
+            return [
+                f"the contact of ball {self.ball} runs over the low shoulder of the {self.ring} ring (ellipse to "
+                f"{self.ellipse_end_deg:.1f} deg, where the groove ends at 0): more axial load holds an angular "
+                "contact bearing together; computed as if the groove went on"
+            ]
         return [
             f"the contact of ball {self.ball} runs {-self.margin_um:.0f} um over the {self.ring} ring's shoulder "
             f"(ellipse to {self.ellipse_end_deg:.1f} deg, edge at {self.shoulder_deg:.1f} deg): computed as if the "
@@ -45,10 +53,11 @@ class Shoulder(Record):
 
 @dataclass(frozen=True)
 class Grooves:
-    """Groove radius and angle of the shoulder's edge, inner then outer."""
+    """Groove radius and angle of the shoulder's edge, inner then outer; of angular contact that of the high one."""
 
     radius: FloatArray  # (2,) [m]
     edge: FloatArray  # (2,) [rad]
+    one_sided: bool = False  # angular contact: the groove ends at its bottom on the side without load
 
     @staticmethod
     def of(geometry: Mapping[str, Any]) -> Grooves:
@@ -60,7 +69,8 @@ class Grooves:
                 for ring in get_args(Ring)
             ]
         )
-        return Grooves(radius, np.arccos(np.clip(1.0 - height / radius, -1.0, 1.0)))
+        one_sided = float(geometry.get("contact_angle", 0.0)) > 0.0
+        return Grooves(radius, np.arccos(np.clip(1.0 - height / radius, -1.0, 1.0)), one_sided)
 
 
 def shoulders(grooves: Grooves, load: FloatArray, angle: FloatArray, semi_axis: FloatArray) -> list[Shoulder]:
@@ -71,8 +81,22 @@ def shoulders(grooves: Grooves, load: FloatArray, angle: FloatArray, semi_axis: 
     load, angle, semi_axis : float64[..., :, :], shape (..., ball, ring)
         Load [N], contact angle [rad] and semi-major axis [m] of every contact; the axes before are times.
     """
-    end = np.abs(angle) + semi_axis / grooves.radius
-    margin = np.where(load > 0.0, (grooves.edge - end) * grooves.radius, np.inf)
+    half = semi_axis / grooves.radius
+    end = np.abs(angle) + half
+    found = _nearest(load > 0.0, angle, end, grooves.edge, grooves.radius)
+    if grooves.one_sided and load.max(initial=0.0) > 0.0:
+        side = -np.sign(float((load * angle).sum()))  # of the low shoulder
+        carrying = load > CARRYING * load.max()
+        low = _nearest(carrying, angle, side * angle + half, np.zeros(2), grooves.radius)
+        found += [edge.model_copy(update={"low": True}) for edge in low if edge.margin_um < 0.0]
+    return worst(found)
+
+
+def _nearest(
+    counted: NDArray[np.bool_], angle: FloatArray, end: FloatArray, edge: FloatArray, radius: FloatArray
+) -> list[Shoulder]:
+    """Return the contact on each ring whose ellipse's end is nearest to an edge, or farthest beyond it."""
+    margin = np.where(counted, (edge - end) * radius, np.inf)
     found = []
     for i, ring in enumerate(get_args(Ring)):
         at = np.unravel_index(int(np.argmin(margin[..., i])), margin.shape[:-1])
@@ -83,7 +107,7 @@ def shoulders(grooves: Grooves, load: FloatArray, angle: FloatArray, semi_axis: 
                     ball=int(at[-1]) + 1,
                     contact_angle_deg=math.degrees(abs(float(angle[..., i][at]))),
                     ellipse_end_deg=math.degrees(float(end[..., i][at])),
-                    shoulder_deg=math.degrees(float(grooves.edge[i])),
+                    shoulder_deg=math.degrees(float(edge[i])),
                     margin_um=1e6 * float(margin[..., i][at]),
                 )
             )

@@ -6,6 +6,7 @@ import math
 
 import pytest
 from lambda_db.catalogue import SqlCatalogue
+from lambda_plugins.methods.skf_angular import angular_variables
 
 from lambda_core import api
 from lambda_core.catalogue.protocol import BearingRow
@@ -127,3 +128,13 @@ def test_static_factors(angle: int) -> None:
     alpha = math.radians(angle)
     assert static_equivalent_load(1000.0, 9000.0, alpha) == pytest.approx(500.0 + 9000.0 * STATIC[angle])
     assert static_equivalent_load(1000.0, 0.0, alpha) == 1000.0
+
+
+def test_skf_friction_of_angular_contact() -> None:
+    """SKF general catalogue 6000, tables 2a and 3, by hand: d_m 60 mm, 3.2 and 3.59 kN, 1500 1/min; 0.02 %.
+
+    F_g = 55.4 and 55.7 N; G_rr = 5.03e-7 60^1.97 10327.7^0.54, G_sl = 1.30e-2 60^0.26 (3255.7^(4/3) + 0.68 3590^(4/3)).
+    """
+    rolling, sliding = angular_variables(60e-3, 3200.0, 3590.0, 1500.0 * math.pi / 30.0)
+    assert rolling == pytest.approx(0.23556, rel=2e-4)
+    assert sliding == pytest.approx(3227.8, rel=2e-4)

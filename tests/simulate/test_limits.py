@@ -38,6 +38,19 @@ def test_edge_of_a_shoulder_that_is_known() -> None:
     assert outer.warning() == []
 
 
+def test_the_low_shoulder_of_angular_contact() -> None:
+    """One at -2 degrees, 0.05 rad wide, lies beyond the bottom of its groove by 2 deg + 0.05, the other at 20 does not."""
+    grooves = Grooves(np.array([0.01, 0.01]), np.radians([60.0, 60.0]), one_sided=True)
+    load, half = np.array([[100.0, 100.0], [50.0, 0.5]]), np.full((2, 2), 0.0005)
+    angle = np.radians([[20.0, 20.0], [-2.0, -2.0]])
+    inner, outer = shoulders(grooves, load, angle, half)
+    assert (inner.ball, inner.low, inner.margin_um) == (2, True, pytest.approx(-1e4 * (math.radians(2.0) + 0.05)))
+    assert (outer.ball, outer.low, outer.margin_um > 0.0) == (1, False, True)  # one that hardly carries does not count
+    assert "over the low shoulder of the inner ring" in inner.warning()[0]
+    other_way = shoulders(grooves, load, -angle, half)
+    assert (other_way[0].low, other_way[0].margin_um) == (True, pytest.approx(inner.margin_um))
+
+
 def test_nothing_is_said_in_normal_running() -> None:
     found = api.quasistatic(AXIAL)
     assert found.warnings == []

@@ -12,6 +12,7 @@ from typing import Literal
 
 from lambda_core.domain.errors import unknown_name
 from lambda_core.views.method import Lubrication, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
+from lambda_plugins.methods import skf_angular
 from lambda_plugins.methods.skf_chart import UNCERTAINTY, drag_loss_factor
 from lambda_plugins.methods.skf_drag import K_Z, drag_torque, drag_torque_2008
 from lambda_plugins.methods.skf_seals import seal_torque, seals_of
@@ -79,7 +80,9 @@ def series_constants(series: str) -> SeriesConstants:
     try:
         return SERIES[series]
     except KeyError:
-        raise NotApplicable(unknown_name("series of the SKF friction table", series, SERIES)) from None
+        raise NotApplicable(
+            unknown_name("series of the SKF friction table", series, [*SERIES, *skf_angular.SERIES])
+        ) from None
 
 
 def operating_contact_angle(axial_load: float, static_rating: float) -> float:
@@ -125,10 +128,10 @@ def inlet_heating_factor(speed_rpm: float, mean_diameter: float, viscosity: floa
 
 
 def replenishment_factor(
-    speed_rpm: float, bore: float, outside: float, viscosity: float, lubrication: Lubrication
+    speed_rpm: float, bore: float, outside: float, viscosity: float, lubrication: Lubrication, k_z: float = K_Z
 ) -> float:
     """phi_rs = exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))) (mm, 1/min, mm2/s); K_rs 3e-8 bath, 6e-8 grease."""
-    geometry = (bore + outside) * math.sqrt(K_Z / (2.0 * (outside - bore)))
+    geometry = (bore + outside) * math.sqrt(k_z / (2.0 * (outside - bore)))
     return math.exp(-_STARVATION[lubrication] * viscosity * speed_rpm * geometry)
 
 
@@ -148,7 +151,7 @@ def skf_friction(
     volume_factor: float = 0.0,
     edition: Literal["2008", "2018"] = "2018",
 ) -> SkfFriction:
-    """Friction torque of an open deep-groove ball bearing after SKF; see the module for the source.
+    """Friction torque of an open ball bearing after SKF, deep groove or angular contact; see the module for the source.
 
     M_rr = phi_ish phi_rs G_rr (nu n)^0.6; M_sl = G_sl mu_sl, mu_sl = phi_bl mu_bl + (1 - phi_bl) mu_EHL,
     phi_bl = exp(-2.6e-8 (n nu)^1.4 d_m). Valid for steady running at normal operating clearance.
@@ -165,21 +168,25 @@ def skf_friction(
         Formula of the drag loss; V_M belongs to it.
     """
     mean_diameter = 0.5 * (bore_diameter + outside_diameter)
-    load_rolling, load_sliding = load_variables(
-        series_constants(series), mean_diameter, radial_load, axial_load, static_rating
-    )
+    k_z = K_Z
+    if series in skf_angular.SERIES:
+        load_rolling, load_sliding = skf_angular.angular_variables(mean_diameter, radial_load, axial_load, speed)
+        k_z = skf_angular.K_Z
+    else:
+        constants = series_constants(series)
+        load_rolling, load_sliding = load_variables(constants, mean_diameter, radial_load, axial_load, static_rating)
     rpm, nu, diameter = speed * 30.0 / math.pi, kinematic_viscosity * 1e6, mean_diameter * 1e3
     if rpm == 0.0:
         return SkfFriction(
             0.0, load_sliding * MU_BOUNDARY_STARTING * 1e-3, 0.0, 0.0, 1.0, 1.0, 1.0, MU_BOUNDARY_STARTING
         )
     heating = inlet_heating_factor(rpm, diameter, nu)
-    replenishment = replenishment_factor(rpm, bore_diameter * 1e3, outside_diameter * 1e3, nu, lubrication)
+    replenishment = replenishment_factor(rpm, bore_diameter * 1e3, outside_diameter * 1e3, nu, lubrication, k_z)
     boundary = math.exp(-2.6e-8 * (rpm * nu) ** 1.4 * diameter)
     coefficient = boundary * MU_BOUNDARY + (1.0 - boundary) * full_film_coefficient
     volume_part, churning = 0.0, 0.0
     if lubrication in ("oil bath", "oil jet") and edition == "2008":
-        volume_part, churning = drag_torque_2008(bore_diameter, outside_diameter, speed, volume_factor)
+        volume_part, churning = drag_torque_2008(bore_diameter, outside_diameter, speed, volume_factor, k_z)
     elif lubrication in ("oil bath", "oil jet"):
         volume_part, churning = drag_torque(
             bore_diameter,
@@ -189,6 +196,7 @@ def skf_friction(
             oil_height,
             volume_factor,
             oil_jet=lubrication == "oil jet",
+            k_z=k_z,
         )
     return SkfFriction(
         heating * replenishment * load_rolling * (nu * rpm) ** 0.6 * 1e-3,

@@ -1,4 +1,4 @@
-"""Drag loss M_drag of the SKF catalogue model in two editions, for single-row deep-groove ball bearings.
+"""Drag loss M_drag of the SKF catalogue model in two editions, for single-row ball bearings (K_Z of deep groove ones).
 
 The older formula is printed as eq. (40) of Syla et al. 2026 after the SKF catalogue of 2008. V_M is a chart over H/d_m
 in both editions, not available as numbers: it is an input. SI in and out, mm, 1/min and mm2/s inside.
@@ -20,6 +20,7 @@ def drag_torque(
     volume_factor: float,
     *,
     oil_jet: bool = False,
+    k_z: float = K_Z,
 ) -> tuple[float, float]:
     """M_drag of a single-row ball bearing in an oil bath: (part of V_M, churning part) [N m].
 
@@ -44,18 +45,18 @@ def drag_torque(
         return 0.0, 0.0
     jet = 2.0 if oil_jet else 1.0
     slenderness = (outside + bore) / (outside - bore)
-    volume_part = 0.4 * volume_factor * K_Z * slenderness * 1e-12 * diameter**5 * rpm**2
+    volume_part = 0.4 * volume_factor * k_z * slenderness * 1e-12 * diameter**5 * rpm**2
     height = min(oil_height * 1e3, 1.2 * diameter)
     angle = 2.0 * math.acos((0.6 * diameter - height) / (0.6 * diameter))
     width_factor = math.sin(0.5 * angle) if angle < math.pi else 1.0
-    wetted = 0.36 * diameter**2 * (angle - math.sin(angle)) * 0.05 * K_Z * slenderness
+    wetted = 0.36 * diameter**2 * (angle - math.sin(angle)) * 0.05 * k_z * slenderness
     reynolds = rpm * diameter**2 * width_factor / (kinematic_viscosity * 1e6)
     churning = 1.093e-7 * rpm**2 * diameter**3 * reynolds**-1.379 * wetted
     return jet * volume_part * 1e-3, jet * churning * 1e-3
 
 
 def drag_torque_2008(
-    bore_diameter: float, outside_diameter: float, speed: float, volume_factor: float
+    bore_diameter: float, outside_diameter: float, speed: float, volume_factor: float, k_z: float = K_Z
 ) -> tuple[float, float]:
     """M_drag = V_M K_ball d_m^5 n^2 of the older catalogue (Syla et al. 2026, eq. 40): (M_drag, 0) [N m].
 
@@ -63,5 +64,5 @@ def drag_torque_2008(
     """
     bore, outside = bore_diameter * 1e3, outside_diameter * 1e3
     rpm = speed * 30.0 / math.pi
-    constant = K_Z * (outside + bore) / (outside - bore) * 1e-12
+    constant = k_z * (outside + bore) / (outside - bore) * 1e-12
     return volume_factor * constant * (0.5 * (bore + outside)) ** 5 * rpm**2 * 1e-3, 0.0

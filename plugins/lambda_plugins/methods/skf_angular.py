@@ -1,0 +1,49 @@
+"""SKF's friction variables of single-row angular contact ball bearings.
+
+Source: SKF, general catalogue 6000, "Friction": tables 2a, 3 and 5, footnote: F_a is the external axial load.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+K_Z = 4.4  # geometric constant of single-row angular contact ball bearings (table 5)
+SERIES = ("70", "72", "73")
+
+
+@dataclass(frozen=True)
+class AngularConstants:
+    """Constants of one kind (mm, N, 1/min; G_rr and G_sl in N mm)."""
+
+    r1: float
+    r2: float
+    r3: float
+    s1: float
+    s2: float
+    s3: float
+
+
+SINGLE_ROW = AngularConstants(5.03e-7, 1.97, 1.90e-12, 1.30e-2, 0.68, 1.91e-12)
+
+
+def angular_variables(
+    mean_diameter: float, radial_load: float, axial_load: float, speed: float, constants: AngularConstants = SINGLE_ROW
+) -> tuple[float, float]:
+    """Load and geometry variables (G_rr, G_sl) in the catalogue's units (torque in N mm).
+
+    G_rr = R1 d_m^1.97 (F_r + F_g + R2 F_a)^0.54 with F_g = R3 d_m^4 n^2; G_sl = S1 d_m^0.26 ((F_r + F_g)^(4/3) +
+    S2 F_a^(4/3)) with F_g = S3 d_m^4 n^2 (mm, N, 1/min).
+
+    Parameters
+    ----------
+    mean_diameter : float
+        (d + D)/2 [m].
+    speed : float
+        Relative speed of the rings [rad/s]: centrifugal force F_g of the balls.
+    """
+    diameter, rpm, c = mean_diameter * 1e3, speed * 30.0 / math.pi, constants
+    pressed = diameter**4 * rpm**2
+    rolling = c.r1 * diameter**1.97 * (radial_load + c.r3 * pressed + c.r2 * axial_load) ** 0.54
+    loads = (radial_load + c.s3 * pressed) ** (4.0 / 3.0) + c.s2 * axial_load ** (4.0 / 3.0)
+    return rolling, c.s1 * diameter**0.26 * loads
