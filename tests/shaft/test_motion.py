@@ -1,0 +1,213 @@
+"""A shaft in motion: lumps against the beam, bearings of the whole against the same alone, balance, result, resume."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from lambda_cli.main import main
+
+from lambda_core import api
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.elastic.whirl import natural_frequencies
+from lambda_core.results.reader import Result
+from lambda_core.shaft.fresh_shaft import fresh_shaft
+from lambda_core.shaft.lumps import LumpedShaft, lump
+from lambda_core.shaft.model import PLACES, ShaftModel
+from lambda_core.shaft.resolving import check_shaft
+from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.shaft.whole_file import CHANNELS, WholeFile
+from lambda_core.shaft.whole_tables import SIGNS, STATES, lump_bodies
+from lambda_core.solver import layout as L
+from lambda_core.solver import records as R
+from lambda_core.solver.entry import core
+
+STIFF = (5e7, 1e8, 1e8, 1e3, 1e3)  # of a bearing [N/m, N m/rad]
+
+
+def tables(**changes: Any) -> dict[str, Any]:
+    """Return the case that init writes, with an unbalance and changes."""
+    found = tomllib.loads(fresh_shaft("box")) | changes
+    if "wheel" in found["discs"]:
+        found["discs"]["wheel"]["unbalance"] = "50 g mm"
+    return found
+
+
+LONG = {
+    "shaft": {"sections": [{"length": "500 mm", "diameter": "40 mm"}]},
+    "bearings": {
+        "a": {"designation": "SKF 6208", "position": "50 mm"},
+        "b": {"designation": "SKF 6208", "position": "450 mm", "support": {"x": "free"}},
+    },
+    "discs": {},
+    "gears": {},
+}
+
+
+def frequencies(model: ShaftModel, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
+    """Return natural frequencies of the lumps and of the beam on the same springs."""
+    lumped, whole = shaft.stiffness.copy(), model.body.stiffness.copy()
+    for bearing in model.bearings:
+        rows, first = model.body.rows(bearing.position).start + np.array(PLACES), 5 * shaft.at(bearing.position)
+        lumped[range(first, first + 5), range(first, first + 5)] += STIFF
+        whole[rows, rows] += STIFF
+    mass = np.ravel([[m, m, m, j, j] for m, j in zip(shaft.mass, shaft.transverse_inertia, strict=True)])
+    twist = range(3, whole.shape[0], 6)
+    return natural_frequencies(lumped, np.diag(mass))[0], natural_frequencies(whole, model.body.mass, list(twist))[0]
+
+
+@pytest.mark.parametrize("changes", [{}, LONG], ids=["gearbox", "ten diameters"])
+def test_lumps_keep_mass_centre_inertia_and_low_frequencies(changes: dict[str, Any]) -> None:
+    """The gearbox shaft's first five to 0.3 %; ten diameters between bearings: the first six to 1 % (docs/shaft.md)."""
+    model = check_shaft(tables(**changes))
+    shaft = lump(model)
+    assert shaft.mass.sum() == pytest.approx(model.body.total_mass, rel=1e-12)
+    turn = np.zeros(model.body.mass.shape[0])  # about z through the left end
+    turn[1::6], turn[5::6] = model.body.positions, 1.0
+    shift = np.zeros_like(turn)
+    shift[1::6] = 1.0
+    assert shaft.mass @ shaft.positions == pytest.approx(turn @ model.body.mass @ shift, rel=1e-9)
+    inertia = shaft.mass @ shaft.positions**2 + shaft.transverse_inertia.sum()
+    assert inertia == pytest.approx(turn @ model.body.mass @ turn, rel=1e-6)
+    assert shaft.mass.min() > 0.0
+    lumped, beam = frequencies(model, shaft)
+    first, tolerance = (5, 3e-3) if not changes else (6, 1e-2)
+    assert lumped[:first] == pytest.approx(beam[:first], rel=tolerance)
+
+
+@pytest.fixture(scope="module")
+def engine() -> WholeEngine:
+    """Return the gearbox shaft at the beginning of its motion."""
+    return WholeEngine(check_shaft(tables()))
+
+
+def evaluated(engine: WholeEngine, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return dy/dt and the forces on the bodies, friction left out."""
+    bundle = engine._bundle
+    bundle.system["friction_on"], bundle.system["guides_on"] = 0, 0
+    dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))
+    assert core().evaluate(0.0, y, bundle, dydt, rates, 1) == 1
+    bundle.system["friction_on"], bundle.system["guides_on"] = 1, 1
+    return dydt, bundle.body_wrenches.view(np.float64).reshape(-1, 6).copy()
+
+
+def test_the_motion_begins_in_equilibrium(engine: WholeEngine) -> None:
+    """What is left on the lumps is the weight of the inner rings, the first push of the unbalance, no more."""
+    _, forces = evaluated(engine, engine._memory.y.copy())
+    loads = engine._bundle.inputs["force"]["value"]
+    weight = engine._bundle.bodies["mass"] * 9.80665
+    for body in lump_bodies(engine.shaft):
+        left = forces[body, :3] + loads[body] - [0.0, 0.0, weight[body]]
+        assert np.abs(left).max() < 6.0  # of 700 N: rings 2 N, unbalance 50 g mm at 314 rad/s 4.9 N over all lumps
+
+
+def test_a_bearing_of_the_whole_moves_as_it_does_alone(engine: WholeEngine) -> None:
+    """The balls of each bearing feel the same bits as in a model of that bearing alone."""
+    y = engine._memory.y
+    dydt, rates = np.zeros(y.size), np.zeros(L.power_count(engine._bundle))
+    assert core().evaluate(0.0, y, engine._bundle, dydt, rates, 1) == 1
+    bodies = engine._bodies(y.reshape(1, -1)).reshape(-1, L.NS)
+    for part in engine.parts:
+        alone = part.alone
+        balls = slice(L.NB * part.first_ball, L.NB * (part.first_ball + part.balls))
+        own = np.concatenate([y[balls], bodies[list(part.bodies)].ravel()[alone.bundle.active], alone.bundle.states])
+        slope, powers = np.zeros(own.size), np.zeros(L.power_count(alone.bundle))
+        assert core().evaluate(0.0, own, alone.bundle, slope, powers, 1) == 1
+        assert np.array_equal(slope[: L.NB * part.balls], dydt[balls])
+
+
+def test_slopes_and_energy_of_the_ties(engine: WholeEngine) -> None:
+    """Columns of the Jacobian against differences; the work of the ties against their energy, both to rounding."""
+    bundle, y = engine._bundle, engine._memory.y.copy()
+    base = L.NB * int(bundle.system["balls"][0])
+    middle = next(b for b in lump_bodies(engine.shaft) if not bundle.bodies["mass"][b] < 1.0)
+    bundle.system["friction_on"], bundle.system["guides_on"] = 0, 0
+    evaluated(engine, y)
+    bundle.system["friction_on"], bundle.system["guides_on"] = 0, 0
+    assert core().jacobian(0.0, y, bundle, engine._blocks) == 1
+    bundle.system["friction_on"], bundle.system["guides_on"] = 1, 1
+    ours, steps = engine._blocks.d, np.array([1e-8, 1e-8, 1e-8, 1e-7, 1e-7])
+    for state, step in zip(STATES, steps, strict=True):
+        column = int(np.flatnonzero(bundle.active == L.NS * middle + state)[0])
+        up, down = y.copy(), y.copy()
+        up[base + column] += step
+        down[base + column] -= step
+        difference = (evaluated(engine, up)[0] - evaluated(engine, down)[0])[base : base + bundle.active.size]
+        slope = difference / (2.0 * step)
+        near = np.abs(ours[:, column] - slope) / (np.abs(slope).max() + 1.0)
+        assert near.max() < 1e-4
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder with a case and a run of 6 ms of it that went on to 9 ms."""
+    found = tmp_path_factory.mktemp("motion")
+    (found / "box.toml").write_text(fresh_shaft("box"))
+    arguments = ["--set", 'discs.wheel.unbalance="50 g mm"', "--quiet", "--run", "--draw", str(found / "pictures")]
+    part = str(found / "part")
+    assert main(["shaft", str(found / "box.toml"), *arguments, "--out", part, "--duration", "6 ms"]) == 5
+    assert main(["resume", part, "--quiet", "--duration", "9 ms"]) == 5
+    return found
+
+
+def test_a_run_says_what_it_found(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Energy to 1e-3 (the bar of docs/convergence.md), forces in balance, every bearing a result of its own."""
+    capsys.readouterr()
+    assert main(["show", str(folder / "part"), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert not found["converged"]
+    assert any("revolutions" in reason for reason in found["reasons"])
+    assert abs(found["energy_residual"]) < 1e-3
+    assert found["simulated_s"] == pytest.approx(9e-3, abs=1e-4)
+    model = api.check_shaft(folder / "box.toml")
+    forces = np.sum([bearing["force_N"] for bearing in found["bearings"]], axis=0)
+    given = model.gears["wheel"].force + np.array([0.0, 0.0, -9.80665 * model.body.total_mass])
+    assert np.abs(forces + given).max() < 0.03 * np.abs(given).max()  # over a fraction of a turn: vibration, unbalance
+    assert found["drive_torque_Nm"] == pytest.approx(-model.gears["wheel"].moment[0], rel=0.01)
+    for bearing in found["bearings"]:
+        alone = Result(bearing["file"]).summary()
+        assert alone.friction_torque_Nmm == bearing["friction_torque_Nmm"]
+        assert alone.power_loss_W == pytest.approx(1e-3 * alone.friction_torque_Nmm * 314.159, rel=1e-3)
+    assert sorted(path.suffix for path in (folder / "pictures").iterdir()) == [".png", ".png", ".svg", ".svg"]
+    assert main(["shaft", str(folder / "part")]) == 0
+    assert "largest orbit" in capsys.readouterr().out
+
+
+def test_a_run_goes_on_bit_for_bit(folder: Path) -> None:
+    """Interrupted at 6 ms or not: the same samples, in the whole and in every bearing."""
+    other = str(folder / "whole")
+    changes = ["--set", 'discs.wheel.unbalance="50 g mm"', "--quiet", "--duration", "9 ms"]
+    assert main(["shaft", str(folder / "box.toml"), "--run", "--out", other, *changes]) == 5
+    one, two = (WholeFile(folder / name).channels() for name in ("part", "whole"))
+    for channel in CHANNELS:
+        assert np.array_equal(one[channel.name], two[channel.name]), channel.name
+    first, second = (Result(folder / name / "left.h5") for name in ("part", "whole"))
+    assert np.array_equal(first["load"], second["load"])
+    assert np.array_equal(first.revolutions(), second.revolutions())
+
+
+def test_what_does_not_go_together(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    case = str(folder / "box.toml")
+    for arguments, said in (
+        ([case, "--duration", "1 s"], "--duration goes with --run"),
+        ([case, "--run", "--duration", "soon"], "--duration"),
+        ([case, "--run", "--out", str(folder / "part")], "exists"),
+        ([str(folder / "part"), "--set", "operation.speed=1 rpm"], "is a run that was made"),
+        ([case, "--run", "--stiffness", "k.json"], "--stiffness"),
+    ):
+        assert main(["shaft", *arguments]) == 2
+        assert said in capsys.readouterr().err
+    assert main(["resume", str(folder / "part"), "--duration", "1 ms"]) == 2
+    assert "nothing is left to do" in capsys.readouterr().err
+
+
+def test_signs_of_the_tied_states() -> None:
+    """Turning about y moves a_z towards -, about z a_y towards + (docs/frames.md)."""
+    body = np.zeros(1, R.BODY_STATE)
+    body.view(np.float64)[STATES] = SIGNS * [1.0, 2.0, 3.0, 0.1, 0.2]
+    assert body["position"][0].tolist() == [1.0, 2.0, 3.0]
+    assert (-body["tilt"][0, 1], body["tilt"][0, 0]) == (0.1, 0.2)
