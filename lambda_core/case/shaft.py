@@ -14,6 +14,7 @@ from lambda_core.case.modelling import Models, Parameters
 from lambda_core.case.motion import Gravity
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, Surface
+from lambda_core.case.signals import ForceSignal, MomentSignal, SpeedSignal
 from lambda_core.domain.units import (
     Angle,
     Force,
@@ -22,7 +23,6 @@ from lambda_core.domain.units import (
     Mass,
     Moment,
     Power,
-    RotationalSpeed,
     SmallLength,
     Temperature,
     Unbalance,
@@ -146,15 +146,15 @@ class ShaftDisc(Section):
 
 
 class PointLoad(Section):
-    """Force and moment on the shaft at one place."""
+    """Force and moment on the shaft at one place, over time; the equilibrium is that of t = 0."""
 
     position: Length = option(description="where it acts")
-    force_x: Force = option("0 N", "force along the shaft")
-    force_y: Force = option("0 N", "horizontal force")
-    force_z: Force = option("0 N", "vertical force, upwards")
+    force_x: ForceSignal = option("0 N", "force along the shaft")
+    force_y: ForceSignal = option("0 N", "horizontal force")
+    force_z: ForceSignal = option("0 N", "vertical force, upwards")
     moment_x: Moment = option("0 N m", "torque about x")
-    moment_y: Moment = option("0 N m", "moment about y")
-    moment_z: Moment = option("0 N m", "moment about z")
+    moment_y: MomentSignal = option("0 N m", "moment about y")
+    moment_z: MomentSignal = option("0 N m", "moment about z")
 
 
 class Gear(Section):
@@ -182,7 +182,7 @@ class Gear(Section):
 class ShaftOperation(Section):
     """What turns the shaft."""
 
-    speed: RotationalSpeed = option(description="speed of the shaft")
+    speed: SpeedSignal = option(description="speed of the shaft over time; the equilibrium is that of t = 0")
 
 
 class ShaftLife(Section):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.gear_forces import GearForces
 from lambda_core.elastic.body import ElasticBody
-from lambda_core.system.bearing import BearingModel
+from lambda_core.system.bearing import ZERO, BearingModel, TimeFunction
 
 PLACES = (0, 1, 2, 4, 5)  # of a pose (solver.drivers.held_ring) among the six rows of a node
 
@@ -88,7 +88,7 @@ class ShaftModel:
     housing: FloatArray | None
     gravity: tuple[float, float, float]  # [m/s2]
     drive: int
-    speed: float  # [rad/s]
+    speed: float  # at t = 0 [rad/s]
     contamination: float | None  # e_C of ISO 281
     gears: dict[str, GearForces]  # forces of each mesh, by name
     assumptions: tuple[str, ...]
@@ -96,4 +96,6 @@ class ShaftModel:
     discs: tuple[tuple[str, float], ...]  # name and position [m]
     load_places: tuple[tuple[str, float], ...]  # of loads and gears [m]
     unbalances: tuple[Unbalance, ...] = ()
+    speed_over_time: TimeFunction = ZERO
+    varying: tuple[tuple[int, TimeFunction], ...] = ()  # row of a node and its load over time, in place of `loads`
     case_toml: str = ""  # the case, complete: it runs again as it stands

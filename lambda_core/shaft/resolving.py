@@ -26,10 +26,12 @@ from lambda_core.elastic.sections import BodyMaterial, RoundSection
 from lambda_core.shaft.elastic_housing import housing_stiffness
 from lambda_core.shaft.model import ShaftModel, Unbalance
 from lambda_core.shaft.seating import mounted
-from lambda_core.system.bearing import BearingModel
+from lambda_core.system.bearing import BearingModel, TimeFunction
 from lambda_core.system.checking import check
 from lambda_core.system.ledger import Ledger
+from lambda_core.system.time_functions import initial, planned_speed, time_function
 
+_COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
 Source = str | Path | Mapping[str, Any] | ShaftCase
 
 
@@ -150,7 +152,9 @@ def _shaft(
         weight=body.weight((case.gravity.x, case.gravity.y, case.gravity.z)),
         gravity=(case.gravity.x, case.gravity.y, case.gravity.z),
         drive=body.rows(drive).start + 3,
-        speed=case.operation.speed,
+        speed=initial(time_function(case.operation.speed)),
+        speed_over_time=time_function(case.operation.speed),
+        varying=_varying(case, body),
         contamination=case.life.contamination,
         gears=gears,
         assumptions=tuple(ledger.assumptions),
@@ -198,9 +202,13 @@ def _gears(case: ShaftCase, ledger: Ledger) -> dict[str, GearForces]:
     """Return the forces of every gear; a power needs a speed."""
     found = {}
     for name, gear in case.gears.items():
-        speed = case.operation.speed
+        over_time = time_function(case.operation.speed)
+        speed = planned_speed(over_time)
         if gear.power is not None and speed == 0.0:
             ledger.problem(f"gears.{name}.power", "needs a speed of the shaft: at rest write the torque")
+            continue
+        if gear.power is not None and any(term.kind != "constant" for term in over_time.terms):
+            ledger.problem(f"gears.{name}.power", "needs a constant speed: where it changes write the torque")
             continue
         torque = gear.torque if gear.torque is not None else (gear.power or 0.0) / abs(speed)
         found[name] = gear_forces(
@@ -233,12 +241,21 @@ def _loads(case: ShaftCase, body: ElasticBody, gears: Mapping[str, GearForces]) 
     """Return the nodal forces of loads and gears, shape (6 n,)."""
     found: FloatArray = np.zeros(body.mass.shape[0])
     for load in case.loads.values():
-        found[body.rows(load.position)] += [
-            load.force_x, load.force_y, load.force_z, load.moment_x, load.moment_y, load.moment_z
-        ]  # fmt: skip
+        found[body.rows(load.position)] += [initial(time_function(getattr(load, name))) for name in _COMPONENTS]
     for name, forces in gears.items():
         found[body.rows(case.gears[name].position)] += [*forces.force, *forces.moment]
     return found
+
+
+def _varying(case: ShaftCase, body: ElasticBody) -> tuple[tuple[int, TimeFunction], ...]:
+    """Return the rows of loads that change, with their values over time."""
+    found = []
+    for load in case.loads.values():
+        for i, name in enumerate(_COMPONENTS):
+            function = time_function(getattr(load, name))
+            if any(term.kind != "constant" for term in function.terms):
+                found.append((body.rows(load.position).start + i, function))
+    return tuple(found)
 
 
 def _growth(case: ShaftCase, body: ElasticBody, material: BodyMaterial) -> FloatArray:

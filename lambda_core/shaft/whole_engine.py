@@ -15,7 +15,7 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.shaft.lumps import lump
 from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
-from lambda_core.shaft.whole_start import load_terms, start_state
+from lambda_core.shaft.whole_start import load_terms, start_state, unbalance_of_lumps
 from lambda_core.shaft.whole_tables import Part, all_free, lump_bodies, make_parts, whole_bundle
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
@@ -31,6 +31,8 @@ from lambda_core.solver.integrator import memory
 from lambda_core.solver.integrator.arrow import make_factors
 from lambda_core.solver.integrator.blocks import make_blocks
 from lambda_core.solver.status import Status
+from lambda_core.system.resolve_solver import STEPS_PER_PERIOD
+from lambda_core.system.time_functions import highest_frequency
 
 _CAPACITY = 512
 _FIRST_STEP, _SMALLEST_STEP = 1e-7, 1e-14  # [s]
@@ -73,7 +75,9 @@ class WholeEngine:
         self.equilibria: list[Equilibrium] = [ring.equilibrium() for ring in self.start.rings]
         self.parts = make_parts(model, self.shaft, [all_free(found.context) for found in self.equilibria])
         bundle = whole_bundle(model, self.shaft, self.parts)
-        self._bundle = bundle._replace(terms=load_terms(model, self.shaft, self.parts))
+        bundle.bodies["unbalance"][lump_bodies(self.shaft)] = unbalance_of_lumps(model, self.shaft)[0]
+        terms, table = load_terms(model, self.shaft, self.parts)
+        self._bundle = bundle._replace(terms=terms, table=table)
         self._blocks = make_blocks(self._bundle)
         self._factors = make_factors(self._blocks.reach, self._bundle.active.size)
         start = start_state(model, self.shaft, self.parts, self._bundle.active, self.start, self.equilibria)
@@ -81,8 +85,10 @@ class WholeEngine:
         self._memory = memory.make_memory(start, self._scale(), tolerance, self._bundle, _CAPACITY)
         self.sample_interval = min(map(_usual_interval, self.equilibria))
         control, count = self._memory.control, self._memory.count
+        frequency = highest_frequency(model.speed_over_time, *(function for _, function in model.varying))
         control["longest_step"] = min(
-            min(part.bearing.model.solver.max_step, longest_step(part.alone)) for part in self.parts
+            *(min(part.bearing.model.solver.max_step, longest_step(part.alone)) for part in self.parts),
+            1.0 / (STEPS_PER_PERIOD * frequency) if frequency else math.inf,
         )
         control["step"] = np.minimum(_FIRST_STEP, control["longest_step"])
         control["shortest_step"], control["sample_interval"] = _SMALLEST_STEP, self.sample_interval
@@ -92,11 +98,12 @@ class WholeEngine:
             c.evaluate_pointer, c.jacobian_pointer, c.advance_pointer, c.observe_pointer, self._bundle, self._blocks,
             self._factors, self._memory,
         )  # fmt: skip
+        self._changes = any(term.kind != "constant" for term in model.speed_over_time.terms)
         self._drained: list[WholeSamples] = []
         self._sampled = np.zeros((len(self.parts), len(_SHARED) + 4))  # integrals of what only samples say
         self._last: list[FloatArray] = []  # their rates at the last sample
         self._last_time = 0.0
-        self._start_cages = self._cage_angles()
+        self._start_angles = self._angles()
         self._start_energy = self._stored()
 
     def _scale(self) -> FloatArray:
@@ -159,7 +166,7 @@ class WholeEngine:
     def fingerprint(self) -> bytes:
         """Return the numbers that the motion is made of: another case or code has others."""
         tables = (self._bundle.bodies, self._bundle.par, self._bundle.tie_stiffness, self._bundle.terms)
-        start = np.concatenate([self._start_cages, [self._start_energy, self.sample_interval]])
+        start = np.concatenate([self._start_angles, [self._start_energy, self.sample_interval]])
         return b"".join(table.tobytes() for table in (*tables, start))
 
     # -- what is written --
@@ -180,7 +187,7 @@ class WholeEngine:
             return
         times, states = self._memory.sample_t[:n].copy(), self._memory.sample_y[:n].copy()
         self._memory.count["samples_waiting"] = 0
-        flat = self._bodies(states)
+        flat = self._bodies(states, times)
         found = [self._observe(part, times, states, flat) for part in self.parts]
         lumps = flat.view(R.BODY_STATE)[:, lump_bodies(self.shaft)]
         whole = {
@@ -197,18 +204,30 @@ class WholeEngine:
         self._last_time = float(times[-1])
         self._drained.append(WholeSamples(whole, each))
 
-    def _bodies(self, states: FloatArray) -> FloatArray:
+    def _bodies(self, states: FloatArray, times: FloatArray) -> FloatArray:
         """Return the whole shared state of samples, shape (n, 12 bodies)."""
         bundle = self._bundle
         flat = np.zeros((len(states), bundle.shared.size))
         bodies = flat.view(R.BODY_STATE)
-        bodies["spin"][:, lump_bodies(self.shaft)] = self.model.speed
+        bodies["spin"][:, lump_bodies(self.shaft)] = self._speeds(states, times)[:, None]
         for part in self.parts:
             for dof, value in enumerate(part.bearing.seating.shift[:3]):
                 bodies["position"][:, part.bodies[OUTER], dof] = value  # where it is free its state comes over it
         tail = L.NB * int(bundle.system["balls"][0])
         flat[:, bundle.active] = states[:, tail : tail + bundle.active.size]
         return flat
+
+    def _speeds(self, states: FloatArray, times: FloatArray) -> FloatArray:
+        """Return the speed of the shaft at samples, shape (n,) [rad/s]."""
+        if not self._changes:
+            return np.full(times.size, self.model.speed)
+        found, bundle = np.zeros(times.size), self._bundle
+        slope, rates = np.zeros(self.states), np.zeros(L.power_count(bundle))
+        for i, t in enumerate(times):
+            if self._core.evaluate(float(t), np.ascontiguousarray(states[i]), bundle, slope, rates, 0) != 1:
+                raise SolverError(self._fault())
+            found[i] = bundle.bodies_now["spin"][0]
+        return found
 
     def _observe(
         self, part: Part, times: FloatArray, states: FloatArray, flat: FloatArray
@@ -256,10 +275,12 @@ class WholeEngine:
         )  # fmt: skip
         return float(extra[0, 0])
 
-    def _cage_angles(self) -> FloatArray:
-        bodies = self._bodies(self._memory.y.reshape(1, -1)).view(R.BODY_STATE)[0]
-        found = [float(bodies["angle"][part.bodies[CAGE]]) for part in self.parts]
-        return np.array(found)
+    def _angles(self) -> FloatArray:
+        """Return the angles of all cages, then that of the shaft [rad]."""
+        flat, tail = np.zeros(self._bundle.shared.size), L.NB * int(self._bundle.system["balls"][0])
+        flat[self._bundle.active] = self._memory.y[tail : tail + self._bundle.active.size]
+        angles = flat.view(R.BODY_STATE)["angle"]
+        return np.array([*(float(angles[part.bodies[CAGE]]) for part in self.parts), float(angles[0])])
 
     def integrals(self) -> list[dict[str, float]]:
         """Return the running integrals of every bearing since the start, as a run of it alone has them.
@@ -281,7 +302,7 @@ class WholeEngine:
             own |= {name: float(so_far[name]) * float(shares[i, k]) for k, name in enumerate(_SHARED)}
             losses.append(own)
         every = sum(sum(own.values()) for own in losses)
-        cages, angle = self._cage_angles() - self._start_cages, self.model.speed * self.time
+        *cages, angle = (self._angles() - self._start_angles).tolist()
         return [
             {
                 **{f"loss.{name}": value for name, value in own.items()},
@@ -289,7 +310,7 @@ class WholeEngine:
                 "input_abs": float(so_far["input_abs"]),
                 "drive": float(self._sampled[i, len(_SHARED)]),
                 "stored": self._stored() - self._start_energy,
-                "relative_angle": abs(angle),
+                "relative_angle": float(so_far["relative_speed"]),
                 "cage_angle": float(cages[i]),
                 "inner_angle": angle,
                 **dict(zip("xyz", self._sampled[i, len(_SHARED) + 1 :].tolist(), strict=True)),
@@ -311,7 +332,7 @@ class WholeEngine:
         for name in ("a", "b", "c", "d", "shared", "parts"):
             parts[f"blocks.{name}"] = getattr(self._blocks, name).copy()
         parts["sampled"], parts["last"] = self._sampled.copy(), np.array(self._last)
-        parts["start"] = np.array([self._last_time, self._start_energy, *self._start_cages])
+        parts["start"] = np.array([self._last_time, self._start_energy, *self._start_angles])
         return parts
 
     def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
@@ -327,7 +348,7 @@ class WholeEngine:
             array[...] = saved
         self._sampled, self._last = state["sampled"].copy(), list(state["last"])
         self._last_time, self._start_energy = float(state["start"][0]), float(state["start"][1])
-        self._start_cages = state["start"][2:].copy()
+        self._start_angles = state["start"][2:].copy()
 
 
 def _usual_interval(found: Equilibrium) -> float:

@@ -14,8 +14,6 @@ from lambda_core.shaft.whole_tables import (
     SIGNS,
     STATES,
     Part,
-    constant,
-    harmonic,
     load_signals,
     lump_bodies,
     motion_signal,
@@ -25,47 +23,53 @@ from lambda_core.solver import records as R
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.tables import CAGE, OUTER
+from lambda_core.solver.drivers.time_tables import add_terms
+from lambda_core.system.bearing import TimeFunction
+from lambda_core.system.time_functions import initial, scaled
 
 _SPIN = 5  # degree of freedom
 
 
-def load_terms(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> np.ndarray:
-    """Return what acts on lumps and outer rings, and what leads them, as terms of compiled code.
+def load_terms(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> tuple[np.ndarray, FloatArray]:
+    """Return what acts on lumps and outer rings, and what leads them: terms of compiled code, and their table.
 
     Loads, weight and growth by temperature go to the lumps as the beam hands them on; of the weight the part that
     gravity does to the lumps anyway is taken off.
     """
-    terms = []
-    given = (shaft.follow.T @ (model.loads + model.weight + model.growth)).reshape(-1, len(PLACES))
-    given[:, :3] -= np.outer(shaft.mass, model.gravity)
-    for body, own in zip(lump_bodies(shaft), given, strict=True):
-        terms += [constant(signal, value) for signal, value in zip(load_signals(int(body)), own, strict=True)]
-        terms.append(constant(motion_signal(int(body), _SPIN), model.speed))
-    terms += _unbalances(model, shaft)
+    rows: list[np.ndarray] = []
+    table: list[float] = []
+    lumps = lump_bodies(shaft)
+    given = model.loads + model.weight + model.growth
+    for row, function in model.varying:
+        given[row] -= initial(function)
+        for share, signal in zip(shaft.follow[row], _signals(lumps), strict=True):
+            add_terms(signal, scaled(function, float(share)), rows, table)
+    still = (shaft.follow.T @ given).reshape(-1, len(PLACES))
+    still[:, :3] -= np.outer(shaft.mass, model.gravity)
+    for value, signal in zip(still.ravel(), _signals(lumps), strict=True):
+        add_terms(signal, TimeFunction.constant(float(value)), rows, table)
+    for body in lumps:
+        add_terms(motion_signal(int(body), _SPIN), model.speed_over_time, rows, table)
     for part in parts:
         outer, seating = part.bodies[OUTER], part.bearing.seating
-        terms.append(constant(load_signals(outer)[0], seating.force))
+        add_terms(load_signals(outer)[0], TimeFunction.constant(seating.force), rows, table)
         for dof, (stiffness, shift) in enumerate(zip(seating.stiffness, seating.shift, strict=True)):
             if math.isinf(stiffness) and model.housing is None:
-                terms.append(constant(motion_signal(outer, dof), shift))
-    return np.concatenate(terms)
+                add_terms(motion_signal(outer, dof), TimeFunction.constant(shift), rows, table)
+    return np.concatenate(rows), np.array(table or [0.0])
 
 
-def _unbalances(model: ShaftModel, shaft: LumpedShaft) -> list[np.ndarray]:
-    """Return the forces U omega^2 of every unbalance, which turn with the shaft."""
-    frequency, sense = abs(model.speed) / (2.0 * math.pi), math.copysign(1.0, model.speed)
-    terms = []
+def _signals(lumps: np.ndarray) -> list[int]:
+    """Return the signals of forces and moments of all lumps, in the order of their stiffness."""
+    return [signal for body in lumps for signal in load_signals(int(body))]
+
+
+def unbalance_of_lumps(model: ShaftModel, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
+    """Return the unbalance of every lump [kg m] and its azimuth at t = 0 [rad]."""
+    total = np.zeros(shaft.positions.size, dtype=complex)
     for unbalance in model.unbalances:
-        force, phase = unbalance.amount * model.speed**2, sense * unbalance.angle
-        rows = model.body.rows(unbalance.position).start
-        along_y, along_z = (shaft.follow[rows + axis].reshape(-1, len(PLACES)) for axis in (1, 2))
-        for body, y, z in zip(lump_bodies(shaft), along_y, along_z, strict=True):
-            for signal, share_y, share_z in zip(load_signals(int(body)), y, z, strict=True):
-                # cos(omega t + angle) along y, sin(omega t + angle) along z
-                for share, lead in ((share_y, 0.5 * math.pi), (sense * share_z, 0.0)):
-                    if abs(share) > 1e-12:
-                        terms.append(harmonic(signal, force * share, frequency, phase + lead))
-    return terms
+        total[shaft.at(unbalance.position)] += unbalance.amount * np.exp(1j * unbalance.angle)
+    return np.abs(total), np.angle(total)
 
 
 def start_state(
@@ -80,8 +84,9 @@ def start_state(
     bodies = np.zeros(shaft.positions.size + 2 * len(parts), R.BODY_STATE)
     flat = bodies.view(np.float64)
     moved = np.array([state.displacement[model.body.rows(float(x)).start + np.array(PLACES)] for x in shaft.positions])
-    for body, own in zip(lump_bodies(shaft), moved, strict=True):
+    for body, own, azimuth in zip(lump_bodies(shaft), moved, unbalance_of_lumps(model, shaft)[1], strict=True):
         flat[L.NS * body + STATES] = SIGNS * own
+        bodies["angle"][body] = azimuth  # a body's unbalance points to its own angle 0
     balls, kept = [], []
     for part, found, outer in zip(parts, equilibria, state.outer, strict=True):
         y, alone = initial_state(found), found.context

@@ -23,14 +23,13 @@ from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.tables import CAGE, INNER, OUTER
-from lambda_core.solver.drivers.time_tables import FORCE, MOMENT, MOTION
+from lambda_core.solver.drivers.time_tables import FORCE, MOMENT, MOTION, PER_BODY
 from lambda_core.system.bearing import DofState
 
 # State that each displacement of PLACES or POSE moves, and its sign: turning about +y moves a_z towards -.
 STATES = np.array([L.SX, L.SY, L.SZ, L.SAZ, L.SAY])
 SIGNS = np.array([1.0, 1.0, 1.0, -1.0, 1.0])
 _RATES = np.array([L.SVX, L.SVY, L.SVZ, L.SWY, L.SWZ])
-_SIGNALS = 12  # of a body
 _OFFSETS = {"guide_law": 3, "drag_law": 1}  # laws of one bearing in these tables
 
 
@@ -225,26 +224,11 @@ def _ties(
     return tied[used].astype(np.int64), np.ascontiguousarray(stiffness), (rest * signs)[used]
 
 
-def constant(signal: int, value: float) -> Any:
-    """Return a term that does not change."""
-    term = np.zeros(1, R.TERM)
-    term["signal"], term["kind"], term["value"] = signal, R.CONSTANT, value
-    return term
-
-
-def harmonic(signal: int, amplitude: float, frequency: float, phase: float) -> Any:
-    """Return the term amplitude sin(2 pi frequency t + phase)."""
-    term = np.zeros(1, R.TERM)
-    term["signal"], term["kind"], term["amplitude"] = signal, R.HARMONIC, amplitude
-    term["frequency"], term["phase"] = frequency, phase
-    return term
-
-
 def load_signals(body: int) -> list[int]:
     """Return the signals of a body that forces and moments in the order of PLACES have."""
-    return [_SIGNALS * body + signal for signal in (FORCE, FORCE + 1, FORCE + 2, MOMENT + 1, MOMENT + 2)]
+    return [PER_BODY * body + signal for signal in (FORCE, FORCE + 1, FORCE + 2, MOMENT + 1, MOMENT + 2)]
 
 
 def motion_signal(body: int, dof: int) -> int:
     """Return the signal of a prescribed degree of freedom."""
-    return _SIGNALS * body + MOTION + dof
+    return PER_BODY * body + MOTION + dof

@@ -82,6 +82,14 @@ def _term_initial(term: Term) -> float:
     return term.values[0]
 
 
+def planned_speed(function: TimeFunction) -> float:
+    """Return the value at t = 0; where that is 0 the largest one that is planned, with its sign."""
+    values = [initial(function)]
+    for term in function.terms:
+        values += {"ramp": term.values[1:2], "table": term.values[1::2]}.get(term.kind, ())
+    return values[0] or max(values, key=abs)
+
+
 def highest_frequency(*functions: TimeFunction) -> float:
     """Return the highest frequency of all harmonic terms [Hz], 0 if there are none."""
     return max((t.values[1] for f in functions for t in f.terms if t.kind == "harmonic" and t.values[0]), default=0.0)

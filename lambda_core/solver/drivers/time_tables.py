@@ -22,7 +22,7 @@ MOTION, FORCE, MOMENT, PER_BODY = 0, 6, 9, 12  # places of the signals of a body
 _CAGE = 2
 
 
-def _terms(signal: int, function: TimeFunction, rows: list[NDArray[np.void]], table: list[float]) -> None:
+def add_terms(signal: int, function: TimeFunction, rows: list[NDArray[np.void]], table: list[float]) -> None:
     """Append a time function's terms to the flat tables that compiled code reads."""
     for term in function.terms:
         row = np.zeros(1, R.TERM)
@@ -53,7 +53,7 @@ def build_times(model: BearingModel) -> tuple[NDArray[np.void], FloatArray, NDAr
         for d, name in enumerate(DOFS):
             dof = body.dofs[name]
             if dof.mode == "prescribed":
-                _terms(PER_BODY * b + MOTION + d, dof.motion, rows, table)
+                add_terms(PER_BODY * b + MOTION + d, dof.motion, rows, table)
             if dof.mode == "free":
                 # Turning about y moves a_z, turning about z moves a_y.
                 position = {3: L.SAZ, 4: L.SAY}.get(d, d)
@@ -61,7 +61,7 @@ def build_times(model: BearingModel) -> tuple[NDArray[np.void], FloatArray, NDAr
             elif d == 5 and dof.mode == "prescribed":
                 active.append(L.NS * b + L.STHETA)
         for axis in range(3):
-            _terms(PER_BODY * b + FORCE + axis, body.force[axis], rows, table)
-            _terms(PER_BODY * b + MOMENT + axis, body.moment[axis], rows, table)
+            add_terms(PER_BODY * b + FORCE + axis, body.force[axis], rows, table)
+            add_terms(PER_BODY * b + MOMENT + axis, body.moment[axis], rows, table)
     terms = np.concatenate([np.zeros(0, R.TERM), *rows])
     return terms, np.array(table or [0.0]), np.array(sorted(active), dtype=np.int64)
