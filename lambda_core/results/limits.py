@@ -32,7 +32,7 @@ class Shoulder(Record):
     ellipse_end_deg: float = Field(description="contact angle at the end of the ellipse, towards the shoulder")
     shoulder_deg: float = Field(description="contact angle of the shoulder's edge")
     margin_um: float = Field(description="along the groove from the end of the ellipse to the edge; below 0: beyond it")
-    low: bool = Field(default=False, description="whether it is the low shoulder of angular contact, at the groove's bottom")
+    low: bool = Field(default=False, description="whether it is the low shoulder of angular contact, at the bottom")
 
     def warning(self) -> list[str]:
         """Return a sentence where the ellipse runs over the edge, else nothing."""

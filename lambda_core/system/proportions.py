@@ -13,8 +13,8 @@ from collections.abc import Iterator
 from lambda_core.system.bearing import Geometry
 
 FILLING = (165.0, 198.0)  # angle that the balls span side by side, as at assembly [deg]
-ANGULAR_FILLING = (220.0, 312.0)  # of angular contact [deg]
-WALL = (0.25, 0.61)  # radial wall of a ring under the groove, over the ball diameter
+ANGULAR_FILLING = (220.0, 325.0)  # of angular contact [deg]
+WALL = (0.22, 0.61)  # radial wall of a ring under the groove, over the ball diameter
 WIDTH = (1.20, 2.21)  # over the ball diameter
 
 

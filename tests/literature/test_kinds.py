@@ -9,9 +9,11 @@ from lambda_db.catalogue import SqlCatalogue
 from lambda_plugins.methods.skf_angular import angular_variables
 
 from lambda_core import api
+from lambda_core.catalogue.designation import designated
 from lambda_core.catalogue.protocol import BearingRow
 from lambda_core.domain.life import dynamic_equivalent_load, static_equivalent_load
 from lambda_core.domain.ratings import dynamic_rating, static_factor, static_rating
+from lambda_core.system.resolve_geometry import HIGH_SHOULDERS
 
 # NSK, Rolling Bearings, CAT. No. E1102, page B51: factors of ISO 281, table 3, and ISO 76, table 2. At 15 degrees over
 # f_0 F_a/C_0r; at the others one row.
@@ -71,18 +73,37 @@ def test_f0_that_nsk_prints(catalogue: SqlCatalogue, designation: str, printed: 
     assert static_factor(ball * math.cos(angle) / pitch, outer_conformity=0.52) == pytest.approx(printed, abs=0.1)
 
 
-# SKF general catalogue, single-row angular contact ball bearings: d_2 of the inner ring's low side face [mm]
-@pytest.mark.parametrize(
-    ("designation", "low"), [("7208B", 48.1), ("7206B", 36.1), ("7310B", 61.1), ("7212B", 69.3), ("7305B", 32.4)]
-)
-def test_the_low_shoulder_is_the_raceway(catalogue: SqlCatalogue, designation: str, low: float) -> None:
-    """SKF's inner rings are low down to the raceway: its diameter is that of the derived balls within 1.1 %, 0.4 mm.
+def test_skf_ratings_and_shoulders(catalogue: SqlCatalogue) -> None:
+    """SKF's 72 BE and 73 BE with the inner raceway at the printed low shoulder: C and C_0 within 2 %, medians 0.6 %.
 
-    Another maker's bearings, so that balls and pitch need not be the same: 7208B agrees within 0.02 %.
+    Their printed high shoulders over the raceways of these balls have the mean heights that other rows are given.
     """
-    row = catalogue.bearing(designation, "NSK")
-    assert row.race_diameter_inner is not None
-    assert row.race_diameter_inner.value == pytest.approx(1e-3 * low, rel=0.011)
+    rows = [row for row in catalogue.bearings("maker=SKF", 1000) if row.kind == "angular contact"]
+    assert len(rows) == 35
+    off: list[float] = []
+    heights: dict[str, list[float]] = {"inner": [], "outer": []}
+    for row in rows:
+        count, ball, pitch, angle = design(row)
+        assert row.dynamic_rating is not None
+        assert row.static_rating is not None
+        dynamic = dynamic_rating(count, ball, pitch, contact_angle=angle)
+        static = static_rating(count, ball, pitch, contact_angle=angle, outer_conformity=0.52)
+        off += [abs(dynamic / row.dynamic_rating.value - 1.0), abs(static / row.static_rating.value - 1.0)]
+        for ring, found in heights.items():
+            high, low = getattr(row, f"shoulder_diameter_{ring}"), getattr(row, f"race_diameter_{ring}")
+            found.append(abs(high.value - low.value) / (2.0 * ball))
+    assert max(off) < 0.02
+    assert sorted(off)[len(off) // 2] < 0.006
+    for ring, found in heights.items():
+        assert sum(found) / len(found) == pytest.approx(HIGH_SHOULDERS[ring], abs=0.001)
+        assert max(found) - min(found) < 0.07
+
+
+@pytest.mark.parametrize("written", ["SKF 7208 BECBP", "7208 BEP", "7208BEP SKF", "7208 B NSK", "NSK 7208B DB"])
+def test_designations(catalogue: SqlCatalogue, written: str) -> None:
+    row, read = designated(catalogue, written)
+    assert row.designation == ("7208BE" if "BE" in written else "7208B")
+    assert ("P" in [suffix for suffix, _ in read.suffixes]) == written.removesuffix(" SKF").endswith("P")
 
 
 def test_masses(catalogue: SqlCatalogue) -> None:

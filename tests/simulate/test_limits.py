@@ -39,7 +39,7 @@ def test_edge_of_a_shoulder_that_is_known() -> None:
 
 
 def test_the_low_shoulder_of_angular_contact() -> None:
-    """One at -2 degrees, 0.05 rad wide, lies beyond the bottom of its groove by 2 deg + 0.05, the other at 20 does not."""
+    """One at -2 degrees, 0.05 rad wide, lies beyond the bottom of its groove by 2 deg + 0.05; one at 20 does not."""
     grooves = Grooves(np.array([0.01, 0.01]), np.radians([60.0, 60.0]), one_sided=True)
     load, half = np.array([[100.0, 100.0], [50.0, 0.5]]), np.full((2, 2), 0.0005)
     angle = np.radians([[20.0, 20.0], [-2.0, -2.0]])
