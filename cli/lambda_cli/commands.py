@@ -67,6 +67,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "duty": ("lambda_cli.duty:duty", "Rating life and losses over a duty cycle."),
     "cross-check": ("lambda_cli.cross_check:cross_check", "Integrate a case with SUNDIALS CVODE as well, and compare."),
     "study": ("lambda_cli.study:app", "Many runs: sweeps, samples, maps."),
+    "export": ("lambda_cli.export:app", "A bearing for other programs: co-simulation units (FMU)."),
     "report": ("lambda_cli.report:report", "Write a report of results."),
     "cite": ("lambda_cli.cite:cite", "Print the references of the models a result used."),
     "db": ("lambda_cli.db:app", "Search and edit the catalogue of bearings, oils and materials."),

@@ -136,5 +136,10 @@ class Pointer(types.WrapperAddressProtocol):
     def signature(self) -> Any:
         return self._signature
 
+    @property
+    def compiled(self) -> Any:
+        """What Numba keeps of the code behind it; not on the plain way."""
+        return self._kept.get_compile_result(self._signature)
+
     def __reduce__(self) -> Any:
         raise TypeError("a pointer to compiled code lives in one process: compile the kernel again in the other")

@@ -19,9 +19,10 @@ from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, 
 from lambda_core.solver.drivers.given import make_room
 from lambda_core.solver.drivers.modes import ring_modes
 from lambda_core.solver.drivers.observation import Scratch, channels_of
+from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import CAGE, running
-from lambda_core.solver.entry import core
+from lambda_core.solver.entry import Core, core
 from lambda_core.solver.integrator import memory
 from lambda_core.solver.integrator.tableau import STAGES
 from lambda_core.solver.sampling import CONTACT_CHANNELS
@@ -133,6 +134,10 @@ class BearingEngine:
     def time(self) -> float:
         """Start of the next step [s]."""
         return float(self._memory.control["time"][0])
+
+    def parts(self) -> tuple[Core, SolverContext, memory.Memory, Scratch]:
+        """Return what takes steps and looks at states, for code that is to do so elsewhere."""
+        return self._core, self._context, self._memory, self._scratch
 
     @property
     def kernel_keys(self) -> dict[str, str]:

@@ -1,0 +1,69 @@
+"""The command export: bearings for other programs."""
+
+from __future__ import annotations
+
+import json
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lambda_cli.options import CaseArgument, ForceOption, JsonOption, SetOption
+from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
+
+app = typer.Typer(add_completion=False, no_args_is_help=True)
+
+
+class Couple(StrEnum):
+    """What the other program gives."""
+
+    FORCE = "force"
+    MOTION = "motion"
+
+
+@app.callback()
+def _export() -> None:
+    """A bearing for other programs."""
+
+
+@app.command()
+def fmu(
+    case: CaseArgument,
+    out: Annotated[
+        Path | None, typer.Option("--out", "-o", metavar="FILE", help="The FMU; default: the name of the case.")
+    ] = None,
+    fmi: Annotated[int, typer.Option(metavar="VERSION", help="Version of the standard: 2 or 3.")] = 2,
+    couple: Annotated[
+        Couple, typer.Option(help="What comes from outside: loads on the inner ring, or the motion of both rings.")
+    ] = Couple.FORCE,
+    processor: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME", help="The least processor: x86-64-v3, x86-64-v2, x86-64-v4, or native (this one)."
+        ),
+    ] = "x86-64-v3",
+    changes: SetOption = None,
+    force: ForceOption = False,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Write a case as a co-simulation unit (FMU): the compiled solver without Python, for Linux on x86-64.
+
+    It starts at the equilibrium of the case at t = 0. Needs a C compiler; the extra fmu brings one.
+    """
+    from lambda_core import api
+
+    with talk(progress, quiet) as speaker:
+        written = api.export_fmu(
+            case,
+            changes or (),
+            out=out,
+            fmi=fmi,
+            couple=couple.value,
+            processor=processor,
+            force=force,
+            announce=speaker.say,
+        )
+    typer.echo(json.dumps({"file": str(written)}) if as_json else str(written))

@@ -1,0 +1,312 @@
+#include "core.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "case.h" /* written for each case: places in the image, variables, sentences */
+
+extern const unsigned char lb_image[];
+extern void *const lb_functions[];
+extern int64_t lb_advance(unsigned char *image, double until, int64_t work);
+extern int64_t lb_observe(unsigned char *image);
+
+#define TOKEN_SIZE 64
+
+/* Numbers of the host that belong to a state. */
+enum { ORIGIN, LOST_BEFORE, TURNED_BEFORE, TORQUE, PHASE };
+#define REAL(b, place) (*(double *)((b)->image + (place)))
+#define WORD(b, place) (*(int64_t *)((b)->image + (place)))
+#define HOST(b, which) REAL(b, LB_HOST + 8 * (which))
+#define WORK_PER_CALL 500
+
+static void settle(unsigned char *image) {
+  for (size_t i = 0; i < sizeof lb_relocations / sizeof *lb_relocations; i++)
+    *(uint64_t *)(image + lb_relocations[i][0]) = (uint64_t)(uintptr_t)(image + lb_relocations[i][1]);
+  for (size_t i = 0; i < sizeof lb_fixes / sizeof *lb_fixes; i++)
+    *(uint64_t *)(image + lb_fixes[i][0]) = (uint64_t)(uintptr_t)lb_functions[lb_fixes[i][1]];
+}
+
+int lb_say(lb_bearing *b, int status, const char *form, ...) {
+  char sentence[1024];
+  va_list rest;
+  va_start(rest, form);
+  vsnprintf(sentence, sizeof sentence, form, rest);
+  va_end(rest);
+  if (b->tell && (b->logging || status >= LB_DISCARD))
+    b->tell(b, status, status >= LB_DISCARD ? "logStatusError" : "logStatusWarning", sentence);
+  return status;
+}
+
+lb_bearing *lb_create(const char *name, void *host, void *logger,
+                      void (*tell)(lb_bearing *, int, const char *, const char *)) {
+  lb_bearing *b = calloc(1, sizeof *b);
+  if (!b) return NULL;
+  b->host = host, b->logger = logger, b->tell = tell;
+  b->name = malloc(strlen(name ? name : "") + 1);
+  b->memory = malloc(LB_IMAGE_SIZE + 64);
+  if (!b->name || !b->memory) {
+    lb_free(b);
+    return NULL;
+  }
+  strcpy(b->name, name ? name : "");
+  b->image = (unsigned char *)(((uintptr_t)b->memory + 63) & ~(uintptr_t)63);
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  if (!(LB_PROCESSOR_FITS)) {
+    lb_say(b, LB_ERROR, "this processor lacks what the bearing was exported for: " LB_PROCESSOR);
+    lb_free(b);
+    return NULL;
+  }
+#endif
+  lb_reset(b);
+  return b;
+}
+
+void lb_free(lb_bearing *b) {
+  if (!b) return;
+  free(b->memory);
+  free(b->name);
+  free(b);
+}
+
+void lb_reset(lb_bearing *b) {
+  memcpy(b->image, lb_image, LB_IMAGE_SIZE);
+  settle(b->image);
+  HOST(b, PHASE) = LB_CREATED;
+  HOST(b, TORQUE) = NAN;
+  b->stale = 1;
+}
+
+double lb_time(lb_bearing *b) { return HOST(b, ORIGIN) + REAL(b, LB_CONTROL_TIME); }
+
+int lb_plan(lb_bearing *b, double start) {
+  if (HOST(b, PHASE) != LB_CREATED) return lb_say(b, LB_ERROR, "the start time is given before initialisation, not later");
+  if (!isfinite(start)) return lb_say(b, LB_ERROR, "the start time %g is no time", start);
+  HOST(b, ORIGIN) = start;
+  return LB_OK;
+}
+
+int lb_enter(lb_bearing *b) {
+  if (HOST(b, PHASE) != LB_CREATED)
+    return lb_say(b, LB_ERROR, "initialisation begins right after instantiation or reset, not later");
+  HOST(b, PHASE) = LB_INITIALISING;
+  return LB_OK;
+}
+
+int lb_leave(lb_bearing *b) {
+  if (HOST(b, PHASE) != LB_INITIALISING)
+    return lb_say(b, LB_ERROR, "initialisation has not begun: it cannot end");
+  HOST(b, PHASE) = LB_STEPPING;
+  return LB_OK;
+}
+
+int lb_end(lb_bearing *b) {
+  HOST(b, PHASE) = LB_ENDED;
+  return LB_OK;
+}
+
+static int refused(lb_bearing *b) {
+  int64_t role = WORD(b, LB_FAULT_ROLE), ball = WORD(b, LB_FAULT_BALL);
+  if (role < 0 || role >= (int64_t)(sizeof lb_roles / sizeof *lb_roles))
+    return lb_say(b, LB_ERROR, "at t = %.9g s the forces of the bearing are not finite", lb_time(b));
+  return lb_say(b, LB_ERROR,
+                "at t = %.9g s the law of %s refuses its inputs (status %lld) at ball %lld: %g, %g, %g, %g", lb_time(b),
+                lb_roles[role], (long long)WORD(b, LB_FAULT_STATUS), (long long)ball, REAL(b, LB_FAULT_INPUTS),
+                REAL(b, LB_FAULT_INPUTS + 8), REAL(b, LB_FAULT_INPUTS + 16), REAL(b, LB_FAULT_INPUTS + 24));
+}
+
+static double sum(lb_bearing *b, unsigned place, unsigned count, unsigned stride) {
+  double total = 0.0;
+  for (unsigned i = 0; i < count; i++) total += REAL(b, place + i * stride);
+  return total;
+}
+
+static double extreme(lb_bearing *b, const lb_variable *v) {
+  double found = 0.0;
+  for (unsigned i = 0; i < v->count; i++) {
+    double x = REAL(b, v->place + i * v->stride);
+    if (x > 0.0 && (found == 0.0 || (v->kind == LB_LEAST ? x < found : x > found))) found = x;
+  }
+  return found;
+}
+
+static int look(lb_bearing *b) {
+  if (!b->stale) return LB_OK;
+  if (lb_observe(b->image) != LB_STATUS_OK) return refused(b);
+  b->stale = 0;
+  return LB_OK;
+}
+
+static double torque(lb_bearing *b) {
+  double mean = HOST(b, TORQUE), speed = fabs(REAL(b, LB_RELATIVE_SPEED));
+  if (isfinite(mean)) return mean;
+  return speed > 0.0 ? sum(b, LB_LOSSES, LB_LOSS_COUNT, 8) / speed : 0.0;
+}
+
+static double value(lb_bearing *b, const lb_variable *v) {
+  switch (v->kind) {
+    case LB_TIME: return lb_time(b);
+    case LB_SUM: return v->scale * sum(b, v->place, v->count, v->stride);
+    case LB_LEAST:
+    case LB_GREATEST: return extreme(b, v);
+    case LB_TORQUE: return torque(b);
+    case LB_INPUT: return REAL(b, v->place);
+    default: return v->scale * REAL(b, v->place);
+  }
+}
+
+int lb_unknown(lb_bearing *b, unsigned which, const char *kind) {
+  return lb_say(b, LB_ERROR, "there is no %s variable with the value reference %u", kind, which);
+}
+
+static const lb_variable *variable(lb_bearing *b, unsigned which) {
+  int known = which < LB_VARIABLES && lb_variables[which].kind != LB_COUNT;
+  if (!known) lb_unknown(b, which, "real");
+  return known ? &lb_variables[which] : NULL;
+}
+
+int lb_get(lb_bearing *b, const unsigned *which, size_t count, double *values) {
+  for (size_t i = 0; i < count; i++) {
+    const lb_variable *v = variable(b, which[i]);
+    if (!v) return LB_ERROR;
+    if (v->kind > LB_INPUT) {
+      int status = look(b);
+      if (status != LB_OK) return status;
+    }
+    values[i] = value(b, v);
+  }
+  return LB_OK;
+}
+
+int lb_get_counts(lb_bearing *b, const unsigned *which, size_t count, int64_t *values) {
+  for (size_t i = 0; i < count; i++) {
+    if (which[i] >= LB_VARIABLES || lb_variables[which[i]].kind != LB_COUNT) return lb_unknown(b, which[i], "integer");
+    values[i] = WORD(b, lb_variables[which[i]].place);
+  }
+  return LB_OK;
+}
+
+int lb_set(lb_bearing *b, const unsigned *which, size_t count, const double *values) {
+  for (size_t i = 0; i < count; i++) {
+    const lb_variable *v = variable(b, which[i]);
+    if (!v) return LB_ERROR;
+    if (v->kind != LB_INPUT) return lb_say(b, LB_ERROR, "%s is no input: it cannot be set", lb_names[which[i]]);
+    if (!isfinite(values[i])) return lb_say(b, LB_ERROR, "%s is to be %g: a finite number is due", lb_names[which[i]], values[i]);
+  }
+  for (size_t i = 0; i < count; i++) {
+    const lb_variable *v = &lb_variables[which[i]];
+    REAL(b, v->place) = values[i];
+    REAL(b, v->begin) = REAL(b, LB_CONTROL_TIME);
+    b->stale = 1;
+  }
+  return LB_OK;
+}
+
+static int arrive(lb_bearing *b, double until) {
+  REAL(b, LB_CONTROL_STOP) = until;
+  while (REAL(b, LB_CONTROL_TIME) < until) {
+    int64_t status = lb_advance(b->image, until, WORK_PER_CALL);
+    WORD(b, LB_SAMPLES_WAITING) = 0;
+    if (status == LB_STATUS_REFUSED) return refused(b);
+    if (status == LB_STATUS_STEP_TOO_SMALL)
+      return lb_say(b, LB_ERROR, "at t = %.9g s the integrator's step fell below the smallest one allowed", lb_time(b));
+  }
+  REAL(b, LB_CONTROL_STOP) = INFINITY;
+  return LB_OK;
+}
+
+int lb_step(lb_bearing *b, double now, double step) {
+  double begin = lb_time(b), until = now + step - HOST(b, ORIGIN);
+  if (HOST(b, PHASE) != LB_STEPPING) return lb_say(b, LB_ERROR, "a step comes between initialisation and the end");
+  if (!(isfinite(now) && isfinite(step) && step > 0.0))
+    return lb_say(b, LB_ERROR, "a step from t = %g s by %g s: a positive, finite length is due", now, step);
+  if (fabs(now - begin) > 1e-6 * step + 1e-12 * fabs(begin))
+    return lb_say(b, LB_ERROR, "a step from t = %.9g s, but the bearing stands at %.9g s: to go back, restore a state",
+                  now, begin);
+  if (!(until > REAL(b, LB_CONTROL_TIME)))
+    return lb_say(b, LB_ERROR, "a step of %g s from t = %.9g s is lost in rounding", step, now);
+  b->stale = 1;
+  int status = arrive(b, until);
+  if (status != LB_OK) return status;
+  double lost = sum(b, LB_INTEGRALS, LB_LOSS_COUNT, 8), turned = REAL(b, LB_RELATIVE_ANGLE);
+  double angle = turned - HOST(b, TURNED_BEFORE);
+  HOST(b, TORQUE) = angle > 0.0 ? (lost - HOST(b, LOST_BEFORE)) / angle : 0.0;
+  HOST(b, LOST_BEFORE) = lost, HOST(b, TURNED_BEFORE) = turned;
+  return LB_OK;
+}
+
+int lb_save(lb_bearing *b, void **state) {
+  if (!*state) *state = malloc(LB_IMAGE_SIZE);
+  if (!*state) return lb_say(b, LB_ERROR, "there is no memory for a state of %u bytes", (unsigned)LB_IMAGE_SIZE);
+  memcpy(*state, b->image, LB_IMAGE_SIZE);
+  return LB_OK;
+}
+
+int lb_restore(lb_bearing *b, const void *state) {
+  if (!state) return lb_say(b, LB_ERROR, "there is no state to restore");
+  memcpy(b->image, state, LB_IMAGE_SIZE);
+  settle(b->image);
+  b->stale = 1;
+  return LB_OK;
+}
+
+size_t lb_packed_size(void) { return LB_IMAGE_SIZE + TOKEN_SIZE; }
+
+int lb_pack(lb_bearing *b, const void *state, void *bytes, size_t size) {
+  unsigned char *image = (unsigned char *)bytes + TOKEN_SIZE;
+  if (!state || size < lb_packed_size())
+    return lb_say(b, LB_ERROR, "a state takes %u bytes, not %u", (unsigned)lb_packed_size(), (unsigned)size);
+  memset(bytes, 0, TOKEN_SIZE);
+  strncpy(bytes, LB_TOKEN, TOKEN_SIZE - 1);
+  memcpy(image, state, LB_IMAGE_SIZE);
+  /* Addresses mean nothing outside: the same state is the same bytes. */
+  for (size_t i = 0; i < sizeof lb_relocations / sizeof *lb_relocations; i++)
+    memcpy(image + lb_relocations[i][0], lb_image + lb_relocations[i][0], 8);
+  for (size_t i = 0; i < sizeof lb_fixes / sizeof *lb_fixes; i++)
+    memcpy(image + lb_fixes[i][0], lb_image + lb_fixes[i][0], 8);
+  return LB_OK;
+}
+
+int lb_unpack(lb_bearing *b, const void *bytes, size_t size, void **state) {
+  if (!bytes || size != lb_packed_size() || strncmp(bytes, LB_TOKEN, TOKEN_SIZE - 1) != 0)
+    return lb_say(b, LB_ERROR, "these bytes are no state of this bearing");
+  if (!*state) *state = malloc(LB_IMAGE_SIZE);
+  if (!*state) return lb_say(b, LB_ERROR, "there is no memory for a state of %u bytes", (unsigned)LB_IMAGE_SIZE);
+  memcpy(*state, (const unsigned char *)bytes + TOKEN_SIZE, LB_IMAGE_SIZE);
+  return LB_OK;
+}
+
+static void shift(lb_bearing *b, const unsigned *knowns, size_t m, const double *along, double by) {
+  for (size_t k = 0; k < m; k++) REAL(b, lb_variables[knowns[k]].place) += by * along[k];
+  b->stale = 1;
+}
+
+int lb_slope(lb_bearing *b, const unsigned *unknowns, size_t n, const unsigned *knowns, size_t m, const double *along,
+             double *slopes) {
+  double by = INFINITY;
+  for (size_t k = 0; k < m; k++) {
+    const lb_variable *v = variable(b, knowns[k]);
+    if (!v) return LB_ERROR;
+    if (v->kind != LB_INPUT) return lb_say(b, LB_ERROR, "%s is no input: there are no slopes with it", lb_names[knowns[k]]);
+    if (along[k] != 0.0) by = fmin(by, v->scale / fabs(along[k]));
+  }
+  for (size_t i = 0; i < n; i++) slopes[i] = 0.0;
+  if (!isfinite(by)) return LB_OK;
+  /* Central differences about the state as it stands, which a copy brings back to the last bit. */
+  void *state = NULL;
+  int status = lb_save(b, &state);
+  for (int side = 1; side >= -1 && status == LB_OK; side -= 2) {
+    shift(b, knowns, m, along, side * by);
+    for (size_t i = 0; i < n && status == LB_OK; i++) {
+      double found;
+      status = lb_get(b, unknowns + i, 1, &found);
+      slopes[i] += side * found / (2.0 * by);
+    }
+    if (state) lb_restore(b, state);
+  }
+  free(state);
+  return status;
+}

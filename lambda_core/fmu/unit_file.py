@@ -1,0 +1,201 @@
+"""From a case to a co-simulation unit (FMU): one file that other programs load, without Python inside."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import re
+import subprocess
+import sys
+import tempfile
+import zipfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.domain.errors import SolverError, UsageError, unknown_name
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from lambda_core.case.case import Case
+    from lambda_core.solver.drivers.given import Coupling
+
+PROCESSORS = {
+    "x86-64-v3": "of Intel since 2013 and AMD since 2015",
+    "x86-64-v4": "with AVX-512",
+    "x86-64-v2": "of Intel since 2008 and AMD since 2011",
+    "native": "of this machine",
+}
+_CPU, _FEATURES = "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES"
+_FOLDERS = {2: "linux64", 3: "x86_64-linux"}
+_STEP = 1e-4  # [s] between communication points, as a proposal
+_END = 0.1  # [s]
+_FIXED_TIME = (1980, 1, 1, 0, 0, 0)  # of files in the archive: the same case makes the same bytes
+
+
+def export_fmu(
+    source: str | Path | Mapping[str, Any] | Case,
+    overrides: Iterable[str] = (),
+    *,
+    out: str | Path | None = None,
+    fmi: int = 2,
+    couple: Coupling = "force",
+    processor: str = "x86-64-v3",
+    force: bool = False,
+    announce: Callable[[str], None] | None = None,
+) -> Path:
+    """Write a bearing as a co-simulation FMU for Linux on x86-64.
+
+    Its library holds the compiled solver, the laws of the case and its data at the equilibrium of t = 0; it needs the C
+    library and nothing else.
+
+    Parameters
+    ----------
+    source, overrides
+        A case as for :func:`check`.
+    out : path-like, optional
+        The file; default: the name of the case with ``.fmu`` in this folder.
+    fmi : int
+        Version of the standard: 2 or 3.
+    couple : "force" or "motion"
+        What the host gives: loads on the inner ring, which the bearing moves; or the poses of both rings, on which the
+        bearing puts reactions.
+    processor : str
+        The least processor that runs it: "x86-64-v3" (default), "x86-64-v2", "x86-64-v4", or "native".
+    force : bool
+        Overwrite a file that stands there.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    UsageError
+        For an unknown version, coupling or processor, a file that exists, on another system, or without a C compiler.
+    CaseError, SolverError
+        With a sentence about the case or its equilibrium.
+    """
+    from lambda_core.case.case_writer import standalone_toml
+    from lambda_core.solver.drivers.given import COUPLINGS
+    from lambda_core.system.cases import case
+    from lambda_core.system.checking import resolve
+
+    if fmi not in _FOLDERS:
+        raise UsageError(f"FMI {fmi} is not written: 2 or 3")
+    if couple not in COUPLINGS:
+        raise UsageError(unknown_name("coupling", couple, COUPLINGS))
+    if processor not in PROCESSORS:
+        raise UsageError(unknown_name("processor", processor, PROCESSORS))
+    if (platform.system(), platform.machine()) != ("Linux", "x86_64"):
+        raise UsageError(f"FMUs are built on Linux x86-64 only, not on {platform.system()} {platform.machine()}")
+    from lambda_core.fmu.library import compiler
+
+    compiler()
+    loaded = _loaded(source, overrides) if not isinstance(source, str | Path) else case(source, overrides)
+    resolve(loaded)
+    target = Path(out) if out is not None else Path(f"{_plain(loaded.name)}.fmu")
+    if target.exists() and not force:
+        raise UsageError(f"{target} exists: choose another name with --out, or overwrite it with --force")
+    task = {"case": standalone_toml(loaded), "out": str(target.absolute()), "fmi": fmi, "couple": couple}
+    if processor == os.environ.get(_CPU, "native"):
+        write(task, announce)
+    else:
+        if announce is not None:
+            announce(f"exporting for {processor} (the first time what is compiled takes about a minute)")
+        _write_apart(task, processor)
+    return target
+
+
+def _loaded(source: Any, overrides: Iterable[str]) -> Case:
+    from lambda_core.case.case import Case
+    from lambda_core.case.case_io import apply_overrides, validate_case
+
+    loaded = source if isinstance(source, Case) else validate_case(source)
+    changes = list(overrides)
+    return apply_overrides(loaded, changes) if changes else loaded
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[^\w.-]+", "-", name).strip("-.") or "bearing"
+
+
+def write(task: Mapping[str, Any], announce: Callable[[str], None] | None = None) -> None:
+    """Write an FMU with the code of this process's processor."""
+    from importlib.metadata import version
+
+    from lambda_core.case.case_io import parse_case
+    from lambda_core.fmu.description import About, description
+    from lambda_core.fmu.frozen import freeze
+    from lambda_core.fmu.library import build, library_parts
+    from lambda_core.fmu.variables import variables
+    from lambda_core.thermal.temperatures import ready_model
+
+    fmi, text = task["fmi"], task["case"]
+    model = ready_model(parse_case(text), (), announce)
+    frozen = freeze(model, task["couple"], announce)
+    seen = variables(frozen)
+    parts = library_parts(frozen, seen)
+    about = About(
+        name=model.name,
+        text=f"rolling bearing, coupled by {task['couple']}, started at its equilibrium",
+        identifier="bearing_" + re.sub(r"\W", "_", model.name, flags=re.ASCII),
+        token=parts.token,
+        tool=f"lambda-bearing {version('lambda-bearing')}",
+        end=model.solver.duration or _END,
+        step=_STEP,
+    )
+    with tempfile.TemporaryDirectory(prefix="lambda-bearing-") as made:
+        library = build(parts, f"fmi{fmi}", Path(made), about.identifier)
+        files = {
+            "modelDescription.xml": description(about, seen, fmi),
+            f"binaries/{_FOLDERS[fmi]}/{library.name}": library.read_bytes(),
+            "resources/case.toml": text.encode(),
+        }
+    _zip(files, Path(task["out"]))
+
+
+def _zip(parts: Mapping[str, bytes], target: Path) -> None:
+    """Write an archive beside its place, and move it there whole."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    beside = target.with_name(f".{target.name}.part")
+    try:
+        with zipfile.ZipFile(beside, "w", zipfile.ZIP_DEFLATED) as archive:
+            for name, content in parts.items():
+                about = zipfile.ZipInfo(name, _FIXED_TIME)
+                about.external_attr = (0o755 if name.endswith(".so") else 0o644) << 16
+                archive.writestr(about, content, zipfile.ZIP_DEFLATED)
+        beside.replace(target)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def _write_apart(task: Mapping[str, Any], processor: str) -> None:
+    """Write an FMU in a process of its own: for which processor Numba compiles is settled when it is imported."""
+    code = "from lambda_core.fmu.unit_file import serve; serve()"
+    # A named processor has its own features and no others.
+    settings = {_CPU: processor, _FEATURES: ""} if processor != "native" else {}
+    clean = {name: value for name, value in os.environ.items() if name not in (_CPU, _FEATURES)}
+    done = subprocess.run(
+        [sys.executable, "-P", "-W", "ignore", "-c", code],
+        input=json.dumps(task), capture_output=True, text=True, env=clean | settings, check=False,
+    )  # fmt: skip
+    if done.returncode == 0:
+        return
+    said = done.stderr.strip() or f"the process that writes it ended with {done.returncode}"
+    raise (UsageError if done.returncode == UsageError.exit_code else SolverError)(said)
+
+
+def serve() -> None:
+    """Do one task from standard input; the whole work of a process."""
+    from lambda_core.domain.errors import LambdaError
+
+    try:
+        write(json.load(sys.stdin))
+    except LambdaError as error:
+        print(error, file=sys.stderr)
+        raise SystemExit(error.exit_code) from None

@@ -1,0 +1,189 @@
+"""What a host sees of a bearing: names, units and places of its inputs and outputs.
+
+Values are SI; a host shows them in the units that engineers use. Names are those of a case and of a result.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Literal
+
+from lambda_core.domain.elements import BODIES, DOFS, SPIN
+from lambda_core.fmu.frozen import Frozen
+from lambda_core.solver import layout as L
+from lambda_core.solver import records as R
+from lambda_core.solver.integrator.memory import CONTROL, COUNT
+
+
+class Kind(IntEnum):
+    """How a variable is read; the numbers of source/core.h."""
+
+    TIME = 0
+    INPUT = 1
+    VALUE = 2
+    LEAST = 3  # of several, those that are 0 left out
+    GREATEST = 4
+    SUM = 5
+    TORQUE = 6
+    COUNT = 7
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One variable; its value reference is its place in the list."""
+
+    name: str
+    text: str
+    unit: str
+    kind: Kind
+    place: int  # [bytes] in the image
+    count: int = 1
+    stride: int = 0  # [bytes]
+    scale: float = 1.0  # of an input: by how much it is changed for a slope
+    begin: int = 0  # of an input: place of the time at which it was given
+    start: float = 0.0
+
+    @property
+    def causality(self) -> Literal["independent", "input", "output"]:
+        """Which way it goes."""
+        named: dict[Kind, Literal["independent", "input"]] = {Kind.TIME: "independent", Kind.INPUT: "input"}
+        return named.get(self.kind, "output")
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit of the interface: exponents of SI units, and what engineers read (name, how many of them are one)."""
+
+    base: dict[str, int]
+    shown: tuple[str, float] | None = None
+
+
+_RPM = 9.549296585513721  # 30 / pi
+UNITS = {
+    "s": Unit({"s": 1}),
+    "m": Unit({"m": 1}, ("um", 1e6)),
+    "m/s": Unit({"m": 1, "s": -1}),
+    "m/s2": Unit({"m": 1, "s": -2}),
+    "rad": Unit({"rad": 1}, ("mrad", 1e3)),
+    "rad/s": Unit({"rad": 1, "s": -1}, ("1/min", _RPM)),
+    "rad/s2": Unit({"rad": 1, "s": -2}),
+    "N": Unit({"kg": 1, "m": 1, "s": -2}),
+    "N m": Unit({"kg": 1, "m": 2, "s": -2}, ("N mm", 1e3)),
+    "W": Unit({"kg": 1, "m": 2, "s": -3}),
+    "J": Unit({"kg": 1, "m": 2, "s": -2}),
+    "Pa": Unit({"kg": 1, "m": -1, "s": -2}, ("GPa", 1e-9)),
+    "F": Unit({"kg": -1, "m": -2, "s": 4, "A": 2}, ("pF", 1e12)),
+    "1": Unit({}),
+}
+_STEPS = {"m": 1e-9, "rad": 1e-8, "m/s": 1e-6, "rad/s": 1e-5, "N": 1.0, "N m": 1e-2, "m/s2": 1.0, "rad/s2": 1.0}
+_TITLES = {"x": "along the shaft", "y": "horizontal", "z": "vertical"}
+# Of a coordinate: its place in a state, the sign there, and the same of its rate.
+_TILTS = {"tilt_y": (L.SAZ, -1.0, L.SWY), "tilt_z": (L.SAY, 1.0, L.SWZ)}
+
+
+def variables(frozen: Frozen) -> list[Variable]:
+    """Return the variables of a bearing in the order of their value references."""
+    found = [Variable("time", "time", "s", Kind.TIME, 0), *_inputs(frozen)]
+    taken = {each.name for each in found}
+    found += [each for each in (*_places(frozen), *_reactions(frozen), *_bearing(frozen)) if each.name not in taken]
+    return found
+
+
+def _unit(name: str) -> tuple[str, str, str]:
+    """Return the units of an input, of its rate and of its acceleration."""
+    word = name.split(".")[1]
+    if word.startswith("force"):
+        return "N", "", ""
+    if word.startswith("moment"):
+        return "N m", "", ""
+    if word == SPIN:
+        return "rad/s", "rad/s2", ""
+    return ("rad", "rad/s", "rad/s2") if word.startswith("tilt") else ("m", "m/s", "m/s2")
+
+
+def _inputs(frozen: Frozen) -> Iterator[Variable]:
+    """Yield what a host gives, with the rates of motions."""
+    for row, name in enumerate(frozen.given):
+        begin = frozen.of_row(frozen.terms, row, "begin")
+        for field, unit in zip(("value", "rate", "acceleration"), _unit(name), strict=True):
+            if unit:
+                place = frozen.of_row(frozen.terms, row, field)
+                start = float(frozen.terms[row][field])
+                full = name if field == "value" else f"{name}_{field}"
+                text = _input_text(name, field)
+                step = _STEPS[unit]
+                yield Variable(full, text, unit, Kind.INPUT, place, scale=step, begin=begin, start=start)
+
+
+def _input_text(name: str, field: str) -> str:
+    body, word = name.split(".")
+    title = BODIES[body]  # type: ignore[index]
+    if word.startswith(("force", "moment")):
+        kind, axis = word.split("_")
+        about = "" if kind == "force" else "about its centre, axis "
+        return f"{kind} on the {title}, {about}{axis}, beside the loads of the case"
+    text = f"speed of the {title}" if word == SPIN else f"{word} of the {title}"
+    return text if field == "value" else f"{field} of the {text}"
+
+
+def _places(frozen: Frozen) -> Iterator[Variable]:
+    """Yield where the bodies stand and how they move."""
+    for b, body in enumerate(BODIES):
+        if not frozen.moves(body):
+            continue
+        title = BODIES[body]
+        begin = frozen.image.place(frozen.scratch.shared, L.NS * b)
+        for axis, dof in enumerate(DOFS):
+            unit, rate, _ = _unit(f"{body}.{dof}")
+            if dof == SPIN:
+                yield Variable(f"{body}.spin", f"speed of the {title}", unit, Kind.VALUE, begin + 8 * L.SSIGMA)
+                continue
+            at, sign, slope = _TILTS.get(dof, (axis, 1.0, L.SVX + axis))
+            yield Variable(f"{body}.{dof}", f"{dof} of the {title}", unit, Kind.VALUE, begin + 8 * at, scale=sign)
+            text = f"rate of the {dof} of the {title}"
+            yield Variable(f"{body}.{dof}_rate", text, rate, Kind.VALUE, begin + 8 * slope)
+
+
+def _reactions(frozen: Frozen) -> Iterator[Variable]:
+    """Yield what the bearing puts on its rings."""
+    for b, ring in enumerate(("inner_ring", "outer_ring")):
+        begin = frozen.image.place(frozen.wrenches, 6 * b)
+        for k, kind in enumerate(("force", "moment")):
+            for a, axis in enumerate("xyz"):
+                text = f"{kind} of the bearing on the {BODIES[ring]}, {axis} ({_TITLES[axis]})"  # type: ignore[index]
+                unit = "N" if kind == "force" else "N m"
+                yield Variable(f"{ring}.reaction_{kind}_{axis}", text, unit, Kind.VALUE, begin + 8 * (3 * k + a))
+
+
+def _bearing(frozen: Frozen) -> Iterator[Variable]:
+    """Yield what the bearing as a whole answers with."""
+    contacts, record = frozen.scratch.contacts, R.CONTACT_SAMPLE
+    count, stride = contacts.size // contacts.shape[-1], 8 * contacts.shape[-1]
+
+    def of_contacts(name: str, text: str, unit: str, kind: Kind) -> Variable:
+        place = frozen.image.place(contacts) + record.fields[name][1]  # type: ignore[index]
+        return Variable(f"bearing.{name}", text, unit, kind, place, count, stride)
+
+    yield Variable("bearing.friction_torque", "friction torque, mean over the step", "N m", Kind.TORQUE, 0)
+    losses = frozen.image.place(frozen.scratch.rates)
+    yield Variable("bearing.loss", "power lost to friction", "W", Kind.SUM, losses, frozen.losses, 8)
+    yield of_contacts("load", "largest contact load", "N", Kind.GREATEST)
+    yield of_contacts("max_pressure", "largest contact pressure", "Pa", Kind.GREATEST)
+    yield of_contacts("film_minimum", "smallest film of all contacts", "m", Kind.LEAST)
+    yield of_contacts("film_parameter", "smallest film parameter Lambda of all contacts", "1", Kind.LEAST)
+    capacitance = frozen.of_totals("capacitance")
+    yield Variable("bearing.capacitance", "capacitance between the rings", "F", Kind.VALUE, capacitance)
+    integrals = frozen.image.place(frozen.memory.integrals)
+    text = "energy lost to friction since the start"
+    yield Variable("bearing.energy_lost", text, "J", Kind.SUM, integrals, frozen.losses, 8)
+    text = "energy that came in through everything external since the start"
+    yield Variable("bearing.energy_in", text, "J", Kind.VALUE, frozen.integral("input"))
+    place = frozen.image.place(frozen.memory.count) + COUNT.fields["steps"][1]  # type: ignore[index]
+    yield Variable("solver.steps", "steps of the integrator", "", Kind.COUNT, place)
+
+
+def control(frozen: Frozen, name: str) -> int:
+    """Return the place of a field of the integrator's control."""
+    return frozen.image.place(frozen.memory.control) + int(CONTROL.fields[name][1])  # type: ignore[index]

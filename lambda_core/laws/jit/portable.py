@@ -1,0 +1,273 @@
+"""Compiled code taken out of the process: one object file without Python, for a library of its own.
+
+What Numba made of each function, optimised, is linked as it is: optimised again it would round otherwise, and the
+library would not have the bits of a run. Behind every function stand the doors by which Python would call it; they are
+taken off. What they ask of Python is asked by nobody then; a function that needs Python or Numba at work is refused.
+"""
+
+# Numba's compiler carries only part of its types.
+# mypy: disable-error-code="no-untyped-call,attr-defined"
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import llvmlite.binding as llvm  # type: ignore[import-untyped]
+from llvmlite import ir
+from numba import config
+from numba.core import types
+from numba.core.registry import cpu_target
+
+from lambda_core.domain.errors import SolverError, UsageError
+from lambda_core.laws.jit.machine_code import Pointer, environment_key
+from lambda_core.laws.jit.plain import is_plain
+
+# Functions of Python and Numba that stand behind doors and on ways that compiled kernels never go: they raise errors.
+_PYTHON = re.compile(
+    r"Py(Err|Exc|Bytes|Unicode|Import|Long|Object|_DecRef)\w*|_Py_\w+|numba_(gil|do_raise|unpickle|runtime_build)\w*"
+)
+# What the library may ask of the C library; intrinsics become calls of it, too.
+_LIBM = {
+    "acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "cbrt", "ceil", "copysign", "cos", "cosh", "erf",
+    "erfc", "exp", "exp2", "expm1", "fabs", "floor", "fmod", "hypot", "ldexp", "lgamma", "log", "log10", "log1p",
+    "log2", "pow", "rint", "round", "sin", "sinh", "sqrt", "tan", "tanh", "tgamma", "trunc",
+}  # fmt: skip
+_RESULT = {"void": "", "ptr": "null", "double": "0.0"}
+_DECLARED = re.compile(r"declare (?:\w+ )*?(\w+) @\S+?(\(.*?\))")
+_TEXT = "text"  # what errors would say, with the paths of files here: left out
+_TEXTS = re.compile(rf"^(@{_TEXT}\d+ = internal (?:unnamed_addr )?constant) (?:\[|\{{).*?(?=, align|$)", re.MULTILINE)
+BYTE, WORD, REAL = ir.IntType(8), ir.IntType(64), ir.DoubleType()
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A function of the library: ``int64 name(char *image, more...)``.
+
+    Attributes
+    ----------
+    pointer : Pointer
+        What it calls.
+    arguments : tuple
+        In order: the place in the image where an argument's words stand; or the type of an argument of the library's
+        function, which is handed on; or a number.
+    """
+
+    name: str
+    pointer: Pointer
+    arguments: tuple[Any, ...]
+
+
+def known_processor() -> str:
+    """Return the processor that compiled code of this process is made for."""
+    return str(cpu_target.target_context.codegen()._get_host_cpu_name())
+
+
+def features() -> frozenset[str]:
+    """Return the features of a processor that compiled code of this process may use."""
+    if config.CPU_FEATURES is not None:
+        return frozenset(name[1:] for name in config.CPU_FEATURES.split(",") if name[:1] == "+")
+    return frozenset(name for name, has in llvm.get_host_cpu_features().items() if has)
+
+
+def words_of(kind: Any) -> int:
+    """Return how many words of eight bytes a value takes that is handed to compiled code."""
+    context = cpu_target.target_context
+    return int(context.get_abi_sizeof(context.get_value_type(kind))) // 8
+
+
+def symbol(pointer: Pointer) -> str:
+    """Return the name under which compiled code can be called from C."""
+    return str(_compiled(pointer).fndesc.llvm_cfunc_wrapper_name)
+
+
+def object_code(entries: Sequence[Entry], table: Sequence[Pointer], cache: Path) -> bytes:
+    """Return an object file with the entries and all that they call.
+
+    Parameters
+    ----------
+    entries : sequence of Entry
+    table : sequence of Pointer
+        Functions that an image points to, for ``lb_functions``, an array of their addresses.
+    cache : Path
+        Folder of compiled code: what was made once of the same functions is kept there.
+
+    Raises
+    ------
+    SolverError
+        When something in it cannot run without Python.
+    """
+    codegen = cpu_target.target_context.codegen()
+    pointers = [*table, *(entry.pointer for entry in entries)]
+    kept = cache / f"portable-{_content(entries, pointers)[:24]}" / "code.o"
+    with suppress(OSError):
+        return kept.read_bytes()
+    whole = llvm.parse_assembly(_head(codegen))
+    names = _link(whole, pointers)
+    whole.link_in(llvm.parse_assembly(str(_doors(codegen, names, entries, table))))
+    _hide(whole, {entry.name for entry in entries} | {"lb_functions"}, codegen)
+    _without_python(whole, codegen)
+    whole = llvm.parse_assembly(_TEXTS.sub(r"\1 [1 x i8] zeroinitializer", str(whole)))
+    whole.verify()
+    made = _machine_code(whole, codegen)
+    with suppress(OSError):  # a cache that cannot be written costs time only
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        part = kept.with_name(f"{os.getpid()}.part")
+        part.write_bytes(made)
+        part.replace(kept)
+    return made
+
+
+def data_code(name: str, data: bytes) -> bytes:
+    """Return an object file with constant bytes under a name, at a line of the processor's cache."""
+    codegen = cpu_target.target_context.codegen()
+    module = ir.Module("data")
+    _constant(module, name, ir.ArrayType(BYTE, len(data)), bytearray(data)).align = 64
+    return _machine_code(llvm.parse_assembly(_head(codegen) + str(module.globals[name])), codegen)
+
+
+def _head(codegen: Any) -> str:
+    return f'target triple = "{codegen._llvm_module.triple}"\ntarget datalayout = "{codegen._data_layout}"\n'
+
+
+def _machine_code(whole: Any, codegen: Any) -> bytes:
+    machine = llvm.Target.from_triple(whole.triple).create_target_machine(
+        cpu=codegen._get_host_cpu_name(), features=codegen._tm_features, opt=3, reloc="pic", codemodel="default"
+    )
+    made: bytes = machine.emit_object(whole)
+    return made
+
+
+def _content(entries: Sequence[Entry], pointers: Iterable[Pointer]) -> str:
+    """Return a hash of all that goes into the object file."""
+    digest = hashlib.sha256(environment_key().encode() + Path(__file__).read_bytes())
+    digest.update(repr([(entry.name, entry.arguments) for entry in entries]).encode())
+    for pointer in pointers:
+        digest.update(_compiled(pointer).library._get_module_for_linking().as_bitcode())
+    return digest.hexdigest()
+
+
+def _compiled(pointer: Pointer) -> Any:
+    if is_plain():
+        raise UsageError("compiled code cannot be taken out on the plain way: unset LAMBDA_BEARING_PLAIN_JIT")
+    return pointer.compiled
+
+
+def _link(whole: Any, pointers: Iterable[Pointer]) -> dict[str, str]:
+    """Put the code behind pointers into a module; returns their short names there by their own."""
+    names: dict[str, str] = {}
+    for pointer in pointers:
+        name = symbol(pointer)
+        if name in names:
+            continue
+        names[name] = f"lb_{len(names)}"
+        part = _compiled(pointer).library._get_module_for_linking().clone()
+        function = part.get_function(name)
+        function.linkage, function.name = "external", names[name]  # as it is kept, linking would drop it
+        whole.link_in(part)
+    return names
+
+
+def _doors(codegen: Any, names: Mapping[str, str], entries: Sequence[Entry], table: Sequence[Pointer]) -> ir.Module:
+    """Return a module with the entries and the table of functions."""
+    module = ir.Module("doors")
+    module.triple, module.data_layout = codegen._llvm_module.triple, codegen._data_layout
+    known: dict[str, ir.Function] = {}
+
+    def declared(pointer: Pointer) -> ir.Function:
+        name, signature = names[symbol(pointer)], pointer.signature()
+        if name not in known:
+            kind = ir.FunctionType(_value(signature.return_type), [_value(each) for each in signature.args])
+            known[name] = ir.Function(module, kind, name)
+        return known[name]
+
+    for entry in entries:
+        _door(module, entry, declared(entry.pointer))
+    addresses = [declared(pointer).bitcast(BYTE.as_pointer()) for pointer in table]
+    _constant(module, "lb_functions", ir.ArrayType(BYTE.as_pointer(), len(addresses)), addresses)
+    return module
+
+
+def _value(kind: Any) -> Any:
+    return cpu_target.target_context.get_value_type(kind)
+
+
+def _constant(module: ir.Module, name: str, kind: Any, value: Any) -> Any:
+    made = ir.GlobalVariable(module, kind, name)
+    made.global_constant, made.initializer = True, ir.Constant(kind, value)
+    return made
+
+
+def _door(module: ir.Module, entry: Entry, called: ir.Function) -> None:
+    """Add the function that loads the arguments from the image and calls on."""
+    more = [argument for argument in entry.arguments if isinstance(argument, ir.Type)]
+    function = ir.Function(module, ir.FunctionType(WORD, [BYTE.as_pointer(), *more]), entry.name)
+    builder, image, handed = ir.IRBuilder(function.append_basic_block()), function.args[0], iter(function.args[1:])
+    arguments = []
+    for argument, kind in zip(entry.arguments, entry.pointer.signature().args, strict=True):
+        if isinstance(argument, ir.Type):
+            arguments.append(next(handed))
+        elif isinstance(argument, float):
+            arguments.append(ir.Constant(REAL, argument))
+        else:
+            place = builder.gep(image, [ir.Constant(WORD, argument)])
+            arguments.append(builder.load(builder.bitcast(place, _value(kind).as_pointer())))
+    builder.ret(builder.call(called, arguments))
+
+
+def _hide(whole: Any, seen: set[str], codegen: Any) -> None:
+    """Make everything but what is to be seen internal, and drop what nobody calls."""
+    for number, each in enumerate([*whole.functions, *whole.global_variables]):
+        if not each.is_declaration and each.name not in seen:
+            # Numba's names have up to 100 kB each.
+            kind = _TEXT if each.name.startswith(".const.pick") else "k"
+            each.linkage, each.name = "internal", f"{kind}{number}"
+    _run(whole, codegen, "add_global_dead_code_eliminate_pass")
+
+
+def _run(whole: Any, codegen: Any, *names: str) -> None:
+    """Run passes that change no arithmetic."""
+    passes = llvm.create_new_module_pass_manager()
+    for name in names:
+        getattr(passes, name)()
+    passes.run(whole, llvm.create_pass_builder(codegen._tm, llvm.create_pipeline_tuning_options(speed_level=0)))
+
+
+def _without_python(whole: Any, codegen: Any) -> None:
+    """Put functions that do nothing in the place of Python's, and drop what only they were given."""
+    stubs: dict[str, str] = {}
+    for each in [*whole.functions, *whole.global_variables]:
+        name = each.name
+        if not each.is_declaration or name.startswith("llvm.") or name in _LIBM:
+            continue
+        if not _PYTHON.fullmatch(name):
+            raise SolverError(f"a law or the solver calls {name}, which is not there without Python")
+        shape = _DECLARED.search(str(each))
+        kind = shape[1] if shape else ""
+        stubs[name] = (
+            f"define {kind} @{name}{shape[2]} {{ ret {kind} {_RESULT.get(kind, '0')} }}"
+            if shape
+            else f"@{name} = global ptr null"
+        )
+    whole.link_in(llvm.parse_assembly("\n".join(stubs.values())))
+    for each in [*whole.functions, *whole.global_variables]:
+        if each.name in stubs:
+            each.linkage = "internal"
+            if each.is_function:
+                each.add_function_attribute("alwaysinline")
+    _run(whole, codegen, "add_always_inliner_pass", "add_global_dead_code_eliminate_pass")
+
+
+def is_function(kind: Any) -> bool:
+    """Tell whether a value is a pointer to a compiled function."""
+    return isinstance(kind, types.FunctionType)
+
+
+def is_array(kind: Any) -> bool:
+    """Tell whether a value is an array."""
+    return isinstance(kind, types.Array)

@@ -1,0 +1,58 @@
+"""One bearing as FMUs, built once per session with the code that the tests have compiled anyway."""
+
+from __future__ import annotations
+
+import importlib.util
+import platform
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from lambda_core import api
+from lambda_core.domain.errors import UsageError
+
+HERE = Path(__file__).parent
+CASE, CHANGES = "6208-axial-1300", ("solver.duration=0.2 s",)
+
+
+@pytest.fixture(scope="session")
+def host() -> ModuleType:
+    """Return the module host beside this file, which is no package."""
+    place = importlib.util.spec_from_file_location("fmu_host", HERE / "host.py")
+    assert place is not None
+    assert place.loader is not None
+    module = importlib.util.module_from_spec(place)
+    sys.modules["fmu_host"] = module
+    place.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="session")
+def c_compiler() -> tuple[str, ...]:
+    """Return the command of a C compiler; what needs one is skipped where there is none."""
+    from lambda_core.fmu.library import compiler
+
+    if (platform.system(), platform.machine()) != ("Linux", "x86_64"):
+        pytest.skip("FMUs are built on Linux x86-64 only")
+    try:
+        return compiler()
+    except UsageError as error:
+        pytest.skip(str(error))
+
+
+@pytest.fixture(scope="session")
+def exported(c_compiler: tuple[str, ...], tmp_path_factory: pytest.TempPathFactory) -> Callable[[int, str], Path]:
+    """Return a function that gives the FMU of a version and a coupling."""
+    folder, made = tmp_path_factory.mktemp("fmu"), dict[tuple[int, str], Path]()
+
+    def export(fmi: int, couple: str) -> Path:
+        if (fmi, couple) not in made:
+            out = folder / f"{couple}{fmi}.fmu"
+            api.export_fmu(CASE, CHANGES, out=out, fmi=fmi, couple=couple, processor="native")  # type: ignore[arg-type]
+            made[fmi, couple] = out
+        return made[fmi, couple]
+
+    return export

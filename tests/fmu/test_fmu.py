@@ -1,0 +1,295 @@
+"""FMUs: the bits of the program without the program, states, bad use, and the standard."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import shutil
+import subprocess
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from lambda_cli.main import main
+
+from lambda_core import api
+from lambda_core.domain.errors import LambdaError, UsageError
+
+HERE = Path(__file__).parent
+CASE, CHANGES = "6208-axial-1300", ("solver.duration=0.2 s",)
+STEP = 1e-4  # [s]
+PUSHED = "inner_ring.force_z"
+# Of the C library and its start-up code; everything else would have to come from somewhere.
+PLAIN = re.compile(
+    r"_ITM_\w+|__gmon_start__|__cxa_finalize|__stack_chk_fail|__errno_location|"
+    r"a?(sin|cos|tan)h?|sincos|atan2|exp2?|expm1|log(2|10|1p)?|pow|f(min|max|mod|abs)|hypot|cbrt|"
+    r"(m|c)alloc|free|mem(cpy|set|move|cmp)|str(cmp|cpy|ncmp|ncpy|len)|__?\w*(snprintf|str\w*|mem\w*)_chk|vsnprintf"
+)
+Export = Callable[[int, str], Path]
+
+
+def unit_of(host: Any, exported: Export, tmp_path: Path, fmi: int = 2, couple: str = "force") -> Any:
+    """Return an unpacked FMU."""
+    return host.Unit(exported(fmi, couple), tmp_path / f"{couple}{fmi}")
+
+
+def seen(step: Any) -> dict[str, float]:
+    """Return outputs of an FMU as they follow from a step of the program."""
+    loads, films, parameters = step["load"], step["film_minimum"], step["film_parameter"]
+    return {
+        "inner_ring.x": step["body_position"][0, 0],
+        "inner_ring.z_rate": step["body_velocity"][0, 2],
+        "inner_ring.tilt_y": step["body_tilt"][0, 0],
+        "cage.spin": step["body_spin"][2],
+        "outer_ring.reaction_force_z": step.reactions["outer_ring"][2],
+        "inner_ring.reaction_moment_y": step.reactions["inner_ring"][4],
+        "bearing.load": loads.max(),
+        "bearing.film_minimum": films[films > 0.0].min(),
+        "bearing.film_parameter": parameters[parameters > 0.0].min(),
+        "bearing.max_pressure": step["max_pressure"].max(),
+        "bearing.capacitance": step["bearing_capacitance"],
+    }
+
+
+@pytest.mark.parametrize("steps", [100, pytest.param(1000, marks=pytest.mark.slow)])
+def test_a_host_in_c_without_python_has_the_bits_of_the_program(
+    host: Any, exported: Export, tmp_path: Path, c_compiler: tuple[str, ...], steps: int
+) -> None:
+    """A 6208 in steps of 0.1 ms in an empty environment, with a push after the half."""
+    unit = unit_of(host, exported, tmp_path)
+    program = tmp_path / "plain_host"
+    subprocess.run([*c_compiler, "-O1", str(HERE / "plain_host.c"), "-o", str(program), "-ldl"], check=True)
+    bearing = api.iterate(CASE, CHANGES, exact=True)
+    expected, time = [], 0.0
+    for k in range(steps):
+        bearing.push((0.0, 0.0, 0.0 if k < steps // 2 else -250.0))
+        expected.append(seen(bearing.step_to(time + STEP)))
+        time += STEP
+    names = list(expected[0])
+    words = [str(unit.file), unit.token.decode(), str(steps), str(STEP), str(unit.references[PUSHED]), "-250"]
+    words += [str(unit.references[name]) for name in names]
+    done = subprocess.run([str(program), *words], env={}, capture_output=True, text=True, check=False, cwd="/")
+    assert done.returncode == 0, done.stderr
+    found = [[float.fromhex(word) for word in line.split()] for line in done.stdout.splitlines()]
+    for k, values in enumerate(expected):
+        assert dict(zip(names, found[k], strict=True)) == values, f"step {k}"
+
+
+@pytest.mark.parametrize("couple", ["force", "motion"])
+def test_the_next_version_has_the_same_bits(host: Any, exported: Export, tmp_path: Path, couple: str) -> None:
+    units = [unit_of(host, exported, tmp_path, fmi, couple) for fmi in (2, 3)]
+    assert units[0].references == units[1].references
+    bearings = [host.Instance(unit).ready() for unit in units]
+    name = PUSHED if couple == "force" else "inner_ring.z_rate"
+    for bearing in bearings:
+        assert [bearing.set(name, -1e-3), *(bearing.step(STEP) for _ in range(20))] == [0] * 21
+    outputs = units[0].named("output")
+    assert bearings[0].get(outputs) == bearings[1].get(outputs)
+
+
+def test_a_led_ring_has_the_bits_of_the_program(host: Any, exported: Export, tmp_path: Path) -> None:
+    unit = unit_of(host, exported, tmp_path, 3, "motion")
+    led = host.Instance(unit).ready()
+    bearing = api.iterate(CASE, CHANGES, exact=True, couple="motion")
+    (z,) = led.get(["inner_ring.z"])
+    reactions = [f"{ring}.reaction_force_{axis}" for ring in ("inner_ring", "outer_ring") for axis in "xyz"]
+    for k in range(30):
+        rate = -2e-3 * math.sin(0.2 * k)
+        for suffix, value in (("", z), ("_rate", rate), ("_acceleration", 0.5)):
+            assert led.set(f"inner_ring.z{suffix}", value) == host.OK
+        bearing.give("inner_ring.z", z, rate, 0.5)
+        z += rate * STEP
+        expected = bearing.step_to(led.time + STEP)
+        assert led.step(STEP) == host.OK
+        assert led.get(reactions) == [*expected.reactions["inner_ring"][:3], *expected.reactions["outer_ring"][:3]]
+    assert led.get(["bearing.friction_torque"])[0] == pytest.approx(1e-3 * expected.friction_torque_Nmm, rel=1e-12)
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_states_and_instances(host: Any, exported: Export, tmp_path: Path, fmi: int) -> None:
+    """Save, step, restore, step; the same by bytes and in another instance; ten side by side do not mix."""
+    unit = unit_of(host, exported, tmp_path, fmi)
+    outputs = unit.named("output")
+    first = host.Instance(unit).ready()
+    for _ in range(5):
+        first.step(STEP)
+    kept, bytes_, begin = first.save(), first.packed(), first.time
+    first.set(PUSHED, -300.0)
+    first.step(STEP)
+    after = first.get(outputs)
+    first.restore(kept, begin)
+    assert first.packed() == bytes_
+    first.set(PUSHED, -300.0)
+    first.step(STEP)
+    assert first.get(outputs) == after
+    others = [host.Instance(unit).ready() for _ in range(10)]
+    for k, other in enumerate(others):
+        assert other.unpack(bytes_, begin) == host.OK
+        other.set(PUSHED, -300.0 + k)
+    for other in reversed(others):
+        other.step(STEP)
+    found = [other.get(outputs) for other in others]
+    assert found[0] == after
+    assert len({tuple(each) for each in found}) == len(others)
+    assert first.unpack(bytes_[:-1], begin) == host.ERROR
+    assert first.unpack(b"?" * len(bytes_), begin) == host.ERROR
+    assert first.said[-1] == "these bytes are no state of this bearing"
+    assert first.do("Reset") == host.OK
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_bad_use_is_answered_with_a_sentence(host: Any, exported: Export, tmp_path: Path, fmi: int) -> None:
+    unit = unit_of(host, exported, tmp_path, fmi)
+    stranger = host.Instance(unit, token=b"{other}")
+    assert not stranger.handle
+    assert "export the bearing again" in stranger.said[-1]
+    bearing = host.Instance(unit)
+    early = bearing.step(STEP)
+    bearing.ready()
+    assert bearing.step(STEP) == host.OK
+    trials = {
+        "between initialisation and the end": early,
+        "inner_ring.force_z is to be nan: a finite number is due": bearing.set(PUSHED, math.nan),
+        "bearing.loss is no input": bearing.set("bearing.loss", 1.0),
+        "a positive, finite length is due": bearing.step(-STEP),
+    }
+    bearing.time -= STEP
+    trials["but the bearing stands at 0.0001 s: to go back, restore a state"] = bearing.step(STEP)
+    bearing.time += STEP
+    unit.references["nothing"] = 999
+    trials["there is no real variable with the value reference 999"] = bearing.set("nothing", 0.0)
+    trials["initialisation has not begun"] = bearing.do("ExitInitializationMode")
+    assert set(trials.values()) == {host.ERROR}
+    for sentence in trials:
+        assert any(sentence in said for said in bearing.said), sentence
+    assert bearing.step(STEP) == host.OK  # none of this has harmed it
+    assert bearing.set(PUSHED, 1e300) == host.OK
+    assert bearing.step(STEP) == host.ERROR
+    assert re.search(r"at t = \S+ s ", bearing.said[-1])
+
+
+def test_time_may_begin_anywhere(host: Any, exported: Export, tmp_path: Path) -> None:
+    unit = unit_of(host, exported, tmp_path)
+    late, early = host.Instance(unit, start=5.0).ready(), host.Instance(unit).ready()
+    assert [late.step(2.0**-13), early.step(2.0**-13)] == [host.OK, host.OK]
+    assert late.get(["time"]) == [5.0 + 2.0**-13]
+    assert late.get(["bearing.load"]) == early.get(["bearing.load"])
+
+
+def test_slopes_are_those_of_the_reactions(host: Any, exported: Export, tmp_path: Path) -> None:
+    """The stiffness at fixed balls: from slopes as from a step of the ring, and stiff against it."""
+    unit = unit_of(host, exported, tmp_path, 2, "motion")
+    bearing = host.Instance(unit).ready()
+    (x,), names = bearing.get(["inner_ring.x"]), ["inner_ring.reaction_force_x", "outer_ring.reaction_force_x"]
+    slope = bearing.slope(names[0], "inner_ring.x")
+    before = bearing.get(names)
+    assert bearing.get(["inner_ring.x"]) == [x]
+    assert 1e-5 < x < 1e-3  # [m]
+    bearing.set("inner_ring.x", x + 2e-8)
+    after = bearing.get(names)
+    assert slope == pytest.approx((after[0] - before[0]) / 2e-8, rel=2e-2)
+    assert slope < -1e7
+    assert after[1] == before[1]  # the balls stand where they stood
+    assert bearing.slope("bearing.loss", "inner_ring.y_acceleration") == 0.0
+
+
+def test_the_library_asks_for_the_c_library_alone(exported: Export, tmp_path: Path) -> None:
+    if shutil.which("nm") is None:
+        pytest.skip("the program nm is not installed")
+    for fmi, couple in ((2, "force"), (3, "motion")):
+        with zipfile.ZipFile(exported(fmi, couple)) as archive:
+            (name,) = (name for name in archive.namelist() if name.endswith(".so"))
+            library = Path(archive.extract(name, tmp_path))
+        listed = subprocess.run(["nm", "-D", "-u", str(library)], capture_output=True, text=True, check=True).stdout
+        wanted = [line.split()[-1].partition("@")[0] for line in listed.splitlines()]
+        assert [symbol for symbol in wanted if not PLAIN.fullmatch(symbol)] == []
+        assert len(wanted) > 5
+        assert str(Path.cwd()).encode() not in library.read_bytes()  # and knows no folder of this machine
+        assert library.stat().st_size < 1.5e6
+
+
+@pytest.mark.parametrize(("fmi", "couple"), [(2, "force"), (3, "force"), (2, "motion"), (3, "motion")])
+def test_the_standard_is_kept(exported: Export, fmi: int, couple: str) -> None:
+    validation = pytest.importorskip("fmpy.validation", reason="FMPy is not installed: pip install fmpy")
+    assert validation.validate_fmu(str(exported(fmi, couple))) == []
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_fmpy_simulates_it(exported: Export, fmi: int) -> None:
+    fmpy = pytest.importorskip("fmpy", reason="FMPy is not installed: pip install fmpy")
+    found = fmpy.simulate_fmu(str(exported(fmi, "force")), stop_time=5e-3, step_size=STEP, output_interval=STEP)
+    bearing = api.iterate(CASE, CHANGES, exact=True)
+    for row in found[1:]:
+        step = bearing.step_to(row["time"])
+        assert row["inner_ring.x"] == pytest.approx(step["body_position"][0, 0], rel=1e-9)
+
+
+def test_units_say_what_one_of_them_is_in_si(host: Any, exported: Export, tmp_path: Path) -> None:
+    """Every variable has a unit that is defined, and values in it are SI."""
+    unit = unit_of(host, exported, tmp_path)
+    values = dict(zip(names := unit.named("output"), host.Instance(unit).ready().get(names), strict=True))
+    assert 100.0 < values["bearing.load"] < 2000.0  # [N]
+    assert 1e9 < values["bearing.max_pressure"] < 3e9  # [Pa]
+    assert 1e-8 < values["bearing.film_minimum"] < 5e-6  # [m]
+    assert values["inner_ring.reaction_force_x"] == pytest.approx(-1300.0, rel=1e-3)
+    text = (tmp_path / "force2" / "modelDescription.xml").read_text()
+    used, defined = set(re.findall(r' unit="([^"]+)"', text)), set(re.findall(r'<Unit name="([^"]+)"', text))
+    assert used
+    assert used <= defined
+
+
+def test_the_command_writes_it(c_compiler: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    target = tmp_path / "bearing.fmu"
+    command = ["export", "fmu", CASE, "-o", str(target), "--processor", "native", "--json", "--quiet"]
+    assert main(command) == 0
+    assert json.loads(capsys.readouterr().out) == {"file": str(target)}
+    assert main(command) == 2
+    assert "overwrite it with --force" in capsys.readouterr().err
+    with zipfile.ZipFile(target) as archive:
+        assert {"modelDescription.xml", "resources/case.toml"} <= set(archive.namelist())
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"fmi": 1}, "FMI 1 is not written: 2 or 3"),
+        ({"couple": "forces"}, "nearest: force"),
+        ({"processor": "x86-64-v5"}, "nearest: x86-64-v"),
+    ],
+)
+def test_what_cannot_be_exported_is_said(
+    c_compiler: tuple[str, ...], tmp_path: Path, changes: dict[str, Any], words: str
+) -> None:
+    with pytest.raises(UsageError, match=words):
+        api.export_fmu(CASE, out=tmp_path / "no.fmu", **changes)
+    assert not list(tmp_path.iterdir())
+
+
+def test_code_that_needs_python_is_refused() -> None:
+    """A stub in the place of a function that works would give wrong numbers in silence."""
+    import llvmlite.binding as llvm
+    from numba.core.registry import cpu_target
+
+    from lambda_core.laws.jit.portable import _without_python
+
+    text = "declare double @numba_gamma(double)\ndefine double @f(double %x) {\n"
+    text += " %y = call double @numba_gamma(double %x)\n ret double %y\n}"
+    codegen = cpu_target.target_context.codegen()
+    with pytest.raises(LambdaError, match="numba_gamma, which is not there without Python"):
+        _without_python(llvm.parse_assembly(text), codegen)
+
+
+@pytest.mark.slow
+def test_another_processor_has_the_bits_of_its_own_program(host: Any, c_compiler: Any, tmp_path: Path) -> None:
+    """For x86-64-v3 all is compiled anew; against the code of this machine only the last digits differ."""
+    unit = host.Unit(api.export_fmu(CASE, CHANGES, out=tmp_path / "v3.fmu"), tmp_path / "v3")
+    bearing, here = host.Instance(unit).ready(), api.iterate(CASE, CHANGES, exact=True)
+    for _ in range(10):
+        step = here.step_to(bearing.time + STEP)
+        assert bearing.step(STEP) == host.OK
+    assert bearing.get(["inner_ring.x"])[0] == pytest.approx(float(step["body_position"][0, 0]), rel=1e-6)
+    assert np.isfinite(bearing.get(unit.named("output"))).all()
