@@ -55,7 +55,8 @@ def list_bearings(rows: list[BearingRow], json: bool) -> None:
     if json:
         print_json(kind="bearings", rows=[bearing_summary(row) for row in rows])
         return
-    table = _table("designation", "maker", "d>", "D>", "B>", "C kN>", "C0 kN>", "Z x Dw>", "grade")
+    angled = ["alpha deg>"] if any(row.contact_angle is not None for row in rows) else []
+    table = _table("designation", "maker", "d>", "D>", "B>", *angled, "C kN>", "C0 kN>", "Z x Dw>", "grade")
     for row in rows:
         s = bearing_summary(row)
         design, grade = "", "unknown"
@@ -63,7 +64,8 @@ def list_bearings(rows: list[BearingRow], json: bool) -> None:
             mark = "≈ " if s["geometry_status"] != "published" else ""
             design = f"{mark}{s['ball_count']} x {_number(s['ball_diameter_mm'])}"
             grade = f"{s['geometry_grade']} {s['geometry_status']}"
-        numbers = (_number(s[name]) for name in ("bore_mm", "outside_mm", "width_mm", "C_kN", "C0_kN"))
+        names = ("bore_mm", "outside_mm", "width_mm", *(["contact_angle_deg"] if angled else []), "C_kN", "C0_kN")
+        numbers = (_number(s[name]) for name in names)
         table.add_row(row.designation, row.maker, *numbers, design, grade)
     _print(table)
 
