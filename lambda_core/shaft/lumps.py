@@ -64,7 +64,7 @@ def lump(model: ShaftModel) -> LumpedShaft:
         places = _between(model, _with_ends(model, mains, 0.0))
         masses = _masses(body, places)
     polar = _hats(body, places)
-    transverse = 0.5 * polar
+    transverse = 0.5 * polar + _beyond(body, places)
     for disc in body.discs:
         i = int(np.argmin(np.abs(places - disc.position)))
         masses[i] += disc.mass
@@ -109,15 +109,17 @@ def _between(model: ShaftModel, mains: FloatArray) -> FloatArray:
 def _pieces(places: FloatArray, marks: FloatArray) -> list[tuple[int, int, float, float]]:
     """Return first and last lump of every piece, and what of the beam belongs to it [m].
 
-    Where the middle one of three stands too near to one of the others, the piece ends there.
+    Where the middle one of three stands too near to one of the others, the piece ends there. What is beyond the first
+    and the last lump goes to these and their neighbours.
     """
     edges = [0]
     while edges[-1] < places.size - 1:
         three = places[edges[-1] : edges[-1] + 3]
         share = (three[1] - three[0]) / np.ptp(three) if three.size == 3 else 0.0
         edges.append(edges[-1] + (2 if _MIDDLE <= share <= 1.0 - _MIDDLE else 1))
-    bounds = [float(marks[0]), *(float(places[i]) for i in edges[1:-1]), float(marks[-1])]
-    return [(i, k, *ends) for (i, k), ends in zip(itertools.pairwise(edges), itertools.pairwise(bounds), strict=True)]
+    found = [(i, k, float(places[i]), float(places[k])) for i, k in itertools.pairwise(edges)]
+    last = places.size - 1
+    return [*found, (0, 1, float(marks[0]), float(places[0])), (last - 1, last, float(places[-1]), float(marks[-1]))]
 
 
 def _cells(body: ElasticBody, begin: float, end: float) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
@@ -142,6 +144,21 @@ def _masses(body: ElasticBody, places: FloatArray) -> FloatArray:
                 others = np.delete(own, i)
                 total[first + i] += mass @ np.prod((x[:, None] - others) / (place - others), axis=1)
     return total
+
+
+def _beyond(body: ElasticBody, places: FloatArray) -> FloatArray:
+    """Return what the ends beyond the outermost lumps add to the moments of inertia of these [kg m2].
+
+    A mass at a distance d beyond a lump, the next one h away, is carried as m (1 + d/h) and -m d/h; that keeps mass and
+    centre and lacks m d (d + h) of the moment of inertia.
+    """
+    found: FloatArray = np.zeros(places.size)
+    for end, near, far in ((0, places[0], places[1]), (-1, places[-1], places[-2])):
+        outer = float(body.positions[end])
+        for x, mass, _ in _cells(body, min(outer, near), max(outer, near)):
+            d = np.abs(x - near)
+            found[end] += mass @ (d * (d + abs(far - near)))
+    return found
 
 
 def _hats(body: ElasticBody, places: FloatArray) -> FloatArray:

@@ -77,6 +77,10 @@ class ShaftModel:
         Row of the turning of the node that the coupling holds.
     outline, discs, load_places
         What a drawing shows.
+    unbalances : tuple of Unbalance
+        Of the discs; they count in motion.
+    speed_over_time : TimeFunction
+        Of the shaft [rad/s].
     """
 
     name: str
