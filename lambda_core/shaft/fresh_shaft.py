@@ -6,7 +6,7 @@ import json
 
 _TEXT = """\
 # A shaft in two bearings with a helical gear. Check it:  lambda-bearing check FILE
-# Solve it:  lambda-bearing shaft FILE
+# Solve it:  lambda-bearing shaft FILE      Let it move:  lambda-bearing shaft FILE --run
 # x runs along the shaft from its left end, y is horizontal, z points up. Every option: docs/shaft.md.
 name = NAME
 description = "gearbox shaft: locating bearing left, floating bearing right, helical gear between them"
@@ -69,6 +69,7 @@ hand = "right"
 position = "85 mm"
 mass = "2.5 kg"
 polar_inertia = "4500 kg mm2"
+# unbalance = "50 g mm"        # counts in motion
 
 [life]
 contamination = 0.6            # e_C of ISO 281, for the modified life

@@ -54,22 +54,22 @@ class WholeSummary(Record):
     """A run of a shaft in its bearings."""
 
     interface: int = INTERFACE
-    case: str
-    folder: str
-    state: Literal["running", "finished", "stopped", "interrupted", "failed"]
-    converged: bool
+    case: str = Field(description="name of the case")
+    folder: str = Field(description="of the run")
+    state: Literal["running", "finished", "stopped", "interrupted", "failed"] = Field(description="how the run ended")
+    converged: bool = Field(description="whether the averages of every bearing are known")
     reasons: list[str] = Field(description="why the run is not converged; empty when it is")
-    speed_rpm: float
+    speed_rpm: float = Field(description="of the shaft at t = 0")
     bearings: list[BearingInMotion] = Field(description="from left to right")
     friction_torque_Nmm: float | None = Field(description="of all bearings")
     power_loss_W: float | None = Field(description="of all bearings")
     drive_torque_Nm: float | None = Field(description="of the coupling on the shaft, friction included")
     orbit: list[OrbitOfShaft] = Field(description="at every lump of the shaft")
     energy_residual: float | None = Field(description="(input - dissipated - stored) over integral of |input power|")
-    simulated_s: float
+    simulated_s: float = Field(description="simulated time")
     wall_s: float = Field(description="wall time of the integration")
-    wall_per_simulated_second: float | None
-    solver_statistics: dict[str, float]
+    wall_per_simulated_second: float | None = Field(description="wall time over simulated time")
+    solver_statistics: dict[str, float] = Field(description="counters of the integrator")
 
     def text(self, width: int | None = None) -> str:
         """Return the lines for people, none longer than `width` where one is given."""
