@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from lambda_core.case.parts import Bearing, InlineGeometry
+from lambda_core.case.parts import CLEARANCE_CLASSES, Bearing, InlineGeometry
 from lambda_core.catalogue.protocol import BearingRow, Catalogue
 from lambda_core.domain.tolerances import Limits
 from lambda_core.domain.units import show
@@ -129,12 +129,21 @@ def resolve_geometry(
 def _contact_angle(bearing: Bearing, row: BearingRow | None, ledger: Ledger) -> float:
     """Return the free contact angle of angular contact: the case's, else the row's; 0 of radial contact [rad].
 
-    A clearance in the case takes the place of the row's angle.
+    A value of the clearance takes the place of the row's angle; a class is one of radial contact and is refused.
     """
     if bearing.contact_angle is not None:
         ledger.given("bearing.contact_angle", bearing.contact_angle, "angle")
         return bearing.contact_angle
-    if row is None or row.contact_angle is None or bearing.clearance is not None:
+    if row is None or row.contact_angle is None:
+        return 0.0
+    if bearing.clearance is not None:
+        if bearing.clearance[:2] in CLEARANCE_CLASSES:
+            angle = show(row.contact_angle.value, "angle", 3)
+            ledger.problem(
+                "bearing.clearance",
+                f'"{bearing.clearance}" is a class of radial contact bearings: leave it out, {row.designation} has the '
+                f"clearance of its contact angle of {angle}; or write a value",
+            )
         return 0.0
     return ledger.row("bearing.contact_angle", row.contact_angle, "angle")
 

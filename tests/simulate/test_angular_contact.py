@@ -31,6 +31,12 @@ def test_the_row_makes_the_contact_angle() -> None:
     assert (wide.contact_angle, wide.clearance) == (0.0, pytest.approx(100e-6))
 
 
+@pytest.mark.parametrize("change", ["bearing.clearance=C3", "bearing.designation=NSK 7208B C3"])
+def test_a_class_of_radial_contact_is_refused(change: str) -> None:
+    with pytest.raises(api.CaseError, match=r'"C3" is a class of radial contact bearings: leave it out, 7208B has'):
+        api.check(CASE, [change])
+
+
 def test_a_run(tmp_path: Path) -> None:
     """Balls stay at about 40 degrees, forces carry the load, the energy balance closes to 1e-3."""
     path = tmp_path / "angular.h5"
