@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
@@ -139,6 +140,7 @@ _LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
 _LONG = {
     "pitch": "pitch diameter",
     "clearance": "radial clearance",
+    "α free": "free contact angle",
     "α max": "largest contact angle",
     "Q max": "largest contact load",
     "p": "largest pressure",
@@ -161,6 +163,8 @@ def _geometry(check: Check) -> Iterable[Fact]:
     yield "balls", f"{mark}{geometry.ball_count} x {geometry.ball_diameter * 1e3:.2f}", "mm"
     yield "pitch", f"{geometry.pitch_diameter * 1e3:.2f}", "mm"
     yield "clearance", f"{geometry.clearance * 1e6:.3g}", "um"
+    if geometry.contact_angle:
+        yield "α free", f"{math.degrees(geometry.contact_angle):.3g}", "°"
 
 
 def _numbers(estimate: Estimate) -> Iterable[Fact]:

@@ -28,7 +28,7 @@ def bearing_taken(row: BearingRow, typed: str, before: str, catalogue: Catalogue
     """Return a row of the catalogue with the suffixes that belong behind it.
 
     Suffixes typed in the filter count first. Those of the designation before stay where nothing was typed in their
-    place: all of them on the same bearing, the clearance class alone on another.
+    place: all of them on the same bearing, the clearance class alone on another, unless that has a contact angle.
 
     Parameters
     ----------
@@ -42,7 +42,8 @@ def bearing_taken(row: BearingRow, typed: str, before: str, catalogue: Catalogue
     kinds = {suffix.kind for _, suffix in added}
     there = list(old.suffixes) if old is not None else []
     is_same = old is not None and old.base == row.designation
-    kept = [(w, s) for w, s in there if s.kind not in kinds and (is_same or s.kind == "clearance")]
+    stays_on = () if row.contact_angle is not None else ("clearance",)
+    kept = [(w, s) for w, s in there if s.kind not in kinds and (is_same or s.kind in stays_on)]
     words = [word for word, _ in (*kept, *added)]
     stays = ", ".join(word for word, _ in kept)
     goes = ", ".join(word for word, _ in there if word not in words)

@@ -124,7 +124,9 @@ def headline(model: BearingModel) -> list[str]:
 
 def _clearance(model: BearingModel) -> str:
     """Write the clearance in operation, and where it started from."""
-    text = f"clearance {show(model.geometry.clearance, 'small_length', 4)}"
+    angle = model.geometry.contact_angle
+    free = f"contact angle {show(angle, 'angle', 3)}, " if angle else ""
+    text = f"{free}clearance {show(model.geometry.clearance, 'small_length', 4)}"
     bought = next((v for v in model.values if v.path == "bearing.clearance"), None)
     if bought is None:
         return text

@@ -51,6 +51,12 @@ def test_suffixes_of_a_designation_are_kept(before: str, typed: str, after: str,
     assert (taken.name, taken.maker, taken.said) == (after, "SKF", said)
 
 
+def test_a_clearance_class_goes_where_the_contact_angle_counts() -> None:
+    with closing(api.catalogue()) as catalogue:
+        taken = bearing_taken(catalogue.bearing("7208B", "NSK"), "", "6308-2Z/C3", catalogue)
+    assert (taken.name, taken.said) == ("7208B", "2Z, C3 of the designation before goes")
+
+
 async def test_the_clearance_that_was_typed_is_taken(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
