@@ -6,6 +6,7 @@ Plain data for faces and documentation; `check_installed` tries every model out.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from typing import Any, Literal
 
 from pydantic import BaseModel
@@ -19,6 +20,7 @@ from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import DEFAULT_MODELS, ROLE_API, ROLES
 from lambda_core.laws.check import ModelReport, check_model
 from lambda_core.laws.law import Law
+from lambda_core.laws.state import ROLE as STATES
 
 Kind = Literal["model", "method", "view", "observer", "event", "section", "data", "command"]
 
@@ -220,12 +222,12 @@ def check_installed(registry: Registry, wanted: Sequence[str] = ()) -> Iterator[
             continue
         required = [field for field, info in found.parameters.model_fields.items() if info.is_required()]
         if not required:
-            yield _card(check_model(found))
+            yield _card(check_model(found), warnings=_unknown_states(registry, found))
             continue
         if lubricants is None:
             lubricants = _lubricant_parameters(registry)
         if (role, name) in lubricants:
-            yield _card(check_model(found, lubricants[role, name]))
+            yield _card(check_model(found, lubricants[role, name]), warnings=_unknown_states(registry, found))
         else:
             yield _card(ModelReport(found), f"has no defaults for {', '.join(required)} and no lubricant brings them")
 
@@ -285,7 +287,22 @@ def _lubricant_parameters(registry: Registry) -> dict[tuple[str, str], dict[str,
     return found
 
 
-def _card(report: ModelReport, not_tried: str = "") -> CheckCard:
+def _unknown_states(registry: Registry, law: Law) -> list[str]:
+    """Say which states a law reads that no installed law keeps."""
+    if not law.reads:
+        return []
+    kept: list[str] = []
+    for name in registry.names(STATES):
+        with suppress(PluginError):
+            kept += [state.name for state in registry.model(STATES, name).states]
+    return [
+        f"{law.label}: {unknown_name('state', name, kept)}; laws of the role {STATES} that are installed keep no such"
+        for name in law.reads
+        if name not in kept
+    ]
+
+
+def _card(report: ModelReport, not_tried: str = "", warnings: Sequence[str] = ()) -> CheckCard:
     tried = report.seconds == report.seconds
     return CheckCard(
         role=report.model.role,
@@ -293,7 +310,7 @@ def _card(report: ModelReport, not_tried: str = "") -> CheckCard:
         distribution=report.model.distribution,
         ok=report.ok,
         faults=list(report.faults),
-        warnings=list(report.warnings),
+        warnings=[*report.warnings, *warnings],
         not_tried=not_tried,
         nanoseconds=report.seconds * 1e9 if tried else None,
     )

@@ -9,7 +9,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.channels import CHANNELS, DIMENSIONS, Channel
+from lambda_core.domain.errors import nearest
 from lambda_core.domain.roles import ROLES
+from lambda_core.domain.units import UNITS
 from lambda_core.laws.context import Context
 
 if TYPE_CHECKING:
@@ -81,9 +83,27 @@ def state_fault(law: Law) -> str:
         if name in taken or names.count(name) > 1:
             return f"has the state {name}: the name is taken"
     for state in law.states:
+        if fault := _unit_fault(state.unit):
+            return f"has the state {state.name} in {fault}"
         if not (state.scale > 0.0 and math.isfinite(state.scale)):
             return f"has the state {state.name} of the scale {state.scale}: a positive number is due"
     return _reads_fault(law.reads)
+
+
+def _unit_fault(unit: str) -> str:
+    """Say what is wrong with a unit, or nothing: its symbols, powers and strokes aside, are those of the units."""
+    if unit == "-":
+        return ""
+    known = {symbol for units in UNITS.values() for each in units for symbol in _symbols(each)}
+    strange = [symbol for symbol in _symbols(unit) if symbol not in known]
+    if not unit.strip() or strange:
+        near = f"; nearest: {', '.join(nearest(strange[0], known))}" if strange and nearest(strange[0], known) else ""
+        return f'"{unit}", which is no unit{near}: write it like "K", "m3", "J/m2", or "-" where it has none'
+    return ""
+
+
+def _symbols(unit: str) -> list[str]:
+    return [symbol for word in re.split(r"[ /()]+", unit) if (symbol := word.rstrip("0123456789")) and symbol != "-"]
 
 
 def _reads_fault(reads: Mapping[str, float]) -> str:

@@ -19,9 +19,12 @@ from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.laws.check import check_choice
 from lambda_core.laws.kernels import CHECKED_VARIABLE, is_checked
 from lambda_core.laws.law import Law
+from lambda_core.laws.runaway import FAR
+from lambda_core.laws.state import ROLE
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.engine import Advance
 from lambda_core.system.law_packages import foreign_laws
+from lambda_core.system.state_channels import states_of
 
 if TYPE_CHECKING:
     from lambda_core.solver.drivers.equilibrium import Equilibrium
@@ -57,11 +60,36 @@ class SuspiciousEngine(BearingEngine):
 
     def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
         """Integrate as the engine does; a failure is told with the law behind it, where one can be found."""
-        found = super().advance(until, pause)
+        found = super().advance(until, lambda: bool(self._run_away()) or (pause is not None and pause()))
+        if gone := self._run_away():
+            return Advance(False, gone)
         others = foreign_laws(self.model)
         if found.ok or not others or any(law.label in found.message for law in others):
             return found
         return Advance(False, f"{found.message}; {next(self._suspicions(), '') or _took_part(others)}")
+
+    def _run_away(self) -> str:
+        """Say which state of a contact is beyond all bounds, or nothing."""
+        y, count = self._memory.y, self._context.bundle.states.size
+        if not count:
+            return ""
+        values = y[y.size - count :]
+        first = 0
+        for side in RINGS:
+            kept = states_of(self.model, f"ball_{side}")
+            if not kept:
+                continue
+            own = values[first : first + len(kept) * self.model.geometry.ball_count].reshape(-1, len(kept))
+            first += own.size
+            for state, column in zip(kept, own.T, strict=True):
+                far = np.flatnonzero(~(np.abs(column) < FAR * state.scale))
+                if far.size:
+                    law = self.model.laws[f"ball_{side}"][ROLE].model
+                    return (
+                        f"{law.label}: its state {state.name} runs away, {column[far[0]]:.3g} {state.unit} at ball "
+                        f"{far[0] + 1}, ball - {side}, t = {self.time:.6g} s: more than {FAR:.0e} times its scale"
+                    )
+        return ""
 
     def _suspicions(self) -> Iterator[str]:
         """Yield what is wrong with the laws of others: where they stand now, then anywhere."""
