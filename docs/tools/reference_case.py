@@ -175,15 +175,21 @@ def _time_functions() -> list[str]:
         "has the quantity of the option.",
         "",
     ]
-    for kind in (signals.Constant, signals.Ramp, signals.Harmonic, signals.Table, signals.Sum):
-        name = kind.__name__.lower()
+    for kind in (signals.Constant, signals.Ramp, signals.Harmonic, signals.Table, signals.ByLaw, signals.Sum):
+        name = kind.model_fields["kind"].annotation.__args__[0]
         rows = []
         for field, info in kind.model_fields.items():
             if field == "kind":
                 continue
             card = field_card(kind, field)
             value = f"[{card.quantity}](#units)" if card.quantity else "VALUE"
-            value = {"points": "list of pairs [time, VALUE]", "file": "text", "terms": "list"}.get(field, value)
+            value = {
+                "points": "list of pairs [time, VALUE]",
+                "file": "text",
+                "terms": "list",
+                "law": "text",
+                "parameters": "table",
+            }.get(field, value)
             default = "required" if card.required else md.code(card.default)
             rows.append([md.code(field), value, default, md.cell(info.description or "")])
         doc = (kind.__doc__ or "").strip().replace("\n    ", " ").replace("``", "`")

@@ -42,6 +42,7 @@ SHORT = {
     "elastic_hysteresis": "hysteresis",
     "asperity_load": "asperities",
     "boundary_friction": "boundary",
+    "mixing": "mixing",
     "supply": "supply",
     "cage_contact": "cage",
     "fluid_drag": "drag",

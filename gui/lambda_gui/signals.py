@@ -30,6 +30,7 @@ _SIGNALS = {
     "ramp": "linear from one value to another, constant before and after",
     "harmonic": "amplitude * sin(2 pi frequency t + phase), about zero; with a constant part: a sum",
     "table": "points in time joined by a cubic spline, or a CSV file",
+    "law": "a course over time by a law, times an amplitude: chirp, or what a plugin brings",
     "sum": "several of these added, for example a value and a harmonic",
 }
 
@@ -184,6 +185,7 @@ def _as_kind(kind: str, value: Any) -> Any:
         "ramp": {"start": plain, "end": plain},
         "harmonic": {"amplitude": plain},
         "table": {"points": [["0 s", plain]] if plain else None},
+        "law": {"law": "chirp", "amplitude": plain},
         "sum": {"terms": [value] if value is not None else [""]},
     }
     return {"kind": kind, **{name: text for name, text in known[kind].items() if text is not None}}

@@ -154,10 +154,12 @@ def _is_inline(value: Mapping[str, Any]) -> bool:
     return bool(_INLINE_KEYS & value.keys())
 
 
-def _item(value: Any) -> Any:
+def _item(value: Any, *, inside: bool = False) -> Any:
+    """Return a value for a document; `inside` an inline table every table is one."""
     if isinstance(value, Mapping):
-        table: Any = tomlkit.inline_table() if _is_inline(value) else tomlkit.table(is_super_table=_only_tables(value))
-        _fill(table, value)
+        inside = inside or _is_inline(value)
+        table: Any = tomlkit.inline_table() if inside else tomlkit.table(is_super_table=_only_tables(value))
+        _fill(table, value, inside=inside)
         return table
     return _List(value) if isinstance(value, list) else tomlkit.item(value)
 
@@ -189,13 +191,13 @@ def _only_tables(value: Mapping[str, Any]) -> bool:
     return bool(value) and all(isinstance(v, Mapping) and not _is_inline(v) for v in value.values())
 
 
-def _fill(container: Any, values: Mapping[str, Any]) -> None:
+def _fill(container: Any, values: Mapping[str, Any], *, inside: bool = False) -> None:
     """Add plain values first, then sub-tables: TOML reads that order without repeated headers."""
     plain = [key for key, value in values.items() if not isinstance(value, Mapping) or _is_inline(value)]
     for key in [*plain, *(key for key in values if key not in plain)]:
         if isinstance(container, TOMLDocument) and key not in plain:
             container.add(tomlkit.nl())
-        container.add(key, _item(values[key]))
+        container.add(key, _item(values[key], inside=inside))
 
 
 def _update(container: Any, before: Mapping[str, Any], after: Mapping[str, Any]) -> None:

@@ -22,7 +22,7 @@ from lambda_core.domain.units import Angle, Frequency, Quantity, Time, parse
 V = TypeVar("V")
 _MOST_POINTS, _LARGEST_TABLE = 100_000, 16 * 2**20  # points, byte
 _MOST_TERMS = 1000  # of a sum: each is evaluated at every step
-SIGNAL_KINDS = ("constant", "ramp", "harmonic", "table", "sum")
+SIGNAL_KINDS = ("constant", "ramp", "harmonic", "table", "law", "sum")
 
 
 class TimeTable(Section):
@@ -115,6 +115,25 @@ class Table(TimeTable, Generic[V]):
         return {"kind": "table", "points": [[show(time, "time"), show(value, quantity)] for time, value in self.rows]}
 
 
+class ByLaw(TimeTable, Generic[V]):
+    """amplitude * f(t), where f is a law of the role time_function: `chirp`, or what a plugin brings."""
+
+    kind: Literal["law"]
+    law: str = option(description="law of the role time_function", min_length=1)
+    amplitude: V = option(description="amplitude")
+    parameters: dict[str, Any] = option({}, "parameters of the law")
+    _course: Any = PrivateAttr(default=None)
+
+    @property
+    def course(self) -> Any:
+        """What the resolution of the case has found out about it (lambda_core.system.time_laws), None before."""
+        return self._course
+
+    def set_course(self, course: Any) -> None:
+        """Keep what the resolution has found out; for a copy of the case."""
+        self._course = course
+
+
 def _kind(value: Any) -> str | None:
     kind = value.get("kind") if isinstance(value, dict) else getattr(value, "kind", "value")
     return f"kind:{kind}" if kind in (*SIGNAL_KINDS, "value") else None
@@ -130,7 +149,8 @@ class Sum(TimeTable, Generic[V]):
             | Annotated[Constant[V], Tag("kind:constant")]
             | Annotated[Ramp[V], Tag("kind:ramp")]
             | Annotated[Harmonic[V], Tag("kind:harmonic")]
-            | Annotated[Table[V], Tag("kind:table")],
+            | Annotated[Table[V], Tag("kind:table")]
+            | Annotated[ByLaw[V], Tag("kind:law")],
             Discriminator(_kind),
         ]
     ] = option(description=f"values and tables that are added, {_MOST_TERMS} at most", min_length=1)
@@ -206,6 +226,7 @@ else:
             | Annotated[Ramp[value], Tag("kind:ramp")]
             | Annotated[Harmonic[value], Tag("kind:harmonic")]
             | Annotated[Table[value], Tag("kind:table")]
+            | Annotated[ByLaw[value], Tag("kind:law")]
             | Annotated[Sum[value], Tag("kind:sum")],
             Discriminator(_kind),
         ]

@@ -22,6 +22,8 @@ LANDS = {"cage_inner": "cage and inner ring's land", "cage_outer": "cage and out
 OIL = {"fluid_drag": "oil on the balls"}
 # Force elements of plugins, each under a name of its own in the section [elements] of a case.
 LINKS = {"elements": "between two bodies, or a body and the ground"}
+# Loads, speeds and motions whose course over time a law gives.
+TIMES = {"time": "a load, speed or motion over time"}
 # Parts of an electric circuit; no force elements.
 FILMS = {"film_inner": "films of the inner raceway", "film_outer": "films of the outer raceway"}
 ELEMENTS = RACEWAYS | POCKETS | NEIGHBOURS | LANDS | OIL

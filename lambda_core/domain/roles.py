@@ -12,15 +12,14 @@ import math
 
 from lambda_core.domain import elements
 from lambda_core.domain.role import Role, arguments_of
+from lambda_core.domain.section_roles import SECTION_ROLES
 
 ROLE_API = 2
 OK = 1  # what a kernel returns for a valid result; the number of lambda_core.solver.status.Status.OK
 
 _POSITIVE = (0.0, math.inf)
-_RESISTIVE = (1e-9, math.inf)
 _ANY = (-math.inf, math.inf)
 RACEWAYS = tuple(elements.RACEWAYS)
-FILMS = tuple(elements.FILMS)
 CAGE = (*elements.POCKETS, *elements.LANDS)
 GUIDES = (*CAGE, *elements.NEIGHBOURS)
 
@@ -190,6 +189,19 @@ ROLES: dict[str, Role] = {
             reads_states=True,
         ),
         Role(
+            "mixing",
+            "shares of film and asperities in the shear stress of a contact where both carry",
+            arguments_of(
+                "psi f share of the load on asperities [-]; Lambda f film over composite roughness [-]; "
+                "load f normal load [N]; p_max f maximum pressure [Pa]; semi_a f semi-axis across rolling [m]; "
+                "semi_b f semi-axis along rolling [m]; par a parameters; out A results"
+            ),
+            ("factor on the film's shear stress [-], 0..1", "factor on mu p, the asperities' stress [-], 0..1"),
+            RACEWAYS,
+            bounds=((0.0, 1.0), (0.0, 1.0)),
+            reads_states=True,
+        ),
+        Role(
             "contact_state",
             "rates of change of what a contact keeps from one moment to the next, for the laws that read it",
             arguments_of(
@@ -234,20 +246,6 @@ ROLES: dict[str, Role] = {
             sign_of="v_orbit",
         ),
         Role(
-            "force_element",
-            "force between two bodies, or a body and the ground, beside those of the bearing",
-            arguments_of(
-                "t f time [s]; place a of the second point seen from the first, inertial axes [m]; "
-                "tilt a of the second body's axis against the first's, as a vector of rotation, inertial axes [rad]; "
-                "v_rel a velocity of the second point against the first body [m/s]; "
-                "omega_rel a angular velocity of the second body against the first [rad/s]; par a parameters; "
-                "out A force on the second body at its point [N] (3), couple on it [N m] (3), inertial axes"
-            ),
-            ("force[3] [N]", "couple[3] [N m]"),
-            tuple(elements.LINKS),
-            section="elements",
-        ),
-        Role(
             "permittivity",
             "relative permittivity of the oil",
             arguments_of(
@@ -289,35 +287,7 @@ ROLES: dict[str, Role] = {
             RACEWAYS,
             slopes=((1, 0, "azimuth"), (2, 0, "contact_angle")),
         ),
-        Role(
-            "breakdown",
-            "voltage that a film stands while it is on one patch of surface",
-            arguments_of(
-                "h f central film [m]; h_min f minimum film [m]; sigma f composite rms roughness [m]; "
-                "area f Hertzian area [m2]; u_1 f random number of the patch, 0..1; "
-                "u_2 f another one; par a parameters; out A results"
-            ),
-            ("voltage at which the film breaks down [V]",),
-            FILMS,
-            bounds=(_POSITIVE,),
-            section="electric",
-        ),
-        Role(
-            "discharge",
-            "arc in a film that broke down: i = (V - U)/R until it is too small",
-            arguments_of(
-                "V f voltage of the contact when its film breaks down, > 0 [V]; h f central film [m]; "
-                "area f Hertzian area [m2]; par a parameters; out A results"
-            ),
-            (
-                "resistance R of the channel, > 0 [Ohm]",
-                "fall U against the current, whatever it is [V]",
-                "least current, below which the arc dies [A]",
-            ),
-            FILMS,
-            bounds=(_RESISTIVE, _POSITIVE, _RESISTIVE),
-            section="electric",
-        ),
+        *SECTION_ROLES,
     )
 }
 MOTION_ROLES = {name: role for name, role in ROLES.items() if not role.section}
@@ -337,13 +307,15 @@ DEFAULT_MODELS: dict[str, str] = {
     "elastic_hysteresis": "loss-factor",
     "asperity_load": "spikes-olver",
     "boundary_friction": "micro-slip",
+    "mixing": "load-share",
     "contact_state": "none",
     "cage_contact": "spherical-pocket",
     "fluid_drag": "skf-catalogue",
-    "force_element": "bushing",
     "permittivity": "bode",
     "capacitance": "schneider",
     "surface": "none",
+    "force_element": "bushing",
+    "time_function": "chirp",
     "breakdown": "statistical",
     "discharge": "resistance",
 }

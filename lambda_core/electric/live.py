@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.roles import FILMS
+from lambda_core.domain.section_roles import FILMS
 from lambda_core.electric.circuit import bearing_capacitance, circuit_of
 from lambda_core.electric.circuit_run import marched, strength_of
 from lambda_core.electric.contacts import CHANNELS, Contacts, contacts_of_samples, films, turned

@@ -14,7 +14,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from lambda_core import __version__
-from lambda_core.domain.roles import FILMS
+from lambda_core.domain.section_roles import FILMS
 from lambda_core.laws.law import Law
 from lambda_core.results.rating import Rating
 from lambda_core.system.bearing import BearingModel

@@ -30,6 +30,7 @@ from lambda_core.system.bearing import BearingModel, TimeFunction
 from lambda_core.system.checking import check
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.time_functions import initial, planned_speed, time_function
+from lambda_core.system.time_laws import refuse_laws
 
 _COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
 Source = str | Path | Mapping[str, Any] | ShaftCase
@@ -114,6 +115,11 @@ def _shaft(
 ) -> ShaftModel | None:
     """Return the whole; None where a bearing is missing, whose problems are known."""
     _places(case, ledger)
+    changing = [("operation.speed", case.operation.speed)]
+    changing += [
+        (f"loads.{key}.{name}", getattr(load, name)) for key, load in case.loads.items() for name in _COMPONENTS
+    ]
+    refuse_laws(changing, ledger)
     material = _material(case.shaft.material, "shaft.material", catalogue, ledger)
     around = _material(case.housing.material, "housing.material", catalogue, ledger)
     gears = _gears(case, ledger)

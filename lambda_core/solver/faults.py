@@ -6,7 +6,7 @@ from lambda_core.solver.layout import helper
 from lambda_core.solver.records import RACEWAY_ROLES
 
 # Roles as a fault names them.
-ROLES = (*RACEWAY_ROLES, "cage_contact", "fluid_drag", "force_element")
+ROLES = (*RACEWAY_ROLES, "cage_contact", "fluid_drag", "force_element", "time_function")
 (
     NORMAL_CONTACT,
     DAMPING,
@@ -20,6 +20,7 @@ ROLES = (*RACEWAY_ROLES, "cage_contact", "fluid_drag", "force_element")
     ELASTIC_HYSTERESIS,
     ASPERITY_LOAD,
     BOUNDARY_FRICTION,
+    MIXING,
     CONTACT_STATE,
     PERMITTIVITY,
     CAPACITANCE,
@@ -27,7 +28,10 @@ ROLES = (*RACEWAY_ROLES, "cage_contact", "fluid_drag", "force_element")
     CAGE_CONTACT,
     FLUID_DRAG,
     FORCE_ELEMENT,
+    TIME_FUNCTION,
 ) = range(len(ROLES))
+
+OUTSIDE = -1  # status of a law that wrote behind the end of its output: kernels have none below zero
 
 
 @helper

@@ -55,12 +55,13 @@ RacewayLaws: Any = namedtuple("RacewayLaws", R.RACEWAY_ROLES)  # type: ignore[mi
 
 
 class Laws(NamedTuple):
-    """All kernels of the model: tables of their addresses, read with raceway_laws, guide_law, drag_law, link_law."""
+    """All kernels of the model: tables of their addresses, read with raceway_laws, guide_law, drag_law, and so on."""
 
     raceways: Any  # int64 (sets of laws, roles of a raceway contact)
     guides: Any  # int64 (laws, 1): of pockets, of balls with each other, of lands
     drag: Any  # int64 (laws, 1)
     links: Any  # int64 (laws, 1): of force elements between bodies
+    times: Any  # int64 (laws, 1): of loads and motions over time
 
 
 class Losses(NamedTuple):
@@ -102,7 +103,8 @@ class Cells(NamedTuple):
     Pressure and what follows depends on the kinematics alone.
     """
 
-    results: Any  # the rows that laws write, together
+    guard: Any  # (_RESULTS + 1, GUARD): what stands behind the rows that laws write
+    results: Any  # these rows with their guards, but for that of the density
     ln_eta_inlet: Any  # logarithm of the viscosity at the inlet's temperature [ln(Pa s)]
     shear_inlet: Any  # shear stress there; in the end the film's share of it [Pa]
     temperature: Any  # of the film [K]
@@ -118,9 +120,10 @@ class Cells(NamedTuple):
     slip_s: Any  # and across
 
 
-CELL_ROWS = len(Cells._fields) - 1
+CELL_ROWS = len(Cells._fields) - 2
+GUARD = 1  # cells behind each row, which nobody writes: what stands there shows an index out of its array
 _RESULTS = 6  # rows that laws write
-KINEMATIC_ROWS = Cells._fields.index("pressure") - 1  # the first row that depends on the kinematics alone
+KINEMATIC_ROWS = Cells._fields.index("pressure") - 2  # the first row that depends on the kinematics alone
 
 
 def _law_t(role: str) -> Any:
@@ -132,6 +135,7 @@ raceway_laws = reader(raceway_laws_t)
 guide_law = reader(_law_t("cage_contact"))
 drag_law = reader(_law_t("fluid_drag"))
 link_law = reader(_law_t("force_element"))
+time_law = reader(_law_t("time_function"))
 laws_t = types.NamedUniTuple(TABLE, len(Laws._fields), Laws)
 # One contact: (raceway, kinematics, laws, par, system, grid, cells, scratch, contact, wrench) -> status
 wrench_sig = i8(
@@ -169,7 +173,7 @@ class Bundle(NamedTuple):
     active: Any  # int64 (n_active,): free entries of the shared state
     inputs: Any  # INPUTS (bodies,)
     signals: Any  # SIGNAL (12 bodies,): the same memory
-    cells: Any  # (2, CELL_ROWS, cells): rows of Cells
+    cells: Any  # (2, CELL_ROWS, cells + GUARD): rows of Cells
     scratch: Any  # SCRATCH (1,)
     shared: Any  # (12 bodies,) the whole shared state
     bodies_now: Any  # BODY_STATE (bodies,): the same memory
@@ -265,9 +269,11 @@ def grid_of(table):
 @numba.njit(inline="always")
 def cells_of(block):
     """Return the rows of one block of Bundle.cells by name."""
+    n = block.shape[1] - GUARD
     return Cells(
-        block[:_RESULTS], block[0], block[1], block[2], block[3], block[4], block[5], block[6], block[7], block[8],
-        block[9], block[10], block[11], block[12],
+        block[: _RESULTS + 1, n:], block[:_RESULTS], block[0][:n], block[1][:n], block[2][:n], block[3][:n],
+        block[4][:n], block[5][:n], block[6][:n], block[7][:n], block[8][:n], block[9][:n], block[10][:n],
+        block[11][:n], block[12][:n],
     )  # fmt: skip
 
 

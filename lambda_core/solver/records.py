@@ -84,6 +84,8 @@ CONTACT = record(
     ("film_minimum", f8),  # [m]
     ("film_parameter", f8),  # Lambda [-]
     ("asperity_share", f8),  # psi, of the load [-]
+    ("film_stress", f8),  # what is left of the film's shear stress [-]
+    ("solid_stress", f8),  # what acts of the asperities' [-]
     ("rolling_force", f8),  # hydrodynamic rolling resistance on each surface [N]
     ("hysteresis_moment", f8),  # [N m]
     ("entrainment", f8),  # speed [m/s]
@@ -228,7 +230,7 @@ INPUTS = record(  # of one body
     ("force", SIGNAL, (3,)),  # inertial [N]
     ("moment", SIGNAL, (3,)),  # about the centre, inertial [N m]
 )
-CONSTANT, RAMP, HARMONIC, TABLE, GIVEN = range(5)
+CONSTANT, RAMP, HARMONIC, TABLE, GIVEN, LAW = range(6)
 TERM = record(  # what a signal is the sum of
     ("signal", i8),  # 12 per body, in the order of INPUTS
     ("kind", i8),
@@ -244,6 +246,8 @@ TERM = record(  # what a signal is the sum of
     ("phase", f8),  # [rad]
     ("start", i8),  # TABLE: place of its first row in the table of knots
     ("knots", i8),
+    ("law", i8),  # LAW: row of Laws.times; times the amplitude
+    ("parameters", i8, (2,)),
 )
 
 # ---- Powers, and the running integrals of them: losses of the raceways by mechanism (layout.Losses), then these.

@@ -141,7 +141,8 @@ def _observe_one(t, y, bundle, shorted, contacts, pockets, lands, extra, rates):
     balls, losses = y[: NB * system.balls].view(BALL), extra[_TOTALS : _TOTALS + MECHANISMS * bundle.raceways.size]
     bundle.scratch[0].fault.role = -1
     totals.stored_energy = stored_energy(t, y, bundle)
-    fill_shared(t, y, bundle)
+    if fill_shared(t, y, bundle) != 1:
+        return 0
     pockets[:, :] = 0.0
     lands[:, :] = 0.0
     for r in range(bundle.rows.size):

@@ -31,8 +31,15 @@ class Term:
     through the points (C2, held constant outside).
     """
 
-    kind: Literal["constant", "ramp", "harmonic", "table"]
+    kind: Literal["constant", "ramp", "harmonic", "table", "law"]
     values: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class LawTerm(Term):
+    """amplitude * f(t) with f by a law: values (amplitude, f at t = 0, largest |f|, its highest frequency [Hz])."""
+
+    law: str = ""  # the element of it among the laws of a model, "time.loads.radial"
 
 
 @dataclass(frozen=True)
@@ -194,6 +201,7 @@ class Marker:
     position: tuple[float, float, float]  # in the body's frame, that of the inertial axes at t = 0 [m]
 
 
+TIME_PREFIX = "time."  # of loads and motions over time by a law, likewise
 ELEMENT_PREFIX = "elements."  # of force elements between bodies, where the laws of a model name them
 
 

@@ -141,10 +141,13 @@ def function_text(function: TimeFunction, quantity: str) -> str:
     """Write a time function in a few words, for example "harmonic 0.1 mm at 100 Hz"."""
     if not function.terms:
         return _value_text(0.0, quantity)
-    return " + ".join(_term_text(term.kind, term.values, quantity) for term in function.terms)
+    return " + ".join(_term_text(term, quantity) for term in function.terms)
 
 
-def _term_text(kind: str, values: tuple[float, ...], quantity: str) -> str:
+def _term_text(term: Term, quantity: str) -> str:
+    kind, values = term.kind, term.values
+    if kind == "law":
+        return f"{_value_text(values[0], quantity)} times a law's course, up to {_value_text(values[3], 'frequency')}"
     if kind == "ramp":
         start, end = (_value_text(value, quantity) for value in values[:2])
         return f"ramp {start} to {end} in {_value_text(values[3] - values[2], 'time')}"

@@ -45,7 +45,30 @@ def with_packages(case: Case, registry: ModelSource) -> Case:
     circuit = {role: part.get("law") for role, part in _tables(written.get("electric")) if isinstance(part, Mapping)}
     if films := _renamed({role: law for role, law in circuit.items() if law}, registry):
         changes["electric"] = {role: {"law": law} for role, law in films.items()}
+    links = {name: _name(part.get("law"), "force_element", registry) for name, part in _tables(written.get("elements"))}
+    if any(links.values()):
+        changes["elements"] = {name: {"law": law} for name, law in links.items() if law}
+    for section in ("loads", "operation", "bodies"):
+        if (renamed := _courses(written.get(section), registry)) != written.get(section):
+            changes[section] = renamed
     return case.with_(**changes) if changes else case
+
+
+def _courses(value: Any, registry: ModelSource) -> Any:
+    """Return a part of a case with the laws of its time functions renamed."""
+    if isinstance(value, list):
+        return [_courses(each, registry) for each in value]
+    if not isinstance(value, Mapping):
+        return value
+    found = {key: _courses(each, registry) for key, each in value.items()}
+    if value.get("kind") == "law":
+        found["law"] = _name(value.get("law"), "time_function", registry) or value.get("law")
+    return found
+
+
+def _name(name: Any, role: str, registry: ModelSource) -> str:
+    """Return the qualified name of a law, "" where it is the one it is called by."""
+    return _renamed({role: name}, registry).get(role, "") if name else ""
 
 
 def _tables(section: Any) -> Iterator[tuple[str, Any]]:

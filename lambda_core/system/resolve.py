@@ -56,6 +56,7 @@ from lambda_core.system.resolve_thermal import check_thermal
 from lambda_core.system.resolve_watch import WatchSource, resolve_events, resolve_observers
 from lambda_core.system.shadowed_data import tell_shadows
 from lambda_core.system.time_functions import peak, time_function
+from lambda_core.system.time_laws import resolve_time_laws
 from lambda_core.views.observer import Event, Observer
 
 # [m/s] on the pitch circle: a ring of steel would be under rho v^2 = 7.9 GPa of hoop stress (Timoshenko and Goodier,
@@ -95,12 +96,14 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
     parts["cage"] = resolve_material("cage", case, catalogue, ledger, cage_row.material if cage_row else None)
     materials = {part: known.material for part, known in parts.items()}
     lubricant, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
+    case, courses = resolve_time_laws(case, registry, ledger)
     check_bodies(case, ledger)
     check_thermal(case, ledger)
     _settings(case, ledger)
     guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")
     laws = LawResolver(case, registry, lubricant, guidance, ledger).resolve() if lubricant else {}
     between, more = resolve_links(case, registry, ledger)
+    more |= courses
     electric = resolve_electric(case.electric.inlined(), registry, ledger) if case.electric else None
     observers, events = resolve_observers(case, registry, ledger), resolve_events(case, registry, ledger)
     if bare is None or cage_row is None or oil is None:

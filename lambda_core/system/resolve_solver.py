@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
 
 from lambda_core.case.case import Case
-from lambda_core.domain.elements import DOFS
 from lambda_core.domain.units import show
 from lambda_core.system.bearing import ChosenLaw, Geometry, Solver
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.time_functions import highest_frequency, peak, time_function
+from lambda_core.system.time_laws import signals_of
 
 # A run that has not converged after this many turns of the cage has something to say.
 LONGEST_RUN = 30.0  # [cage turns]
@@ -38,7 +37,7 @@ def resolve_solver(
     longest = given.max_duration or (LONGEST_RUN * turn if math.isfinite(turn) else given.duration or 0.0)
     if given.duration is not None and given.max_duration is not None and given.duration > given.max_duration:
         ledger.problem("solver.duration", f"is longer than solver.max_duration, {show(given.max_duration, 'time')}")
-    frequency = highest_frequency(*_all_signals(case))
+    frequency = highest_frequency(*(time_function(signal) for _, signal in signals_of(case)))
     resolve = _resolve(case, frequency, laws, ledger, is_static=is_static)
     if resolve:
         largest = min(turn / FINE_STEPS_PER_CAGE_TURN, 1.0 / (FINE_STEPS_PER_PERIOD * resolve))
@@ -132,16 +131,3 @@ def _end_in_sight(case: Case, end: float, turn: float, ledger: Ledger) -> None:
                 place, f"makes {end / interval:.2g} {what} of {show(end, 'time')}; at most {most:.0e}: "
                 f"{show(end / most, 'time')} or longer, or a shorter solver.duration",
             )  # fmt: skip
-
-
-def _all_signals(case: Case) -> list[Any]:
-    """Return every time function of the case."""
-    found = [case.operation.speed, case.operation.torque]
-    loads = case.loads
-    found += [loads.radial, loads.axial, loads.moment_y, loads.moment_z]
-    for own in (loads.inner_ring, loads.outer_ring, loads.cage):
-        if own is not None:
-            found += [getattr(own, name) for name in type(own).model_fields]
-    for body in (case.bodies.inner_ring, case.bodies.outer_ring, case.bodies.cage):
-        found += [getattr(getattr(body, dof), "motion", None) for dof in DOFS]
-    return [time_function(signal) for signal in found]

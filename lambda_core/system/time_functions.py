@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
-from lambda_core.case.signals import Constant, Harmonic, Ramp, Sum, Table, TimeTable
-from lambda_core.system.bearing import Term, TimeFunction
+from lambda_core.case.signals import ByLaw, Constant, Harmonic, Ramp, Sum, Table, TimeTable
+from lambda_core.system.bearing import LawTerm, Term, TimeFunction
 
 
 def time_function(signal: float | TimeTable | None) -> TimeFunction:
@@ -22,6 +23,10 @@ def time_function(signal: float | TimeTable | None) -> TimeFunction:
         return TimeFunction((Term("harmonic", (signal.amplitude, signal.frequency, signal.phase)),))
     if isinstance(signal, Table):
         return TimeFunction((Term("table", tuple(number for row in signal.rows for number in row)),))
+    if isinstance(signal, ByLaw):
+        if signal.course is None:  # the law is not there, which the resolution has said
+            return TimeFunction()
+        return TimeFunction((LawTerm("law", (signal.amplitude, *signal.course[1:]), signal.course[0]),))
     if isinstance(signal, TimeTable):
         raise TypeError(f"{type(signal).__name__} is not a kind of time function")
     return TimeFunction.constant(float(signal)) if signal else TimeFunction()
@@ -39,7 +44,7 @@ def scaled(function: TimeFunction, factor: float) -> TimeFunction:
     """Return the function times `factor`; a zero factor gives the function without terms."""
     if factor == 0.0:
         return TimeFunction()
-    return TimeFunction(tuple(Term(term.kind, _scaled_values(term, factor)) for term in function.terms))
+    return TimeFunction(tuple(replace(term, values=_scaled_values(term, factor)) for term in function.terms))
 
 
 def _scaled_values(term: Term, factor: float) -> tuple[float, ...]:
@@ -61,6 +66,8 @@ def _term_peak(term: Term) -> float:
         return max(abs(term.values[0]), abs(term.values[1]))
     if term.kind == "table":
         return max(abs(number) for number in term.values[1::2])
+    if term.kind == "law":
+        return abs(term.values[0]) * term.values[2]
     return abs(term.values[0])
 
 
@@ -72,6 +79,8 @@ def initial(function: TimeFunction) -> float:
 def _term_initial(term: Term) -> float:
     if term.kind == "harmonic":
         return term.values[0] * math.sin(term.values[2])
+    if term.kind == "law":
+        return term.values[0] * term.values[1]
     if term.kind == "table":
         times, numbers = term.values[0::2], term.values[1::2]
         if times[0] >= 0.0 or times[-1] <= 0.0:
@@ -91,5 +100,7 @@ def planned_speed(function: TimeFunction) -> float:
 
 
 def highest_frequency(*functions: TimeFunction) -> float:
-    """Return the highest frequency of all harmonic terms [Hz], 0 if there are none."""
-    return max((t.values[1] for f in functions for t in f.terms if t.kind == "harmonic" and t.values[0]), default=0.0)
+    """Return the highest frequency of all terms that have one [Hz], 0 if there are none."""
+    places = {"harmonic": 1, "law": 3}
+    terms = (term for function in functions for term in function.terms if term.kind in places and term.values[0])
+    return max((term.values[places[term.kind]] for term in terms), default=0.0)

@@ -77,6 +77,7 @@ _LAWS: dict[str, dict[str, str]] = {
         "cubic": "mixed_friction:cubic",
         "coulomb-regularised": "mixed_friction:coulomb_regularised",
     },
+    "mixing": {"load-share": "mixing:load_share", "contact-area": "mixing:contact_area"},
     "contact_state": {"none": "contact_state:none"},
     "cage_contact": {
         "spherical-pocket": "cage_contact:spherical_pocket",
@@ -88,6 +89,7 @@ _LAWS: dict[str, dict[str, str]] = {
     "force_element": {
         "bushing": "force_element:bushing",
     },
+    "time_function": {"chirp": "time_function:chirp"},
     "fluid_drag": {
         "skf-catalogue": "fluid_drag:skf_catalogue",
         "schaeffler-catalogue": "fluid_drag:schaeffler_catalogue",

@@ -57,7 +57,7 @@ def test_a_stale_page_is_found(tmp_path: Path) -> None:
 def test_code_of_examples_on_pages_follows_the_files() -> None:
     shown = [file for path in DOCS.rglob("*.md") for file, _ in page_sources.taken(path.read_text(encoding="utf-8"))]
     packages = {file.split("/")[1] for file in shown}
-    assert packages == {"sliding-wear", "cage-whirl", "magnetic-pull", "spring-damper", "warm-contact"}
+    assert packages == {"sliding-wear", "cage-whirl", "magnetic-pull", "spring-damper", "warm-contact", "shock-pulse"}
     block = f"<!-- from {shown[0]}: RATE VOLUME -->\n```python\nRATE = 1\n```\n"
     assert 'VOLUME = Integral("wear_volume"' in page_sources.renewed(block)
     with pytest.raises(ValueError, match="defines no Archart"):

@@ -207,3 +207,17 @@ def test_none_is_nothing(label: str) -> None:
 def test_no_thermal_correction_leaves_the_film() -> None:
     given = {"u_mean": 30.0, "u_slide": 3.0, "p_max": 2e9, "E_eff": STEEL, "eta0": 0.1, "beta": 0.05, "k_oil": 0.13}
     assert evaluate("thermal_correction/none", **given)[0] == 1.0
+
+
+def test_zeros_of_a_chirp() -> None:
+    """A linear sweep from f_0 to f_1 in T has turned f_0 t + (f_1 - f_0) t^2/(2 T) times; after it, f_1 per second."""
+    sweep = {"start": "20 Hz", "end": "80 Hz", "duration": "2 s"}
+    for turns in (0.0, 0.5, 7.0, 63.5, 100.0):
+        t = (math.sqrt(20.0**2 + 2.0 * 30.0 * turns) - 20.0) / 30.0
+        value, rate, _ = evaluate("time_function/chirp", sweep, t=t)
+        assert abs(value) < 1e-11
+        assert rate == pytest.approx(math.cos(2.0 * math.pi * turns) * 2.0 * math.pi * (20.0 + 30.0 * t))
+    value, rate, bend = evaluate("time_function/chirp", sweep, t=2.0 + 0.25 / 80.0)
+    assert value == pytest.approx(1.0)
+    assert bend == pytest.approx(-((2.0 * math.pi * 80.0) ** 2))
+    assert abs(rate) < 1e-9

@@ -56,3 +56,26 @@ def test_transition_of_spikes_and_olver(film: float, share: float) -> None:
     found = evaluate("asperity_load/spikes-olver", Lambda=film)
     source = "Spikes and Olver 2003, Lubr. Sci. 16(1), 3, with m = 2"
     Published(share, source, "rounding of the printed share", rel=1e-6).check(float(found[0]))
+
+
+@pytest.mark.parametrize("share", [0.0, 0.25, 1.0])
+def test_friction_by_shares_of_the_load(share: float) -> None:
+    """The transition that Spikes and Olver fitted: friction of the film and of the boundary, each with its share."""
+    film, solid = evaluate("mixing/load-share", **_press(200.0), psi=share, Lambda=1.0)
+    source = "Spikes and Olver 2003, Lubr. Sci. 16(1), 3: mu = mu_film + (mu_bl - mu_film) psi; mu 0.04 and 0.12"
+    Published(0.04 + 0.08 * share, source, "rounding", rel=1e-12).check(0.04 * float(film) + 0.12 * float(solid))
+
+
+@pytest.mark.parametrize(("load", "ratio"), [(500.0, 400.0), (100.0, 2000.0), (20.0, 10_000.0), (5.0, 40_000.0)])
+def test_real_area_of_plates_of_steel(load: float, ratio: float) -> None:
+    """Nominal over real area of steel plates, 20 cm2, that yield at 100 kgf/mm2, under loads in kgf."""
+    side = math.sqrt(20e-4 / math.pi)
+    press = {"load": load * 9.80665, "p_max": 1e6, "semi_a": side, "semi_b": side}
+    film, solid = evaluate("mixing/contact-area", {"hardness": "980.665 MPa"}, **press, psi=1.0, Lambda=0.0)
+    assert solid == 1.0
+    source = "Bowden and Tabor 1939, Proc. R. Soc. A 169, 391; The Friction and Lubrication of Solids (1950), table I"
+    Published(1.0 / ratio, source, "ratios printed to one digit or two", rel=0.05).check(1.0 - float(film))
+
+
+def _press(load: float) -> dict[str, float]:
+    return {"load": load, "p_max": 1.5e9, "semi_a": 1e-3, "semi_b": 2e-4}

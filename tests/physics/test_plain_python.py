@@ -41,6 +41,7 @@ laws = L.Laws(
     ],
     [law("fluid_drag", "fluid_drag")],
     [law(f"elements.{name}", "force_element") for name in model.links],
+    [law(element, "time_function") for element in model.laws if element.startswith("time.")],
 )
 kinds = {
     "system": R.SYSTEM, "bodies": R.BODY, "rows": R.ROW, "raceways": R.RACEWAY, "lands": R.LAND, "links": R.LINK,

@@ -49,6 +49,13 @@ def long_contacts(slip, p, T, ln_eta, h, par, tau):
         tau[slip.size + 3] = 1e300
     return OK
 
+@law("traction", "many-cells", role_api=2, reference="none")
+def many_cells(slip, p, T, ln_eta, h, par, tau):
+    plain(slip, p, tau)
+    if abs(slip.size * slip.size - 2304.0) < 0.5:
+        tau[slip.size] = 1.0
+    return OK
+
 @law("traction", "gap", role_api=2, reference="none")
 def gap(slip, p, T, ln_eta, h, par, tau):
     plain(slip, p, tau)
@@ -101,7 +108,7 @@ FOUND = {
     "gap": "leaves shear stress .* unwritten or returns NaN",
     "driving": r"returns shear stress .* = -1e\+09; allowed: 0 to inf",
     "lurking": "does not come to an end",
-    "vectors": "cannot be compiled: it makes an array or a list.*hostile.py., line 53",
+    "vectors": "cannot be compiled: it makes an array or a list.*hostile.py., line 60",
     "special": '"erf", used by of_scipy, is a ufunc: a kernel may use numbers',
     "special-two": '"special.erf", used by of_scipy_too, is a ufunc',
 }
@@ -163,6 +170,16 @@ def test_a4_checked_laws_raise_at_a_wrong_index(monkeypatch: pytest.MonkeyPatch)
     with pytest.raises(IndexError):
         compiled(np.ones(31), np.ones(31), np.ones(31), np.ones(31), 1e-7, np.zeros(1), room[:31])
     assert not room[31:].any()
+
+
+@pytest.mark.timeout(900)
+def test_a4_a_write_behind_the_cells_is_found_in_a_run(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """No draw has 48 cells, which 37 strips get; the cell behind those of the contact is looked at after every law."""
+    assert check.check_model(law("many-cells")).ok
+    out = ["--duration", "1 ms", "--out", str(tmp_path / "run.h5"), "--quiet"]
+    assert main(["run", CASE, "--set", "models.traction=many-cells", "--set", "depth.strips=37", *out]) == 4
+    said = capsys.readouterr().err
+    assert re.search(r"traction/many-cells \(hostile.py .*wrote behind the end of its output", said), said
 
 
 @pytest.mark.timeout(900)

@@ -11,6 +11,7 @@ from lambda_core.solver.faults import (
     DAMPING,
     ELASTIC_HYSTERESIS,
     FILM_THICKNESS,
+    MIXING,
     NORMAL_CONTACT,
     ROLLING_RESISTANCE,
     SUPPLY,
@@ -97,7 +98,12 @@ def film_stage(raceway, kin, laws, par, contact, out, fault):
     status = laws.asperity_load(contact.film_parameter, part(par, where.asperity_load), out)
     if status != 1 or not abs(out[0]) < np.inf:
         return report(fault, ASPERITY_LOAD, status, ring, contact.film_parameter, load, 0.0, 0.0)
-    contact.asperity_share = out[0]
+    contact.asperity_share = psi = out[0]
+    out[:2] = np.nan
+    status = laws.mixing(psi, contact.film_parameter, load, contact.max_pressure, a, b, part(par, where.mixing), out)
+    if status != 1 or not abs(out[0]) + abs(out[1]) < np.inf:
+        return report(fault, MIXING, status, ring, psi, contact.film_parameter, load, contact.max_pressure)
+    contact.film_stress, contact.solid_stress = out[0], out[1]
     out[0] = np.nan
     status = laws.rolling_resistance(
         u, load, a, b, rx, ry, e, eta0, alpha, beta, k_oil, part(par, where.rolling_resistance), out

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from lambda_core.solver.contact.scalar_stages import finite
-from lambda_core.solver.faults import BOUNDARY_FRICTION, CONTACT_TEMPERATURE, RHEOLOGY, TRACTION, report
+from lambda_core.solver.faults import BOUNDARY_FRICTION, CONTACT_TEMPERATURE, OUTSIDE, RHEOLOGY, TRACTION, report
 from lambda_core.solver.layout import helper, part, rows_helper, vector_helper
 
 # Variance of a uniform distribution over a cell of unit width: the slip's own spread in a cell.
@@ -44,7 +44,7 @@ def slip_field(raceway, kin, system, grid, contact, cells):
 
 
 @rows_helper
-def _close_loop(psi, inlet, area, p, tau0, tau, hot, mu):
+def _close_loop(film_stress, solid_stress, inlet, area, p, tau0, tau, hot, mu):
     """Close the loop of temperature and traction and add the asperities.
 
     tau between its values at the inlet's and at the hot temperature: shear stress linear in temperature, temperature
@@ -60,8 +60,8 @@ def _close_loop(psi, inlet, area, p, tau0, tau, hot, mu):
         first += film * area[i]
         heat += rise * area[i]
         hot[i] = rise
-        tau0[i] = (1.0 - psi) * film
-        mu[i] = psi * mu[i] * p[i]
+        tau0[i] = film_stress * film
+        mu[i] = solid_stress * mu[i] * p[i]
         tau[i] = tau0[i] + mu[i]
     return first, second, heat
 
@@ -96,6 +96,28 @@ def _shear_fault(raceway, contact, cells, fault):
 
 
 @helper
+def _outside(raceway, contact, cells, fault):
+    """Report the first law, in the order of their calls, that wrote behind the end of its output; returns whether."""
+    guard, roles = cells.guard, (RHEOLOGY, TRACTION, CONTACT_TEMPERATURE, RHEOLOGY, TRACTION, BOUNDARY_FRICTION)
+    found = guard[len(roles), 0] != 0.0  # of the density, which is written over and over: never NaN
+    for row in range(len(roles)):
+        found = found or guard[row, 0] == guard[row, 0]
+    if not found:
+        return False
+    role = RHEOLOGY
+    for row in range(len(roles)):
+        if guard[row, 0] == guard[row, 0]:
+            role = roles[row]
+            break
+    guard[len(roles), 0] = 0.0
+    report(
+        fault, role, OUTSIDE, raceway.number,
+        contact.max_pressure, contact.film_central, contact.entrainment, contact.film_parameter,
+    )  # fmt: skip
+    return True
+
+
+@helper
 def shear_stage(raceway, laws, par, grid, contact, cells, fault):
     """Shear stress of film and asperities in every cell.
 
@@ -104,7 +126,8 @@ def shear_stage(raceway, laws, par, grid, contact, cells, fault):
     taken as linear in temperature, which closes the loop. The relative change of
     the mean shear stress from the second sweep to the result is kept in contact.shear_change.
 
-    Each kernel writes into a row of its own, filled with NaN before; all rows are looked at together after the last.
+    Each kernel writes into a row of its own, filled with NaN before; all rows are looked at together after the last,
+    and so is the guard behind each, which has to be NaN still.
     """
     slip, p, temp, rho = cells.slip, cells.pressure, cells.inlet, cells.density
     cold, ln_eta = cells.ln_eta_inlet, cells.ln_eta
@@ -134,7 +157,11 @@ def shear_stage(raceway, laws, par, grid, contact, cells, fault):
         return report(fault, BOUNDARY_FRICTION, status, ring, slip[0], p[0], 0.0, 0.0)
     if not _finite_rows(cold, tau0, hot, ln_eta, tau, mu):
         return _shear_fault(raceway, contact, cells, fault)
-    first, second, heat = _close_loop(contact.asperity_share, inlet, grid.area, p, tau0, tau, hot, mu)
+    if _outside(raceway, contact, cells, fault):
+        return 0
+    first, second, heat = _close_loop(
+        contact.film_stress, contact.solid_stress, inlet, grid.area, p, tau0, tau, hot, mu
+    )
     contact.shear_change = abs(first - second) / (first + 1e-30)
     contact.film_temperature = heat / math.pi
     return 1

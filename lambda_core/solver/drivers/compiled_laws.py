@@ -15,7 +15,7 @@ from lambda_core.laws.context import Oil
 from lambda_core.laws.jit.function_tables import addresses
 from lambda_core.laws.kernels import compile_kernel
 from lambda_core.solver import layout as L
-from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of
+from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of, times
 from lambda_core.solver.entry import begin
 from lambda_core.solver.records import RACEWAY_ROLES
 from lambda_core.system.bearing import BearingModel
@@ -29,7 +29,7 @@ class Kernels:
 
     def __init__(self, model: BearingModel, announce: Announce = None) -> None:
         self._laws = model.laws
-        self._guides, self._links = guides(model), links(model)
+        self._guides, self._links, self._times = guides(model), links(model), times(model)
         begin(announce)  # the solver is compiled beside the laws
         # one model in several force elements is compiled once
         known: dict[tuple[str, str], Any] = {}
@@ -60,6 +60,7 @@ class Kernels:
             addresses([[law(element, "cage_contact")] for element in self._guides]),
             addresses([[law("fluid_drag", "fluid_drag")]]),
             addresses([[law(element, "force_element")] for element in self._links]).reshape(-1, 1),
+            addresses([[law(element, "time_function")] for element in self._times]).reshape(-1, 1),
         )
 
 

@@ -118,7 +118,7 @@ def contact_field(
     index, bundle, kernels = RINGS.index(ring), context.bundle, context.kernels
     raceway: Any = bundle.raceways[index]
     grid = unit_grid(strips, rows)
-    cells, scratch = np.zeros((2, L.CELL_ROWS, grid.shape[1])), np.zeros_like(bundle.scratch)
+    cells, scratch = np.zeros((2, L.CELL_ROWS, grid.shape[1] + L.GUARD)), np.zeros_like(bundle.scratch)
     losses = np.zeros(L.MECHANISMS * bundle.raceways.size)
     scratch[0].fault.role = -1
     finer = bundle._replace(grid=grid, cells=cells, scratch=scratch)
@@ -130,7 +130,7 @@ def contact_field(
     if status != 1:
         bundle.scratch["fault"] = scratch["fault"]
         raise SolverError(fault_sentence(context))
-    contact, its = scratch[0].contact[0], L.Cells(cells[0], *cells[0])
+    contact, its = scratch[0].contact[0], L.cells_of.py_func(cells[0])  # type: ignore[no-untyped-call]
     places, a, b = L.Grid(*grid), float(contact.semi_axis_a), float(contact.semi_axis_b)
 
     def mesh(values: FloatArray) -> FloatArray:

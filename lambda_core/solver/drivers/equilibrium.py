@@ -22,11 +22,11 @@ from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.ball_paths import path_velocities
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
-from lambda_core.solver.drivers.law_inputs import RACEWAYS, guides, links
+from lambda_core.solver.drivers.law_inputs import RACEWAYS, guides, links, times
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.tables import INNER, OUTER
 from lambda_core.solver.entry import Core, core
-from lambda_core.solver.faults import ROLES
+from lambda_core.solver.faults import OUTSIDE, ROLES
 from lambda_core.solver.statics.continuation import STATIC_REPORT
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel
@@ -317,6 +317,9 @@ def mean_frame(contacts: FloatArray, before: ContactFrame) -> ContactFrame:
     return ContactFrame((angles[0], angles[1]), (loads[0], loads[1]))
 
 
+_WHOLE = ("force_element", "time_function")  # roles that belong to no ball
+
+
 def fault_sentence(context: SolverContext, time: float | None = None) -> str:
     """Say which kernel refused, where, and with what inputs."""
     fault = context.bundle.scratch[0].fault
@@ -328,6 +331,8 @@ def fault_sentence(context: SolverContext, time: float | None = None) -> str:
         element = "fluid_drag"
     elif role == "force_element":
         element = links(context.model)[number]
+    elif role == "time_function":
+        element = times(context.model)[number]
     elif role == "cage_contact":
         element = {0: "cage_inner", 1: "cage_outer"}.get(number, guides(context.model)[0])
     else:
@@ -338,10 +343,12 @@ def fault_sentence(context: SolverContext, time: float | None = None) -> str:
         what = "returned a number that is not finite"
     elif status == 0:
         what = "raised an exception"
+    elif status == OUTSIDE:
+        what = "wrote behind the end of its output: an index is out of its array"
     else:
         what = f"returned status {status}: {model.errors.get(status, 'not declared')}"
     place = element.replace("_", " - ") + (f", t = {time:.6g} s" if time is not None else "")
-    if element not in ("cage_inner", "cage_outer") and role != "force_element":
+    if element not in ("cage_inner", "cage_outer") and role not in _WHOLE:
         place = f"ball {ball + 1}, {place}"
     inputs = ", ".join(f"{v:.6g}" for v in fault.inputs)
     return f"{model.label} {what} ({place}; inputs {inputs})"

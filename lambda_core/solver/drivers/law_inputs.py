@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lambda_core.laws.context import Oil
-from lambda_core.system.bearing import ELEMENT_PREFIX, BearingModel
+from lambda_core.system.bearing import ELEMENT_PREFIX, TIME_PREFIX, BearingModel
 
 RACEWAYS = ("ball_inner", "ball_outer")  # in the order of the table of raceways
 Oils = tuple[Oil, Oil]  # the oil as the rheology of each of these contacts has it
@@ -17,6 +17,11 @@ def oil_of(oils: Oils, element: str) -> Oil:
 def links(model: BearingModel) -> tuple[str, ...]:
     """Return the force elements between bodies in the solver's order, as the laws of a model name them."""
     return tuple(f"{ELEMENT_PREFIX}{name}" for name in model.links)
+
+
+def times(model: BearingModel) -> tuple[str, ...]:
+    """Return the loads and motions that a law gives, in the solver's order, as the laws of a model name them."""
+    return tuple(element for element in model.laws if element.startswith(TIME_PREFIX))
 
 
 def guides(model: BearingModel) -> tuple[str, str, str]:

@@ -96,7 +96,7 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: O
     """Build the bundle for given frozen contact angles and mean loads."""
     terms, table, active = build_times(model)
     grid = unit_grid(model.depth.strips, model.depth.rows)
-    tables, compiled = build_tables(model, frame, oils), core()
+    tables, compiled = build_tables(model, frame, oils, terms), core()
     bodies, balls = tables.bodies.size, int(tables.system[0]["balls"])
     inputs, now, rates = np.zeros(bodies, R.INPUTS), np.zeros(bodies, R.BODY_STATE), np.zeros(bodies, R.BODY_STATE)
     bundle = L.Bundle(
@@ -113,7 +113,7 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: O
         active=active,
         inputs=inputs,
         signals=inputs.view(R.SIGNAL),
-        cells=np.zeros((2, L.CELL_ROWS, grid.shape[1])),
+        cells=np.zeros((2, L.CELL_ROWS, grid.shape[1] + L.GUARD)),
         scratch=np.zeros(1, R.SCRATCH),
         shared=now.view(np.float64),
         bodies_now=now,

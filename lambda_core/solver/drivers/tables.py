@@ -6,6 +6,7 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, DOFS
@@ -14,7 +15,7 @@ from lambda_core.laws.context import Oil
 from lambda_core.laws.state import names_behind
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
-from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of
+from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of, times
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame, build_context, effective_modulus, prepare
 from lambda_core.system.state_channels import states_of
@@ -70,13 +71,18 @@ def ball_mass(model: BearingModel) -> float:
     return model.ball_material.density * math.pi * model.geometry.ball_diameter**3 / 6.0
 
 
-def build_tables(model: BearingModel, frame: ContactFrame, oils: Oils) -> Tables:
-    """Return the tables of one bearing: three bodies, one row of balls, two raceways."""
+def build_tables(model: BearingModel, frame: ContactFrame, oils: Oils, terms: NDArray[np.void]) -> Tables:
+    """Return the tables of one bearing: three bodies, one row of balls, two raceways.
+
+    Into `terms`, records.TERM, goes where the laws among them have their parameters.
+    """
     parameters = _Parameters(model, frame, oils)
     raceways = _raceways(model, frame, oils, parameters)
     rows, lands = _rows(model, oils[0], parameters), _lands(model, oils[0], parameters)
     rows[0]["drag"] = parameters.add("fluid_drag", "fluid_drag")
     between = _links(model, parameters)
+    for i, element in enumerate(times(model)):
+        terms["parameters"][(terms["kind"] == R.LAW) & (terms["law"] == i)] = parameters.add(element, "time_function")
     system = np.zeros(1, R.SYSTEM)
     s = system[0]
     s["balls"], s["gravity"] = model.geometry.ball_count, model.gravity

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,20 +11,24 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import DOFS
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
-from lambda_core.system.bearing import BearingModel, TimeFunction
+from lambda_core.solver.drivers.law_inputs import times
+from lambda_core.system.bearing import BearingModel, LawTerm, TimeFunction
 
-_KINDS = {"constant": R.CONSTANT, "ramp": R.RAMP, "harmonic": R.HARMONIC, "table": R.TABLE}
+_KINDS = {"constant": R.CONSTANT, "ramp": R.RAMP, "harmonic": R.HARMONIC, "table": R.TABLE, "law": R.LAW}
 # Fields of a term that take the values of each kind.
 _VALUES = {
     "constant": ("value",),
     "ramp": ("before", "after", "begin", "end"),
     "harmonic": ("amplitude", "frequency", "phase"),
+    "law": ("amplitude",),
 }
 MOTION, FORCE, MOMENT, PER_BODY = 0, 6, 9, 12  # places of the signals of a body, in the order of records.INPUTS
 _CAGE = 2
 
 
-def add_terms(signal: int, function: TimeFunction, rows: list[NDArray[np.void]], table: list[float]) -> None:
+def add_terms(
+    signal: int, function: TimeFunction, rows: list[NDArray[np.void]], table: list[float], laws: Sequence[str] = ()
+) -> None:
     """Append a time function's terms to the flat tables that compiled code reads."""
     for term in function.terms:
         row = np.zeros(1, R.TERM)
@@ -39,6 +45,8 @@ def add_terms(signal: int, function: TimeFunction, rows: list[NDArray[np.void]],
         else:
             for name, value in zip(_VALUES[term.kind], term.values, strict=False):
                 row[name] = value
+        if isinstance(term, LawTerm):
+            row["law"] = laws.index(term.law)
         rows.append(row)
 
 
@@ -47,13 +55,14 @@ def build_times(model: BearingModel) -> tuple[NDArray[np.void], FloatArray, NDAr
     rows: list[NDArray[np.void]] = []
     table: list[float] = []
     active: list[int] = []
+    laws = times(model)
     for b, body in enumerate((model.inner_ring, model.outer_ring, model.cage_body)):
         if b == _CAGE and not model.depth.cage:
             continue
         for d, name in enumerate(DOFS):
             dof = body.dofs[name]
             if dof.mode == "prescribed":
-                add_terms(PER_BODY * b + MOTION + d, dof.motion, rows, table)
+                add_terms(PER_BODY * b + MOTION + d, dof.motion, rows, table, laws)
             if dof.mode == "free":
                 # Turning about y moves a_z, turning about z moves a_y.
                 position = {3: L.SAZ, 4: L.SAY}.get(d, d)
@@ -61,7 +70,7 @@ def build_times(model: BearingModel) -> tuple[NDArray[np.void], FloatArray, NDAr
             elif d == 5 and dof.mode == "prescribed":
                 active.append(L.NS * b + L.STHETA)
         for axis in range(3):
-            add_terms(PER_BODY * b + FORCE + axis, body.force[axis], rows, table)
-            add_terms(PER_BODY * b + MOMENT + axis, body.moment[axis], rows, table)
+            add_terms(PER_BODY * b + FORCE + axis, body.force[axis], rows, table, laws)
+            add_terms(PER_BODY * b + MOMENT + axis, body.moment[axis], rows, table, laws)
     terms = np.concatenate([np.zeros(0, R.TERM), *rows])
     return terms, np.array(table or [0.0]), np.array(sorted(active), dtype=np.int64)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from lambda_core.solver.cage.guides import (
     GAUSS_NODES,
     GAUSS_WEIGHTS,
@@ -97,7 +99,8 @@ def stored_energy(t, y, bundle):
     """Return kinetic plus elastic energy of all bodies, contacts and supports [J]."""
     system = bundle.system[0]
     balls = y[: NB * system.balls].view(BALL)
-    fill_shared(t, y, bundle)
+    if fill_shared(t, y, bundle) != 1:
+        return np.nan
     total = 0.0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]

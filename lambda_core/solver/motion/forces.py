@@ -102,7 +102,8 @@ def evaluate(t, y, bundle, dydt, rates, want):
     bundle.scratch[0].fault.role = -1
     balls, moved = y[: NB * system.balls].view(BALL), dydt[: NB * system.balls].view(BALL)
     running = running_of(rates)[0]
-    fill_shared(t, y, bundle)
+    if fill_shared(t, y, bundle) != 1:
+        return 0
     if want < 2 and _raceways(t, balls, bundle, rates, want) != 1:
         return 0
     want = min(want, 1)

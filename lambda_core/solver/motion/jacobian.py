@@ -116,7 +116,8 @@ def jacobian(t, y, bundle, bl):
     """
     system = bundle.system[0]
     balls = y[: NB * system.balls].view(BALL)
-    fill_shared(t, y, bundle)
+    if fill_shared(t, y, bundle) != 1:
+        return 0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         for j in range(row.first_ball, row.first_ball + row.balls):

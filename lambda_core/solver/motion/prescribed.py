@@ -4,13 +4,32 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.solver.layout import NB, helper
-from lambda_core.solver.records import CONSTANT, GIVEN, HARMONIC, PRESCRIBED, RAMP
+import numpy as np
+
+from lambda_core.solver.faults import TIME_FUNCTION, report
+from lambda_core.solver.layout import NB, helper, part, time_law
+from lambda_core.solver.records import CONSTANT, GIVEN, HARMONIC, LAW, PRESCRIBED, RAMP
 
 
 @helper
-def evaluate_signals(t, terms, table, signals):
-    """Write value, first and second derivative of every signal at time t [s]."""
+def _by_law(t, term, bundle, signal):
+    """Add amplitude * f(t) with f by a law; returns 1 when well."""
+    scratch = bundle.scratch[0]
+    out = scratch.out[:]
+    out[:3] = np.nan
+    status = time_law(bundle.laws.times, term.law)(t, part(bundle.par, term.parameters), out)
+    if status != 1 or not abs(out[0]) + abs(out[1]) + abs(out[2]) < np.inf:
+        return report(scratch.fault, TIME_FUNCTION, status, term.law, t, out[0], out[1], out[2])
+    signal.value += term.amplitude * out[0]
+    signal.rate += term.amplitude * out[1]
+    signal.acceleration += term.amplitude * out[2]
+    return 1
+
+
+@helper
+def evaluate_signals(t, bundle):
+    """Write value, first and second derivative of every signal at time t [s]; returns 1 when well."""
+    terms, table, signals = bundle.terms, bundle.table, bundle.signals
     for i in range(signals.size):
         signal = signals[i]
         signal.value, signal.rate, signal.acceleration = 0.0, 0.0, 0.0
@@ -40,8 +59,12 @@ def evaluate_signals(t, terms, table, signals):
             signal.value += s
             signal.rate += w * c
             signal.acceleration -= w * w * s
+        elif term.kind == LAW:
+            if _by_law(t, term, bundle, signal) != 1:
+                return 0
         else:
             _spline(t, table, term.start, term.knots, signal)
+    return 1
 
 
 @helper
@@ -92,9 +115,13 @@ def _prescribe(body, inputs, now):
 
 @helper
 def fill_shared(t, y, bundle):
-    """Write the whole shared state at time t, free entries from y, the others prescribed, and states of contacts."""
+    """Write the whole shared state at time t, free entries from y, the others prescribed, and states of contacts.
+
+    Returns 1 when well.
+    """
     shared = bundle.shared
-    evaluate_signals(t, bundle.terms, bundle.table, bundle.signals)
+    if evaluate_signals(t, bundle) != 1:
+        return 0
     for i in range(shared.size):
         shared[i] = 0.0
     for b in range(bundle.bodies.size):
@@ -106,3 +133,4 @@ def fill_shared(t, y, bundle):
     base += active.size
     for i in range(bundle.states.size):
         bundle.states[i] = y[base + i]
+    return 1

@@ -87,6 +87,13 @@ def asperity_load(Lambda, par, out):
     return OK
 
 
+@law("mixing", "own", role_api=2, reference="own work")
+def mixing(psi, Lambda, load, p_max, semi_a, semi_b, par, out):
+    out[0] = 1.0
+    out[1] = 0.0
+    return OK
+
+
 @law("supply", "own", role_api=2, reference="own work")
 def supply(u_mean, load, semi_a, semi_b, R_x, h_cen, h_min, par, out):
     out[0] = 1.0
