@@ -230,12 +230,12 @@ def ball_capacities(
 ) -> tuple[float, float]:
     """Rolling element loads (Q_ci, Q_ce) for the basic dynamic load rating [N] (ISO/TS 16281:2008, eq. 19-20).
 
-    Q_ci = C/(0.407 Z (cos alpha)^0.7) (1 + t^(10/3))^0.3 and Q_ce = C/(0.389 Z (cos alpha)^0.7)
+    Q_ci = C/(0.407 Z cos(alpha)) (1 + t^(10/3))^0.3 and Q_ce = C/(0.389 Z cos(alpha))
     (1 + t^(-10/3))^0.3, t = 1.044 [(1-g)/(1+g)]^1.72 [(r_i/r_e)(2 r_e - D_w)/(2 r_i - D_w)]^0.41. The numbers
     0.407 and 0.389 are J_r/J_1 and J_r/J_2 of the load distribution with half the raceway loaded.
     """
     term = conformity_term(gamma, inner_conformity, outer_conformity, coefficient=1.044)
-    share = dynamic_rating / (ball_count * math.cos(nominal_angle) ** 0.7)
+    share = dynamic_rating / (ball_count * math.cos(nominal_angle))
     inner = share / 0.407 * (1.0 + term ** (10.0 / 3.0)) ** 0.3
     outer = share / 0.389 * (1.0 + term ** (-10.0 / 3.0)) ** 0.3
     return inner, outer

@@ -86,15 +86,22 @@ def test_capacity_constants_are_load_integrals() -> None:
     Published(0.389, source, "rounding in the standard", abs=0.0006).check(radial / fatigue_integral(0.5, 10.0 / 3.0))
 
 
+@pytest.mark.parametrize("angle", [0.0, 15.0, 40.0])
 @pytest.mark.parametrize("gamma", [0.1, 0.2, 0.3])
-def test_reference_life_of_the_standard_case_is_the_basic_life(gamma: float) -> None:
-    """Many balls, half the raceway loaded: L_10r has to be (C/F_r)^3, which defines the capacities."""
-    count, rating, load = 360, 30e3, 4e3
+def test_reference_life_of_the_standard_case_is_the_basic_life(gamma: float, angle: float) -> None:
+    """Many balls, half the raceway loaded: L_10r has to be (C/F_r)^3, which defines the capacities at every angle."""
+    count, rating, load, alpha = 360, 30e3, 4e3, math.radians(angle)
     angles = 2.0 * math.pi * np.arange(count) / count
     relative = np.maximum(np.cos(angles), 0.0) ** 1.5
-    loads = list(relative * load / float(np.sum(relative * np.cos(angles))))
+    loads = list(relative * load / float(np.sum(relative * np.cos(angles))) / math.cos(alpha))
     result = reference_rating_life(
-        loads, loads, dynamic_rating=rating, gamma=gamma, inner_conformity=0.52, outer_conformity=0.52
+        loads,
+        loads,
+        dynamic_rating=rating,
+        gamma=gamma,
+        inner_conformity=0.52,
+        outer_conformity=0.52,
+        nominal_angle=alpha,
     )
     reason = "three digits of 0.407 and 0.389, raised to the third power"
     Published((rating / load) ** 3, "ISO 281:2007", reason, rel=0.006).check(result.life)
