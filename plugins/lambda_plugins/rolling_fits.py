@@ -18,6 +18,10 @@ def strips(exponent: float) -> float:
     return math.sqrt(math.pi) * math.gamma(exponent + 1.0) / math.gamma(exponent + 1.5)
 
 
+# Compiled kernels take these as numbers: gamma functions are none of the C library's that machine code calls.
+_MATSUYAMA, _ZHOU_HOEPRICH, _AIHARA = strips(0.08), strips(0.246), strips(0.31)
+
+
 def peak_load(load: float, semi_a: float, E_eff: float, R_x: float) -> float:
     """Return W = w/(E' R_x) of the middle strip."""
     return 0.75 * load / (semi_a * E_eff * R_x)
@@ -59,7 +63,7 @@ def matsuyama(
     speed = regular_speed(u_mean, par.speed_floor)
     U = eta0 * speed / (E_eff * R_x)
     W = peak_load(load, semi_a, E_eff, R_x)
-    force = 7.1 * E_eff * R_x * semi_a * strips(0.08) * U**0.75 * (alpha_p * E_eff) ** -0.04 * W**0.08
+    force = 7.1 * E_eff * R_x * semi_a * _MATSUYAMA * U**0.75 * (alpha_p * E_eff) ** -0.04 * W**0.08
     out[0] = force * thermal_factor(par.thermal_coefficient, speed, eta0, beta, k_oil) * abs(u_mean) / speed
     return OK
 
@@ -100,7 +104,7 @@ def zhou_hoeprich(
     speed = regular_speed(u_mean, par.speed_floor)
     U = eta0 * speed / (E_eff * R_x)
     W = peak_load(load, semi_a, E_eff, R_x)
-    force = 29.2 * R_x / alpha_p * semi_a * strips(0.246) * (alpha_p * E_eff * U) ** 0.648 * W**0.246
+    force = 29.2 * R_x / alpha_p * semi_a * _ZHOU_HOEPRICH * (alpha_p * E_eff * U) ** 0.648 * W**0.246
     out[0] = force * thermal_factor(par.thermal_coefficient, speed, eta0, beta, k_oil) * abs(u_mean) / speed
     return OK
 
@@ -140,7 +144,7 @@ def aihara(
     speed = regular_speed(u_mean, par.speed_floor)
     U = eta0 * speed / (E_eff * R_x)
     W = peak_load(load, semi_a, E_eff, R_x)
-    force = 88.0 * R_x / alpha_p * semi_a * strips(0.31) * (alpha_p * E_eff * U) ** 0.658 * W**0.31
+    force = 88.0 * R_x / alpha_p * semi_a * _AIHARA * (alpha_p * E_eff * U) ** 0.658 * W**0.31
     out[0] = force * thermal_factor(par.thermal_coefficient, speed, eta0, beta, k_oil) * abs(u_mean) / speed
     return OK
 

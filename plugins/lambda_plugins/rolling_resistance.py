@@ -17,6 +17,8 @@ from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameter
 from lambda_plugins.shapes import at_least, polynomial, series
 
 _POINTS = 8
+# Integral of (1 - s^2)^0.0126 ds over -1..1: the beta function B(1/2, 1.0126).
+_STRIPS = math.sqrt(math.pi) * math.gamma(1.0126) / math.gamma(1.5126)
 
 
 class InletShear(Parameters):
@@ -155,9 +157,7 @@ def goksem_hargreaves(
     speed = regular_speed(u_mean, par.speed_floor)
     U = eta0 * speed / (E_eff * R_x)
     peak = 0.75 * load / (semi_a * E_eff * R_x)
-    # integral of (1 - s^2)^0.0126 ds over -1..1 is the beta function B(1/2, 1.0126)
-    total = peak**0.0126 * math.sqrt(math.pi) * math.gamma(1.0126) / math.gamma(1.5126)
-    force = 4.318 * R_x / alpha_p * (alpha_p * E_eff * U) ** 0.658 * semi_a * total
+    force = 4.318 * R_x / alpha_p * (alpha_p * E_eff * U) ** 0.658 * semi_a * peak**0.0126 * _STRIPS
     out[0] = force * thermal_factor(par.thermal_coefficient, speed, eta0, beta, k_oil) * abs(u_mean) / speed
     return OK
 

@@ -18,6 +18,8 @@ from lambda_cli.main import main
 
 from lambda_core import api
 from lambda_core.domain.errors import LambdaError, UsageError
+from lambda_core.domain.roles import ROLES
+from lambda_core.laws.kernels import compile_kernel
 
 HERE = Path(__file__).parent
 CASE, CHANGES = "6208-axial-1300", ("solver.duration=0.2 s",)
@@ -272,15 +274,21 @@ def test_what_cannot_be_exported_is_said(
 def test_code_that_needs_python_is_refused() -> None:
     """A stub in the place of a function that works would give wrong numbers in silence."""
     import llvmlite.binding as llvm
-    from numba.core.registry import cpu_target
 
     from lambda_core.laws.jit.portable import _without_python
 
     text = "declare double @numba_gamma(double)\ndefine double @f(double %x) {\n"
     text += " %y = call double @numba_gamma(double %x)\n ret double %y\n}"
-    codegen = cpu_target.target_context.codegen()
-    with pytest.raises(LambdaError, match="numba_gamma, which is not there without Python"):
-        _without_python(llvm.parse_assembly(text), codegen)
+    with pytest.raises(LambdaError, match="my_law calls numba_gamma, which is not there without Python"):
+        _without_python(llvm.parse_assembly(text), {"numba_gamma": "my_law"})
+
+
+def test_every_law_runs_without_python() -> None:
+    from lambda_core.laws.jit.portable import unknown
+
+    laws = [law for role in ROLES for law in api.registry().models(role).values()]
+    found = {law.label: unknown(compile_kernel(law).pointer) for law in laws}
+    assert {label: names for label, names in found.items() if names} == {}
 
 
 @pytest.mark.slow

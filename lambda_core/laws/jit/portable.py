@@ -41,7 +41,7 @@ _LIBM = {
 _RESULT = {"void": "", "ptr": "null", "double": "0.0"}
 _DECLARED = re.compile(r"declare (?:\w+ )*?(\w+) @\S+?(\(.*?\))")
 _TEXT = "text"  # what errors would say, with the paths of files here: left out
-_TEXTS = re.compile(rf"^(@{_TEXT}\d+ = internal (?:unnamed_addr )?constant) (?:\[|\{{).*?(?=, align|$)", re.MULTILINE)
+_TEXTS = re.compile(rf"^(@{_TEXT}\w+ = internal (?:unnamed_addr )?constant) (?:\[|\{{).*?(?=, align|$)", re.MULTILINE)
 BYTE, WORD, REAL = ir.IntType(8), ir.IntType(64), ir.DoubleType()
 
 
@@ -108,10 +108,11 @@ def object_code(entries: Sequence[Entry], table: Sequence[Pointer], cache: Path)
     with suppress(OSError):
         return kept.read_bytes()
     whole = llvm.parse_assembly(_head(codegen))
-    names = _link(whole, pointers)
+    names, callers = _link(whole, pointers)
     whole.link_in(llvm.parse_assembly(str(_doors(codegen, names, entries, table))))
-    _hide(whole, {entry.name for entry in entries} | {"lb_functions"}, codegen)
-    _without_python(whole, codegen)
+    for name in names.values():
+        whole.get_function(name).linkage = "internal"
+    _without_python(whole, callers)
     whole = llvm.parse_assembly(_TEXTS.sub(r"\1 [1 x i8] zeroinitializer", str(whole)))
     whole.verify()
     made = _machine_code(whole, codegen)
@@ -152,25 +153,48 @@ def _content(entries: Sequence[Entry], pointers: Iterable[Pointer]) -> str:
     return digest.hexdigest()
 
 
+def unknown(pointer: Pointer) -> list[str]:
+    """Return the functions that compiled code calls and that are there with Python only."""
+    return _unknown(_part(pointer, "wanted", 0))
+
+
+def _unknown(part: Any) -> list[str]:
+    declared = (each.name for each in part.functions if each.is_declaration)
+    return [name for name in declared if not (name.startswith("llvm.") or name in _LIBM or _PYTHON.fullmatch(name))]
+
+
 def _compiled(pointer: Pointer) -> Any:
     if is_plain():
         raise UsageError("compiled code cannot be taken out on the plain way: unset LAMBDA_BEARING_PLAIN_JIT")
     return pointer.compiled
 
 
-def _link(whole: Any, pointers: Iterable[Pointer]) -> dict[str, str]:
-    """Put the code behind pointers into a module; returns their short names there by their own."""
+def _link(whole: Any, pointers: Iterable[Pointer]) -> tuple[dict[str, str], dict[str, str]]:
+    """Put the code behind pointers into a module; returns their short names by their own, and who calls what."""
     names: dict[str, str] = {}
+    callers: dict[str, str] = {}
     for pointer in pointers:
         name = symbol(pointer)
-        if name in names:
-            continue
-        names[name] = f"lb_{len(names)}"
-        part = _compiled(pointer).library._get_module_for_linking().clone()
-        function = part.get_function(name)
-        function.linkage, function.name = "external", names[name]  # as it is kept, linking would drop it
-        whole.link_in(part)
-    return names
+        if name not in names:
+            part = _part(pointer, f"lb_{len(names)}", len(names))
+            callers.update(dict.fromkeys(_unknown(part), _compiled(pointer).fndesc.qualname))
+            names[name] = f"lb_{len(names)}"
+            whole.link_in(part)
+    return names, callers
+
+
+def _part(pointer: Pointer, name: str, mark: int) -> Any:
+    """Return a module with a function under a name, and what it calls hidden."""
+    part = _compiled(pointer).library._get_module_for_linking().clone()
+    for number, each in enumerate([*part.functions, *part.global_variables]):
+        if each.name == symbol(pointer):
+            each.linkage, each.name = "external", name  # as it is kept, linking would drop it
+        elif not each.is_declaration:
+            # Numba's names have up to 100 kB each.
+            kind = _TEXT if each.name.startswith(".const.pick") else "k"
+            each.linkage, each.name = "internal", f"{kind}{number}_{mark}"
+    _run(part, "add_global_dead_code_eliminate_pass")  # the doors for Python
+    return part
 
 
 def _doors(codegen: Any, names: Mapping[str, str], entries: Sequence[Entry], table: Sequence[Pointer]) -> ir.Module:
@@ -220,25 +244,16 @@ def _door(module: ir.Module, entry: Entry, called: ir.Function) -> None:
     builder.ret(builder.call(called, arguments))
 
 
-def _hide(whole: Any, seen: set[str], codegen: Any) -> None:
-    """Make everything but what is to be seen internal, and drop what nobody calls."""
-    for number, each in enumerate([*whole.functions, *whole.global_variables]):
-        if not each.is_declaration and each.name not in seen:
-            # Numba's names have up to 100 kB each.
-            kind = _TEXT if each.name.startswith(".const.pick") else "k"
-            each.linkage, each.name = "internal", f"{kind}{number}"
-    _run(whole, codegen, "add_global_dead_code_eliminate_pass")
-
-
-def _run(whole: Any, codegen: Any, *names: str) -> None:
+def _run(whole: Any, *names: str) -> None:
     """Run passes that change no arithmetic."""
     passes = llvm.create_new_module_pass_manager()
     for name in names:
         getattr(passes, name)()
+    codegen = cpu_target.target_context.codegen()
     passes.run(whole, llvm.create_pass_builder(codegen._tm, llvm.create_pipeline_tuning_options(speed_level=0)))
 
 
-def _without_python(whole: Any, codegen: Any) -> None:
+def _without_python(whole: Any, callers: Mapping[str, str]) -> None:
     """Put functions that do nothing in the place of Python's, and drop what only they were given."""
     stubs: dict[str, str] = {}
     for each in [*whole.functions, *whole.global_variables]:
@@ -246,7 +261,7 @@ def _without_python(whole: Any, codegen: Any) -> None:
         if not each.is_declaration or name.startswith("llvm.") or name in _LIBM:
             continue
         if not _PYTHON.fullmatch(name):
-            raise SolverError(f"a law or the solver calls {name}, which is not there without Python")
+            raise SolverError(f"{callers[name]} calls {name}, which is not there without Python: take another law")
         shape = _DECLARED.search(str(each))
         kind = shape[1] if shape else ""
         stubs[name] = (
@@ -260,7 +275,7 @@ def _without_python(whole: Any, codegen: Any) -> None:
             each.linkage = "internal"
             if each.is_function:
                 each.add_function_attribute("alwaysinline")
-    _run(whole, codegen, "add_always_inliner_pass", "add_global_dead_code_eliminate_pass")
+    _run(whole, "add_always_inliner_pass", "add_global_dead_code_eliminate_pass")
 
 
 def is_function(kind: Any) -> bool:
