@@ -13,8 +13,8 @@ from lambda_core.solver.status import Status
 # Of the error allowed per step, while there is no history. Friction in a contact at rest changes sign within far less:
 # what the first steps leave of it turns it over at every later step, and those stay at nanoseconds.
 _FIRST_STEPS = 0.03
-_MAX_NEWTON = 4
-_MAX_LOCAL = 4  # more iterations where Jacobians of single balls are renewed on the way
+_MAX_NEWTON = 6
+_MAX_LOCAL = 4  # more iterations where Jacobians are renewed on the way
 _REFACTOR = 0.41  # relative change of gamma beyond which M is factored anew; not a tie with one growth of the step
 _SLOW = 0.3  # convergence rate beyond which the Jacobian is renewed for the balls that are to blame
 _SHARE = 0.05  # of the squared last change, from which a ball's part of the Jacobian is renewed
@@ -52,6 +52,7 @@ def _move(mem, first, last, relax, again):
 
     The correction c(x) is to vanish. Where it turned round, the root along the last move m is at
     c - theta (m + c - c_0), theta = c.(c - c_0)/|c - c_0|^2: Anderson 1965, J. ACM 12, 547, with one difference.
+    Returns whether the secant was taken.
     """
     change, before, moved = mem.change, mem.last_change, mem.last_move
     swing, size, difference, along = 0.0, 0.0, 0.0, 0.0
@@ -68,6 +69,20 @@ def _move(mem, first, last, relax, again):
         move = change[i] - theta * (moved[i] + change[i] - before[i])
         before[i], moved[i] = change[i], move
         mem.new[i] += move
+    return theta != 0.0
+
+
+@helper
+def _move_all(bundle, mem, relax, again):
+    """Move every state by its correction, ball by ball; returns whether a ball's corrections swung to and fro."""
+    tail, moving = NB * bundle.system[0].balls, mem.new.size - bundle.states.size
+    swung = False
+    for j in range(bundle.system[0].balls):
+        swung |= _move(mem, NB * j, NB * j + NB, relax, again)
+    swung |= _move(mem, tail, moving, relax, again)
+    if moving < mem.new.size:
+        swung |= _move(mem, moving, mem.new.size, 1.0, again)
+    return swung
 
 
 @helper
@@ -89,9 +104,12 @@ def _renew(jacobian, t, gamma, bundle, bl, fa, mem):
 
 
 @helper
-def _mark_slow(bl, mem, size):
-    """Mark the balls that make most of the last change, of the given norm; returns how many."""
-    change, weight = mem.change, mem.weight
+def _renew_slow(bl, mem, size):
+    """Have the Jacobian renewed for the balls that make most of the last change, of the given norm.
+
+    Where no ball stands out the bodies that all share are slow, and it is renewed for all.
+    """
+    change, weight, count = mem.change, mem.weight, mem.count[0]
     bar = _SHARE * size * size * change.size
     marked = 0
     for j in range(bl.due.size):
@@ -101,7 +119,13 @@ def _mark_slow(bl, mem, size):
             total += x * x
         bl.due[j] = 1 if total > bar else 0
         marked += bl.due[j]
-    return marked
+    count.stale = 1
+    if marked > 0:
+        count.ball_jacobians += 1
+    else:
+        bl.due[:] = 1
+        count.jacobians += 1
+        count.jacobian_age = 0
 
 
 @helper
@@ -109,9 +133,10 @@ def solve_step(evaluate, jacobian, t, h, bundle, bl, fa, mem):
     """Solve new = base + gamma f(new); returns a Status: OK, NOT_CONVERGED, REFUSED.
 
     A ball that bounces on a raceway or in its pocket spoils the convergence of all: where it is slow, the Jacobian is
-    renewed at the iterate for the balls that change most. The rates of the running integrals are those of the last
-    iterate, brought to the result by what its residual says; the iteration goes on while they do not account for the
-    energy.
+    renewed at the iterate for the balls that change most. A ball that creeps near gross sliding throws Newton's
+    iteration to and fro, whatever its Jacobian: it goes by the secant. The rates of the running integrals are those of
+    the last iterate, brought to the result by what its residual says; the iteration goes on while they do not account
+    for the energy.
     """
     new, change, weight, count, control = mem.new, mem.change, mem.weight, mem.count[0], mem.control[0]
     n, gamma = new.size, control.gamma
@@ -139,12 +164,7 @@ def solve_step(evaluate, jacobian, t, h, bundle, bl, fa, mem):
             return Status.NOT_CONVERGED
         # A matrix factored for another gamma over- or undershoots by a known amount.
         relax = 2.0 / (1.0 + gamma / control.factored_gamma)
-        again = iteration > 0 and careful
-        for j in range(bundle.system[0].balls):
-            _move(mem, NB * j, NB * j + NB, relax, again)
-        _move(mem, NB * bundle.system[0].balls, moving, relax, again)
-        if moving < n:
-            _move(mem, moving, n, 1.0, again)
+        swung = _move_all(bundle, mem, relax, iteration > 0)
         size = norm(change, weight)
         if not size < 1e12:
             return Status.NOT_CONVERGED
@@ -153,17 +173,14 @@ def solve_step(evaluate, jacobian, t, h, bundle, bl, fa, mem):
             if careful and size > 2.0 * before and size > tolerance:
                 return Status.NOT_CONVERGED
         # Secants hide the rate of convergence.
-        rate = 1.0 if careful else control.convergence_rate
+        rate = 1.0 if careful or swung else control.convergence_rate
         good = size * min(1.0, rate) <= tolerance
         # Corrections that swing within the tolerance want care; where care does not help, they are let pass.
         if good and (leak_of_iterate(bundle, mem, h) <= 1.0 or (careful and iteration + 1 >= limit)):
             finalise_step(bundle, mem)
             return Status.OK
         if iteration > 0 and not careful and size > _SLOW * before:
-            if _mark_slow(bl, mem, size) == 0:
-                return Status.NOT_CONVERGED
-            count.ball_jacobians += 1
-            count.stale = 1
+            _renew_slow(bl, mem, size)
             limit = min(limit + 1, _MAX_NEWTON + _MAX_LOCAL)
         before = size
     return Status.NOT_CONVERGED
