@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.solver.integrator.tableau import ERROR, LOSS, STAGES
+from lambda_core.solver.integrator.tableau import ERROR, LOSS, STAGES, WEIGHTS, A
 from lambda_core.solver.layout import (
     BESIDE_LOSSES,
     BPSI,
@@ -47,26 +47,39 @@ def _quotient(mem, shared, k):
 
 
 @helper
+def _power_of_speed(mem, shared, k):
+    """Return what a led speed's kinetic energy takes, per mass: D(v^2/2) of a BDF, v D(v) of a stage (settle_led).
+
+    Such a speed is known, and its kinetic energy with it: v D(v) of the step across a jump would be twice as much.
+    """
+    v = shared[k]
+    if mem.stages.shape[0] > 0:
+        return v * _quotient(mem, shared, k)
+    before, last = mem.shared[k] * mem.shared[k], mem.shared1[k] * mem.shared1[k]
+    return 0.5 * (v * v - before - mem.control[0].back * (before - last)) / mem.control[0].gamma
+
+
+@helper
 def _work_of_motion(body, now, wrench, inputs, first, shared, mem, running):
     """Add one body's share; see _work_of_motions. Its state begins at `first`."""
     for i in range(3):
         if body.mode[i] == PRESCRIBED:
             v = now.velocity[i]
             force = wrench.force[i] - body.stiffness[i] * now.position[i]
-            off = _quotient(mem, shared, first + SVX + i) - inputs.motion[i].acceleration
-            running.input += body.mass * v * off - force * (_quotient(mem, shared, first + i) - v)
+            taken = _power_of_speed(mem, shared, first + SVX + i) - v * inputs.motion[i].acceleration
+            running.input += body.mass * taken - force * (_quotient(mem, shared, first + i) - v)
     # A tilt (phi_y, phi_z) turns the axis to (1, phi_z, -phi_y).
     for i in range(2):
         if body.mode[3 + i] == PRESCRIBED:
             axis, sign = (1, -1.0) if i == 0 else (0, 1.0)
             w = now.tilt_velocity[i]
             moment = wrench.moment[1 + i] - body.stiffness[3 + i] * sign * now.tilt[axis]
-            off = _quotient(mem, shared, first + SWY + i) - inputs.motion[3 + i].acceleration
+            taken = _power_of_speed(mem, shared, first + SWY + i) - w * inputs.motion[3 + i].acceleration
             along = moment * (sign * _quotient(mem, shared, first + SAY + axis) - w)
-            running.input += body.transverse_inertia * w * off - along
+            running.input += body.transverse_inertia * taken - along
     if body.mode[5] == PRESCRIBED:
-        off = _quotient(mem, shared, first + SSIGMA) - inputs.motion[5].rate
-        drive = body.polar_inertia * now.spin * off
+        taken = _power_of_speed(mem, shared, first + SSIGMA) - now.spin * inputs.motion[5].rate
+        drive = body.polar_inertia * taken
         running.input += drive
         running.drive += drive
 
@@ -75,7 +88,7 @@ def _work_of_motion(body, now, wrench, inputs, first, shared, mem, running):
 def _work_of_motions(bundle, mem):
     """Add to the input what differences of prescribed motions differ by from their derivatives.
 
-    A ring that is led has the kinetic power m v D(v), and a force F on it does the work F D(x): not m v dv/dt and F v,
+    A ring that is led has the kinetic power m D(v^2/2), a force F on it does the work F D(x): not m v dv/dt and F v,
     where a motion has a corner or changes fast. Translation, tilt, spin.
     """
     running = running_of(mem.rates)[0]
@@ -297,6 +310,36 @@ def add_turn_over(mem, h):
         if mem.inertia[i] > 0.0:
             power += abs(mem.inertia[i] * mem.new[i] * mem.stages[STAGES - 1, i])
     mem.control[0].turned_over += h * power
+
+
+@helper
+def _settled(mem, end, inertia, k, h):
+    """Return what the kinetic energy of a led speed grows by in a step beyond what the stages were given [J]."""
+    start, given = mem.shared[k], 0.0
+    for i in range(STAGES):
+        v = start
+        for j in range(i + 1):
+            v += h * A[i, j] * mem.stage_shared[j, k]
+        given += h * WEIGHTS[i] * v * mem.stage_shared[i, k]
+    return inertia * (0.5 * (end[k] * end[k] - start * start) - given)
+
+
+@helper
+def settle_led(bundle, mem, h):
+    """Have the input of a step of stages account for the kinetic energy of rings that are led, also across jumps."""
+    running = running_of(mem.integrals)[0]
+    for b in range(bundle.bodies.size):
+        body, first = bundle.bodies[b], NS * b
+        for i in range(3):
+            if body.mode[i] == PRESCRIBED:
+                running.input += _settled(mem, bundle.shared, body.mass, first + SVX + i, h)
+        for i in range(2):
+            if body.mode[3 + i] == PRESCRIBED:
+                running.input += _settled(mem, bundle.shared, body.transverse_inertia, first + SWY + i, h)
+        if body.mode[5] == PRESCRIBED:
+            drive = _settled(mem, bundle.shared, body.polar_inertia, first + SSIGMA, h)
+            running.input += drive
+            running.drive += drive
 
 
 @helper

@@ -11,7 +11,7 @@ known, and by the error of quadrature of elastic energies, which is of the order
 
 from __future__ import annotations
 
-from lambda_core.solver.integrator.balance import add_turn_over, leak_of_stages
+from lambda_core.solver.integrator.balance import add_turn_over, leak_of_stages, settle_led
 from lambda_core.solver.integrator.newton import norm, solve_step
 from lambda_core.solver.integrator.stepping import take_steps
 from lambda_core.solver.integrator.tableau import ERROR, GAMMA, NODES, STAGES, WEIGHTS, A
@@ -152,6 +152,7 @@ def _shift(bundle, mem, h):
         weight = h * WEIGHTS[j]
         for i in range(mem.integrals.size):
             mem.integrals[i] += weight * mem.stage_rates[j, i]
+    settle_led(bundle, mem, h)
     _put(mem.stage_rates, 0, mem.stage_rates[last])
     for i in range(mem.shared.size):
         mem.shared[i], mem.stage_shared[0, i] = bundle.shared[i], mem.stage_shared[last, i]
