@@ -8,9 +8,11 @@ import importlib
 import json
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
 
-from benchmarks import machine, performance, timing
+from benchmarks import against, machine, performance, timing
 from benchmarks.performance import Report
 from benchmarks.tables import Section
 from benchmarks.timing import Effort
@@ -42,15 +44,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--json", action="store_true", help="one JSON object on stdout instead of tables")
     parser.add_argument("--write", action="store_true", help="write the tables into docs/performance.md")
     parser.add_argument("--clock", choices=tuple(timing.CLOCKS), default="wall", help="cpu: time of the thread only")
+    parser.add_argument(
+        "--against", metavar="ENVIRONMENT", type=Path, help="folder of another version's environment: both in turn"
+    )
     options = parser.parse_args(arguments)
+    if options.against is not None and (options.names or options.write):
+        print("--against measures both versions at its own points: leave NAME and --write out", file=sys.stderr)
+        return 2
     for name in options.names:
         if name not in NAMES:
             print(UsageError(unknown_name("benchmark", name, NAMES)), file=sys.stderr)
             return 2
     timing.use_clock(options.clock)
     report = Report(machine.describe(), options.clock, options.quick, machine.load())
-    for name in options.names or NAMES:
-        report.sections.append(_measure(name, Effort(options.quick)))
+    work = {name: partial(_named, name, Effort(options.quick)) for name in options.names or NAMES}
+    if options.against is not None:
+        work = {"against": partial(against.measure, options.against, Effort(options.quick))}
+    for name, measure in work.items():
+        try:
+            report.sections.append(_measure(name, measure))
+        except UsageError as error:
+            print(error, file=sys.stderr)
+            return 2
         if not options.json:
             print(performance.section_text(report.sections[-1]), flush=True)
     if options.json:
@@ -62,12 +77,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 1 if any(section.failed for section in report.sections) else 0
 
 
-def _measure(name: str, effort: Effort) -> Section:
+def _named(name: str, effort: Effort) -> Section:
+    """Run one of NAMES."""
+    measure: Callable[[Effort], Section] = importlib.import_module(f"benchmarks.{name}").measure
+    return measure(effort)
+
+
+def _measure(name: str, measure: Callable[[], Section]) -> Section:
     """Run one benchmark; what goes wrong in it is told and does not stop the others."""
-    print(f"{name}: {NAMES[name]}", file=sys.stderr, flush=True)
+    print(f"{name}: {NAMES.get(name, 'this version and another one in turn')}", file=sys.stderr, flush=True)
     began = time.perf_counter()
     try:
-        section: Section = importlib.import_module(f"benchmarks.{name}").measure(effort)
+        section = measure()
+    except UsageError:
+        raise
     except (LambdaError, RuntimeError) as error:
         section = Section(name, missing=str(error), failed=True)
     return dataclasses.replace(section, name=name, seconds=time.perf_counter() - began, load=machine.load())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -71,8 +72,8 @@ class Problem:
         return max(outside - inside, 0.0)
 
 
-def cvode(problem: Problem, tolerance: float, linear: str, *, own_jacobian: bool) -> Trajectory:
-    """Integrate with CVODE, BDF up to order 2 as ours, every step kept."""
+def cvode(problem: Problem, tolerance: float, linear: str, *, own_jacobian: bool, order: int = 2) -> Trajectory:
+    """Integrate with CVODE, BDF up to an order (ours has 2), every step kept."""
     from sksundae.cvode import CVODE
 
     options = {} if own_jacobian else {"jacfn": problem.jacobian}
@@ -81,7 +82,7 @@ def cvode(problem: Problem, tolerance: float, linear: str, *, own_jacobian: bool
         rtol=0.0,
         atol=tolerance * problem.scale,
         method="BDF",
-        max_order=2,
+        max_order=order,
         linsolver=linear,
         max_step=problem.max_step,
         first_step=FIRST_STEP,
@@ -162,6 +163,15 @@ def contenders(effort: Effort) -> list[Contender]:
         pass
     else:
         ladder = (1e-3,) if effort.quick else (1e-2, 1e-3, 3e-4, 1e-4)
+        kinds += [
+            (
+                f"CVODE dense, up to order {order}, our Jacobian",
+                "cvode",
+                partial(cvode, linear="dense", own_jacobian=False, order=order),
+                ladder,
+            )
+            for order in (3, 5)
+        ]
         for linear in ("dense", "lapackdense"):
             kinds += [
                 (
@@ -219,9 +229,10 @@ def measure(effort: Effort) -> Section:
         tuple(rows),
         (
             f"{horizon.averaged:g} cage revolutions from the quasi-static equilibrium, {problem.initial.size} states, "
-            "the same absolute scales, longest and first step for all; CVODE up to order 2. Others call back through "
-            f"Python: what that costs ({1e6 * callback:.1f} us a call) is taken off in the fifth column, and the "
-            "targets compare with that. Their losses are integrated over their own steps after the timing.",
+            "the same absolute scales, longest and first step for all; CVODE up to order 2 where nothing else is said. "
+            f"Others call back through Python: what that costs ({1e6 * callback:.1f} us a call) is taken off in the "
+            "fifth column, and the targets compare with that. Their losses are integrated over their own steps after "
+            "the timing.",
         ),
     )
     return Section("integrators", (table,), _targets(fastest))
