@@ -40,6 +40,8 @@ def resume(
         tell(found, as_json=as_json)
         finish_shaft(found)
         return
+    if api.is_shaft_run(file.parent) and file.suffix == ".h5":
+        raise api.UsageError(f"{file} belongs to the run of a shaft: lambda-bearing resume {file.parent}")
     with talk(progress, quiet) as speaker:
         for line in api.result(file).headline.splitlines():
             speaker.say(units.system.sentence(line))

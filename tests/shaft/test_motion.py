@@ -201,6 +201,8 @@ def test_what_does_not_go_together(folder: Path, capsys: pytest.CaptureFixture[s
     ):
         assert main(["shaft", *arguments]) == 2
         assert said in capsys.readouterr().err
+    assert main(["resume", str(folder / "part" / "left.h5")]) == 2
+    assert "belongs to the run of a shaft" in capsys.readouterr().err
     assert main(["resume", str(folder / "part"), "--duration", "1 ms"]) == 2
     assert "nothing is left to do" in capsys.readouterr().err
 
