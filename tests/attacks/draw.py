@@ -30,9 +30,9 @@ class Stock:
 
 @cache
 def stock() -> Stock:
-    """Return the catalogue's bearings with an inner geometry, its oils, and the laws of every role."""
+    """Return the catalogue's deep groove bearings with an inner geometry, its oils, and the laws of every role."""
     with closing(api.catalogue()) as catalogue:
-        bearings = tuple(row for row in catalogue.bearings("", limit=1000) if row.ball_count is not None)
+        bearings = tuple(row for row in catalogue.bearings("", limit=1000) if row.ball_count and not row.contact_angle)
         oils = tuple(catalogue.names("lubricant"))
     laws: dict[str, list[str]] = {}
     for item in api.plugins().items:
