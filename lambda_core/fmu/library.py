@@ -25,14 +25,28 @@ SOURCES = Path(__file__).parent / "source"
 _OPTIONS = ("-O2", "-std=gnu11", "-shared", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-Wall", "-s")
 _ZIG_TARGET = ("-target", "x86_64-linux-gnu.2.17")  # of Linux distributions since 2014
 _COMPILERS = ("cc", "gcc", "clang")
-# What a processor must have, in the words of C compilers: of named ones, and of the features that code may use.
+# What a processor must have that is called so.
 _NAMED = {
-    "x86-64": (),
     "x86-64-v2": ("sse4.2", "popcnt"),
     "x86-64-v3": ("avx2", "fma", "bmi", "bmi2"),
     "x86-64-v4": ("avx2", "fma", "bmi", "bmi2", "avx512f", "avx512vl", "avx512dq", "avx512bw", "avx512cd"),
 }
-_ASKED = ("sse4.2", "popcnt", "avx", "avx2", "fma", "bmi", "bmi2", "avx512f", "avx512vl", "avx512dq", "avx512bw")
+# Where the processor says that it has them: leaf of the instruction cpuid, register (1: ebx, 2: ecx), bit.
+_CPUID = {
+    "sse4.2": (1, 2, 20),
+    "popcnt": (1, 2, 23),
+    "avx": (1, 2, 28),
+    "fma": (1, 2, 12),
+    "bmi": (7, 1, 3),
+    "avx2": (7, 1, 5),
+    "bmi2": (7, 1, 8),
+    "avx512f": (7, 1, 16),
+    "avx512dq": (7, 1, 17),
+    "avx512cd": (7, 1, 28),
+    "avx512bw": (7, 1, 30),
+    "avx512vl": (7, 1, 31),
+}
+_WIDE = {"avx512": 0xE6, "avx": 0x6}  # registers that the system must keep for features that begin so
 
 
 def compiler() -> tuple[str, ...]:
@@ -149,7 +163,10 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
     lines = ['#include "token.h"']
     lines += [f"#define LB_{name} {number}" for name, number in numbers.items()]
     lines += [f'#define LB_PROCESSOR "{known_processor()} ({", ".join(needed)})"']
-    lines += [f"#define LB_PROCESSOR_FITS {' && '.join(f'__builtin_cpu_supports({_quoted(n)})' for n in needed) or 1}"]
+    kept = next((mask for head, mask in _WIDE.items() if any(name.startswith(head) for name in needed)), 0)
+    lines += [f"#define LB_REGISTERS {kept}"]
+    places = ", ".join(f"{{{leaf}, {register}, {bit}}}" for leaf, register, bit in map(_CPUID.__getitem__, needed))
+    lines += [f"static const unsigned lb_needs[][3] = {{{places}}};"]
     lines += [f"static const uint32_t lb_relocations[][2] = {{{_pairs(image.relocations)}}};"]
     lines += [f"static const uint32_t lb_fixes[][2] = {{{_pairs(image.fixes)}}};"]
     lines += [f"static const char *const lb_roles[] = {{{', '.join(map(_quoted, ROLES))}}};"]
@@ -162,7 +179,7 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
 def _needed() -> tuple[str, ...]:
     """Return what a processor must have for code of this process."""
     name = known_processor()
-    return _NAMED[name] if name in _NAMED else tuple(each for each in _ASKED if each in features())
+    return _NAMED[name] if name in _NAMED else tuple(each for each in _CPUID if each in features())
 
 
 def _at(kind: object, name: str) -> int:

@@ -210,6 +210,10 @@ def test_the_library_asks_for_the_c_library_alone(exported: Export, tmp_path: Pa
         wanted = [line.split()[-1].partition("@")[0] for line in listed.splitlines()]
         assert [symbol for symbol in wanted if not PLAIN.fullmatch(symbol)] == []
         assert len(wanted) > 5
+        command = ["nm", "-D", "--defined-only", str(library)]
+        defined = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+        own = {line.split()[-1] for line in defined}
+        assert {name for name in own if not name.startswith(f"fmi{fmi}")} == set()  # two bearings do not meet
         assert str(Path.cwd()).encode() not in library.read_bytes()  # and knows no folder of this machine
         assert library.stat().st_size < 1.5e6
 
@@ -289,6 +293,20 @@ def test_every_law_runs_without_python() -> None:
     laws = [law for role in ROLES for law in api.registry().models(role).values()]
     found = {law.label: unknown(compile_kernel(law).pointer) for law in laws}
     assert {label: names for label, names in found.items() if names} == {}
+
+
+@pytest.mark.slow
+def test_the_compiler_of_the_extra_builds_the_same(
+    host: Any, exported: Export, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("ziglang", reason="the extra fmu is not installed")
+    monkeypatch.setattr("lambda_core.fmu.library._COMPILERS", ())
+    file = api.export_fmu(CASE, CHANGES, out=tmp_path / "zig.fmu", processor="native")
+    units = unit_of(host, exported, tmp_path), host.Unit(file, tmp_path / "zig")
+    bearings = [host.Instance(unit).ready() for unit in units]
+    assert [bearing.step(STEP) for bearing in bearings for _ in range(20)] == [host.OK] * 40
+    outputs = units[0].named("output")
+    assert bearings[0].get(outputs) == pytest.approx(bearings[1].get(outputs), rel=1e-6, abs=1e-12)
 
 
 @pytest.mark.slow

@@ -1,5 +1,6 @@
 #include "core.h"
 
+#include <cpuid.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -40,6 +41,21 @@ int lb_say(lb_bearing *b, int status, const char *form, ...) {
   return status;
 }
 
+/* Whether the processor has what the code needs, and the system keeps its wide registers. */
+static int fits(void) {
+  unsigned found[4];
+  for (size_t i = 0; i < sizeof lb_needs / sizeof *lb_needs; i++) {
+    unsigned leaf = lb_needs[i][0], bit = lb_needs[i][2];
+    if (!__get_cpuid_count(leaf, 0, &found[0], &found[1], &found[2], &found[3])) return 0;
+    if (!(found[lb_needs[i][1]] >> bit & 1)) return 0;
+  }
+  if (!LB_REGISTERS) return 1;
+  unsigned low, high;
+  if (!__get_cpuid(1, &found[0], &found[1], &found[2], &found[3]) || !(found[2] >> 27 & 1)) return 0;
+  __asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
+  return (low & LB_REGISTERS) == LB_REGISTERS;
+}
+
 lb_bearing *lb_create(const char *name, void *host, void *logger,
                       void (*tell)(lb_bearing *, int, const char *, const char *)) {
   lb_bearing *b = calloc(1, sizeof *b);
@@ -53,14 +69,11 @@ lb_bearing *lb_create(const char *name, void *host, void *logger,
   }
   strcpy(b->name, name ? name : "");
   b->image = (unsigned char *)(((uintptr_t)b->memory + 63) & ~(uintptr_t)63);
-#if defined(__x86_64__)
-  __builtin_cpu_init();
-  if (!(LB_PROCESSOR_FITS)) {
+  if (!fits()) {
     lb_say(b, LB_ERROR, "this processor lacks what the bearing was exported for: " LB_PROCESSOR);
     lb_free(b);
     return NULL;
   }
-#endif
   lb_reset(b);
   return b;
 }

@@ -114,6 +114,8 @@ def object_code(entries: Sequence[Entry], table: Sequence[Pointer], cache: Path)
         whole.get_function(name).linkage = "internal"
     _without_python(whole, callers)
     whole = llvm.parse_assembly(_TEXTS.sub(r"\1 [1 x i8] zeroinitializer", str(whole)))
+    for name in ("lb_functions", *(entry.name for entry in entries)):
+        _within(whole, name)
     whole.verify()
     made = _machine_code(whole, codegen)
     with suppress(OSError):  # a cache that cannot be written costs time only
@@ -129,7 +131,15 @@ def data_code(name: str, data: bytes) -> bytes:
     codegen = cpu_target.target_context.codegen()
     module = ir.Module("data")
     _constant(module, name, ir.ArrayType(BYTE, len(data)), bytearray(data)).align = 64
-    return _machine_code(llvm.parse_assembly(_head(codegen) + str(module.globals[name])), codegen)
+    whole = llvm.parse_assembly(_head(codegen) + str(module.globals[name]))
+    _within(whole, name)
+    return _machine_code(whole, codegen)
+
+
+def _within(whole: Any, name: str) -> None:
+    """Keep a name within the library: another bearing in the same process has it, too."""
+    found = [each for each in (*whole.functions, *whole.global_variables) if each.name == name]
+    found[0].visibility = "hidden"
 
 
 def _head(codegen: Any) -> str:
