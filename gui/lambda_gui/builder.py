@@ -20,7 +20,7 @@ from lambda_gui.forms import NodeForm
 from lambda_gui.head import Head
 from lambda_gui.live_draft import LiveDraft
 from lambda_gui.option_help import OptionHelp
-from lambda_gui.outline import Keys, Node
+from lambda_gui.outline import NAMED, Keys, Node
 from lambda_gui.rows import Edited, Left, Row
 from lambda_gui.sketch import Sketch
 from lambda_gui.tree import ModelTree
@@ -157,13 +157,12 @@ class BuilderScreen(LiveDraft):
         elif what == "node":
             self.query_one(ModelTree).go_to(rest)
             self.query_one(ModelTree).focus()
-        elif what == "add-marker":
-            self.draft.set("markers", rest, "body", value="inner_ring")
-            self.edited()
-            self.go_to(("markers", rest))
-        elif what == "remove-marker":
-            self.draft.set("markers", rest, value=None)
-            self.edited()
+        elif what in ("add", "remove"):
+            section, _, name = rest.partition(" ")
+            if what == "remove" or self.draft.get(section, name) is None:
+                self.draft.set(section, name, value=dict(NAMED[section].begins) if what == "add" else None)
+                self.edited()
+            self.go_to((section, name) if what == "add" else (section,))
 
     def on_descendant_focus(self, event: events.DescendantFocus) -> None:
         """Say what the option under the keyboard is."""

@@ -23,12 +23,13 @@ from lambda_gui.checking import by_place
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.details import Sources
 from lambda_gui.fields import ChoiceRow, ParagraphRow, TextRow, row_for
-from lambda_gui.laws import LawRow, law_choice_row, law_choices
-from lambda_gui.outline import Keys, Node, table_model
+from lambda_gui.laws import law_choice_row, law_choices, law_row
+from lambda_gui.outline import NAMED, Keys, Node, table_model
 from lambda_gui.parts import FreedomRow, MaterialRow
 from lambda_gui.places import Option
 from lambda_gui.rows import Row, Stepped
 from lambda_gui.signals import SignalRow
+from lambda_gui.watchers import new_watchers, watcher_rows
 
 if TYPE_CHECKING:
     from lambda_core.api import Draft
@@ -97,7 +98,7 @@ class NodeForm(VerticalScroll, can_focus=False):
         """The person goes back to the tree."""
 
     class Opened(Message):
-        """A button asks for something: "catalogue", "add-marker NAME", "remove-marker NAME", "node KEY"."""
+        """A button asks for something: "catalogue", "add SECTION NAME", "remove SECTION NAME", "node KEY"."""
 
         def __init__(self, what: str) -> None:
             super().__init__()
@@ -141,8 +142,8 @@ class NodeForm(VerticalScroll, can_focus=False):
 
     def _rows(self) -> Iterator[Widget]:
         node = self.node
-        if node.kind == "role":
-            yield LawRow(self._draft, node, self._around)
+        if node.role:
+            yield law_row(self._draft, node, self._around)
         elif node.kind == "roles":
             for child in node.children:
                 yield law_choice_row(self._draft, child, self._around)
@@ -152,7 +153,9 @@ class NodeForm(VerticalScroll, can_focus=False):
             for keys in group.fields:
                 yield row_at(self._draft, keys, self._around)
             yield from self._strangers(group.table)
-        if not (node.groups or node.kind in ("role", "roles", "markers")):
+        if node.kind == "item":
+            yield from watcher_rows(self._draft, node, self._around)
+        if not (node.groups or node.kind in ("role", "roles", "named", "item")):
             for child in node.children:
                 yield from _link(child)
 
@@ -170,13 +173,16 @@ class NodeForm(VerticalScroll, can_focus=False):
         if node.key in ("bearing", "lubricant"):
             with Horizontal(classes="buttons"):
                 yield Button("F2  choose from the catalogue", id="catalogue", compact=True)
-        if node.kind == "markers":
+        if node.kind == "named":
             for child in node.children:
                 yield from _link(child)
-            yield Input(placeholder="name of a new marker, then Enter", compact=True, id="marker-name")
-        if node.kind == "marker":
+            if NAMED[node.key].installed:
+                yield from new_watchers(node)
+            else:
+                yield Input(placeholder=f"name of a new {NAMED[node.key].one}, then Enter", compact=True, id="new-name")
+        if node.kind == "item":
             with Horizontal(classes="buttons"):
-                yield Button("remove this marker", id="remove-marker", compact=True)
+                yield Button(f"remove this {NAMED[node.key.partition('.')[0]].one}", id="remove", compact=True)
 
     def reload(self, problems: Sequence[Problem]) -> None:
         """Show what is written and what is wrong with it."""
@@ -263,13 +269,16 @@ class NodeForm(VerticalScroll, can_focus=False):
         """Hand the wish on."""
         event.stop()
         what = event.button.id or ""
-        self.post_message(self.Opened(f"{what} {self.node.title}" if what == "remove-marker" else what))
+        if what == "remove" or what.startswith("new-"):
+            section, _, name = self.node.key.partition(".")
+            what = f"remove {section} {name}" if what == "remove" else f"add {section} {what.removeprefix('new-')}"
+        self.post_message(self.Opened(what))
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
-        """Ask for a new marker."""
-        if event.input.id == "marker-name" and event.value.strip():
+        """Ask for a new table of a name."""
+        if event.input.id == "new-name" and event.value.strip():
             event.stop()
-            self.post_message(self.Opened(f"add-marker {event.value.strip()}"))
+            self.post_message(self.Opened(f"add {self.node.key} {event.value.strip()}"))
 
 
 def _meets(one: Keys, other: Keys) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich.text import Text
 from textual.widget import Widget
@@ -18,7 +18,7 @@ from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.entry import text_of
 from lambda_gui.fields import ChoiceRow, row_for
 from lambda_gui.outline import Node, table_model
-from lambda_gui.places import Option
+from lambda_gui.places import Option, Part
 from lambda_gui.rows import Left, Surroundings
 
 if TYPE_CHECKING:
@@ -58,6 +58,12 @@ def law_choice_row(draft: Draft, node: Node, around: Surroundings) -> ChoiceRow:
     return ChoiceRow(place, law_card(node), around, lambda: law_choices(node.role), short=node.short)
 
 
+def law_row(draft: Draft, node: Node, around: Surroundings) -> LawRow:
+    """Return the row of a role's model with its parameters."""
+    model, parameters = (Option(draft, keys) for keys in node.law_places)
+    return LawRow(node.role, model, parameters, law_card(node), around, label="model")
+
+
 class LawRow(Branch):
     """The model of a role, what it is, and its parameters."""
 
@@ -66,31 +72,33 @@ class LawRow(Branch):
     LawRow .about.-none { display: none; }
     """
 
-    def __init__(self, draft: Draft, node: Node, around: Surroundings) -> None:
-        model, self._parameters = (Option(draft, keys) for keys in node.law_places)
-        super().__init__(model, law_card(node), around, label="model")
-        self._draft, self._node = draft, node
+    def __init__(
+        self, role: str, model: Option | Part, parameters: Option | Part, card: FieldCard, around: Surroundings,
+        **how: Any,
+    ) -> None:  # fmt: skip
+        super().__init__(model, card, around, **how)
+        self._role, self._parameters = role, parameters
 
     def control(self) -> Widget:
         """Return the choice of models."""
         return Choice(self._entries, text_of(self.place.get()))
 
     def _entries(self) -> list[ChoiceEntry]:
-        known = self.around.resolved(self.place.keys) or DEFAULT_MODELS[self._node.role]
-        return [unset(known), *law_choices(self._node.role)]
+        known = self.around.resolved(self.place.keys) or DEFAULT_MODELS[self._role]
+        return [unset(known), *law_choices(self._role)]
 
     def _model(self) -> str:
         """Return the name of the model in effect, as far as it is known."""
         written = self.place.get()
         if isinstance(written, str) and written != "auto":
             return written
-        return self.around.resolved(self.place.keys) or DEFAULT_MODELS[self._node.role]
+        return self.around.resolved(self.place.keys) or DEFAULT_MODELS[self._role]
 
     def _card(self) -> ModelCard | str:
         from lambda_core import api
 
         try:
-            return api.plugin_model(f"{self._node.role}/{self._model()}")
+            return api.plugin_model(f"{self._role}/{self._model()}")
         except LambdaError as error:
             return str(error) if self._model() != "auto" else ""
 

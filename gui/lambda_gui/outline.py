@@ -6,7 +6,7 @@ a new option of a section appears on that section's node by itself.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
@@ -19,7 +19,7 @@ from lambda_core.domain.option_tree import members, model_at
 from lambda_core.domain.roles import MOTION_ROLES, ROLES
 
 Keys = tuple[str, ...]
-Kind = Literal["form", "roles", "role", "markers", "marker"]
+Kind = Literal["form", "roles", "role", "named", "item"]
 
 BODIES = {"inner_ring": "Inner ring", "outer_ring": "Outer ring", "cage": "Cage"}
 ELEMENTS = {
@@ -111,14 +111,16 @@ class Node:
         found = [place for group in self.groups for place in group.fields] + self.in_file
         if self.kind == "role":
             found += list(self.law_places)
-        if self.kind in ("markers", "marker"):
-            found.append(tuple(self.key.split(".", 1)) if self.kind == "marker" else ("markers",))
+        if self.kind in ("named", "item"):
+            found.append(tuple(self.key.split(".", 1)))
         return found
 
     @property
     def law_places(self) -> tuple[Keys, Keys]:
         """Where the model of a role and its parameters are written."""
         base: Keys
+        if self.role == "force_element":
+            return ("elements", self.element, "law"), ("elements", self.element, "parameters")
         if ROLES[self.role].section:
             base = (ROLES[self.role].section, self.role)
             return (*base, "law"), (*base, "parameters")
@@ -126,30 +128,52 @@ class Node:
         return (*base, "models", self.role), (*base, "parameters", self.role)
 
 
-_WATCHING = ("observers", "events")  # sections whose options are those of plugins
+Names = Mapping[str, tuple[str, ...]]  # section of NAMED -> names in the case
 
 
-def outline(markers: tuple[str, ...] = ()) -> list[Node]:
-    """Return the top nodes of the tree of a case with these markers."""
+@dataclass(frozen=True)
+class Named:
+    """A section of tables under names that the case gives, or, of plugins' own, that they have."""
+
+    title: str
+    about: str  # the section, in the tree's help
+    one: str  # one of it, after "new" and "remove this"
+    begins: dict[str, str]  # what is written of a new one
+    installed: Literal["", "observer", "event"] = ""  # kind of which the names are those of what is installed
+
+
+NAMED = {
+    "markers": Named("Markers", "named points whose motion is written", "marker", {"body": "inner_ring"}),
+    "elements": Named(
+        "Between bodies", "springs, dampers, pulls between two bodies, or a body and the ground, by laws", "element",
+        {"law": "bushing", "second": "inner_ring"},
+    ),
+    "observers": Named("Observers", "channels of plugins in the result", "observer", {}, "observer"),
+    "events": Named("Events", "what ends a run, or is recorded, found by plugins", "event", {}, "event"),
+}  # fmt: skip
+
+
+def outline(names: Names | None = None) -> list[Node]:
+    """Return the top nodes of the tree of a case with these names in its named sections."""
+    names = names or {}
     return [
         Node("case", "Case", "name, description, what its author assumed", [Group("", (), tuple(_case_fields()))]),
         _bearing(),
         _bodies(),
-        _markers(markers),
-        _forces(),
+        _named("markers", names),
+        _forces(names),
         _loads(),
         _lubricant(),
         _form("depth", "Modelling depth", ("depth",)),
         _form("solver", "Solver", ("solver",)),
-        _output(),
+        _output(names),
         _electric(),
     ]
 
 
-def _output() -> Node:
+def _output(names: Names) -> Node:
     node = _form("output", "Outputs", ("output",))
-    node.help += "; observers and events of plugins are written in the file"
-    node.in_file = [(name,) for name in _WATCHING]
+    node.children = [_named("observers", names), _named("events", names)]
     return node
 
 
@@ -174,19 +198,22 @@ def _bodies() -> Node:
     return Node("bodies", "Bodies", "rings, balls and cage: masses, materials, the cage's type", children=nodes)
 
 
-def _markers(markers: tuple[str, ...]) -> Node:
-    nodes = [
-        Node(f"markers.{name}", name, "a point whose motion is written", kind="marker", groups=[_marker_group(name)])
-        for name in markers
-    ]
-    return Node("markers", "Markers", "named points whose motion is written", children=nodes, kind="markers")
+def _named(section: str, names: Names) -> Node:
+    """Return the node of a section of named tables, one below it for each name."""
+    what = NAMED[section]
+    nodes = []
+    for name in names.get(section, ()):
+        node = Node(f"{section}.{name}", name, what.about, kind="item")
+        if section == "markers":
+            node.groups = [Group("", (section, name), tuple(plain_fields((section, name))))]
+        elif section == "elements":
+            node.groups = [Group("", (section, name), ("first", "second"))]
+            node.role, node.element = "force_element", name
+        nodes.append(node)
+    return Node(section, what.title, what.about, children=nodes, kind="named")
 
 
-def _marker_group(name: str) -> Group:
-    return Group("", ("markers", name), tuple(plain_fields(("markers", name))))
-
-
-def _forces() -> Node:
+def _forces(names: Names) -> Node:
     every = Node(
         "models",
         "All elements",
@@ -207,10 +234,8 @@ def _forces() -> Node:
                 children=[_role(element, role) for role in roles],
             )
         )
-    node = Node("forces", "Force elements", "every contact and the model that fills each role", children=nodes)
-    node.help += "; those between bodies are written in the file"
-    node.in_file = [("elements",)]
-    return node
+    nodes.append(_named("elements", names))
+    return Node("forces", "Force elements", "every contact and the model that fills each role", children=nodes)
 
 
 def _role(element: str, role: str) -> Node:
@@ -291,7 +316,8 @@ def _group(table: Keys) -> Group:
 
 def _case_fields() -> list[str]:
     """Return the options that stand before the first table of the file."""
-    return [name for name in plain_fields(()) if name not in ("parameters", *_WATCHING)]
+    elsewhere = ("parameters", *(section for section, what in NAMED.items() if what.installed))
+    return [name for name in plain_fields(()) if name not in elsewhere]
 
 
 def table_model(table: Keys) -> type[BaseModel]:

@@ -65,7 +65,7 @@ class Part:
         whole = deepcopy(self._whole.get())
         inner = whole
         for part in self._path[:-1]:
-            inner = inner[part]
+            inner = inner.setdefault(part, {}) if isinstance(inner, dict) else inner[part]
         if value is None and isinstance(inner, dict):
             inner.pop(self._path[-1], None)
         else:

@@ -20,6 +20,7 @@ from lambda_gui.choice import Choice
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.entry import Entry, text_of, value_of
 from lambda_gui.fields import LinesRow, row_for
+from lambda_gui.laws import LawRow
 from lambda_gui.places import Option, Part
 from lambda_gui.rows import Left, Surroundings
 
@@ -103,10 +104,13 @@ class SignalRow(Branch):
             yield from self._terms(table)
             return
         for name in table.model_fields:
-            if name == "kind":
+            if name in ("kind", "parameters"):
                 continue
             card = field_card(table, name)
-            if name == "points":
+            if name == "law":
+                law, parameters = self._option.part("law"), self._option.part("parameters")
+                yield LawRow("time_function", law, parameters, card, self.around, deep=True)
+            elif name == "points":
                 yield PointsRow(self._option.part(name), card, self.around, deep=True)
             else:
                 yield row_for(self._option.part(name), card, self.around, deep=True)

@@ -49,10 +49,12 @@ def summary(node: Node, draft: Draft, around: CaseAround) -> str:
         return _depth(draft.get("depth") or {})
     if key == "solver":
         return _text(draft.get("solver", "duration")) or "until converged"
-    if key == "markers":
+    if node.kind == "named":
         return str(len(node.children) or "none")
-    if key.startswith("markers."):
-        return _text(draft.get(*key.split(".", 1), "body")).replace("_", " ")
+    if node.kind == "item":
+        written = draft.get(*node.key.split(".", 1))
+        told = {"markers": "body", "elements": "law", "events": "action"}.get(key.partition(".")[0], "")
+        return _text(written.get(told)).replace("_", " ") if isinstance(written, Mapping) else ""
     if key in ("bearing.geometry", "bearing.fits", "bearing.temperatures", "lubricant.properties"):
         written = draft.get(*key.split("."))
         return f"{len(written)} set" if isinstance(written, Mapping) and written else "catalogue"[: 9 * ("geo" in key)]

@@ -12,7 +12,7 @@ from textual.widgets import Tree
 from textual.widgets.tree import TreeNode
 
 from lambda_gui.checking import node_of
-from lambda_gui.outline import Keys, Node, outline
+from lambda_gui.outline import NAMED, Keys, Node, outline
 from lambda_gui.summaries import summary
 
 if TYPE_CHECKING:
@@ -46,13 +46,13 @@ class ModelTree(Tree[Node]):
         super().__init__("case", id="tree")
         self.show_root, self.guide_depth, self.auto_expand = False, 2, False
         self.draft, self._around = draft, around
-        self._markers: tuple[str, ...] = ()
+        self._names: dict[str, tuple[str, ...]] = {}
         self._wrong: dict[str, int] = {}
         self._plant()
 
     def _plant(self) -> None:
-        self._markers = _marker_names(self.draft)
-        for node in outline(self._markers):
+        self._names = _names(self.draft)
+        for node in outline(self._names):
             self._add(self.root, node)
         self.root.expand()
         self.cursor_line = 0
@@ -70,8 +70,8 @@ class ModelTree(Tree[Node]):
         return [node.data for node in self._tree_nodes.values() if node.data is not None]
 
     def refresh_marks(self, problems: Sequence[Problem]) -> None:
-        """Count the mistakes of each node and say what is set; markers that came or went are taken in."""
-        if _marker_names(self.draft) != self._markers:
+        """Count the mistakes of each node and say what is set; named tables that came or went are taken in."""
+        if _names(self.draft) != self._names:
             self.clear()
             self._plant()
         nodes = self.all_nodes()
@@ -171,6 +171,7 @@ def _fitting(parts: list[str], room: int) -> str:
     return shown
 
 
-def _marker_names(draft: Draft) -> tuple[str, ...]:
-    found = draft.get("markers")
-    return tuple(found) if isinstance(found, dict) else ()
+def _names(draft: Draft) -> dict[str, tuple[str, ...]]:
+    """Return what stands in the sections of named tables."""
+    found = {section: draft.get(section) for section in NAMED}
+    return {section: tuple(tables) for section, tables in found.items() if isinstance(tables, dict)}

@@ -32,6 +32,9 @@ class _Change:
 _SEAL = _Change((), None, None)
 
 
+_EMPTY_SAYS = ("observers", "events")  # sections whose tables ask for something even when they are empty
+
+
 @dataclass
 class Draft:
     """What an editor of a case holds.
@@ -141,7 +144,7 @@ class Draft:
         else:
             tables[-1][keys[-1]] = deepcopy(value)
         for table, key in zip(reversed(tables[:-1]), reversed(keys[:-1]), strict=True):
-            if not table[key]:
+            if not table[key] and not (keys[0] in _EMPTY_SAYS and table is tables[1]):
                 del table[key]
             elif _is_dof(keys[:-1]) and set(table[key]) == {_MODE}:
                 table[key] = table[key][_MODE]

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
+    from typing import Literal
 
-    from lambda_core.discovery.survey import CheckCard, FaultCard, Inventory, ModelCard
+    from lambda_core.discovery.survey import CheckCard, FaultCard, Inventory, ModelCard, WatcherCard
 
 
 def plugins() -> Inventory:
@@ -23,6 +24,20 @@ def plugins() -> Inventory:
     from lambda_core.discovery.survey import inventory
 
     return inventory(registry())
+
+
+def plugin_watchers(kind: Literal["observer", "event"]) -> list[WatcherCard]:
+    """Return every installed observer, or event, with its parameters.
+
+    Parameters
+    ----------
+    kind : str
+        "observer" or "event".
+    """
+    from lambda_core.discovery.manager import registry
+    from lambda_core.discovery.survey import watcher_cards
+
+    return watcher_cards(registry(), kind)
 
 
 def plugin_model(label: str) -> ModelCard:

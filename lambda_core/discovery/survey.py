@@ -52,6 +52,17 @@ class ModelCard(BaseModel):
     reads: list[str] = []  # states of the contact that it reads
 
 
+class WatcherCard(BaseModel):
+    """One observer or event: what it is and what can be set."""
+
+    version: int = 1  # of this form
+    name: str
+    title: str
+    distribution: str
+    reference: str
+    parameters: list[FieldCard]
+
+
 class Item(BaseModel):
     """One line of the list of everything installed."""
 
@@ -139,6 +150,18 @@ def inventory(registry: Registry) -> Inventory:
         items.append(Item(kind="command", role="", name=source.name, distribution=source.distribution, reference=""))
     notes = [NoteCard(distribution=note.distribution, message=note.message) for note in registry.notes]
     return Inventory(items=items, faults=faults, notes=notes)
+
+
+def watcher_cards(registry: Registry, kind: Literal["observer", "event"]) -> list[WatcherCard]:
+    """Return every observer, or every event, that is installed."""
+    found = registry.observers if kind == "observer" else registry.events
+    return [
+        WatcherCard(
+            name=item.name, title=item.title, distribution=registry.origin(kind, item.name), reference=item.reference,
+            parameters=[field_card(item.parameters, name) for name in item.parameters.model_fields],
+        )
+        for item in found.values()
+    ]  # fmt: skip
 
 
 def model_card(registry: Registry, label: str) -> ModelCard:

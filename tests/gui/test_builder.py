@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import difflib
 import json
+import os
+import shutil
 import time
 from pathlib import Path
 
@@ -28,9 +30,12 @@ from lambda_gui.choice import Choice
 from lambda_gui.dialogs import Ask
 from lambda_gui.help import HelpScreen
 from lambda_gui.tree import ModelTree
-from textual.widgets import Input
+from textual.pilot import Pilot
+from textual.widgets import Button, Input
 
 from lambda_core import api
+from lambda_core.discovery import local_files, manager
+from lambda_core.domain.installed import ON_VARIABLE
 
 
 def changed_lines(before: str, after: str) -> list[str]:
@@ -220,8 +225,8 @@ async def test_markers_come_and_go(hand_written: Path) -> None:
         await checked(pilot)
         tree = pilot.app.screen.query_one(ModelTree)
         tree.go_to("markers")
-        await wait_for(pilot, lambda: pilot.app.screen.query("#marker-name"))
-        pilot.app.screen.query_one("#marker-name", Input).focus()
+        await wait_for(pilot, lambda: pilot.app.screen.query("#new-name"))
+        pilot.app.screen.query_one("#new-name", Input).focus()
         await write(pilot, "rim")
         await pilot.press("enter")
         await wait_for(pilot, lambda: focused_place(pilot) == ("markers", "rim", "body"))
@@ -229,10 +234,86 @@ async def test_markers_come_and_go(hand_written: Path) -> None:
         assert draft.get("markers", "rim") == {"body": "inner_ring"}
         await checked(pilot)
         assert not builder(pilot).check.problems
-        await pilot.click("#remove-marker")
+        await pilot.click("#remove")
         await checked(pilot)
         assert draft.get("markers") is None
         assert not draft.is_changed()
+
+
+async def into(pilot: Pilot[None], section: str, first: str) -> None:
+    """Go to a section in the tree and, with Enter, to the first thing of its form."""
+    tree = pilot.app.screen.query_one(ModelTree)
+    tree.focus()
+    tree.go_to(section)
+    await wait_for(pilot, lambda: pilot.app.screen.query(first))
+    await pilot.press("enter")
+    await wait_for(pilot, lambda: pilot.app.screen.query_one(first).has_focus)
+
+
+async def test_elements_come_and_go_by_keyboard(hand_written: Path) -> None:
+    """Added by name, edited to a stiff spring, undone by its button; at 80 x 24 as well as at any size."""
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+        await into(pilot, "elements", "#new-name")
+        await write(pilot, "seat")
+        await pilot.press("enter")
+        await wait_for(pilot, lambda: (focused_place(pilot) or ("",))[0] == "elements")
+        draft = builder(pilot).draft
+        assert draft.get("elements", "seat") == {"law": "bushing", "second": "inner_ring"}
+        await checked(pilot)
+        assert not builder(pilot).check.problems
+        builder(pilot).go_to(("elements", "seat", "parameters", "stiffness_x"))
+        await wait_for(pilot, lambda: focused_place(pilot) == ("elements", "seat", "parameters", "stiffness_x"))
+        await write(pilot, "5 N/um")
+        await pilot.press("enter")
+        await checked(pilot)
+        assert draft.get("elements", "seat", "parameters") == {"stiffness_x": "5 N/um"}
+        assert not builder(pilot).check.problems
+        pilot.app.screen.query_one("#remove", Button).focus()
+        await pilot.press("enter")
+        await checked(pilot)
+        assert draft.get("elements") is None
+        assert not draft.is_changed()
+
+
+async def test_observers_and_events_of_plugins_come_and_go_by_keyboard(
+    hand_written: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    examples = Path(__file__).parents[2] / "examples"
+    for name in ("sliding-wear", "cage-whirl"):
+        module = name.replace("-", "_")
+        shutil.copy(examples / name / module / "__init__.py", hand_written.parent / f"{module}.py")
+    files = [str(hand_written.parent / f"{name}.py") for name in ("sliding_wear", "cage_whirl")]
+    monkeypatch.setenv(ON_VARIABLE, os.pathsep.join(files))
+    monkeypatch.setattr(local_files, "_texts", {})
+    manager.registry.cache_clear()
+    try:
+        async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+            await checked(pilot)
+            draft = builder(pilot).draft
+            for section, name in (("observers", "sliding-wear"), ("events", "cage-whirl")):
+                await into(pilot, section, f"#new-{name}")
+                await pilot.press("enter")
+                await wait_for(pilot, lambda section=section: (focused_place(pilot) or ("",))[0] == section)
+                assert draft.get(section, name) == {}
+                await checked(pilot)
+                assert not builder(pilot).check.problems
+            assert focused_place(pilot) == ("events", "cage-whirl", "action")
+            builder(pilot).go_to(("observers", "sliding-wear", "coefficient"))
+            await wait_for(pilot, lambda: (focused_place(pilot) or ("",))[-1] == "coefficient")
+            await write(pilot, "2e-8")
+            await pilot.press("enter")
+            await checked(pilot)
+            assert float(draft.get("observers", "sliding-wear", "coefficient")) == 2e-8
+            assert not builder(pilot).check.problems
+            pilot.app.screen.query_one("#remove", Button).focus()
+            await pilot.press("enter")
+            await checked(pilot)
+            assert draft.get("observers") is None
+            assert draft.get("events") == {"cage-whirl": {}}
+    finally:
+        monkeypatch.undo()
+        manager.registry.cache_clear()
 
 
 async def test_an_unknown_option_of_a_file_can_be_taken_out(hand_written: Path) -> None:

@@ -13,8 +13,8 @@ from lambda_core.domain.option_tree import option_paths
 from lambda_core.domain.roles import ROLES
 
 
-def nodes(markers: tuple[str, ...] = ()) -> list[Node]:
-    return [node for top in outline(markers) for node in top.walk()]
+def nodes(**names: tuple[str, ...]) -> list[Node]:
+    return [node for top in outline(names) for node in top.walk()]
 
 
 def has_role(path: str) -> bool:
@@ -34,7 +34,7 @@ def test_every_option_has_exactly_one_place() -> None:
 
 
 def test_the_tree_mirrors_the_set_up() -> None:
-    titles = [node.title for node in outline(())]
+    titles = [node.title for node in outline()]
     assert titles == [
         "Case",
         "Bearing",
@@ -70,6 +70,10 @@ def test_the_tree_mirrors_the_set_up() -> None:
         ("parameters.traction.tau_eyring", "models.traction"),
         ("forces.ball_outer.parameters.damping.coefficient", "forces.ball_outer.damping"),
         ("markers.tip.body", "markers.tip"),
+        ("elements.pull.parameters.air_gap", "elements.pull"),
+        ("elements.pull.second", "elements.pull"),
+        ("observers.wear.coefficient", "observers.wear"),
+        ("events.whirl", "events.whirl"),
         ("operation.sped", "operation"),
         ("solver.duration", "solver"),
         ("thermal.ambient", "thermal"),
@@ -77,7 +81,9 @@ def test_the_tree_mirrors_the_set_up() -> None:
     ],
 )
 def test_a_mistake_finds_its_node(where: str, key: str) -> None:
-    found = node_of(Problem(where, "wrong"), nodes(("tip",)))
+    found = node_of(
+        Problem(where, "wrong"), nodes(markers=("tip",), elements=("pull",), observers=("wear",), events=("whirl",))
+    )
     assert found is not None
     assert found.key == key
 
