@@ -13,6 +13,8 @@ import pytest
 from pydantic import BaseModel
 from scipy.special import erf
 
+from lambda_core.discovery import apart
+from lambda_core.discovery.manager import registry
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import ROLES
@@ -470,3 +472,14 @@ def test_a_slope_that_is_not_the_derivative_is_told() -> None:
     (fault,) = check_model(bad).faults
     assert "its derivative by azimuth [m/rad] = " in fault
     assert "but by differences it is" in fault
+
+
+def test_a4_a_law_that_compiles_for_long_is_said_to(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A kernel of 400 branches took 48 s without a word: what takes longer than a moment is named while it goes on."""
+    monkeypatch.setattr(apart, "PATIENCE", 0.01)
+    said: list[str] = []
+    (card,) = apart.check_apart(registry(), ["contact_state/none"], announce=said.append)
+    assert card.ok
+    (sentence,) = said
+    assert sentence.startswith("contact_state/none (lambda-bearing ")
+    assert sentence.endswith("takes long: it compiles, or never ends")
