@@ -5,12 +5,14 @@ from __future__ import annotations
 import dataclasses
 import math
 import time
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lambda_core.case.case_writer import tables_toml
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import CHANNELS, RINGS
 from lambda_core.domain.errors import SolverError, UsageError
@@ -150,10 +152,18 @@ def _alone(engine: WholeEngine, i: int) -> BearingModel:
     force = tuple(TimeFunction.constant(-float(f)) for f in reaction[:3])
     inner = dataclasses.replace(model.inner_ring, force=force)  # type: ignore[arg-type]
     shaft = engine.model.name
-    note = f"a bearing of the shaft {shaft}: its rings move with shaft and housing; energy is balanced for the whole"
+    tables = tomllib.loads(model.case_toml)
+    tables["name"] = f"{shaft}-{name}"
+    loads = zip(("force_x", "force_y", "force_z"), reaction[:3], strict=True)
+    tables["loads"] = {"inner_ring": {key: f"{-float(f):.6g} N" for key, f in loads}}
+    tables["bodies"] = {"inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}}
+    note = (
+        f"a bearing of the shaft {shaft}: its rings move with shaft and housing, energy is balanced for the whole; "
+        "its case here is that of the bearing alone under the load at the start"
+    )
     return dataclasses.replace(
         model, name=f"{shaft}-{name}", title=f"{model.title}, {name} of {shaft}", inner_ring=inner,
-        case_toml=engine.model.case_toml, assumptions=(*model.assumptions, note),
+        case_toml=tables_toml(tables), assumptions=(*model.assumptions, note),
     )  # fmt: skip
 
 

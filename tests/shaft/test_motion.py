@@ -171,6 +171,8 @@ def test_a_run_says_what_it_found(folder: Path, capsys: pytest.CaptureFixture[st
     for bearing in found["bearings"]:
         alone = Result(bearing["file"]).summary()
         assert alone.friction_torque_Nmm == bearing["friction_torque_Nmm"]
+        case = api.check(tomllib.loads(Result(bearing["file"]).case_toml))  # of the bearing alone, complete
+        assert case.name == f"box-{bearing['name']}"
         assert alone.power_loss_W == pytest.approx(1e-3 * alone.friction_torque_Nmm * 314.159, rel=1e-3)
     assert [view.view for view in api.shaft_motion_pictures(folder / "part")] == ["orbit", "reactions"]
     assert main(["shaft", str(folder / "part")]) == 0
