@@ -33,6 +33,10 @@ def plugin_watchers(kind: Literal["observer", "event"]) -> list[WatcherCard]:
     ----------
     kind : str
         "observer" or "event".
+
+    Returns
+    -------
+    list of WatcherCard
     """
     from lambda_core.discovery.manager import registry
     from lambda_core.discovery.survey import watcher_cards

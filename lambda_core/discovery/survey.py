@@ -60,7 +60,7 @@ class WatcherCard(BaseModel):
     title: str
     distribution: str
     reference: str
-    parameters: list[FieldCard]
+    parameters: list[FieldCard]  # with units, limits and defaults
 
 
 class Item(BaseModel):
