@@ -48,6 +48,8 @@ class Exchange:
 
 ROUGH = ("surface.roughness=0.8 um",)
 IN_ROUGH = "Set-up: composite roughness 0.8 um, so that asperities carry a part of the load."
+SHARED = (*ROUGH, "models.asperity_load=zhou-hoeprich")
+IN_SHARED = IN_ROUGH[:-1] + "; asperity_load = zhou-hoeprich, a share of the load."
 SCHEUERMANN = ("parameters.elastic_hysteresis.coefficient=2e-7", "parameters.elastic_hysteresis.exponent=1.33")
 OUTER = "forces.ball_outer"
 RING_GUIDED = ("bodies.cage.guidance=outer ring", "bodies.cage.land_clearance=0.3 mm")
@@ -105,6 +107,7 @@ EXCHANGES: tuple[Exchange, ...] = (
     ),
     Exchange("asperity_load", (Law("spikes-olver"), Law("zhou-hoeprich"), Law("none")), ROUGH, IN_ROUGH),
     Exchange("boundary_friction", (Law("micro-slip"), Law("cubic"), Law("coulomb-regularised")), ROUGH, IN_ROUGH),
+    Exchange("mixing", (Law("load-share"), Law("contact-area")), SHARED, IN_SHARED),
     Exchange(
         "cage_contact",
         (

@@ -23,14 +23,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
         study_table,
     )
     from lambda_core.discovery.manager import use_plugin
-    from lambda_core.discovery.packages import (
-        check_plugins,
-        new_plugin,
-        plugin_faults,
-        plugin_model,
-        plugin_watchers,
-        plugins,
-    )
+    from lambda_core.discovery.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins, watchers
     from lambda_core.domain.errors import CaseError, LambdaError, UsageError
     from lambda_core.electric.door import check_discharges_file, electric, film_from_outside, write_discharges
     from lambda_core.fmu.unit_file import export_fmu

@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "house.md"
 BEGIN, END = "<!-- house:begin -->\n", "<!-- house:end -->\n"
 BEFORE = "b7aec9b"
-WRITTEN_SINCE = {"elastic", "electric", "fmu", "shaft", "thermal"}  # rooms of the core that the tree before did not have
+WRITTEN_SINCE = {"elastic", "electric", "fmu", "shaft", "thermal"}  # rooms that the core did not have before
 _FACES = ("cli", "gui")
 _DOORS = ("api", "domain", "views")  # rooms of the core that faces may import
 _DECLARED = "FloatArray = " + "NDArray"

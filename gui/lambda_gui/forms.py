@@ -179,7 +179,7 @@ class NodeForm(VerticalScroll, can_focus=False):
             if NAMED[node.key].installed:
                 yield from new_watchers(node)
             else:
-                yield Input(placeholder=f"name of a new {NAMED[node.key].one}, then Enter", compact=True, id="new-name")
+                yield Input(placeholder=f"a new {NAMED[node.key].one}, then Enter", compact=True, id="new-name")
         if node.kind == "item":
             with Horizontal(classes="buttons"):
                 yield Button(f"remove this {NAMED[node.key.partition('.')[0]].one}", id="remove", compact=True)

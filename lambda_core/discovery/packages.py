@@ -26,7 +26,7 @@ def plugins() -> Inventory:
     return inventory(registry())
 
 
-def plugin_watchers(kind: Literal["observer", "event"]) -> list[WatcherCard]:
+def watchers(kind: Literal["observer", "event"]) -> list[WatcherCard]:
     """Return every installed observer, or event, with its parameters.
 
     Parameters

@@ -189,5 +189,9 @@ def test_c2_4_an_interruption_that_a_destructor_drops_is_heard_again() -> None:
             Deaf()
             time.sleep(5.0)
 
-    with pytest.raises(KeyboardInterrupt):
-        work()
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # in the background of a shell it is ignored
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            work()
+    finally:
+        signal.signal(signal.SIGINT, before)
