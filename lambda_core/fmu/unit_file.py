@@ -76,11 +76,13 @@ def export_fmu(
     Raises
     ------
     UsageError
-        For an unknown version, coupling or processor, a file that exists, on another system, or without a C compiler.
+        For an unknown version, coupling or processor, a file that exists, a folder that takes none, on another system,
+        or without a C compiler.
     CaseError, SolverError
         With a sentence about the case or its equilibrium.
     """
     from lambda_core.case.case_writer import standalone_toml
+    from lambda_core.domain.files import check_folder
     from lambda_core.solver.drivers.given import COUPLINGS
     from lambda_core.system.cases import case
     from lambda_core.system.checking import resolve
@@ -101,6 +103,7 @@ def export_fmu(
     target = Path(out) if out is not None else Path(f"{_plain(loaded.name)}.fmu")
     if target.exists() and not force:
         raise UsageError(f"{target} exists: choose another name with --out, or overwrite it with --force")
+    check_folder(target.parent, target)
     task = {"case": standalone_toml(loaded), "out": str(target.absolute()), "fmi": fmi, "couple": couple}
     if processor == os.environ.get(_CPU, "native"):
         write(task, announce)

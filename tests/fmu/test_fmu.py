@@ -275,6 +275,11 @@ def test_what_cannot_be_exported_is_said(
     assert not list(tmp_path.iterdir())
 
 
+def test_a_place_that_takes_no_file_is_refused_before_the_work(c_compiler: tuple[str, ...], tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="does not exist"):
+        api.export_fmu(CASE, out=tmp_path / "nowhere" / "no.fmu", announce=pytest.fail)
+
+
 def test_code_that_needs_python_is_refused() -> None:
     """A stub in the place of a function that works would give wrong numbers in silence."""
     import llvmlite.binding as llvm
