@@ -12,6 +12,7 @@ from lambda_core.case.option import quantity_of
 from lambda_core.case.signals import SIGNAL_KINDS
 from lambda_core.domain.errors import Problem, nearest
 from lambda_core.domain.option_tree import is_tag, model_at, option_paths
+from lambda_core.domain.printable import printable
 from lambda_core.domain.units import show
 
 _SLIP = 0.8  # likeness of a name that one slip makes another
@@ -55,7 +56,8 @@ def problems(error: ValidationError, model: type[BaseModel], data: Any, prefix: 
     for item in error.errors(include_url=False):
         path = _path(item["loc"])
         where = ".".join(str(part) for part in ([prefix] if prefix else []) + path)
-        found.setdefault(where, Problem(where, _message(item, path, model)))
+        sentence = printable(_message(item, path, model)).replace("\n", "\\n")  # one line, whatever was written
+        found.setdefault(where, Problem(where, sentence))
     return list(found.values())
 
 
