@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
@@ -68,18 +69,25 @@ class ShaftState:
 
 
 class _Whole:
-    """The unknowns of shaft and outer rings in one vector, and the forces on them."""
+    """The unknowns of shaft and outer rings in one vector, and the forces on them.
+
+    The shaft's are the pose of the node that the coupling holds and, of all others, what they move beside a rigid
+    shaft with that pose. Elastic forces then are those of deflections alone: however stiff the shaft is, its motion as
+    a rigid body leaves no rounding in them.
+    """
 
     def __init__(self, model: ShaftModel, rings: list[HeldRing]) -> None:
         self.model, self.rings = model, rings
         self.size = model.body.stiffness.shape[0]
-        self.inner = np.array([model.body.rows(b.position).start + np.array(PLACES) for b in model.bearings])
         count = self.size + len(POSE) * len(rings)
         self.outer = np.arange(self.size, count).reshape(len(rings), len(POSE))
+        frame = np.arange(NODE) + NODE * (model.drive // NODE)
+        self.moves = _carried(model, frame)
+        deflects = np.setdiff1d(np.arange(self.size), frame)
         self.linear = np.zeros((count, count))
-        self.linear[: self.size, : self.size] = model.body.stiffness
+        self.linear[np.ix_(deflects, deflects)] = model.body.stiffness[np.ix_(deflects, deflects)]
         self.given = np.zeros(count)
-        self.given[: self.size] = model.loads + model.weight + model.growth
+        self.given[: self.size] = self.moves.T @ (model.loads + model.weight + model.growth)
         held = [model.drive]
         self.start = np.zeros(count)
         for rows, bearing in zip(self.outer, model.bearings, strict=True):
@@ -98,6 +106,11 @@ class _Whole:
             self.linear[np.ix_(rows, rows)] += model.housing
             self.given[rows] += model.housing @ self.start[rows]
         self.free = np.setdiff1d(np.arange(count), held)
+        # of every bearing, how its inner ring moves against its outer one, shape (bearings, 5, unknowns)
+        self.reach = np.zeros((len(rings), len(POSE), count))
+        for reach, outer, bearing in zip(self.reach, self.outer, model.bearings, strict=True):
+            reach[:, : self.size] = self.moves[model.body.rows(bearing.position).start + np.array(PLACES)]
+            reach[range(len(POSE)), outer] = -1.0
         # lengths that make moments forces: residuals of one kind
         arms = np.ones(count)
         length = float(np.ptp(model.body.positions))
@@ -111,28 +124,17 @@ class _Whole:
 
     def poses(self, q: FloatArray) -> FloatArray:
         """Return the pose of every inner ring against its outer one, shape (bearings, 5)."""
-        return np.asarray(q[self.inner] - q[self.outer])
+        return np.asarray(self.reach @ q)
 
     def residual(self, q: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return what is unbalanced [N, N m] and the reactions of the bearings on the shaft."""
         reactions = np.array([ring.reaction(pose) for ring, pose in zip(self.rings, self.poses(q), strict=True)])
         self.carried = float(np.abs(reactions[:, :3]).max())
-        unbalanced = self.given - self.linear @ q
-        for i in range(len(self.rings)):
-            unbalanced[self.inner[i]] += reactions[i]
-            unbalanced[self.outer[i]] -= reactions[i]
-        return unbalanced, reactions
+        return self.given - self.linear @ q + np.einsum("bij,bi->j", self.reach, reactions), reactions
 
     def tangent(self, each: FloatArray) -> FloatArray:
         """Return the stiffness of the whole with one of (5, 5) at every bearing."""
-        whole = self.linear.copy()
-        for i, k in enumerate(each):
-            a, b = self.inner[i], self.outer[i]
-            whole[np.ix_(a, a)] += k
-            whole[np.ix_(b, b)] += k
-            whole[np.ix_(a, b)] -= k
-            whole[np.ix_(b, a)] -= k
-        return whole
+        return self.linear + np.asarray(sum(reach.T @ k @ reach for reach, k in zip(self.reach, each, strict=True)))
 
     def merit(self, unbalanced: FloatArray) -> float:
         """Return the size of the residual over the loads."""
@@ -141,11 +143,22 @@ class _Whole:
     def step(self, tangent: FloatArray, unbalanced: FloatArray) -> FloatArray:
         """Return the step of the free unknowns, zeros elsewhere."""
         move = np.zeros(unbalanced.size)
-        block = np.ix_(self.free, self.free)
-        # equal lengths for angles: the matrix then is of one unit, and its condition that of the structure
-        scaled = tangent[block] / np.outer(self.arms[self.free], self.arms[self.free])
-        move[self.free] = np.linalg.solve(scaled, unbalanced[self.free] / self.arms[self.free]) / self.arms[self.free]
+        block = tangent[np.ix_(self.free, self.free)]
+        # of one unit and size: the condition is that of the structure, however stiff parts of it are
+        scale = 1.0 / np.sqrt(np.maximum(np.diag(block), np.finfo(float).tiny))
+        move[self.free] = scale * np.linalg.solve(block * np.outer(scale, scale), scale * unbalanced[self.free])
         return move
+
+
+def _carried(model: ShaftModel, frame: NDArray[np.int64]) -> FloatArray:
+    """Return how all rows move with the unknowns: of one node its pose, of the others the way beside a rigid shaft."""
+    found: FloatArray = np.eye(model.body.stiffness.shape[0])
+    at = model.body.positions[frame[0] // NODE]
+    for node, place in enumerate(model.body.positions):
+        first = NODE * node
+        found[range(first, first + NODE), frame] = 1.0
+        found[first + 1, frame[5]], found[first + 2, frame[4]] = place - at, at - place  # tilts carry y and z along
+    return found
 
 
 class SharedKernels:
@@ -195,7 +208,7 @@ def solve_shaft(model: ShaftModel, announce: Announce = None, kernels: SharedKer
     _check_sides(model, reactions)
     torque = -float(unbalanced[model.drive])
     return ShaftState(
-        q[: whole.size], q[whole.outer], reactions, np.array([ring.stiffness() for ring in rings]), rings, torque,
+        whole.moves @ q[: whole.size], q[whole.outer], reactions, np.array([ring.stiffness() for ring in rings]), rings, torque,
         whole.merit(unbalanced), iterations,
     )  # fmt: skip
 
@@ -217,9 +230,7 @@ def _first_guess(whole: _Whole) -> FloatArray:
         pull = whole.given - whole.linear @ whole.start
         forces = np.array([k @ o for k, o in zip(springs, offset, strict=True)])
         for i in range(len(whole.rings)):
-            gap = springs[i] @ (whole.start[whole.inner[i]] - whole.start[whole.outer[i]])
-            pull[whole.inner[i]] += forces[i] - gap
-            pull[whole.outer[i]] -= forces[i] - gap
+            pull += whole.reach[i].T @ (forces[i] - springs[i] @ whole.reach[i] @ whole.start)
         q = whole.start + whole.step(tangent, pull)
         for i, bearing in enumerate(model.bearings):
             pushed = (whole.poses(q)[i] - offset[i])[1:3]
@@ -239,7 +250,7 @@ def _newton(whole: _Whole, q: FloatArray) -> tuple[FloatArray, int]:
         damping = min(_DAMPING, max(_LEAST_DAMPING, _DAMPING * merit))
         each = np.array([ring.stiffness() for ring in whole.rings])
         move = whole.step(whole.tangent(each + damping * np.diag(_GUESS)), unbalanced)
-        longest = float(np.abs((move[whole.inner] - move[whole.outer]) * _ARMS).max())
+        longest = float(np.abs(whole.poses(move) * _ARMS).max())
         move *= min(1.0, _LONGEST / max(longest, 1e-300))
         q, unbalanced = _along(whole, q, move, unbalanced)
         before, merit = merit, whole.merit(unbalanced)
@@ -280,7 +291,8 @@ def _along(whole: _Whole, q: FloatArray, move: FloatArray, unbalanced: FloatArra
 
 
 def _no_balance(whole: _Whole, unbalanced: FloatArray, merit: float) -> str:
-    worst = int(np.argmax(np.abs((unbalanced / whole.arms)[: whole.size])))
+    sizes = np.abs(unbalanced / whole.arms)
+    worst = int(max((row for row in whole.free if row < whole.size), key=lambda row: sizes[row]))
     axis = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")[worst % NODE]
     place = 1e3 * whole.model.body.positions[worst // NODE]
     return (

@@ -139,6 +139,50 @@ def test_six_bearings() -> None:
     assert state.residual < 1e-6
 
 
+def test_the_limit_of_a_rigid_shaft() -> None:
+    """A ten million times stiffer shaft has the reactions of a rigid one, solved here in five unknowns (1e-6).
+
+    Both tilt in their bearings; forces differ by the steel shaft's deflection over that ratio.
+    """
+    steel: dict[str, Any] = {
+        "poisson_ratio": 0.3, "density": "7800 kg/m3", "thermal_expansion": "12e-6 1/K",
+        "thermal_conductivity": "45 W/(m K)", "specific_heat": "460 J/(kg K)",
+    }  # fmt: skip
+    found = {}
+    for ratio in (1.0, 1e7):
+        model, found[ratio] = solved(
+            {
+                "shaft": {
+                    "sections": [{"length": "200 mm", "diameter": "30 mm"}],
+                    "material": {**steel, "youngs_modulus": f"{210 * ratio:.17g} GPa"},
+                },
+                "bearings": {
+                    "left": {"position": "30 mm", "designation": "SKF 6206"},
+                    "right": {"position": "150 mm", "designation": "SKF 6206", "support": {"x": "free"}},
+                },
+                "loads": {"gear": {"position": "80 mm", "force_z": "-2 kN", "force_y": "500 N", "force_x": "300 N"}},
+            }
+        )
+    state = found[1e7]
+    frames, loads = [], np.zeros(5)  # of the shaft's pose x, y, z and tilts about y and z at x = 0
+    for place in model.body.positions:
+        frame = np.eye(5)
+        frame[1, 4], frame[2, 3] = place, -place
+        loads += frame.T @ (model.loads + model.weight)[model.body.rows(place)][[0, 1, 2, 4, 5]]
+        if any(place == pytest.approx(b.position) for b in model.bearings):
+            frames.append(frame)
+    pose = np.linalg.solve(frames[0], state.pose(model, 0))
+    float_along = np.array([state.outer[1, 0], 0.0, 0.0, 0.0, 0.0])  # the right outer ring floats
+    for _ in range(5):
+        poses = [frames[0] @ pose, frames[1] @ pose - float_along]
+        reactions = [ring.reaction(p) for ring, p in zip(state.rings, poses, strict=True)]
+        stiffness = [f.T @ ring.stiffness() @ f for f, ring in zip(frames, state.rings, strict=True)]
+        pose += np.linalg.solve(sum(stiffness), loads + sum(f.T @ r for f, r in zip(frames, reactions, strict=True)))
+    scale = np.abs(reactions).max(axis=0)
+    assert np.abs((state.reactions - reactions) / np.maximum(scale, 1.0)).max() < 1e-6
+    assert np.abs((found[1.0].reactions - reactions) / np.maximum(scale, 1.0)).max() > 1e-4
+
+
 def test_what_nothing_holds_is_said() -> None:
     """Both outer rings float: the axial force goes nowhere."""
     with pytest.raises(SolverError, match="is the shaft held in every direction"):
