@@ -125,7 +125,7 @@ class OuterRing(_Body):
     spin: Spin = option("locked", "rotation about the axis")
 
 
-class CageBody(_Body):
+class CageShape(_Body):
     """The cage: its type from the catalogue, single values replaced here."""
 
     type: str = option("steel-ribbon", "catalogue name of the cage type", min_length=1)
@@ -134,6 +134,11 @@ class CageBody(_Body):
     land_clearance: SmallLength | None = option(None, "diametral clearance of cage and guiding ring", gt=0.0)
     width: Length | None = option(None, "axial width", gt=0.0)
     radial_thickness: Length | None = option(None, "radial thickness", gt=0.0)
+
+
+class CageBody(CageShape):
+    """The cage: its type from the catalogue, single values replaced here."""
+
     x: Translation = option("free", "axial")
     y: Translation = option("free", "horizontal")
     z: Translation = option("free", "vertical")

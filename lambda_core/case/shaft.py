@@ -11,7 +11,7 @@ from pydantic import PrivateAttr, field_validator, model_validator
 
 from lambda_core.case.case import NAME_PATTERN
 from lambda_core.case.modelling import Models, Parameters
-from lambda_core.case.motion import Gravity
+from lambda_core.case.motion import CageShape, Gravity
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, Surface
 from lambda_core.case.signals import ForceSignal, MomentSignal, SpeedSignal
@@ -119,6 +119,7 @@ class ShaftBearing(Bearing):
     )
     preload_force: Force | None = option(None, "force of a spring on the outer ring, which slides in its seat", gt=0.0)
     support: Support = option({}, "how the housing holds the outer ring")
+    cage: CageShape = option({}, "cage, as bodies.cage in the case of one bearing")
 
     @model_validator(mode="after")
     def _sits(self) -> ShaftBearing:
@@ -242,9 +243,11 @@ def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
     given = tables["bearings"][name]
     operation = tables.get("operation")
     speed = operation.get("speed") if isinstance(operation, Mapping) else None
+    bodies = {"bodies": {"cage": given["cage"]}} if "cage" in given else {}
     return {
         "name": name,
         "bearing": {key: value for key, value in given.items() if key in Bearing.model_fields},
         "operation": {} if speed is None else {"speed": speed},
+        **bodies,
         **{table: tables[table] for table in SHARED if table in tables},
     }

@@ -156,7 +156,7 @@ def _alone(engine: WholeEngine, i: int) -> BearingModel:
     tables["name"] = f"{shaft}-{name}"
     loads = zip(("force_x", "force_y", "force_z"), reaction[:3], strict=True)
     tables["loads"] = {"inner_ring": {key: f"{-float(f):.6g} N" for key, f in loads}}
-    tables["bodies"] = {"inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}}
+    tables["bodies"] = {**tables.get("bodies", {}), "inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}}
     note = (
         f"a bearing of the shaft {shaft}: its rings move with shaft and housing, energy is balanced for the whole; "
         "its case here is that of the bearing alone under the load at the start"

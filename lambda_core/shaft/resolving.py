@@ -99,7 +99,7 @@ def _bearings(
             models[name] = check(bearing_tables(tables, name), folder=folder, catalogue=catalogue, is_static=True)
         except CaseError as error:
             for problem in error.problems:
-                where = problem.where
+                where = problem.where.replace("bodies.cage", f"bearings.{name}.cage")
                 where = f"bearings.{name}{where[7:]}" if where.split(".")[0] == "bearing" else where
                 if where != "name" and not any(_related(where, known.where) for known in found):
                     found.append(Problem(where, problem.message))

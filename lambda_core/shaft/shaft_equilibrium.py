@@ -130,11 +130,12 @@ class _Whole:
         """Return what is unbalanced [N, N m] and the reactions of the bearings on the shaft."""
         reactions = np.array([ring.reaction(pose) for ring, pose in zip(self.rings, self.poses(q), strict=True)])
         self.carried = float(np.abs(reactions[:, :3]).max())
-        return self.given - self.linear @ q + np.einsum("bij,bi->j", self.reach, reactions), reactions
+        pushed = np.asarray(np.einsum("bij,bi->j", self.reach, reactions))
+        return self.given - self.linear @ q + pushed, reactions
 
     def tangent(self, each: FloatArray) -> FloatArray:
         """Return the stiffness of the whole with one of (5, 5) at every bearing."""
-        return self.linear + np.asarray(sum(reach.T @ k @ reach for reach, k in zip(self.reach, each, strict=True)))
+        return np.asarray(self.linear + sum(reach.T @ k @ reach for reach, k in zip(self.reach, each, strict=True)))
 
     def merit(self, unbalanced: FloatArray) -> float:
         """Return the size of the residual over the loads."""
@@ -208,8 +209,8 @@ def solve_shaft(model: ShaftModel, announce: Announce = None, kernels: SharedKer
     _check_sides(model, reactions)
     torque = -float(unbalanced[model.drive])
     return ShaftState(
-        whole.moves @ q[: whole.size], q[whole.outer], reactions, np.array([ring.stiffness() for ring in rings]), rings, torque,
-        whole.merit(unbalanced), iterations,
+        whole.moves @ q[: whole.size], q[whole.outer], reactions, np.array([ring.stiffness() for ring in rings]), rings,
+        torque, whole.merit(unbalanced), iterations,
     )  # fmt: skip
 
 

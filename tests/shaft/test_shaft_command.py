@@ -112,6 +112,22 @@ def test_what_only_the_whole_shows(folder: Path, capsys: pytest.CaptureFixture[s
     assert "needs a speed" in said
 
 
+def test_a_bearing_has_the_cage_of_its_own_case(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What [bodies.cage] says of one bearing stands in its table of the shaft; mistakes with their path."""
+    case, said = str(folder / "box.toml"), "bearings.right.cage"
+    changes = ['bearings.left.cage.type="brass-machined"', "bearings.left.cage.mass=0.2 kg"]
+    assert main(["check", case, *(part for change in changes for part in ("--set", change))]) == 0
+    left, right = (bearing.model for bearing in api.check_shaft(case, changes).bearings)
+    assert left.cage_body.mass == 0.2
+    assert left.cage_body.mass > 2.0 * right.cage_body.mass
+    assert left.cage.type == "brass-machined"
+    capsys.readouterr()
+    assert main(["check", case, "--set", f"{said}.type=paper", "--set", "bearings.left.cage.x=locked"]) == 3
+    lines = capsys.readouterr().err.splitlines()
+    assert any(line.split()[0] == f"{said}.type" and "paper" in line for line in lines[1:]), lines
+    assert any(line.split()[0] == "bearings.left.cage.x" for line in lines[1:]), lines
+
+
 def test_a_shaft_is_not_one_bearing(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Each command names the one that is meant."""
     assert main(["quasistatic", str(folder / "box.toml")]) == 3
