@@ -10,8 +10,13 @@ from lambda_core import api
 from lambda_core.domain.channels import LOSSES
 from lambda_core.solver.drivers.dynamics import BearingEngine
 
+LONG = {"stop"}  # half a minute of one of them: run by name, and by the page of regimes
 
-@pytest.mark.parametrize("regime", REGIMES, ids=lambda regime: regime.name)
+
+@pytest.mark.parametrize(
+    "regime",
+    [pytest.param(regime, marks=[pytest.mark.slow] * (regime.name in LONG), id=regime.name) for regime in REGIMES],
+)
 def test_regime(regime: Regime) -> None:
     """Specification: kinetic, elastic, dissipated and external energy close within 1e-3; each dissipator dissipates."""
     found = run(regime)

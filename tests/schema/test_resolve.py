@@ -428,13 +428,13 @@ def test_row_without_inner_geometry_asks_for_it() -> None:
 
 
 def test_every_catalogue_bearing_resolves_or_says_what_is_missing(rows: Catalogue) -> None:
-    """Every deep groove bearing; of angular contact, whose rows all have the same values, every sixth."""
+    """Every third deep groove bearing; of angular contact, whose rows all have the same values, every sixth."""
     base = api.case("6319-cp10-500")
     missing = {"bearing.geometry.ball_count", "bearing.geometry.ball_diameter"}
     resolved = 0
     known = rows.bearings("", limit=1000)
     for row in (
-        *(row for row in known if row.contact_angle is None),
+        *[row for row in known if row.contact_angle is None][::3],
         *[row for row in known if row.contact_angle is not None][::6],
     ):
         clearance = {} if row.contact_angle is None else {"clearance": None}  # a class is of radial contact
@@ -442,7 +442,7 @@ def test_every_catalogue_bearing_resolves_or_says_what_is_missing(rows: Catalogu
         found = {problem.where for problem in api.problems(case)}
         assert found == (set() if row.ball_count else missing), row.designation
         resolved += not found
-    assert resolved > 250
+    assert resolved > 90
 
 
 class TestHash:

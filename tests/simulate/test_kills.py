@@ -97,7 +97,7 @@ def kill_and_resume(warm: Warm, path: Path, chance: random.Random, whole: Series
     return kills, midway
 
 
-def test_ten_kills(warm: Warm, tmp_path: Path, undisturbed: Series) -> None:
+def test_some_kills(warm: Warm, tmp_path: Path, undisturbed: Series) -> None:
     _, midway = kill_and_resume(warm, tmp_path / "r.h5", random.Random(0), undisturbed)
     assert midway > 0
 
