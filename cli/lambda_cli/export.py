@@ -37,6 +37,13 @@ def fmu(
     couple: Annotated[
         Couple, typer.Option(help="What comes from outside: loads on the inner ring, or the motion of both rings.")
     ] = Couple.FORCE,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="PATH=LOW..HIGH",
+            help='Option that the host may change: "lubricant.temperature=20..90 degC". Repeatable.',
+        ),
+    ] = None,
     processor: Annotated[
         str,
         typer.Option(
@@ -62,6 +69,7 @@ def fmu(
             out=out,
             fmi=fmi,
             couple=couple.value,
+            vary=vary or (),
             processor=processor,
             force=force,
             announce=speaker.say,

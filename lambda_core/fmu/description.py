@@ -6,7 +6,8 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from lambda_core.fmu.variables import UNITS, Kind, Variable
+from lambda_core.fmu.interface_units import UNITS
+from lambda_core.fmu.variables import Kind, Variable
 
 VERSIONS = {2: "2.0", 3: "3.0"}
 _CAUGHT = {"logStatusError": "steps and values that are refused", "logStatusWarning": "what deserves a look"}
@@ -85,19 +86,23 @@ def _units(root: ET.Element) -> None:
         element = ET.SubElement(units, "Unit", name=name)
         ET.SubElement(element, "BaseUnit", {base: str(power) for base, power in unit.base.items()})
         if unit.shown:
-            shown, factor = unit.shown
-            ET.SubElement(element, "DisplayUnit", name=shown, factor=repr(factor))
+            shown, factor, added = unit.shown
+            more = {"name": shown, "factor": repr(factor)} | ({"offset": repr(added)} if added else {})
+            ET.SubElement(element, "DisplayUnit", more)
 
 
 def _variable(model: ET.Element, variable: Variable, reference: int, fmi: int) -> None:
     counts = variable.kind is Kind.COUNT
     head = {"name": variable.name, "valueReference": str(reference), "description": variable.text}
-    head |= {"causality": variable.causality, "variability": "discrete" if counts else "continuous"}
+    changes = "tunable" if variable.tunable else "discrete" if counts else "continuous"
+    head |= {"causality": variable.causality, "variability": changes}
     more = {} if counts else {"unit": variable.unit}
     shown = UNITS[variable.unit].shown if variable.unit else None
     if shown and not (variable.unit == "rad/s" and variable.name.endswith("_rate")):
         more["displayUnit"] = shown[0]
-    if variable.kind is Kind.INPUT:
+    if variable.kind is Kind.VARIED:
+        more |= dict(zip(("min", "max"), map(repr, variable.limits), strict=True))
+    if variable.given:
         more["start"] = repr(variable.start)
     if fmi == 2:
         scalar = ET.SubElement(model, "ScalarVariable", head)

@@ -2,32 +2,48 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, SHORTED
 from lambda_core.domain.elements import BODIES
+from lambda_core.fmu.curves import Constant, constants
 from lambda_core.fmu.image import Image, host_words
+from lambda_core.fmu.starting import Start, prepare_start
+from lambda_core.fmu.varied import Varied
 from lambda_core.laws.jit.portable import REAL, WORD, Entry
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.drivers.compiled_laws import derive_oils
 from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.given import Coupling, given_names, start
+from lambda_core.solver.drivers.solver_context import assemble
 from lambda_core.solver.integrator.arrow import factors_t
 from lambda_core.solver.integrator.blocks import blocks_t
-from lambda_core.solver.integrator.memory import Memory, evaluate_t, jacobian_t, memory_t
+from lambda_core.solver.integrator.memory import CONTROL, Memory, evaluate_t, jacobian_t, memory_t
 from lambda_core.solver.sampling import observe_sig
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
     from lambda_core.solver.drivers.compiled_laws import Announce
     from lambda_core.solver.drivers.observation import Scratch
     from lambda_core.system.bearing import BearingModel
 
 _CAPACITY = 4  # samples: nobody takes them, but the integrator keeps room for those of the step in hand
-_HOST_WORDS = 8
+_HOST_WORDS = 8  # behind them stand the values of the options that vary
+# Of the bundle, what the set-up of a model works out, and of the integrator's control.
+_TABLES = (
+    "system", "bodies", "rows", "raceways", "lands", "links", "tie_stiffness", "tie_rest", "state_steps", "par",
+    "terms", "table",
+)  # fmt: skip
+_CONTROL = ("longest_step", "leak_floor")
 
 
 @dataclass(frozen=True)
@@ -47,6 +63,12 @@ class Frozen:
         What the bearing puts on its bodies.
     host : float64[:]
         Memory for the host.
+    start : Start
+        For a start elsewhere.
+    varied : tuple of Varied
+        Options that the host may change.
+    constants : list of Constant
+        What follows them; their words are places in the image [bytes].
     losses : int
         How many of the running integrals are losses.
     """
@@ -61,6 +83,10 @@ class Frozen:
     scratch: Scratch
     fault: Any
     host: Any
+    system: Any
+    start: Start
+    varied: tuple[Varied, ...]
+    constants: list[Constant]
     losses: int = len(LOSSES)
 
     def moves(self, body: str) -> bool:
@@ -90,20 +116,35 @@ class Frozen:
         return self.image.place(powers, behind) + int(R.RUNNING.fields[name][1])  # type: ignore[index]
 
 
-def freeze(model: BearingModel, couple: Coupling, announce: Announce = None) -> Frozen:
+def freeze(
+    model: BearingModel,
+    couple: Coupling,
+    announce: Announce = None,
+    options: Sequence[Varied] = (),
+    changed: Callable[[Mapping[str, float]], BearingModel] | None = None,
+) -> Frozen:
     """Solve for the start of a model and freeze it there.
+
+    Parameters
+    ----------
+    options : sequence of Varied
+        What the host may change.
+    changed : function
+        The model with other values of these, by path.
 
     Raises
     ------
     SolverError, UsageError
-        As for :func:`lambda_core.solver.drivers.given.start`.
+        As for :func:`lambda_core.solver.drivers.given.start` and :func:`lambda_core.fmu.curves.constants`.
     """
     model, equilibrium = start(model, couple, announce)
     given = given_names(model, couple)
+    begin = prepare_start(equilibrium)
     engine = BearingEngine(model, announce, equilibrium, given=given, capacity=_CAPACITY)
     core, context, memory, scratch = engine.parts()
     memory.control["sample_interval"] = math.inf
-    bundle, host = context.bundle, host_words(_HOST_WORDS)
+    bundle, host = context.bundle, host_words(_HOST_WORDS + len(options))
+    host[_HOST_WORDS:] = [option.start for option in options]
     now = memory.control.view(np.float64)[:1]  # the field "time" is the first one
     sections = [
         ("evaluate", evaluate_t, core.evaluate_pointer),
@@ -115,6 +156,7 @@ def freeze(model: BearingModel, couple: Coupling, announce: Announce = None) -> 
         ("times", L.array1, now),
         ("states", L.array2, memory.y.reshape(1, -1)),
         ("host", L.array1, host),
+        *begin.sections(),
     ]
     kinds = observe_sig.args[-len(scratch._fields) :]
     sections += [(name, kind, array) for name, kind, array in zip(scratch._fields, kinds, scratch, strict=True)]
@@ -131,9 +173,57 @@ def freeze(model: BearingModel, couple: Coupling, announce: Announce = None) -> 
             core.observe_pointer,
             (at["times"], at["states"], at["bundle"], at["evaluate"], float(SHORTED), *looks),
         ),
+        begin.entry(at),
     )
     fault = bundle.scratch
     wrenches = bundle.body_wrenches.view(np.float64)
     rows = engine.given
     assert list(BODIES)[:2] == ["inner_ring", "outer_ring"]
-    return Frozen(model, image, entries, given, rows, wrenches, memory, scratch, fault, host)
+    followed: list[Constant] = []
+    if options and changed is not None:
+        parts = _parts(engine)
+        where = np.concatenate([image.place(part) + 8 * np.arange(part.size) for part in parts])
+
+        def sample(values: Mapping[str, float]) -> FloatArray:
+            return np.concatenate(_parts(_alike(changed(values), equilibrium, couple, given)))
+
+        found = constants(options, np.concatenate(parts), sample)
+        followed = [dataclasses.replace(each, word=int(where[each.word])) for each in found]
+    return Frozen(
+        model,
+        image,
+        entries,
+        given,
+        rows,
+        wrenches,
+        memory,
+        scratch,
+        fault,
+        host,
+        bundle.system,
+        begin,
+        tuple(options),
+        followed,
+    )
+
+
+def _alike(model: BearingModel, base: Equilibrium, couple: Coupling, given: tuple[str, ...]) -> BearingEngine:
+    """Return an engine of another model in the state and with the frame of the contacts of a base."""
+    if couple == "motion":  # the host holds the rings where the base has them
+        own = base.context.model
+        inner = dataclasses.replace(model.inner_ring, dofs=own.inner_ring.dofs)
+        outer = dataclasses.replace(model.outer_ring, dofs=own.outer_ring.dofs)
+        model = dataclasses.replace(model, inner_ring=inner, outer_ring=outer)
+    kernels, frame = base.context.kernels, base.context.frame
+    context = assemble(model, kernels, frame, derive_oils(model, kernels, frame))
+    return BearingEngine(model, None, dataclasses.replace(base, context=context), given=given, capacity=_CAPACITY)
+
+
+def _parts(engine: BearingEngine) -> list[FloatArray]:
+    """Return everything that the set-up of a model has worked out, as views of numbers."""
+    _, context, memory, _ = engine.parts()
+    tables = [getattr(context.bundle, name) for name in _TABLES]
+    found = [table.view(np.float64).reshape(-1) for table in tables if table.size]
+    control = memory.control.view(np.float64)
+    at = [int(CONTROL.fields[name][1]) // 8 for name in _CONTROL]  # type: ignore[index]
+    return [*found, memory.weight, memory.inertia, *(control[i : i + 1] for i in at)]

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from lambda_core.case.case import Case
     from lambda_core.solver.drivers.given import Coupling
+    from lambda_core.system.bearing import BearingModel
 
 PROCESSORS = {
     "x86-64-v3": "of Intel since 2013 and AMD since 2015",
@@ -41,6 +42,7 @@ def export_fmu(
     out: str | Path | None = None,
     fmi: int = 2,
     couple: Coupling = "force",
+    vary: Iterable[str] = (),
     processor: str = "x86-64-v3",
     force: bool = False,
     announce: Callable[[str], None] | None = None,
@@ -61,6 +63,8 @@ def export_fmu(
     couple : "force" or "motion"
         What the host gives: loads on the inner ring, which the bearing moves; or the poses of both rings, on which the
         bearing puts reactions.
+    vary : iterable of str
+        Options ``path=low..high`` that the host may change: temperatures as inputs, all others as tunable parameters.
     processor : str
         The least processor that runs it: "x86-64-v3" (default), "x86-64-v2", "x86-64-v4", or "native".
     force : bool
@@ -83,6 +87,7 @@ def export_fmu(
     """
     from lambda_core.case.case_writer import standalone_toml
     from lambda_core.domain.files import check_folder
+    from lambda_core.fmu.varied import varied
     from lambda_core.solver.drivers.given import COUPLINGS
     from lambda_core.system.cases import case
     from lambda_core.system.checking import resolve
@@ -99,12 +104,15 @@ def export_fmu(
 
     compiler()
     loaded = _loaded(source, overrides) if not isinstance(source, str | Path) else case(source, overrides)
+    options = tuple(vary)
+    varied(options, loaded)
     resolve(loaded)
     target = Path(out) if out is not None else Path(f"{_plain(loaded.name)}.fmu")
     if target.exists() and not force:
         raise UsageError(f"{target} exists: choose another name with --out, or overwrite it with --force")
     check_folder(target.parent, target)
     task = {"case": standalone_toml(loaded), "out": str(target.absolute()), "fmi": fmi, "couple": couple}
+    task["vary"] = options
     if processor == os.environ.get(_CPU, "native"):
         write(task, announce)
     else:
@@ -131,16 +139,23 @@ def write(task: Mapping[str, Any], announce: Callable[[str], None] | None = None
     """Write an FMU with the code of this process's processor."""
     from importlib.metadata import version
 
-    from lambda_core.case.case_io import parse_case
+    from lambda_core.case.case_io import apply_overrides, parse_case
     from lambda_core.fmu.description import About, description
     from lambda_core.fmu.frozen import freeze
     from lambda_core.fmu.library import build, library_parts
     from lambda_core.fmu.variables import variables
+    from lambda_core.fmu.varied import varied
     from lambda_core.thermal.temperatures import ready_model
 
     fmi, text = task["fmi"], task["case"]
-    model = ready_model(parse_case(text), (), announce)
-    frozen = freeze(model, task["couple"], announce)
+    case = parse_case(text)
+    options = {option.path: option for option in varied(task["vary"], case)}
+
+    def changed(values: Mapping[str, float]) -> BearingModel:
+        return ready_model(apply_overrides(case, (options[path].change(value) for path, value in values.items())))
+
+    frozen = freeze(ready_model(case, (), announce), task["couple"], announce, tuple(options.values()), changed)
+    model = frozen.model
     seen = variables(frozen)
     parts = library_parts(frozen, seen)
     about = About(

@@ -5,6 +5,7 @@ Values are SI; a host shows them in the units that engineers use. Names are thos
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
@@ -28,6 +29,7 @@ class Kind(IntEnum):
     SUM = 5
     TORQUE = 6
     COUNT = 7
+    VARIED = 8  # an option that constants follow
 
 
 @dataclass(frozen=True)
@@ -44,39 +46,24 @@ class Variable:
     scale: float = 1.0  # of an input: by how much it is changed for a slope
     begin: int = 0  # of an input: place of the time at which it was given
     start: float = 0.0
+    limits: tuple[float, float] = (-math.inf, math.inf)
+    tunable: bool = False  # a parameter of the host, not an input
 
     @property
-    def causality(self) -> Literal["independent", "input", "output"]:
+    def causality(self) -> Literal["independent", "input", "output", "parameter"]:
         """Which way it goes."""
-        named: dict[Kind, Literal["independent", "input"]] = {Kind.TIME: "independent", Kind.INPUT: "input"}
-        return named.get(self.kind, "output")
+        if self.kind is Kind.TIME:
+            return "independent"
+        if not self.given:
+            return "output"
+        return "parameter" if self.tunable else "input"
+
+    @property
+    def given(self) -> bool:
+        """Whether a host sets it."""
+        return self.kind in (Kind.INPUT, Kind.VARIED)
 
 
-@dataclass(frozen=True)
-class Unit:
-    """A unit of the interface: exponents of SI units, and what engineers read (name, how many of them are one)."""
-
-    base: dict[str, int]
-    shown: tuple[str, float] | None = None
-
-
-_RPM = 9.549296585513721  # 30 / pi
-UNITS = {
-    "s": Unit({"s": 1}),
-    "m": Unit({"m": 1}, ("um", 1e6)),
-    "m/s": Unit({"m": 1, "s": -1}),
-    "m/s2": Unit({"m": 1, "s": -2}),
-    "rad": Unit({"rad": 1}, ("mrad", 1e3)),
-    "rad/s": Unit({"rad": 1, "s": -1}, ("1/min", _RPM)),
-    "rad/s2": Unit({"rad": 1, "s": -2}),
-    "N": Unit({"kg": 1, "m": 1, "s": -2}),
-    "N m": Unit({"kg": 1, "m": 2, "s": -2}, ("N mm", 1e3)),
-    "W": Unit({"kg": 1, "m": 2, "s": -3}),
-    "J": Unit({"kg": 1, "m": 2, "s": -2}),
-    "Pa": Unit({"kg": 1, "m": -1, "s": -2}, ("GPa", 1e-9)),
-    "F": Unit({"kg": -1, "m": -2, "s": 4, "A": 2}, ("pF", 1e12)),
-    "1": Unit({}),
-}
 _STEPS = {"m": 1e-9, "rad": 1e-8, "m/s": 1e-6, "rad/s": 1e-5, "N": 1.0, "N m": 1e-2, "m/s2": 1.0, "rad/s2": 1.0}
 _TITLES = {"x": "along the shaft", "y": "horizontal", "z": "vertical"}
 # Of a coordinate: its place in a state, the sign there, and the same of its rate.
@@ -88,7 +75,7 @@ def variables(frozen: Frozen) -> list[Variable]:
     found = [Variable("time", "time", "s", Kind.TIME, 0), *_inputs(frozen)]
     taken = {each.name for each in found}
     found += [each for each in (*_places(frozen), *_reactions(frozen), *_bearing(frozen)) if each.name not in taken]
-    return found
+    return [*found, *_varied(frozen)]
 
 
 def _unit(name: str) -> tuple[str, str, str]:
@@ -115,6 +102,23 @@ def _inputs(frozen: Frozen) -> Iterator[Variable]:
                 text = _input_text(name, field)
                 step = _STEPS[unit]
                 yield Variable(full, text, unit, Kind.INPUT, place, scale=step, begin=begin, start=start)
+
+
+def _varied(frozen: Frozen) -> Iterator[Variable]:
+    """Yield the options of the case that a host may change."""
+    behind = frozen.host.size - len(frozen.varied)
+    for k, option in enumerate(frozen.varied):
+        yield Variable(
+            option.path,
+            f"{option.path} of the case, between {option.lowest:g} and {option.highest:g} {option.unit}",
+            option.unit,
+            Kind.VARIED,
+            frozen.image.place(frozen.host, behind + k),
+            scale=1e-3 * (option.highest - option.lowest),
+            start=option.start,
+            limits=(option.lowest, option.highest),
+            tunable=not option.is_temperature,
+        )
 
 
 def _input_text(name: str, field: str) -> str:

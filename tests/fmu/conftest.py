@@ -16,6 +16,7 @@ from lambda_core.domain.errors import UsageError
 
 HERE = Path(__file__).parent
 CASE, CHANGES = "6208-axial-1300", ("solver.duration=0.2 s",)
+VARIED = ("lubricant.temperature=30..60 degC", "bearing.clearance=9..19 um")  # in the FMU of version 2 by force
 
 
 @pytest.fixture(scope="session")
@@ -51,7 +52,8 @@ def exported(c_compiler: tuple[str, ...], tmp_path_factory: pytest.TempPathFacto
     def export(fmi: int, couple: str) -> Path:
         if (fmi, couple) not in made:
             out = folder / f"{couple}{fmi}.fmu"
-            api.export_fmu(CASE, CHANGES, out=out, fmi=fmi, couple=couple, processor="native")  # type: ignore[arg-type]
+            vary = VARIED if (fmi, couple) == (2, "force") else ()
+            api.export_fmu(CASE, CHANGES, out=out, fmi=fmi, couple=couple, vary=vary, processor="native")  # type: ignore[arg-type]
             made[fmi, couple] = out
         return made[fmi, couple]
 

@@ -1,29 +1,19 @@
-#include "core.h"
-
 #include <cpuid.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "case.h" /* written for each case: places in the image, variables, sentences */
-
-extern const unsigned char lb_image[];
-extern void *const lb_functions[];
-extern int64_t lb_advance(unsigned char *image, double until, int64_t work);
-extern int64_t lb_observe(unsigned char *image);
+#include "image.h"
 
 #define TOKEN_SIZE 64
 
 /* Numbers of the host that belong to a state. */
-enum { ORIGIN, LOST_BEFORE, TURNED_BEFORE, TORQUE, PHASE };
-#define REAL(b, place) (*(double *)((b)->image + (place)))
-#define WORD(b, place) (*(int64_t *)((b)->image + (place)))
+enum { ORIGIN, LOST_BEFORE, TURNED_BEFORE, TORQUE, PHASE, UNSETTLED };
 #define HOST(b, which) REAL(b, LB_HOST + 8 * (which))
 #define WORK_PER_CALL 500
 
-static void settle(unsigned char *image) {
+static void address(unsigned char *image) {
   for (size_t i = 0; i < sizeof lb_relocations / sizeof *lb_relocations; i++)
     *(uint64_t *)(image + lb_relocations[i][0]) = (uint64_t)(uintptr_t)(image + lb_relocations[i][1]);
   for (size_t i = 0; i < sizeof lb_fixes / sizeof *lb_fixes; i++)
@@ -87,7 +77,7 @@ void lb_free(lb_bearing *b) {
 
 void lb_reset(lb_bearing *b) {
   memcpy(b->image, lb_image, LB_IMAGE_SIZE);
-  settle(b->image);
+  address(b->image);
   HOST(b, PHASE) = LB_CREATED;
   HOST(b, TORQUE) = NAN;
   b->stale = 1;
@@ -109,9 +99,18 @@ int lb_enter(lb_bearing *b) {
   return LB_OK;
 }
 
+/* A start with other inputs than the case's has an equilibrium of its own. */
+static int settle(lb_bearing *b) {
+  if (HOST(b, UNSETTLED) == 0.0) return LB_OK;
+  int status = lb_settle(b);
+  if (status == LB_OK) HOST(b, UNSETTLED) = 0.0;
+  return status;
+}
+
 int lb_leave(lb_bearing *b) {
   if (HOST(b, PHASE) != LB_INITIALISING)
     return lb_say(b, LB_ERROR, "initialisation has not begun: it cannot end");
+  if (settle(b) != LB_OK) return LB_ERROR;
   HOST(b, PHASE) = LB_STEPPING;
   return LB_OK;
 }
@@ -148,6 +147,7 @@ static double extreme(lb_bearing *b, const lb_variable *v) {
 
 static int look(lb_bearing *b) {
   if (!b->stale) return LB_OK;
+  if (settle(b) != LB_OK) return LB_ERROR;
   if (lb_observe(b->image) != LB_STATUS_OK) return refused(b);
   b->stale = 0;
   return LB_OK;
@@ -166,7 +166,8 @@ static double value(lb_bearing *b, const lb_variable *v) {
     case LB_LEAST:
     case LB_GREATEST: return extreme(b, v);
     case LB_TORQUE: return torque(b);
-    case LB_INPUT: return REAL(b, v->place);
+    case LB_INPUT:
+    case LB_VARIED: return REAL(b, v->place);
     default: return v->scale * REAL(b, v->place);
   }
 }
@@ -181,11 +182,13 @@ static const lb_variable *variable(lb_bearing *b, unsigned which) {
   return known ? &lb_variables[which] : NULL;
 }
 
+static int given(const lb_variable *v) { return v->kind == LB_INPUT || v->kind == LB_VARIED; }
+
 int lb_get(lb_bearing *b, const unsigned *which, size_t count, double *values) {
   for (size_t i = 0; i < count; i++) {
     const lb_variable *v = variable(b, which[i]);
     if (!v) return LB_ERROR;
-    if (v->kind > LB_INPUT) {
+    if (v->kind != LB_TIME && !given(v)) {
       int status = look(b);
       if (status != LB_OK) return status;
     }
@@ -202,19 +205,27 @@ int lb_get_counts(lb_bearing *b, const unsigned *which, size_t count, int64_t *v
   return LB_OK;
 }
 
+/* Inputs say from when on they hold; what options mean is in curves. */
+static void put(lb_bearing *b, const lb_variable *v, double value) {
+  if (HOST(b, PHASE) < LB_STEPPING && value != REAL(b, v->place)) HOST(b, UNSETTLED) = 1.0;
+  REAL(b, v->place) = value;
+  if (v->kind == LB_INPUT) REAL(b, v->begin) = REAL(b, LB_CONTROL_TIME);
+  b->stale = 1;
+}
+
 int lb_set(lb_bearing *b, const unsigned *which, size_t count, const double *values) {
+  int varies = 0;
   for (size_t i = 0; i < count; i++) {
     const lb_variable *v = variable(b, which[i]);
     if (!v) return LB_ERROR;
-    if (v->kind != LB_INPUT) return lb_say(b, LB_ERROR, "%s is no input: it cannot be set", lb_names[which[i]]);
+    if (!given(v)) return lb_say(b, LB_ERROR, "%s is no input: it cannot be set", lb_names[which[i]]);
     if (!isfinite(values[i])) return lb_say(b, LB_ERROR, "%s is to be %g: a finite number is due", lb_names[which[i]], values[i]);
+    if (values[i] < v->lowest || values[i] > v->highest)
+      return lb_say(b, LB_ERROR, "%s is to be %g: it was exported for %g to %g", lb_names[which[i]], values[i], v->lowest, v->highest);
+    varies |= v->kind == LB_VARIED && values[i] != REAL(b, v->place);
   }
-  for (size_t i = 0; i < count; i++) {
-    const lb_variable *v = &lb_variables[which[i]];
-    REAL(b, v->place) = values[i];
-    REAL(b, v->begin) = REAL(b, LB_CONTROL_TIME);
-    b->stale = 1;
-  }
+  for (size_t i = 0; i < count; i++) put(b, &lb_variables[which[i]], values[i]);
+  if (varies) lb_follow(b);
   return LB_OK;
 }
 
@@ -261,7 +272,7 @@ int lb_save(lb_bearing *b, void **state) {
 int lb_restore(lb_bearing *b, const void *state) {
   if (!state) return lb_say(b, LB_ERROR, "there is no state to restore");
   memcpy(b->image, state, LB_IMAGE_SIZE);
-  settle(b->image);
+  address(b->image);
   b->stale = 1;
   return LB_OK;
 }
@@ -293,7 +304,12 @@ int lb_unpack(lb_bearing *b, const void *bytes, size_t size, void **state) {
 }
 
 static void shift(lb_bearing *b, const unsigned *knowns, size_t m, const double *along, double by) {
-  for (size_t k = 0; k < m; k++) REAL(b, lb_variables[knowns[k]].place) += by * along[k];
+  int varies = 0;
+  for (size_t k = 0; k < m; k++) {
+    REAL(b, lb_variables[knowns[k]].place) += by * along[k];
+    varies |= lb_variables[knowns[k]].kind == LB_VARIED;
+  }
+  if (varies) lb_follow(b);
   b->stale = 1;
 }
 
@@ -303,11 +319,12 @@ int lb_slope(lb_bearing *b, const unsigned *unknowns, size_t n, const unsigned *
   for (size_t k = 0; k < m; k++) {
     const lb_variable *v = variable(b, knowns[k]);
     if (!v) return LB_ERROR;
-    if (v->kind != LB_INPUT) return lb_say(b, LB_ERROR, "%s is no input: there are no slopes with it", lb_names[knowns[k]]);
+    if (!given(v)) return lb_say(b, LB_ERROR, "%s is no input: there are no slopes with it", lb_names[knowns[k]]);
     if (along[k] != 0.0) by = fmin(by, v->scale / fabs(along[k]));
   }
   for (size_t i = 0; i < n; i++) slopes[i] = 0.0;
   if (!isfinite(by)) return LB_OK;
+  if (settle(b) != LB_OK) return LB_ERROR;
   /* Central differences about the state as it stands, which a copy brings back to the last bit. */
   void *state = NULL;
   int status = lb_save(b, &state);

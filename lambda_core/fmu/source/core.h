@@ -13,13 +13,14 @@
 enum { LB_OK, LB_WARNING, LB_DISCARD, LB_ERROR, LB_FATAL }; /* as FMI 2 and 3 number them */
 enum { LB_CREATED, LB_INITIALISING, LB_STEPPING, LB_ENDED };
 /* What a variable is: see variables.py. */
-enum { LB_TIME, LB_INPUT, LB_VALUE, LB_LEAST, LB_GREATEST, LB_SUM, LB_TORQUE, LB_COUNT };
+enum { LB_TIME, LB_INPUT, LB_VALUE, LB_LEAST, LB_GREATEST, LB_SUM, LB_TORQUE, LB_COUNT, LB_VARIED };
 
 typedef struct {
   int kind;
   unsigned place, count, stride; /* [bytes], items, [bytes] */
   double scale;                  /* of an input: by how much it is changed for a slope */
-  unsigned begin; /* of an input: place of the time at which it was given */
+  unsigned begin;         /* of an input: place of the time at which it was given */
+  double lowest, highest; /* of an option that varies */
 } lb_variable;
 
 typedef struct lb_bearing {

@@ -38,6 +38,9 @@ _LIBM = {
     "erfc", "exp", "exp2", "expm1", "fabs", "floor", "fmod", "hypot", "ldexp", "lgamma", "log", "log10", "log1p",
     "log2", "pow", "rint", "round", "sin", "sinh", "sqrt", "tan", "tanh", "tgamma", "trunc",
 }  # fmt: skip
+# What Numba's memory management asks for, in a few lines of C; the equilibrium allocates its workspaces.
+MEMORY_SOURCE = Path(__file__).with_name("portable_memory.c")
+_MEMORY = {"NRT_MemInfo_alloc_aligned", "NRT_MemInfo_call_dtor", "NRT_Free"}
 _RESULT = {"void": "", "ptr": "null", "double": "0.0"}
 _DECLARED = re.compile(r"declare (?:\w+ )*?(\w+) @\S+?(\(.*?\))")
 _TEXT = "text"  # what errors would say, with the paths of files here: left out
@@ -170,7 +173,8 @@ def unknown(pointer: Pointer) -> list[str]:
 
 def _unknown(part: Any) -> list[str]:
     declared = (each.name for each in part.functions if each.is_declaration)
-    return [name for name in declared if not (name.startswith("llvm.") or name in _LIBM or _PYTHON.fullmatch(name))]
+    known = _LIBM | _MEMORY
+    return [name for name in declared if not (name.startswith("llvm.") or name in known or _PYTHON.fullmatch(name))]
 
 
 def _compiled(pointer: Pointer) -> Any:
@@ -269,6 +273,9 @@ def _without_python(whole: Any, callers: Mapping[str, str]) -> None:
     for each in [*whole.functions, *whole.global_variables]:
         name = each.name
         if not each.is_declaration or name.startswith("llvm.") or name in _LIBM:
+            continue
+        if name in _MEMORY:
+            each.visibility = "hidden"
             continue
         if not _PYTHON.fullmatch(name):
             raise SolverError(f"{callers[name]} calls {name}, which is not there without Python: take another law")

@@ -37,12 +37,12 @@ _FRAME_ITERATIONS = 4
 _FRAME_TOLERANCE = 1e-4  # [rad] change of the frozen contact angle that ends the iteration
 # Without friction an iteration is cheap, and at low speed unloaded balls slide far along the groove.
 StaticReport = NDArray[np.void]  # a STATIC_REPORT record
-_MAX_ITERATIONS = {False: 5000, True: 1000}
+MAX_ITERATIONS = {False: 5000, True: 1000}
 _ITERATIONS_PER_CALL = 50  # some hundredths of a second
-_PATH_ITERATIONS = 20
-_PATH_SHARE = 0.5  # of the way to the velocities that the paths have
-_PATH_TOLERANCE = 0.05  # of the largest axial velocity
-_NO_PATH = 1e-6  # of rolling
+PATH_ITERATIONS = 20
+PATH_SHARE = 0.5  # of the way to the velocities that the paths have
+PATH_TOLERANCE = 0.05  # of the largest axial velocity
+NO_PATH = 1e-6  # of rolling
 
 
 @dataclass
@@ -125,7 +125,7 @@ def solve(
     context = assemble(model, kernels, frame, oils)
     assert state is not None
     continue_static(compiled, context, state, friction=False)
-    _roll(context, state)
+    roll(model, frame, state)
     smooth, converged = state.copy(), True
     try:
         report = continue_static(compiled, context, state, friction=True)
@@ -205,16 +205,15 @@ def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
     balls["azimuth"] = [-0.5 * math.pi + 2.0 * math.pi * (j + phase) / z for j in range(z)]
     context.shared_part(y)[:] = bodies.view(np.float64)[context.bundle.active]
     y[context.size - context.bundle.states.size :] = context.bundle.states
-    _roll(context, y)
+    roll(model, context.frame, y)
     return y
 
 
-def _roll(context: SolverContext, y: FloatArray) -> None:
+def roll(model: BearingModel, frame: ContactFrame, y: FloatArray) -> None:
     """Set orbital speeds and spins to pure rolling at the frozen contact angle, in place."""
-    model = context.model
     g = model.geometry
     inner, outer = (initial(b.dofs["spin"].motion) for b in (model.inner_ring, model.outer_ring))
-    angle = float(np.mean(context.frame.angles))
+    angle = float(np.mean(frame.angles))
     lever = 0.5 * g.ball_diameter * math.cos(angle)
     v_inner, v_outer = inner * (0.5 * g.pitch_diameter - lever), outer * (0.5 * g.pitch_diameter + lever)
     spin = (v_outer - v_inner) / g.ball_diameter
@@ -232,7 +231,7 @@ def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *
     trust, held = np.ones(balls), np.zeros(balls, dtype=np.int64)
     status = Status.UNFINISHED
     while (
-        status == Status.UNFINISHED and report["iterations"][0] < _MAX_ITERATIONS[friction]
+        status == Status.UNFINISHED and report["iterations"][0] < MAX_ITERATIONS[friction]
     ):  # a signal is heard between two calls
         status = compiled.solve_static(
             compiled.evaluate_pointer,
@@ -265,13 +264,13 @@ def _follow_paths(compiled: Core, context: SolverContext, state: FloatArray, rep
     balls = state[: L.NB * context.model.geometry.ball_count].view(R.BALL)
     rolling = float(np.abs(balls["velocity"][:, 2]).max())
     moving = np.zeros((balls.size, 2))
-    for k in range(_PATH_ITERATIONS):
+    for k in range(PATH_ITERATIONS):
         aim = path_velocities(balls)
         across = float(np.abs(aim[:, 0]).max())
         change = float(np.abs(aim - moving)[:, 0].max())
-        if across <= _NO_PATH * rolling or change <= _PATH_TOLERANCE * across:
+        if across <= NO_PATH * rolling or change <= PATH_TOLERANCE * across:
             break
-        moving += (_PATH_SHARE if k else 1.0) * (aim - moving)
+        moving += (PATH_SHARE if k else 1.0) * (aim - moving)
         balls["velocity"][:, :2] = moving
         report = continue_static(compiled, context, state, friction=True)
     return report

@@ -1,0 +1,185 @@
+"""The header that is written for each case: what the library's C has to know of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from lambda_core.fmu.frozen import Frozen
+from lambda_core.fmu.variables import Variable, control
+from lambda_core.laws.jit.portable import features, known_processor
+from lambda_core.solver import layout as L
+from lambda_core.solver import records as R
+from lambda_core.solver.drivers.equilibrium import (
+    MAX_ITERATIONS,
+    NO_PATH,
+    PATH_ITERATIONS,
+    PATH_SHARE,
+    PATH_TOLERANCE,
+)
+from lambda_core.solver.faults import ROLES
+from lambda_core.solver.integrator.memory import COUNT
+from lambda_core.solver.statics.continuation import STATIC_REPORT
+from lambda_core.solver.status import Status
+
+# What a processor must have that is called so.
+_NAMED = {
+    "x86-64-v2": ("sse4.2", "popcnt"),
+    "x86-64-v3": ("avx2", "fma", "bmi", "bmi2"),
+    "x86-64-v4": ("avx2", "fma", "bmi", "bmi2", "avx512f", "avx512vl", "avx512dq", "avx512bw", "avx512cd"),
+}
+# Where the processor says that it has them: leaf of the instruction cpuid, register (1: ebx, 2: ecx), bit.
+_CPUID = {
+    "sse4.2": (1, 2, 20),
+    "popcnt": (1, 2, 23),
+    "avx": (1, 2, 28),
+    "fma": (1, 2, 12),
+    "bmi": (7, 1, 3),
+    "avx2": (7, 1, 5),
+    "bmi2": (7, 1, 8),
+    "avx512f": (7, 1, 16),
+    "avx512dq": (7, 1, 17),
+    "avx512cd": (7, 1, 28),
+    "avx512bw": (7, 1, 30),
+    "avx512vl": (7, 1, 31),
+}
+_WIDE = {"avx512": 0xE6, "avx": 0x6}  # registers that the system must keep for features that begin so
+
+
+def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
+    """Return what the library's C has to know of a case."""
+    image, fault = frozen.image, frozen.image.place(frozen.fault) + _at(R.SCRATCH, "fault")
+    numbers = {
+        "IMAGE_SIZE": image.size,
+        "HOST": image.place(frozen.host),
+        "CONTROL_TIME": control(frozen, "time"),
+        "CONTROL_STOP": control(frozen, "stop"),
+        "SAMPLES_WAITING": image.place(frozen.memory.count) + _at(COUNT, "samples_waiting"),
+        "FAULT_ROLE": fault + _at(R.FAULT, "role"),
+        "FAULT_STATUS": fault + _at(R.FAULT, "status"),
+        "FAULT_BALL": fault + _at(R.FAULT, "ball"),
+        "FAULT_INPUTS": fault + _at(R.FAULT, "inputs"),
+        "LOSSES": image.place(frozen.scratch.rates),
+        "INTEGRALS": image.place(frozen.memory.integrals),
+        "LOSS_COUNT": frozen.losses,
+        "RELATIVE_SPEED": frozen.rate("relative_speed"),
+        "RELATIVE_ANGLE": frozen.integral("relative_speed"),
+        "STATUS_OK": int(Status.OK),
+        "STATUS_REFUSED": int(Status.REFUSED),
+        "STATUS_STEP_TOO_SMALL": int(Status.STEP_TOO_SMALL),
+        "VARIABLES": len(variables),
+        **_start_numbers(frozen),
+    }
+    needed = _needed()
+    lines = ['#include "token.h"']
+    lines += [f"#define LB_{name} {number}" for name, number in numbers.items()]
+    lines += [f'#define LB_PROCESSOR "{known_processor()} ({", ".join(needed)})"']
+    kept = next((mask for head, mask in _WIDE.items() if any(name.startswith(head) for name in needed)), 0)
+    lines += [f"#define LB_REGISTERS {kept}"]
+    places = ", ".join(f"{{{leaf}, {register}, {bit}}}" for leaf, register, bit in map(_CPUID.__getitem__, needed))
+    lines += [f"static const unsigned lb_needs[][3] = {{{places}}};"]
+    lines += [f"static const uint32_t lb_relocations[][2] = {{{_pairs(image.relocations)}}};"]
+    lines += [f"static const uint32_t lb_fixes[][2] = {{{_pairs(image.fixes)}}};"]
+    lines += [f"static const char *const lb_roles[] = {{{', '.join(map(_quoted, ROLES))}}};"]
+    lines += [*_start_tables(frozen), *_curves(frozen)]
+    rows = (
+        f"{{{v.kind:d},{v.place},{v.count},{v.stride},{v.scale!r},{v.begin},{_real(v.limits[0])},{_real(v.limits[1])}}}"
+        for v in variables
+    )
+    lines += [f"static const lb_variable lb_variables[] = {{{', '.join(rows)}}};"]
+    lines += [f"static const char *const lb_names[] = {{{', '.join(_quoted(v.name) for v in variables)}}};"]
+    return "\n".join(lines) + "\n"
+
+
+def _start_numbers(frozen: Frozen) -> dict[str, object]:
+    """Return the numbers of a start elsewhere than at the case's equilibrium."""
+    image, start = frozen.image, frozen.start
+    system = image.place(frozen.system)
+    places = {f"START_{name[6:].upper()}": image.place(array) for name, _, array in start.sections()}
+    fields = {f"BALL_{name.upper()}": _at(R.BALL, name) for name in ("x", "radius", "azimuth", "velocity", "spin")}
+    spin = [place for name, place in _given_places(frozen) if name == "inner_ring.spin"]
+    return {
+        **places,
+        **fields,
+        "STATE": image.place(frozen.memory.y),
+        "STATES": start.state.size,
+        "BALLS": start.trust.size,
+        "BALL_SIZE": R.BALL.itemsize,
+        "REPORT_SIZE": start.report.nbytes,
+        "REPORT_ORBIT": image.place(start.report) + _at(STATIC_REPORT, "orbit"),
+        "FRICTION_ON": system + _at(R.SYSTEM, "friction_on"),
+        "GUIDES_ON": system + _at(R.SYSTEM, "guides_on"),
+        "SPIN": spin[0] if spin else -1,
+        "SPEED": repr(start.speed),
+        "SMOOTH_WORK": MAX_ITERATIONS[False],
+        "FRICTION_WORK": MAX_ITERATIONS[True],
+        "PATH_ITERATIONS": PATH_ITERATIONS,
+        "PATH_SHARE": PATH_SHARE,
+        "PATH_TOLERANCE": PATH_TOLERANCE,
+        "NO_PATH": NO_PATH,
+        "CAGE_ENTRIES": len(start.cage),
+        "CAGE_X": L.SX,
+        "CAGE_ANGLE": L.STHETA,
+        "CAGE_SPEED": L.SSIGMA,
+        "STALE": image.place(frozen.memory.count) + _at(COUNT, "stale"),
+        "VALUES": image.place(frozen.host, frozen.host.size - len(frozen.varied)),
+        "CONSTANTS": len(frozen.constants),
+    }
+
+
+def _given_places(frozen: Frozen) -> Iterable[tuple[str, int]]:
+    return ((name, frozen.of_row(frozen.terms, row, "value")) for row, name in enumerate(frozen.given))
+
+
+def _start_tables(frozen: Frozen) -> list[str]:
+    start = frozen.start
+    rolling = ", ".join(f"{{{_reals(row)}}}" for row in start.rolling.tolist())
+    return [
+        f"static const double lb_rolling[2][4] = {{{rolling}}};",
+        f"static const double lb_path[] = {{{_reals(start.slope.tolist())}}};",
+        f"static const unsigned lb_cage[][2] = {{{_pairs(start.cage or ((0, 0),))}}};",
+    ]
+
+
+def _curves(frozen: Frozen) -> list[str]:
+    """Return what constants follow: points of every option, values of every curve."""
+    rows: list[str] = []
+    curves: list[str] = []
+    values: list[float] = []
+    for constant in frozen.constants:
+        rows.append(f"{{{constant.word},{constant.base!r},{constant.scales:d},{len(curves)},{len(constant.curves)}}}")
+        for curve in constant.curves:
+            curves.append(f"{{{curve.option},{len(values)},{curve.values.size - 1}}}")
+            values += curve.values.tolist()
+    options = (f"{{{each.lowest!r},{each.start!r},{each.highest!r}}}" for each in frozen.varied)
+    return [
+        f"static const lb_option lb_options[] = {{{', '.join(options) or '{0}'}}};",
+        f"static const lb_constant lb_constants[] = {{{', '.join(rows) or '{0}'}}};",
+        f"static const lb_curve lb_curves[] = {{{', '.join(curves) or '{0}'}}};",
+        f"static const double lb_values[] = {{{_reals(values) or '0'}}};",
+    ]
+
+
+def _needed() -> tuple[str, ...]:
+    """Return what a processor must have for code of this process."""
+    name = known_processor()
+    return _NAMED[name] if name in _NAMED else tuple(each for each in _CPUID if each in features())
+
+
+def _at(kind: object, name: str) -> int:
+    return int(kind.fields[name][1])  # type: ignore[attr-defined]
+
+
+def _pairs(pairs: Sequence[tuple[int, int]]) -> str:
+    return ",".join(f"{{{a},{b}}}" for a, b in pairs)
+
+
+def _quoted(text: str) -> str:
+    return f'"{text}"'
+
+
+def _real(value: float) -> str:
+    return repr(value).replace("inf", "INFINITY")
+
+
+def _reals(values: Iterable[float]) -> str:
+    return ",".join(map(_real, values))

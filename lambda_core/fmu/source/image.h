@@ -1,0 +1,34 @@
+/* What the parts of the library share about the image, and nobody else sees. */
+#ifndef LB_IMAGE_H
+#define LB_IMAGE_H
+#include <math.h>
+
+#include "core.h"
+
+typedef struct {
+  double lowest, start, highest;
+} lb_option; /* of the case, which a host may change */
+typedef struct {
+  unsigned place; /* [bytes] */
+  double base;
+  int scales; /* several options act by their ratios */
+  unsigned first, count;
+} lb_constant; /* a number that follows options, and its curves */
+typedef struct {
+  unsigned option, first, order;
+} lb_curve; /* values at the points of Chebyshev, from the highest to the lowest */
+
+#include "case.h" /* written for each case: places in the image, variables, sentences */
+
+extern const unsigned char lb_image[];
+extern void *const lb_functions[];
+extern int64_t lb_advance(unsigned char *image, double until, int64_t work);
+extern int64_t lb_observe(unsigned char *image);
+extern int64_t lb_static(unsigned char *image, int64_t iterations);
+
+#define REAL(b, place) (*(double *)((b)->image + (place)))
+#define WORD(b, place) (*(int64_t *)((b)->image + (place)))
+
+void lb_follow(lb_bearing *b); /* bring constants to the values of the options */
+int lb_settle(lb_bearing *b);  /* find the equilibrium at the start; an error where there is none */
+#endif

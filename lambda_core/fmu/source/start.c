@@ -1,0 +1,91 @@
+/* The equilibrium at a start that is not the case's: what drivers/equilibrium.py does, from the case's equilibrium on. */
+#include <string.h>
+
+#include "image.h"
+
+#define BALL(j, field) (LB_START_STATE + LB_BALL_SIZE * (j) + LB_BALL_##field)
+
+static int equilibrium(lb_bearing *b, int friction) {
+  WORD(b, LB_FRICTION_ON) = friction, WORD(b, LB_GUIDES_ON) = 0;
+  memset(b->image + LB_START_REPORT, 0, LB_REPORT_SIZE);
+  for (unsigned i = 0; i < LB_STATES; i++) REAL(b, LB_START_LAST + 8 * i) = 0.0;
+  for (unsigned j = 0; j < LB_BALLS; j++) REAL(b, LB_START_TRUST + 8 * j) = 1.0, WORD(b, LB_START_HELD + 8 * j) = 0;
+  int64_t status = lb_static(b->image, friction ? LB_FRICTION_WORK : LB_SMOOTH_WORK);
+  WORD(b, LB_FRICTION_ON) = 1, WORD(b, LB_GUIDES_ON) = 1;
+  return status == LB_STATUS_OK;
+}
+
+static void roll(lb_bearing *b) {
+  double speed = LB_SPIN >= 0 ? REAL(b, LB_SPIN) : LB_SPEED, rolling[4];
+  for (int i = 0; i < 4; i++) rolling[i] = lb_rolling[0][i] + speed * lb_rolling[1][i];
+  for (unsigned j = 0; j < LB_BALLS; j++) {
+    REAL(b, BALL(j, VELOCITY) + 16) = rolling[0];
+    for (int i = 0; i < 3; i++) REAL(b, BALL(j, SPIN) + 8 * i) = rolling[1 + i];
+  }
+}
+
+/* Velocity of a ball along its path, axial or radial: where its neighbours are it comes by. */
+static double path(lb_bearing *b, unsigned j, unsigned place) {
+  double slope = 0.0;
+  for (unsigned m = 0; m < LB_BALLS; m++)
+    slope += lb_path[(m + LB_BALLS - j) % LB_BALLS] * REAL(b, LB_START_STATE + LB_BALL_SIZE * m + place);
+  return slope * REAL(b, BALL(j, VELOCITY) + 16) / REAL(b, BALL(j, RADIUS));
+}
+
+static int follow_paths(lb_bearing *b) {
+  double rolling = 0.0, moving[LB_BALLS][2], aim[LB_BALLS][2];
+  memset(moving, 0, sizeof moving);
+  for (unsigned j = 0; j < LB_BALLS; j++) rolling = fmax(rolling, fabs(REAL(b, BALL(j, VELOCITY) + 16)));
+  for (int k = 0; k < LB_PATH_ITERATIONS; k++) {
+    double across = 0.0, change = 0.0, share = k ? LB_PATH_SHARE : 1.0;
+    for (unsigned j = 0; j < LB_BALLS; j++) {
+      aim[j][0] = path(b, j, LB_BALL_X), aim[j][1] = path(b, j, LB_BALL_RADIUS);
+      across = fmax(across, fabs(aim[j][0])), change = fmax(change, fabs(aim[j][0] - moving[j][0]));
+    }
+    if (across <= LB_NO_PATH * rolling || change <= LB_PATH_TOLERANCE * across) return 1;
+    for (unsigned j = 0; j < LB_BALLS; j++)
+      for (int i = 0; i < 2; i++) {
+        moving[j][i] += share * (aim[j][i] - moving[j][i]);
+        REAL(b, BALL(j, VELOCITY) + 8 * i) = moving[j][i];
+      }
+    if (!equilibrium(b, 1)) return 0;
+  }
+  return 1;
+}
+
+/* Every ball at the cage's speed, the cage centred on the balls. */
+static void enclose(lb_bearing *b, double orbit) {
+  double middle = 0.0;
+  for (unsigned j = 0; j < LB_BALLS; j++) {
+    REAL(b, BALL(j, VELOCITY) + 16) = orbit * REAL(b, BALL(j, RADIUS));
+    middle += REAL(b, BALL(j, X)) / LB_BALLS;
+  }
+  for (unsigned i = 0; i < LB_CAGE_ENTRIES; i++) {
+    unsigned what = lb_cage[i][1];
+    REAL(b, LB_START_STATE + 8 * lb_cage[i][0]) = what == LB_CAGE_X       ? middle
+                                                  : what == LB_CAGE_ANGLE ? REAL(b, BALL(0, AZIMUTH))
+                                                  : what == LB_CAGE_SPEED ? orbit
+                                                                          : 0.0;
+  }
+}
+
+int lb_settle(lb_bearing *b) {
+  unsigned char *state = b->image + LB_START_STATE, smooth[8 * LB_STATES];
+  memcpy(state, lb_image + LB_START_STATE, 8 * LB_STATES);
+  for (unsigned j = 0; j < LB_BALLS; j++) REAL(b, BALL(j, VELOCITY)) = REAL(b, BALL(j, VELOCITY) + 8) = 0.0;
+  roll(b);
+  if (!equilibrium(b, 0))
+    return lb_say(b, LB_ERROR, "there is no equilibrium at the start with these inputs: set others before the initialisation ends");
+  roll(b);
+  memcpy(smooth, state, sizeof smooth);
+  double orbit = REAL(b, BALL(0, VELOCITY) + 16) / REAL(b, BALL(0, RADIUS));
+  if (equilibrium(b, 1) && follow_paths(b)) {
+    orbit = REAL(b, LB_REPORT_ORBIT);
+  } else {
+    memcpy(state, smooth, sizeof smooth);
+    lb_say(b, LB_WARNING, "loads and contact angles at the start are found, a steady motion of the balls is not: they begin rolling");
+  }
+  enclose(b, orbit);
+  memcpy(b->image + LB_STATE, state, 8 * LB_STATES);
+  return LB_OK;
+}
