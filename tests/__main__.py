@@ -38,7 +38,8 @@ def main() -> int:
     for name, command in parts(sys.argv[1:]).items():
         print(f"== {name}: {' '.join(command[1:] if name != 'layers' else command)}", flush=True)
         start = time.monotonic()
-        environment = os.environ | {"LAMBDA_BEARING_CACHE": str(CACHE)}
+        # One thread each, as the program itself has it: two processes share two cores.
+        environment = os.environ | {"LAMBDA_BEARING_CACHE": str(CACHE), "OPENBLAS_NUM_THREADS": "1"}
         code = subprocess.run(command, cwd=ROOT, env=environment, stdin=subprocess.DEVNULL, check=False).returncode
         print(f"== {name}: {'ok' if code == 0 else f'FAILED ({code})'} in {time.monotonic() - start:.0f} s", flush=True)
         if code != 0:

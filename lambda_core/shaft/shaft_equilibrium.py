@@ -147,7 +147,11 @@ class _Whole:
         block = tangent[np.ix_(self.free, self.free)]
         # of one unit and size: the condition is that of the structure, however stiff parts of it are
         scale = 1.0 / np.sqrt(np.maximum(np.diag(block), np.finfo(float).tiny))
-        move[self.free] = scale * np.linalg.solve(block * np.outer(scale, scale), scale * unbalanced[self.free])
+        scaled, pull = block * np.outer(scale, scale), scale * unbalanced[self.free]
+        try:
+            move[self.free] = scale * np.linalg.solve(scaled, pull)
+        except np.linalg.LinAlgError:  # nothing holds it in some direction: the search ends there and says which
+            move[self.free] = scale * np.linalg.lstsq(scaled, pull)[0]
         return move
 
 
