@@ -43,7 +43,7 @@ def shaft(
     ] = None,
     stiffness: Annotated[
         Path | None,
-        typer.Option("--stiffness", metavar="FILE", help="Also write the 6 x 6 stiffness matrices: .json or .csv."),
+        typer.Option("--stiffness", metavar="FILE", help="Also write 6 x 6 stiffness and damping: .json or .csv."),
     ] = None,
     as_json: JsonOption = False,
     quiet: QuietOption = False,

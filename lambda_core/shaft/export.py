@@ -1,4 +1,4 @@
-"""Stiffness of every bearing at the operating point, for other programs: JSON and CSV."""
+"""Stiffness and damping of every bearing at the operating point, for other programs: JSON and CSV."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_target
 from lambda_core.shaft.shaft_report import AXES, ShaftReport
 
-FORMAT = "lambda-bearing bearing stiffness 1"
+_MATRICES = ("stiffness", "housed_stiffness", "damping", "housed_damping")
+FORMAT = "lambda-bearing bearing stiffness 2"
 
 
 def stiffness_text(report: ShaftReport, kind: str) -> str:
@@ -28,11 +29,13 @@ def stiffness_text(report: ShaftReport, kind: str) -> str:
             "case": report.case,
             "speed_rpm": report.speed_rpm,
             "axes": list(AXES),
-            "units": "N/m, N/rad, N m/m, N m/rad; inner ring against outer ring, x along the shaft, z up",
+            "units": "stiffness N/m, N/rad, N m/m, N m/rad; damping N s/m, N s/rad, N m s/m, N m s/rad; inner ring "
+            "against outer ring, x along the shaft, z up; damping of vibrations with the shaft's speed",
             "bearings": [
                 {
                     "name": b.name, "title": b.title, "position_mm": b.position_mm, "force_N": b.force_N,
                     "stiffness": b.stiffness, "housed_stiffness": b.housed_stiffness,
+                    "damping": b.damping, "housed_damping": b.housed_damping,
                 }
                 for b in report.bearings
             ],
@@ -40,16 +43,16 @@ def stiffness_text(report: ShaftReport, kind: str) -> str:
         return json.dumps(data, indent=2) + "\n"
     stream = io.StringIO()
     rows = csv.writer(stream, lineterminator="\n")
-    rows.writerow(["bearing", "position_mm", "row", "column", "stiffness", "housed_stiffness"])
+    rows.writerow(["bearing", "position_mm", "row", "column", *_MATRICES])
     for b in report.bearings:
         for i, first in enumerate(AXES):
             for j, second in enumerate(AXES):
-                rows.writerow([b.name, b.position_mm, first, second, b.stiffness[i][j], b.housed_stiffness[i][j]])
+                rows.writerow([b.name, b.position_mm, first, second, *(getattr(b, m)[i][j] for m in _MATRICES)])
     return stream.getvalue()
 
 
 def write_stiffness(report: ShaftReport, path: str | Path) -> Path:
-    """Write the 6 x 6 stiffness of every bearing at its operating point to a file.
+    """Write the 6 x 6 stiffness and damping of every bearing at its operating point to a file.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """A shaft on its bearings as a rotor of ROSS, the open program for rotordynamics (package ross-rotordynamics).
 
 ROSS has z along the shaft: its x is our y, its y our z, its z our x; rotations likewise. Its bearing elements know
-radial and axial forces alone; moments and what couples them to forces are added to the rotor's stiffness.
+radial and axial forces alone; moments and what couples them to forces are added to the rotor's matrices.
 """
 
 from __future__ import annotations
@@ -16,11 +16,12 @@ from lambda_core.elastic.beam import NODE, NODES
 from lambda_core.elastic.body import ElasticBody
 from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
-from lambda_core.shaft.vibration import housed_stiffness
+from lambda_core.shaft.vibration import bearing_damping, housed_damping, housed_stiffness
 from lambda_core.solver.drivers.compiled_laws import Announce
 
 # Ours: x, y, z, tilt_y, tilt_z; theirs: x, y, z, alpha, beta, theta about their axes.
 _THEIRS = (2, 0, 1, 3, 4)
+_OURS = (1, 2, 0, 4, 5, 3)  # of six, in their order
 
 
 def ross_rotor(model: ShaftModel, state: ShaftState | None = None, announce: Announce = None) -> Any:
@@ -56,14 +57,15 @@ def ross_rotor(model: ShaftModel, state: ShaftState | None = None, announce: Ann
         for disc in body.discs
     ]
     nodes = [body.node(bearing.position) for bearing in model.bearings]
-    wholes = [_theirs(k) for k in housed_stiffness(model, found)]
-    rotor = ross.Rotor(shaft, discs, [_forces(ross, node, whole) for node, whole in zip(nodes, wholes, strict=True)])
-    for node, whole in zip(nodes, wholes, strict=True):
-        rest = whole.copy()
-        rest[:2, :2] = 0.0
-        rest[2, 2] = 0.0
-        rows = np.arange(NODE * node, NODE * (node + 1))
-        rotor.K0[np.ix_(rows, rows)] += rest
+    stiffness = [_stiffness(k) for k in housed_stiffness(model, found)]
+    own = bearing_damping(model, [ring.equilibrium() for ring in found.rings])
+    damping = [c[np.ix_(_OURS, _OURS)] for c in housed_damping(model, found, own)]
+    bearings = [_forces(ross, *each) for each in zip(nodes, stiffness, damping, strict=True)]
+    rotor = ross.Rotor(shaft, discs, bearings)
+    for node, k, c in zip(nodes, stiffness, damping, strict=True):
+        block = np.ix_(*2 * [np.arange(NODE * node, NODE * (node + 1))])
+        rotor.K0[block] += _rest(k)
+        rotor.C0[block] += _rest(c)
     return rotor
 
 
@@ -76,14 +78,26 @@ def _piece(ross: Any, body: ElasticBody, node: int) -> Any:
     return ross.ShaftElement(L=length, idl=section.bore, odl=section.outside_diameter, material=material, n=node)
 
 
-def _theirs(stiffness: FloatArray) -> FloatArray:
+def _stiffness(stiffness: FloatArray) -> FloatArray:
     """Return the matrix of a bearing in their order, shape (6, 6)."""
     whole = np.zeros((NODE, NODE))
     whole[np.ix_(_THEIRS, _THEIRS)] = 0.5 * (stiffness + stiffness.T)
     return whole
 
 
-def _forces(ross: Any, node: int, whole: FloatArray) -> Any:
+def _rest(matrix: FloatArray) -> FloatArray:
+    """Return what of a matrix their bearing elements cannot say."""
+    rest = matrix.copy()
+    rest[:2, :2] = 0.0
+    rest[2, 2] = 0.0
+    return rest
+
+
+def _forces(ross: Any, node: int, stiffness: FloatArray, damping: FloatArray) -> Any:
     """Return a bearing element with what theirs can say."""
-    (kxx, kxy), (kyx, kyy) = whole[:2, :2].tolist()
-    return ross.BearingElement(n=node, kxx=kxx, kxy=kxy, kyx=kyx, kyy=kyy, kzz=float(whole[2, 2]), cxx=0.0)
+    (kxx, kxy), (kyx, kyy) = stiffness[:2, :2].tolist()
+    (cxx, cxy), (cyx, cyy) = damping[:2, :2].tolist()
+    return ross.BearingElement(
+        n=node, kxx=kxx, kxy=kxy, kyx=kyx, kyy=kyy, kzz=float(stiffness[2, 2]), cxx=cxx, cxy=cxy, cyx=cyx, cyy=cyy,
+        czz=float(damping[2, 2]),
+    )  # fmt: skip

@@ -20,7 +20,16 @@ from lambda_core.results.summary import Contact
 from lambda_core.shaft.model import MountedBearing, ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState
 from lambda_core.shaft.shaft_lives import bearing_life
-from lambda_core.shaft.vibration import Mode, criticals, housed_stiffness, modes_at, supported
+from lambda_core.shaft.vibration import (
+    Mode,
+    bearing_damping,
+    criticals,
+    damped,
+    housed_damping,
+    housed_stiffness,
+    modes_at,
+    supported,
+)
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 
 _CAMPBELL = 9  # speeds
@@ -60,6 +69,10 @@ class BearingOnShaft(Record):
         description="6 x 6, inner ring against outer ring, order of `axes` [N/m, N/rad, N m/rad]; no row turns about x"
     )
     housed_stiffness: list[list[float]] = Field(description="the same with the housing in series")
+    damping: list[list[float]] = Field(
+        description="6 x 6, likewise, of vibrations with the shaft's speed [N s/m, N s/rad, N m s/rad]; zeros at rest"
+    )
+    housed_damping: list[list[float]] = Field(description="the same with the housing in series")
     contacts: list[Contact]
     warnings: list[str]
 
@@ -70,6 +83,7 @@ class ModeAtSpeed(Record):
     frequency_Hz: float
     direction: float = Field(description="+1 whirls with the shaft, -1 against it, between: elliptic or in a line")
     kind: str
+    damping_ratio: float = Field(description="share of critical damping, by the bearings; 0 where it is left out")
 
 
 class CampbellRow(Record):
@@ -107,7 +121,8 @@ class ShaftReport(Record):
     bending_moment_Nm: list[list[float]] = Field(description="about y and z, of the right side on the left")
     torque_Nm: list[float] = Field(description="about x, of the right side on the left")
     critical_speeds: list[CriticalSpeed] = Field(description="of bending, bearings as stiff as at the operating point")
-    campbell: list[CampbellRow] = Field(description="natural frequencies over speed")
+    modes: list[ModeAtSpeed] = Field(description="natural frequencies at this speed, damped by the bearings")
+    campbell: list[CampbellRow] = Field(description="natural frequencies over speed, undamped")
     iterations: int = Field(description="of Newton's method")
     residual: float = Field(description="largest unbalanced force over the loads")
     assumptions: list[str] = Field(description="values that nobody gave, and simplifications")
@@ -121,8 +136,12 @@ class ShaftReport(Record):
 
 def report_of(model: ShaftModel, state: ShaftState) -> ShaftReport:
     """Put the equilibrium into the units of the interface; every bearing is solved once more with its friction."""
-    housed = housed_stiffness(model, state)
-    bearings = [_bearing(model, state, i, housed[i]) for i in range(len(model.bearings))]
+    equilibria = [ring.equilibrium() for ring in state.rings]
+    dampings = bearing_damping(model, equilibria)
+    matrices = zip(housed_stiffness(model, state), dampings, housed_damping(model, state, dampings), strict=True)
+    bearings = [
+        _bearing(model, state, i, found, each) for i, (found, each) in enumerate(zip(equilibria, matrices, strict=True))
+    ]
     moved = state.displacement.reshape(-1, NODE)
     cuts, forces = internal_forces(model.body, state.displacement, model.gravity)
     stiffness = supported(model, state)
@@ -149,6 +168,7 @@ def report_of(model: ShaftModel, state: ShaftState) -> ShaftReport:
         critical_speeds=[
             CriticalSpeed(speed_rpm=30.0 / math.pi * mode.frequency, direction=mode.direction) for mode in critical
         ],
+        modes=_modes(modes_at(model, stiffness, model.speed, damped(model, state, dampings))),
         campbell=[
             CampbellRow(speed_rpm=30.0 / math.pi * spin, modes=_modes(modes_at(model, stiffness, spin)))
             for spin in np.linspace(0.0, _fastest(model, critical), _CAMPBELL).tolist()
@@ -157,7 +177,7 @@ def report_of(model: ShaftModel, state: ShaftState) -> ShaftReport:
         residual=state.residual,
         assumptions=[
             *model.assumptions,
-            "critical speeds and natural frequencies: undamped, bearings as stiff as at this operating point",
+            "critical speeds, natural frequencies over speed: undamped, bearings as stiff as at this operating point",
         ],
     )
 
@@ -173,9 +193,12 @@ def _listed(values: FloatArray) -> Any:
 
 def _modes(found: list[Mode]) -> list[ModeAtSpeed]:
     return [
-        ModeAtSpeed(frequency_Hz=mode.frequency / (2.0 * math.pi), direction=mode.direction, kind=mode.kind)
+        ModeAtSpeed(
+            frequency_Hz=mode.frequency / (2.0 * math.pi), direction=mode.direction, kind=mode.kind,
+            damping_ratio=mode.damping,
+        )
         for mode in found[:_SHOWN]
-    ]
+    ]  # fmt: skip
 
 
 def six(matrix: FloatArray) -> list[list[float]]:
@@ -184,10 +207,13 @@ def six(matrix: FloatArray) -> list[list[float]]:
     return rows
 
 
-def _bearing(model: ShaftModel, state: ShaftState, index: int, housed: FloatArray) -> BearingOnShaft:
-    """Return what there is to say of one bearing."""
+def _bearing(
+    model: ShaftModel, state: ShaftState, index: int, found: Equilibrium,
+    matrices: tuple[FloatArray, FloatArray, FloatArray],
+) -> BearingOnShaft:  # fmt: skip
+    """Return what there is to say of one bearing: housed stiffness, damping and housed damping are given."""
     bearing, reaction = model.bearings[index], state.reactions[index]
-    found = state.rings[index].equilibrium()
+    housed, damping, damping_in_housing = matrices
     alone = quasistatic_of(found)
     radial, axial = float(np.hypot(*reaction[1:3])), float(-reaction[0])
     life = bearing_life(bearing, found, radial, abs(axial), model.contamination)
@@ -220,6 +246,8 @@ def _bearing(model: ShaftModel, state: ShaftState, index: int, housed: FloatArra
         film_um=alone.film_um,
         stiffness=six(state.stiffness[index]),
         housed_stiffness=six(housed),
+        damping=_listed(damping),
+        housed_damping=_listed(damping_in_housing),
         contacts=alone.contacts,
         warnings=_warnings(bearing, found, alone),
     )

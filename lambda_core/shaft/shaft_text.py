@@ -62,6 +62,9 @@ _ROWS: tuple[tuple[str, Callable[[BearingOnShaft], str]], ...] = (
     ("stiffness x N/um", lambda b: _digits(1e-6 * b.stiffness[0][0], 3)),
     ("  y", lambda b: _digits(1e-6 * b.stiffness[1][1], 3)),
     ("  z", lambda b: _digits(1e-6 * b.stiffness[2][2], 3)),
+    ("damping x N s/m", lambda b: _digits(b.damping[0][0], 3)),
+    ("  y", lambda b: _digits(b.damping[1][1], 3)),
+    ("  z", lambda b: _digits(b.damping[2][2], 3)),
 )
 
 
@@ -99,6 +102,9 @@ def _shaft_lines(report: ShaftReport) -> list[str]:
         lines.append(f"{'gear ' + name:<{HEAD}}F_t {tangential:.4g} N   F_r {radial:.4g} N   F_a {axial:.4g} N")
     speeds = [f"{one.speed_rpm:.5g} {_way(one.direction)}" for one in report.critical_speeds[:4]]
     lines.append(f"{'critical speeds':<{HEAD}}{', '.join(speeds) or NONE} 1/min")
+    bending = [mode for mode in report.modes if mode.kind == "bending"][:4]
+    told = [f"{mode.frequency_Hz:.4g} ({1e2 * mode.damping_ratio:.2g} %)" for mode in bending]
+    lines.append(f"{'bending modes':<{HEAD}}{', '.join(told) or NONE} Hz (damping)")
     for bearing in report.bearings:
         lines += [f"{'warning':<{HEAD}}{bearing.name}: {warning}" for warning in bearing.warnings]
     own = [text for text in report.assumptions if not text.startswith(_of_bearings(report))]

@@ -1,0 +1,109 @@
+"""Damping of the bearing about its quasi-static equilibrium, for rotordynamics: six by six, balls following."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import SolverError
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.dynamics import initial_state
+from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
+from lambda_core.solver.drivers.solver_context import SolverContext, assemble
+from lambda_core.solver.drivers.tables import INNER
+from lambda_core.solver.entry import core
+from lambda_core.system.bearing import DofState
+
+DIRECTIONS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
+_FREED = ("x", "y", "z", "tilt_y", "tilt_z", "spin")
+# State and rate of each direction, and how a displacement moves the state; turning about x moves nothing that contacts
+# feel, so that it has a rate alone.
+_STATES = (L.SX, L.SY, L.SZ, L.STHETA, L.SAZ, L.SAY)
+_SIGNS = np.array([1.0, 1.0, 1.0, 0.0, -1.0, 1.0])
+_RATES = (L.SVX, L.SVY, L.SVZ, L.SSIGMA, L.SWY, L.SWZ)
+_MOVING = [L.BX, L.BR, L.BVX, L.BVR, L.BVT, L.BWX, L.BWR, L.BWT]  # of a ball: its azimuth stands still
+_LEAST_SHAKE = 1.0  # [rad/s] slowest vibration; slower than balls creep there is nothing that could be called damping
+
+
+def damping_matrix(equilibrium: Equilibrium, frequency: float) -> FloatArray:
+    """Return what opposes a vibration of the inner ring against the outer one, in step with its velocity.
+
+    The ring is shaken at an angular frequency w; every ball follows by its own linearised motion b' = A b + B u with
+    friction, films, contact damping and inertia, azimuths at rest, the cage left out. The force on the ring is
+    -(K + i w C) u; C = Im(-F_u - i w F_u' - F_b (i w - A)^-1 (B_u + i w B_u'))/w.
+
+    Parameters
+    ----------
+    equilibrium : Equilibrium
+        With the friction of the balls in balance.
+    frequency : float
+        Of the vibration [rad/s]; for unbalance the speed of the shaft.
+
+    Returns
+    -------
+    float64[:, :], shape (6, 6)
+        Order of DIRECTIONS [N s/m, N s/rad, N m s/rad]; not symmetric: balls that roll couple directions.
+
+    Raises
+    ------
+    SolverError
+        When a law refuses.
+
+    Notes
+    -----
+    The elimination of the stiffness matrix (Jones 1960, J. Basic Eng. 82, 309), at a frequency; on what damps in
+    rolling bearings see Dietl, Wensing and van Nijen 2000, Proc. IMechE K 214, 33. For small motion about a steady
+    state; balls stand where they are, as they do for stiffness.
+    """
+    context = _freed(equilibrium.context)
+    _fill(context, _moved(equilibrium, context))
+    shake = max(abs(frequency), _LEAST_SHAKE)
+    found: FloatArray = -_response(context, shake).imag / shake
+    return found
+
+
+def _freed(found: SolverContext) -> SolverContext:
+    """Return the context of the same bearing whose inner ring is free, also to turn, without other force elements."""
+    ring = found.model.inner_ring
+    free = dataclasses.replace(ring, dofs={**ring.dofs, **dict.fromkeys(_FREED, DofState("free"))})
+    return assemble(dataclasses.replace(found.model, inner_ring=free, links={}), found.kernels, found.frame, found.oils)
+
+
+def _moved(equilibrium: Equilibrium, context: SolverContext) -> FloatArray:
+    """Return the equilibrium in the layout of the freed ring, the cage where the motion begins: it touches no ball."""
+    old = equilibrium.context
+    shared = old.bundle.shared.copy()  # as the last evaluation left it: led degrees of freedom included
+    shared[old.bundle.active] = old.shared_part(initial_state(equilibrium))
+    balls = equilibrium.state[: L.NB * context.model.geometry.ball_count]
+    kept = equilibrium.state[equilibrium.state.size - old.bundle.states.size :]
+    return np.concatenate([balls, shared[context.bundle.active], kept])
+
+
+def _fill(context: SolverContext, state: FloatArray) -> None:
+    """Fill the context's blocks with the Jacobian."""
+    compiled, bundle = core(), context.bundle
+    rates = np.zeros(L.power_count(bundle))
+    ok = compiled.evaluate(0.0, state, bundle, np.zeros(state.size), rates, 0)
+    if ok != 1 or compiled.jacobian(0.0, state, bundle, context.blocks) != 1:
+        raise SolverError(f"the damping matrix failed: {fault_sentence(context)}")
+
+
+def _response(context: SolverContext, shake: float) -> NDArray[np.complex128]:
+    """Return the forces and moments on the inner ring over its motion exp(i w t), shape (6, 6)."""
+    blocks, body = context.blocks, context.model.inner_ring
+    rows = [L.NS * INNER + k for k in _STATES], [L.NS * INNER + k for k in _RATES]
+    inertia = np.array([body.mass] * 3 + [body.polar_inertia] + [body.transverse_inertia] * 2)
+    direct = blocks.shared[INNER]
+    total = direct[:, rows[0]] * _SIGNS + 1j * shake * direct[:, rows[1]]
+    own = blocks.reach.index[0]  # the inner ring is the first body that a ball touches, too
+    states, rates = own[list(_STATES)], own[list(_RATES)]
+    for ball, on_ball, on_ring in zip(blocks.a, blocks.b, blocks.c, strict=True):
+        feel = on_ball[np.ix_(_MOVING, states)] * _SIGNS + 1j * shake * on_ball[np.ix_(_MOVING, rates)]
+        if not np.any(feel):
+            continue  # the inner ring does not touch this ball
+        follow = 1j * shake * np.eye(len(_MOVING)) - ball[np.ix_(_MOVING, _MOVING)]
+        total += inertia[:, None] * (on_ring[np.ix_(rates, _MOVING)] @ np.linalg.solve(follow, feel))
+    return np.asarray(total)
