@@ -59,6 +59,30 @@ LIGHT: dict[str, Any] = {
 }
 
 
+COLD: dict[str, Any] = {
+    "name": "cold-oil",
+    "bearing": {"designation": "6016", "maker": "SKF"},
+    "lubricant": {"name": "FVA3", "temperature": "-10 degC"},
+    "loads": {"radial": "5.8 kN"},
+    "operation": {"speed": "500 rpm"},
+}
+SLOW: dict[str, Any] = {
+    "name": "slow-without-a-cage",
+    "bearing": {"designation": "61911", "maker": "SKF"},
+    "lubricant": {"name": "FVA3", "temperature": "60 degC"},
+    "loads": {"radial": "500 N"},
+    "operation": {"speed": "78 rpm"},
+    "depth": {"cage": False},
+}
+THIN: dict[str, Any] = {
+    "name": "thin-section",
+    "bearing": {"designation": "61816", "maker": "SKF"},
+    "lubricant": {"name": "FVA3", "temperature": "60 degC"},
+    "loads": {"radial": "1 kN"},
+    "operation": {"speed": "1500 rpm"},
+}
+
+
 @dataclass(frozen=True)
 class Regime:
     """One regime: a case, what is changed in it, and what must be seen to have happened."""
@@ -156,6 +180,10 @@ REGIMES = (
         lambda s: bool(_speed(s)[0] > 50.0 and _speed(s)[-1] == 0.0),
     ),
     Regime(
+        "6016 stopped in oil of -10 degC", ramp("operation.speed", "500 rpm", "0 rpm", "0 ms", "7 ms"), 0.008,
+        lambda s: bool(_speed(s)[0] > 50.0 and _speed(s)[-1] == 0.0), COLD,
+    ),
+    Regime(
         "reversal", ramp("operation.speed", "500 rpm", "-500 rpm", "2 ms", "15 ms"), 0.02,
         lambda s: bool(_speed(s)[0] > 50.0 and _speed(s)[-1] < -50.0),
     ),
@@ -209,6 +237,8 @@ REGIMES = (
         lambda s: bool(s["asperity_share"].max() > 0.5),
     ),
     Regime("hybrid, balls of Si3N4", ("materials.balls=Si3N4",), 0.01, _balls(9)),
+    Regime("61911 without a cage, 78 1/min", (), 0.01, lambda s: bool(np.all(_speed(s) > 0.0)), SLOW),
+    Regime("61816, 28 balls of 5.6 mm", (), 0.005, _balls(28), THIN),
     Regime("7 balls", ("bearing.geometry.ball_count=7",), 0.01, _balls(7)),
     Regime("25 balls", (), 0.005, _balls(25), case=THIN_SECTION),
     Regime(

@@ -6,11 +6,18 @@ absolute scales per state, and by the energy that a step gives or takes.
 
 from __future__ import annotations
 
-from lambda_core.solver.integrator.balance import add_to_integrals, leak_of_step
-from lambda_core.solver.integrator.newton import norm, solve_step
+from lambda_core.solver.integrator.balance import add_to_integrals, leak_of_step, swings
+from lambda_core.solver.integrator.correction import norm
+from lambda_core.solver.integrator.newton import solve_step
 from lambda_core.solver.integrator.stepping import take_steps
 from lambda_core.solver.layout import helper
 from lambda_core.solver.status import Status
+
+# A ball at rest that the iteration leaves on the wrong side of static friction swings from step to step, as much in
+# short steps as in long ones: no length of step would do. Where swings rule the step it is solved closer before its
+# error is believed.
+_SHORT = 0.01  # of the longest step: no vibration of a bearing is as fast
+_QUIET = 0.1  # error over what is allowed: nothing to mend
 
 
 @helper
@@ -81,19 +88,31 @@ def _interpolate(mem, t, h, at, row):
 
 
 @helper
+def _error(mem, share):
+    """Return the error of the step in hand, over what is allowed: a share of its distance from the extrapolation."""
+    for i in range(mem.change.size):
+        mem.change[i] = share * (mem.new[i] - mem.predicted[i])
+    return norm(mem.change, mem.weight)
+
+
+@helper
 def _attempt(evaluate, jacobian, h, bundle, bl, fa, mem):
     """Try a step; see stepping.take_steps."""
     share, history = _predict(mem, h), mem.count[0].history
     power = -1.0 / 3.0 if history >= 2 else -0.5
-    outcome = solve_step(evaluate, jacobian, mem.control[0].time + h, h, bundle, bl, fa, mem)
-    if outcome != Status.OK:
-        return outcome, 0.0, power
-    for i in range(mem.change.size):
-        mem.change[i] = share * (mem.new[i] - mem.predicted[i])
-    error = norm(mem.change, mem.weight)
-    if history >= 2:
-        error = max(error, leak_of_step(mem, h))
-    return outcome, error, power
+    error, closer = 0.0, 0
+    while True:
+        outcome = solve_step(evaluate, jacobian, mem.control[0].time + h, h, closer, bundle, bl, fa, mem)
+        if outcome != Status.OK:
+            return outcome, 0.0, power
+        error = _error(mem, share)
+        if history < 2:
+            return outcome, error, power
+        leak = leak_of_step(mem, h)
+        error = max(error, leak)
+        if closer == 1 or error <= _QUIET or h > _SHORT * mem.control[0].longest_step or not swings(mem, h):
+            return outcome, error, power
+        closer = 1
 
 
 @helper

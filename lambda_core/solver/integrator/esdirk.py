@@ -12,7 +12,8 @@ known, and by the error of quadrature of elastic energies, which is of the order
 from __future__ import annotations
 
 from lambda_core.solver.integrator.balance import add_turn_over, leak_of_stages, settle_led
-from lambda_core.solver.integrator.newton import norm, solve_step
+from lambda_core.solver.integrator.correction import norm
+from lambda_core.solver.integrator.newton import solve_step
 from lambda_core.solver.integrator.stepping import take_steps
 from lambda_core.solver.integrator.tableau import ERROR, GAMMA, NODES, STAGES, WEIGHTS, A
 from lambda_core.solver.layout import helper
@@ -103,7 +104,7 @@ def _attempt(evaluate, jacobian, h, bundle, bl, fa, mem):
     for stage in range(1, STAGES):
         _prepare(mem, stage, h)
         t = mem.control[0].time + NODES[stage] * h
-        outcome = solve_step(evaluate, jacobian, t, h, bundle, bl, fa, mem)
+        outcome = solve_step(evaluate, jacobian, t, h, 0, bundle, bl, fa, mem)
         if outcome != Status.OK:
             return outcome, 0.0, _ORDER
         _keep(bundle, mem, stage)

@@ -69,7 +69,7 @@ COUNT = np.dtype(
     [
         ("history", np.int64),  # steps behind the present one that the formula may use: 0, 1, 2
         ("stale", np.int64),  # flag: the Jacobian is to be renewed before it is used
-        ("careful", np.int64),  # steps for which the iteration still begins at the last speeds
+        ("careful", np.int64),  # steps for which the iteration is still damped (damped.solve_damped)
         ("jacobian_age", np.int64),  # steps since it was renewed for all balls
         ("samples_waiting", np.int64),  # in the buffer
         ("steps", np.int64),  # accepted

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
-from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve
 from lambda_core.solver.integrator.balance import finalise_step, leak_of_iterate
-from lambda_core.solver.integrator.state_blocks import solve_states
-from lambda_core.solver.layout import BVX, NB, NS, SVX, helper
+from lambda_core.solver.integrator.correction import norm, renew, solve_correction
+from lambda_core.solver.integrator.damped import solve_damped
+from lambda_core.solver.layout import NB, helper
 from lambda_core.solver.status import Status
 
 # Of the error allowed per step, while there is no history. Friction in a contact at rest changes sign within far less:
@@ -15,35 +13,9 @@ from lambda_core.solver.status import Status
 _FIRST_STEPS = 0.03
 _MAX_NEWTON = 6
 _MAX_LOCAL = 4  # more iterations where Jacobians are renewed on the way
-_REFACTOR = 0.41  # relative change of gamma beyond which M is factored anew; not a tie with one growth of the step
 _SLOW = 0.3  # convergence rate beyond which the Jacobian is renewed for the balls that are to blame
 _SHARE = 0.05  # of the squared last change, from which a ball's part of the Jacobian is renewed
 _SWING = 0.04  # share of its square by which a correction turns round before the secant is taken
-
-
-@helper
-def norm(v, weight):
-    """Return the root mean square of v times weight."""
-    total = 0.0
-    for i in range(v.size):
-        x = v[i] * weight[i]
-        total += x * x
-    return math.sqrt(total / v.size)
-
-
-@helper
-def _start(bundle, mem):
-    """Write where the Newton iteration begins: the extrapolation, or where care is needed the last step's speeds.
-
-    Friction in a contact at rest is almost a sign function: from a speed on the wrong side of it the iteration
-    does not come back, from the last speeds it does.
-    """
-    new, base, careful = mem.new, NB * bundle.system[0].balls, mem.count[0].careful > 0
-    end = base + bundle.active.size
-    for i in range(new.size):
-        new[i] = mem.predicted[i]
-        if careful and ((i < base and i % NB >= BVX) or (base <= i < end and bundle.active[i - base] % NS >= SVX)):
-            new[i] = mem.y[i]
 
 
 @helper
@@ -86,24 +58,6 @@ def _move_all(bundle, mem, relax, again):
 
 
 @helper
-def _renew(jacobian, t, gamma, bundle, bl, fa, mem):
-    """Bring the Jacobian, if it is due, and the factors to the point evaluated last; returns a Status."""
-    control, count = mem.control[0], mem.count[0]
-    if count.stale == 1:
-        if jacobian(t, mem.new, bundle, bl) != Status.OK:
-            return Status.REFUSED
-        control.factored_gamma = 0.0
-        count.stale = 0
-    if abs(gamma / (control.factored_gamma + 1e-300) - 1.0) > _REFACTOR:
-        count.factorisations += 1
-        if arrow_factor(bl, 1.0, gamma, fa) != 1:
-            return Status.REFUSED
-        control.factored_gamma = gamma
-        control.convergence_rate = 1.0
-    return Status.OK
-
-
-@helper
 def _renew_slow(bl, mem, size):
     """Have the Jacobian renewed for the balls that make most of the last change, of the given norm.
 
@@ -129,38 +83,40 @@ def _renew_slow(bl, mem, size):
 
 
 @helper
-def solve_step(evaluate, jacobian, t, h, bundle, bl, fa, mem):
+def solve_step(evaluate, jacobian, t, h, closer, bundle, bl, fa, mem):
     """Solve new = base + gamma f(new); returns a Status: OK, NOT_CONVERGED, REFUSED.
+
+    With `closer` (1 or 0) the iteration goes on from where it stands, to a tenth of what it leaves otherwise.
 
     A ball that bounces on a raceway or in its pocket spoils the convergence of all: where it is slow, the Jacobian is
     renewed at the iterate for the balls that change most. A ball that creeps near gross sliding throws Newton's
-    iteration to and fro, whatever its Jacobian: it goes by the secant. The rates of the running integrals are those of
+    iteration to and fro, whatever its Jacobian: it goes by the secant. Where nothing of that helps the iteration is
+    damped (count.careful, see damped.solve_damped). The rates of the running integrals are those of
     the last iterate, brought to the result by what its residual says; the iteration goes on while they do not account
     for the energy.
     """
-    new, change, weight, count, control = mem.new, mem.change, mem.weight, mem.count[0], mem.control[0]
-    n, gamma = new.size, control.gamma
-    moving = n - bundle.states.size  # states of motion; behind them stand those of contacts
-    _start(bundle, mem)
-    careful = count.careful > 0
-    tolerance = _FIRST_STEPS if count.history < 2 else control.newton_tolerance
+    change, weight, count, control = mem.change, mem.weight, mem.count[0], mem.control[0]
+    gamma = control.gamma
+    tolerance = _FIRST_STEPS if count.history < 2 or closer == 1 else control.newton_tolerance
+    if count.careful > 0:
+        return solve_damped(evaluate, jacobian, t, h, tolerance, closer, bundle, bl, fa, mem)
+    if closer == 0:
+        for i in range(mem.new.size):
+            mem.new[i] = mem.predicted[i]
     before, limit = 0.0, _MAX_NEWTON
     for iteration in range(_MAX_NEWTON + _MAX_LOCAL):
         if iteration >= limit:
             return Status.NOT_CONVERGED
         count.rhs_calls += 1
-        if evaluate(t, new, bundle, mem.slope, mem.rates, 1) != Status.OK:
+        if evaluate(t, mem.new, bundle, mem.slope, mem.rates, 1) != Status.OK:
             return Status.REFUSED
         if iteration == 0 and count.stale == 1:
             count.jacobians += 1
             count.jacobian_age = 0
-        if _renew(jacobian, t, gamma, bundle, bl, fa, mem) != Status.OK:
+        if renew(jacobian, t, gamma, bundle, bl, fa, mem) != Status.OK:
             return Status.REFUSED
         count.newton_iterations += 1
-        for i in range(n):
-            change[i] = mem.base[i] + gamma * mem.slope[i] - new[i]
-        arrow_solve(bl, fa, change)
-        if moving < n and solve_states(bundle, gamma, change) != 1:
+        if solve_correction(gamma, bundle, bl, fa, mem) != 1:
             return Status.NOT_CONVERGED
         # A matrix factored for another gamma over- or undershoots by a known amount.
         relax = 2.0 / (1.0 + gamma / control.factored_gamma)
@@ -170,16 +126,12 @@ def solve_step(evaluate, jacobian, t, h, bundle, bl, fa, mem):
             return Status.NOT_CONVERGED
         if iteration > 0:
             control.convergence_rate = max(0.2 * control.convergence_rate, size / (before + 1e-300))
-            if careful and size > 2.0 * before and size > tolerance:
-                return Status.NOT_CONVERGED
         # Secants hide the rate of convergence.
-        rate = 1.0 if careful or swung else control.convergence_rate
-        good = size * min(1.0, rate) <= tolerance
-        # Corrections that swing within the tolerance want care; where care does not help, they are let pass.
-        if good and (leak_of_iterate(bundle, mem, h) <= 1.0 or (careful and iteration + 1 >= limit)):
+        rate = 1.0 if swung else control.convergence_rate
+        if size * min(1.0, rate) <= tolerance and leak_of_iterate(bundle, mem, h) <= 1.0:
             finalise_step(bundle, mem)
             return Status.OK
-        if iteration > 0 and not careful and size > _SLOW * before:
+        if iteration > 0 and size > _SLOW * before:
             _renew_slow(bl, mem, size)
             limit = min(limit + 1, _MAX_NEWTON + _MAX_LOCAL)
         before = size

@@ -16,7 +16,7 @@ _WORN = 0.5  # convergence rate at the end of a step beyond which it is renewed 
 _SAFETY = 0.55  # of the step that the error would just allow: few steps are refused
 _GROWTH = 1.7  # of the step, at most; BDF2 is stable up to 2.4
 _REGROWTH = 2.4  # the same behind a step that was cut to end at a stop
-_STAY_CAREFUL = 4  # steps for which the iteration keeps beginning at the last speeds once that was needed
+_STAY_CAREFUL = 4  # steps for which the iteration stays damped once that was needed
 _MAX_AGE = 60  # steps after which the Jacobian is renewed in any case
 
 advance_sig = i8(evaluate_t, jacobian_t, f8, i8, bundle_t, blocks_t, factors_t, memory_t)
@@ -118,7 +118,7 @@ def take_steps(begin, attempt, interpolate, shift, evaluate, jacobian, until, ma
                 count.failed += 1
                 count.stale = 1
                 bl.due[:] = 1
-                if outcome == Status.REFUSED or renewed:
+                if outcome == Status.REFUSED or count.careful > 0:
                     control.step = 0.3 * h
                 if renewed:
                     count.careful = _STAY_CAREFUL

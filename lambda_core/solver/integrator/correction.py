@@ -1,0 +1,52 @@
+"""Newton's correction: the Jacobian and the factors that it is found with, and its size."""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve
+from lambda_core.solver.integrator.state_blocks import solve_states
+from lambda_core.solver.layout import helper
+from lambda_core.solver.status import Status
+
+_REFACTOR = 0.41  # relative change of gamma beyond which M is factored anew; not a tie with one growth of the step
+
+
+@helper
+def norm(v, weight):
+    """Return the root mean square of v times weight."""
+    total = 0.0
+    for i in range(v.size):
+        x = v[i] * weight[i]
+        total += x * x
+    return math.sqrt(total / v.size)
+
+
+@helper
+def renew(jacobian, t, gamma, bundle, bl, fa, mem):
+    """Bring the Jacobian, if it is due, and the factors to the point evaluated last; returns a Status."""
+    control, count = mem.control[0], mem.count[0]
+    if count.stale == 1:
+        if jacobian(t, mem.new, bundle, bl) != Status.OK:
+            return Status.REFUSED
+        control.factored_gamma = 0.0
+        count.stale = 0
+    if abs(gamma / (control.factored_gamma + 1e-300) - 1.0) > _REFACTOR:
+        count.factorisations += 1
+        if arrow_factor(bl, 1.0, gamma, fa) != 1:
+            return Status.REFUSED
+        control.factored_gamma = gamma
+        control.convergence_rate = 1.0
+    return Status.OK
+
+
+@helper
+def solve_correction(gamma, bundle, bl, fa, mem):
+    """Write the correction of the point evaluated last into mem.change; returns 0 where a matrix is singular."""
+    change, n = mem.change, mem.new.size
+    for i in range(n):
+        change[i] = mem.base[i] + gamma * mem.slope[i] - mem.new[i]
+    arrow_solve(bl, fa, change)
+    if bundle.states.size > 0 and solve_states(bundle, gamma, change) != 1:
+        return 0
+    return 1

@@ -1,0 +1,92 @@
+"""Newton's iteration where balls come to rest: begun at the last speeds, damped, with a Jacobian of every iterate.
+
+Friction in a contact at rest is almost a sign function. From a speed on the wrong side of it an undamped iteration
+goes to and fro for ever, in steps of any length. What is solved is M (v - v_0)/gamma = F(v) with a friction that
+opposes v: its residual falls along Newton's direction, and a step of the search along it is taken where it falls
+enough (Armijo 1966, Pacific J. Math. 16, 1; Dennis and Schnabel 1983, Numerical Methods, 6.3). The residual is
+measured by the inertias, in which the balls' places have no part: those are linear in the speeds.
+"""
+
+from __future__ import annotations
+
+from lambda_core.solver.integrator.balance import finalise_step, leak_of_iterate
+from lambda_core.solver.integrator.correction import norm, renew, solve_correction
+from lambda_core.solver.layout import BVX, NB, NS, SVX, helper
+from lambda_core.solver.status import Status
+
+_MAX_ITERATIONS = 20
+_HALVINGS = 8  # of a move, at most
+_FALL = 0.2  # of the squared residual, over the share of the move that is made
+
+
+@helper
+def _start(bundle, mem):
+    """Begin at the extrapolated places and the last step's speeds."""
+    new, base = mem.new, NB * bundle.system[0].balls
+    end = base + bundle.active.size
+    for i in range(new.size):
+        new[i] = mem.predicted[i]
+        if (i < base and i % NB >= BVX) or (base <= i < end and bundle.active[i - base] % NS >= SVX):
+            new[i] = mem.y[i]
+
+
+@helper
+def _evaluate(evaluate, t, gamma, bundle, mem):
+    """Evaluate at mem.new; returns the squared residual by the inertias, -1 where a law refuses."""
+    mem.count[0].rhs_calls += 1
+    if evaluate(t, mem.new, bundle, mem.slope, mem.rates, 1) != Status.OK:
+        return -1.0
+    total = 0.0
+    for i in range(mem.new.size):
+        off = mem.base[i] + gamma * mem.slope[i] - mem.new[i]
+        total += mem.inertia[i] * off * off
+    return total
+
+
+@helper
+def _search(evaluate, t, gamma, residual, bundle, mem):
+    """Move along the correction as far as the residual falls; returns what it is there, -1 where it does not fall."""
+    new, change, begin, share = mem.new, mem.change, mem.last_change, 1.0
+    for i in range(new.size):
+        begin[i] = new[i]
+    for _ in range(_HALVINGS):
+        for i in range(new.size):
+            new[i] = begin[i] + share * change[i]
+        found = _evaluate(evaluate, t, gamma, bundle, mem)
+        if found >= 0.0 and found <= (1.0 - _FALL * share) * residual:
+            return found
+        share *= 0.5
+    return -1.0
+
+
+@helper
+def solve_damped(evaluate, jacobian, t, h, tolerance, closer, bundle, bl, fa, mem):
+    """Solve new = base + gamma f(new) as newton.solve_step does; returns a Status: OK, NOT_CONVERGED, REFUSED."""
+    count, gamma = mem.count[0], mem.control[0].gamma
+    if closer == 0:
+        _start(bundle, mem)
+    residual = _evaluate(evaluate, t, gamma, bundle, mem)
+    if residual < 0.0:
+        return Status.REFUSED
+    for iteration in range(_MAX_ITERATIONS):
+        count.stale, count.jacobian_age = 1, 0
+        bl.due[:] = 1
+        count.jacobians += 1
+        count.newton_iterations += 1
+        if renew(jacobian, t, gamma, bundle, bl, fa, mem) != Status.OK:
+            return Status.REFUSED
+        if solve_correction(gamma, bundle, bl, fa, mem) != 1:
+            return Status.NOT_CONVERGED
+        if norm(mem.change, mem.weight) <= tolerance:
+            for i in range(mem.new.size):
+                mem.last_move[i] = mem.change[i]
+                mem.new[i] += mem.change[i]
+            if leak_of_iterate(bundle, mem, h) <= 1.0 or iteration + 1 == _MAX_ITERATIONS:
+                finalise_step(bundle, mem)
+                return Status.OK
+            residual = _evaluate(evaluate, t, gamma, bundle, mem)
+        else:
+            residual = _search(evaluate, t, gamma, residual, bundle, mem)
+        if residual < 0.0:
+            return Status.NOT_CONVERGED
+    return Status.NOT_CONVERGED
