@@ -15,7 +15,7 @@ from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.ratings import dynamic_rating, static_rating
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.derive import UPRATED, filling_angle
-from lambda_db.estimate import is_uprated, printed_of
+from lambda_db.estimate import is_uprated, printed_of, rated_rows
 from lambda_db.paths import user_database
 from lambda_db.records import Row
 from lambda_db.references import known_names, reference_problems
@@ -75,9 +75,10 @@ def _bearing(row: Row) -> Iterator[Finding]:
         return
     uprating = UPRATED if is_uprated(row["rating_type"]) else 1.0
     size, angle = (count, ball * 1e-3, pitch * 1e-3), math.radians(row["contact_angle_deg"] or 0.0)
+    rows = rated_rows(row)
     computed = {
-        "dynamic_rating": dynamic_rating(*size, contact_angle=angle) * uprating,
-        "static_rating": static_rating(*size, contact_angle=angle, outer_conformity=0.52),
+        "dynamic_rating": dynamic_rating(*size, contact_angle=angle, rows=rows) * uprating,
+        "static_rating": static_rating(*size, contact_angle=angle, outer_conformity=0.52, rows=rows),
     }
     for name, expected in computed.items():
         printed = row[f"{name}_kN"]

@@ -6,7 +6,7 @@ from sqlalchemy import CheckConstraint
 
 GRADES = ("A", "A-", "B", "B-", "C", "D")
 STATUSES = ("published", "derived", "assumed")
-KINDS = ("angular contact",)  # of bearings; a row that names none is a deep groove ball bearing
+KINDS = ("angular contact", "four-point")  # of bearings; a row that names none is a deep groove ball bearing
 
 
 def check(name: str, condition: str, sentence: str) -> CheckConstraint:
@@ -44,7 +44,7 @@ def kinds() -> list[CheckConstraint]:
         check(
             "angle_of_kind",
             "(kind IS NULL) = (contact_angle_deg IS NULL) AND coalesce(contact_angle_deg, 45) BETWEEN 1 AND 45",
-            'contact_angle_deg, 1 to 45, belongs to kind "angular contact", which needs it',
+            'contact_angle_deg, 1 to 45, belongs to the kinds "angular contact" and "four-point", which need it',
         ),
     ]
 

@@ -13,7 +13,7 @@ A candidate (Z, D_w) on the pitch circle is scored by squared residuals over the
 - shoulder diameters, where printed and equal on both sides: D_1 - d_1 = 1.21 D_w within 6 %.
 
 The contact angle alpha stands in both ratings: gamma = D_w cos(alpha)/D_pw, C_0 times cos(alpha), C times
-(cos alpha)^0.7.
+(cos alpha)^0.7. Four-point contact, whose inner ring is split, is filled without end, and rated as two rows.
 
 Only ratings of the same maker enter: another maker's balls differ. Weights are exp(-score/2) over the ranked
 candidates. Lengths in mm, ratings in N inside this module.
@@ -33,6 +33,8 @@ FILLING_ANGLE = (188.0, 5.0)  # mean and standard deviation [deg]
 FILLING_LIMIT = 200.0  # [deg]
 # Of angular contact bearings: mean and scatter of the designs that fit NSK's ratings of 70, 72 and 73 (166 bearings).
 COUNTERBORED_ANGLE, COUNTERBORED_LIMIT = (283.0, 18.0), 330.0
+# Of four-point contact: the same of the designs that fit SKF's ratings of QJ 2 and QJ 3 (46 bearings).
+SPLIT_ANGLE, SPLIT_LIMIT = (302.0, 24.0), 345.0
 SHOULDER_RATIO = (1.21, 0.06)  # (D_1 - d_1)/D_w, mean and relative standard deviation
 STATIC_DEVIATION = 0.01
 DYNAMIC_DEVIATION = {"iso": 0.02, "uprated": 0.03}
@@ -61,10 +63,13 @@ class Printed:
     shoulder_diameter_outer: float | None = None
     known_pitch: float | None = None
     contact_angle: float = 0.0  # [rad]
+    rows: int = 1  # by which it is rated: two of four-point contact
 
     @property
     def filling(self) -> tuple[float, float, float]:
         """Mean, standard deviation and limit of the filling angle [deg]."""
+        if self.rows == 2:
+            return (*SPLIT_ANGLE, SPLIT_LIMIT)
         return (*COUNTERBORED_ANGLE, COUNTERBORED_LIMIT) if self.contact_angle else (*FILLING_ANGLE, FILLING_LIMIT)
 
     @property
@@ -103,35 +108,35 @@ def filling_angle(ball_count: int | Array, ball_diameter: float | Array, pitch_d
 
 
 def static_rating_of(
-    ball_count: Array, ball_diameter: Array, pitch_diameter: float, contact_angle: float = 0.0
+    ball_count: Array, ball_diameter: Array, pitch_diameter: float, contact_angle: float = 0.0, rows: int = 1
 ) -> Array:
-    """C_0 = f_0 Z D_w^2 cos(alpha) [N], f_0 interpolated for conformities 0.52/0.52."""
+    """C_0 = f_0 i Z D_w^2 cos(alpha) [N], f_0 interpolated for conformities 0.52/0.52."""
     cosine = np.cos(contact_angle)
     factor = np.interp(ball_diameter * cosine / pitch_diameter, *iso76_f0(both_052=True))
-    return np.asarray(factor * ball_count * ball_diameter**2 * cosine)
+    return np.asarray(rows * factor * ball_count * ball_diameter**2 * cosine)
 
 
 def dynamic_rating_of(
-    ball_count: Array, ball_diameter: Array, pitch_diameter: float, contact_angle: float = 0.0
+    ball_count: Array, ball_diameter: Array, pitch_diameter: float, contact_angle: float = 0.0, rows: int = 1
 ) -> Array:
-    """C = b_m f_c (cos alpha)^0.7 Z^(2/3) D_w^1.8 (3.647 D_w^1.4 above 25.4 mm) [N], b_m = 1.3 (ISO 281)."""
+    """C = b_m f_c (i cos alpha)^0.7 Z^(2/3) D_w^1.8 (3.647 D_w^1.4 above 25.4 mm) [N], b_m = 1.3 (ISO 281)."""
     balls, index = np.unique(ball_diameter, return_inverse=True)
     cosine = float(np.cos(contact_angle))
     factors = np.array([dynamic_factor(float(ball) * cosine / pitch_diameter) for ball in balls])[index]
     size = np.where(ball_diameter <= 25.4, ball_diameter**1.8, 3.647 * ball_diameter**1.4)
-    return np.asarray(1.3 * factors * cosine**0.7 * ball_count ** (2.0 / 3.0) * size)
+    return np.asarray(rows**0.7 * 1.3 * factors * cosine**0.7 * ball_count ** (2.0 / 3.0) * size)
 
 
 def _score(printed: Printed, count: Array, ball: Array, pitch: float) -> Array:
-    (mean, deviation, _), angle = printed.filling, printed.contact_angle
+    (mean, deviation, _), angle, rows = printed.filling, printed.contact_angle, printed.rows
     score = ((filling_angle(count, ball, pitch) - mean) / deviation) ** 2
     if printed.static_rating is not None:
         scatter = max(STATIC_DEVIATION, printed.static_rounding)
-        score += (np.log(static_rating_of(count, ball, pitch, angle) / printed.static_rating) / scatter) ** 2
+        score += (np.log(static_rating_of(count, ball, pitch, angle, rows) / printed.static_rating) / scatter) ** 2
     if printed.dynamic_rating is not None:
         scatter = max(DYNAMIC_DEVIATION["uprated" if printed.uprated else "iso"], printed.dynamic_rounding)
         rating = printed.dynamic_rating / (UPRATED if printed.uprated else 1.0)
-        score += (np.log(dynamic_rating_of(count, ball, pitch, angle) / rating) / scatter) ** 2
+        score += (np.log(dynamic_rating_of(count, ball, pitch, angle, rows) / rating) / scatter) ** 2
     if printed.shoulder_diameter_inner is not None and printed.shoulder_diameter_outer is not None and not angle:
         ratio = (printed.shoulder_diameter_outer - printed.shoulder_diameter_inner) / ball
         score += ((ratio / SHOULDER_RATIO[0] - 1.0) / SHOULDER_RATIO[1]) ** 2
@@ -196,6 +201,7 @@ def grade_of(printed: Printed, ranked: list[RankedDesign], design: RankedDesign)
     good = design.score <= GOOD_FIT and weight >= CLEAR_WEIGHT
     if printed.dynamic_rating is not None and not printed.uprated:
         count, ball = np.array([float(design.ball_count)]), np.array([design.ball_diameter])
-        rating = float(dynamic_rating_of(count, ball, design.pitch_diameter, printed.contact_angle)[0])
+        angle, rows = printed.contact_angle, printed.rows
+        rating = float(dynamic_rating_of(count, ball, design.pitch_diameter, angle, rows)[0])
         good = good and abs(rating / printed.dynamic_rating - 1.0) <= max(GOOD_RATING, printed.dynamic_rounding)
     return "B" if good else "C"

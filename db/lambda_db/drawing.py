@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from lambda_core.catalogue.protocol import BearingRow
-from lambda_core.system.resolve_geometry import HIGH_SHOULDERS
+from lambda_core.system.resolve_shoulders import FOUR_POINT_SHOULDERS, HIGH_SHOULDERS
 
 RING, BALL, AIR = "█", "░", " "
 # Shoulder height over ball diameter where no shoulder is printed: D_1 - d_1 = 1.21 D_w (lambda_db.derive)
@@ -62,8 +62,10 @@ def section_of(row: BearingRow) -> Section | None:
         return otherwise if value is None else float(1e3 * value.value)
 
     race_inner, race_outer = known("race_diameter_inner", pitch - ball), known("race_diameter_outer", pitch + ball)
-    angle = 0.0 if row.contact_angle is None else row.contact_angle.value
+    angle = row.contact_angle.value if row.contact_angle is not None and row.kind == "angular contact" else 0.0
     heights = HIGH_SHOULDERS if angle else {"inner": _SHOULDER, "outer": _SHOULDER}
+    if row.kind == "four-point":
+        heights = FOUR_POINT_SHOULDERS
     return Section(
         bore=1e3 * row.bore_diameter.value,
         outside=1e3 * row.outside_diameter.value,

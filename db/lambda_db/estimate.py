@@ -19,6 +19,11 @@ def is_uprated(rating_type: str) -> bool:
     return "explorer" in rating_type.casefold()
 
 
+def rated_rows(row: Row) -> int:
+    """Return by how many rows the standards rate a bearing."""
+    return 2 if row["kind"] == "four-point" else 1
+
+
 def printed_of(row: Row) -> Printed:
     """Collect what a bearing's row prints; ratings that were computed from a geometry are not evidence."""
     static = row["static_rating_kN"] if row["static_rating_status"] != "derived" else None
@@ -35,6 +40,7 @@ def printed_of(row: Row) -> Printed:
         shoulder_diameter_outer=row["shoulder_diameter_outer_mm"],
         known_pitch=row["pitch_diameter_mm"],
         contact_angle=math.radians(row["contact_angle_deg"] or 0.0),
+        rows=rated_rows(row),
     )
 
 

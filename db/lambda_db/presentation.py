@@ -234,7 +234,8 @@ def found_some(catalogue: SqlCatalogue, kind: Literal["bearing", "lubricant"], t
     hint = f"; nearest: {', '.join(close)}" if close else ""
     if kind == "bearing":
         makers = ", ".join(sorted({row.maker for row in catalogue.bearings("", 1_000_000)}))
-        holds = f"deep groove and angular contact ball bearings of {makers}; oils and greases: --lubricants"
+        kinds = "deep groove, angular contact and four-point contact"
+        holds = f"{kinds} ball bearings of {makers}; oils and greases: --lubricants"
     else:
         greases = sum("nlgi" in row.properties for row in catalogue.lubricants("", 1_000_000))
         holds = f"{len(names) - greases} oils and {greases} greases"

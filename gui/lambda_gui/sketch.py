@@ -79,7 +79,7 @@ def section_of_geometry(geometry: Geometry) -> Section:
         groove_outer=1e3 * g.groove_radius_outer,
         shoulder_inner=1e3 * g.shoulder_diameter_inner,
         shoulder_outer=1e3 * g.shoulder_diameter_outer,
-        angle=g.contact_angle,
+        angle=0.0 if g.four_point else g.contact_angle,
     )
 
 

@@ -280,7 +280,7 @@ def _file_size(model: BearingModel, simulated: float, orbit: float) -> float:
     from lambda_core.domain.channels import CHANNELS, DIMENSIONS
     from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
 
-    sizes = {name: len(labels) for name, labels in DIMENSIONS.items()} | {"ball": model.geometry.ball_count}
+    sizes = {name: len(labels) for name, labels in DIMENSIONS.items()} | {"ball": model.geometry.balls}
     per_sample = sum(math.prod(sizes[dim] for dim in channel.dims) for channel in CHANNELS)
     interval = model.output.interval or 2.0 * math.pi / abs(orbit) / SAMPLES_PER_REVOLUTION
     return _DOUBLE * per_sample * simulated / interval

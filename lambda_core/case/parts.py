@@ -45,7 +45,17 @@ class InlineGeometry(Section):
     bore_diameter: Length | None = option(None, "bore d", gt=0.0)
     outside_diameter: Length | None = option(None, "outside diameter D", gt=0.0)
     width: Length | None = option(None, "width B", gt=0.0)
-    series: Literal["60", "62", "63", "64", "618", "619", "70", "72", "73"] | None = option(None, "dimension series")
+    shim_angle: Angle | None = option(
+        None,
+        "four-point contact: contact angle of a ball that rests on both arcs of a ring, by the shims they are ground "
+        "with; absent: what contact angle and clearance leave, where the catalogue's bearing is of this kind",
+        gt=0.0,
+        lt=0.7854,
+        reference="Harris and Kotzalas 2006, ch. 2",
+    )
+    series: Literal["60", "62", "63", "64", "618", "619", "70", "72", "73", "QJ2", "QJ3"] | None = option(
+        None, "dimension series"
+    )
     dynamic_rating: Force | None = option(None, "basic dynamic load rating C", gt=0.0)
     static_rating: Force | None = option(None, "basic static load rating C0", gt=0.0)
 
@@ -95,7 +105,12 @@ class Bearing(Section):
         'radial internal clearance (diametral measure): a class ("CN"; "C3L", "C3H", "C3M", "C3P": lower half, upper '
         'half, middle, upper half and lower half of the next), a value ("14 um") or "geometry" (follows from the '
         "raceway diameters); absent: the suffix's, or CN",
-        reference="ISO 5753-1 for the classes",
+        reference="ISO 5753-1 for the classes; of four-point contact ISO 5753-2, of the axial clearance",
+    )
+    axial_clearance: SmallLength | None = option(
+        None,
+        "axial internal clearance, free axial movement of the rings, of four-point contact; absent: that of the class",
+        gt=0.0,
     )
     contact_angle: Angle | None = option(
         None,
@@ -115,6 +130,8 @@ class Bearing(Section):
     def _one_of_both(self) -> Bearing:
         if self.contact_angle is not None and self.clearance is not None:
             raise ValueError("clearance and contact_angle say the same: give one of them")
+        if self.axial_clearance is not None and self.clearance is not None:
+            raise ValueError("clearance and axial_clearance say the same: give one of them")
         return self
 
     @field_validator("clearance")

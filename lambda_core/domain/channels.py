@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 RINGS = ("inner", "outer")
+ARCS = ("inner +x", "inner -x", "outer +x", "outer -x")  # of four-point contact, by the shaft's thrust that they take
 # Below this film parameter metal touches metal and shorts the contact: asperities carry more than 1 % of the load there
 # (Zhou and Hoeprich 1991 with the constants of the raceways of Wingertszahn et al. 2023), whatever law friction uses.
 SHORTED = 2.03
@@ -34,6 +35,7 @@ LOSSES = (
 # dimension -> labels of its entries, in order
 DIMENSIONS: dict[str, tuple[str, ...]] = {
     "ring": RINGS,
+    "arc": ARCS,
     "body": ("inner ring", "outer ring", "cage"),
     "axis": ("x", "y", "z"),
     "tilt": ("y", "z"),
@@ -105,4 +107,15 @@ CHANNELS: tuple[Channel, ...] = (
     Channel("loss", ("mechanism",), "W", "dissipated power by mechanism"),
     Channel("input_power", (), "W", "power of drives, loads, gravity and prescribed motions"),
     Channel("stored_energy", (), "J", "kinetic plus elastic energy"),
+)
+
+_BY_ARC = (
+    "load", "contact_angle", "max_pressure", "semi_axis_a", "film_central", "film_parameter", "slip", "spin_velocity",
+    "contact_loss",
+)  # fmt: skip
+# Of four-point contact; the channels by ring have the arc that carries more.
+ARC_CHANNELS: tuple[Channel, ...] = tuple(
+    Channel(f"arc_{channel.name}", ("ball", "arc"), channel.unit, f"{channel.meaning}; of each arc")
+    for channel in CHANNELS
+    if channel.name in _BY_ARC
 )

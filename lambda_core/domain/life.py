@@ -36,6 +36,16 @@ _STEEP = (
 # ISO 76:2006, table 2: angle [deg], Y_0 of single-row angular contact ball bearings; X_0 = 0.5.
 _STATIC_AXIAL = ((15.0, 0.46), (20.0, 0.42), (25.0, 0.38), (30.0, 0.33), (35.0, 0.29), (40.0, 0.26), (45.0, 0.22))
 
+# ISO 281:2007, table 3, two rows: angle [deg], Y up to e, then X and Y: 0.625/e, 1.625 X and 1.625 Y of one row.
+_TWO_ROWS = (
+    (20.0, 1.09, 0.70, 1.63),
+    (25.0, 0.92, 0.67, 1.41),
+    (30.0, 0.78, 0.63, 1.24),
+    (35.0, 0.66, 0.60, 1.07),
+    (40.0, 0.55, 0.57, 0.93),
+    (45.0, 0.47, 0.54, 0.81),
+)
+
 # ISO 281:2007, table 13: contamination level -> (low, high) of e_C for D_pw < 100 mm and for D_pw >= 100 mm.
 CONTAMINATION_LEVELS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
     "extreme cleanliness": ((1.0, 1.0), (1.0, 1.0)),
@@ -70,7 +80,12 @@ def _interpolate(x: float, xs: Sequence[float], ys: Sequence[float]) -> float:
 
 
 def dynamic_equivalent_load(
-    radial_load: float, axial_load: float, static_rating: float, static_factor: float, contact_angle: float = 0.0
+    radial_load: float,
+    axial_load: float,
+    static_rating: float,
+    static_factor: float,
+    contact_angle: float = 0.0,
+    rows: int = 1,
 ) -> EquivalentLoad:
     """Dynamic equivalent radial load P (ISO 281:2007, 5.3 and table 3).
 
@@ -82,12 +97,16 @@ def dynamic_equivalent_load(
     ----------
     contact_angle : float
         Nominal one [rad], at most 45 degrees.
+    rows : int
+        That carry, 1 or 2; four-point contact counts as two, of which either takes one direction of thrust.
     """
-    limit, radial_factor, axial_factor = _factors(
-        static_factor * axial_load / static_rating, math.degrees(contact_angle)
-    )
+    angle = math.degrees(contact_angle)
+    limit, radial_factor, axial_factor = _factors(static_factor * axial_load / static_rating, angle)
+    below = 0.0
+    if rows == 2:
+        below, radial_factor, axial_factor = _two_rows(limit, radial_factor, axial_factor, angle)
     if axial_load <= limit * radial_load:
-        return EquivalentLoad(radial_load, 1.0, 0.0, limit)
+        return EquivalentLoad(radial_load + below * axial_load, 1.0, below, limit)
     return EquivalentLoad(radial_factor * radial_load + axial_factor * axial_load, radial_factor, axial_factor, limit)
 
 
@@ -109,15 +128,26 @@ def _factors(relative: float, angle: float) -> tuple[float, float, float]:
     return e, x, y
 
 
-def static_equivalent_load(radial_load: float, axial_load: float, contact_angle: float = 0.0) -> float:
+def _two_rows(limit: float, radial_factor: float, axial_factor: float, angle: float) -> tuple[float, float, float]:
+    """Return Y up to e, and X and Y above, of two rows from e, X and Y of one of that angle [deg]."""
+    if angle < _TWO_ROWS[0][0]:
+        return 0.625 / limit, 1.625 * radial_factor, 1.625 * axial_factor
+    angles = [row[0] for row in _TWO_ROWS]
+    below, x, y = (_interpolate(angle, angles, [row[i] for row in _TWO_ROWS]) for i in (1, 2, 3))
+    return below, x, y
+
+
+def static_equivalent_load(radial_load: float, axial_load: float, contact_angle: float = 0.0, rows: int = 1) -> float:
     """Static equivalent radial load P_0 = max(X_0 F_r + Y_0 F_a, F_r) [N] (ISO 76:2006, table 2).
 
-    0.6 and 0.5 for radial contact; X_0 = 0.5 and Y_0 by the angle from 15 degrees on, where smaller angles count as 15.
+    0.6 and 0.5 for radial contact; X_0 = 0.5 and Y_0 by the angle from 15 degrees on, where smaller angles count as 15;
+    of two rows X_0 = 1 and twice that Y_0.
     """
     if contact_angle == 0.0:
         return max(0.6 * radial_load + 0.5 * axial_load, radial_load)
     angles, factors = zip(*_STATIC_AXIAL, strict=True)
-    return max(0.5 * radial_load + _interpolate(math.degrees(contact_angle), angles, factors) * axial_load, radial_load)
+    axial_factor = _interpolate(math.degrees(contact_angle), angles, factors)
+    return max(rows * (0.5 * radial_load + axial_factor * axial_load), radial_load)
 
 
 def system_life(lives: Sequence[float], exponent: float = 10.0 / 9.0) -> float:
@@ -227,15 +257,16 @@ def ball_capacities(
     inner_conformity: float,
     outer_conformity: float,
     nominal_angle: float = 0.0,
+    rows: int = 1,
 ) -> tuple[float, float]:
     """Rolling element loads (Q_ci, Q_ce) for the basic dynamic load rating [N] (ISO/TS 16281:2008, eq. 19-20).
 
-    Q_ci = C/(0.407 Z cos(alpha)) (1 + t^(10/3))^0.3 and Q_ce = C/(0.389 Z cos(alpha))
+    Q_ci = C/(0.407 Z cos(alpha) i^0.7) (1 + t^(10/3))^0.3 and Q_ce = C/(0.389 Z cos(alpha) i^0.7)
     (1 + t^(-10/3))^0.3, t = 1.044 [(1-g)/(1+g)]^1.72 [(r_i/r_e)(2 r_e - D_w)/(2 r_i - D_w)]^0.41. The numbers
     0.407 and 0.389 are J_r/J_1 and J_r/J_2 of the load distribution with half the raceway loaded.
     """
     term = conformity_term(gamma, inner_conformity, outer_conformity, coefficient=1.044)
-    share = dynamic_rating / (ball_count * math.cos(nominal_angle))
+    share = dynamic_rating / (ball_count * math.cos(nominal_angle) * rows**0.7)
     inner = share / 0.407 * (1.0 + term ** (10.0 / 3.0)) ** 0.3
     outer = share / 0.389 * (1.0 + term ** (-10.0 / 3.0)) ** 0.3
     return inner, outer
@@ -251,6 +282,7 @@ def reference_rating_life(
     outer_conformity: float,
     inner_rotates: bool = True,
     nominal_angle: float = 0.0,
+    rows: int = 1,
 ) -> ReferenceLife:
     """Basic reference rating life L_10r from the load of every ball (ISO/TS 16281:2008, eq. 21-29).
 
@@ -259,11 +291,14 @@ def reference_rating_life(
 
     Parameters
     ----------
-    inner_loads, outer_loads : sequence of float, length Z
-        Normal loads at the inner and outer raceway, zero where unloaded [N].
+    inner_loads, outer_loads : sequence of float, length Z times rows
+        Normal loads at the inner and outer raceway, zero where unloaded [N]; row by row.
+    rows : int
+        Raceways of each ring. Their lives add up as Weibull's survivals do, Q_ei and Q_ee are those of the row that
+        fares worst.
     """
-    count = len(inner_loads)
-    if count == 0 or len(outer_loads) != count:
+    count = len(inner_loads) // rows
+    if count == 0 or len(inner_loads) != count * rows or len(outer_loads) != len(inner_loads):
         raise ValueError("the inner and the outer loads of every ball are needed, in the same number")
 
     def mean(loads: Sequence[float], exponent: float) -> float:
@@ -272,12 +307,17 @@ def reference_rating_life(
         return top * (sum((load / top) ** exponent for load in loads) / count) ** (1.0 / exponent) if top > 0 else 0.0
 
     moving, resting = 3.0, 10.0 / 3.0
-    load_inner = mean(inner_loads, moving if inner_rotates else resting)
-    load_outer = mean(outer_loads, resting if inner_rotates else moving)
+    on_inner, on_outer = (moving, resting) if inner_rotates else (resting, moving)
     capacity_inner, capacity_outer = ball_capacities(
-        dynamic_rating, count, gamma, inner_conformity, outer_conformity, nominal_angle
+        dynamic_rating, count, gamma, inner_conformity, outer_conformity, nominal_angle, rows
     )
-    damage = (load_inner / capacity_inner) ** (10.0 / 3.0) + (load_outer / capacity_outer) ** (10.0 / 3.0)
+    each = []
+    for row in (slice(i * count, (i + 1) * count) for i in range(rows)):
+        inner, outer = mean(inner_loads[row], on_inner), mean(outer_loads[row], on_outer)
+        worn = (inner / capacity_inner) ** (10.0 / 3.0) + (outer / capacity_outer) ** (10.0 / 3.0)
+        each.append((worn, inner, outer))
+    damage = sum(worn for worn, _, _ in each)
     life = damage**-0.9 if damage > 0.0 else math.inf
     equivalent = dynamic_rating * damage**0.3
+    _, load_inner, load_outer = max(each)
     return ReferenceLife(life, equivalent, capacity_inner, capacity_outer, load_inner, load_outer)

@@ -1,4 +1,4 @@
-"""Load ratings of radial ball bearings from their inner geometry (ISO 281, ISO 76), single row.
+"""Load ratings of radial ball bearings from their inner geometry (ISO 281, ISO 76), of one row or several.
 
 SI in and out; the standards' formulas are in mm and N, converted inside.
 """
@@ -72,16 +72,19 @@ def dynamic_rating(
     inner_conformity: float = 0.52,
     outer_conformity: float = 0.52,
     material_factor: float = RATING_MATERIAL_FACTOR,
+    rows: int = 1,
 ) -> float:
-    """Basic dynamic radial load rating C_r [N] of one row (ISO 281, eq. for radial ball bearings).
+    """Basic dynamic radial load rating C_r [N] (ISO 281, eq. for radial ball bearings).
 
-    C_r = b_m f_c (cos alpha)^0.7 Z^(2/3) D_w^1.8, with 3.647 D_w^1.4 in place of D_w^1.8 above 25.4 mm (mm, N).
+    C_r = b_m f_c (i cos alpha)^0.7 Z^(2/3) D_w^1.8, with 3.647 D_w^1.4 in place of D_w^1.8 above 25.4 mm (mm, N);
+    Z balls in each of i rows. Makers rate four-point contact as two rows.
     """
     gamma = ball_diameter * math.cos(contact_angle) / pitch_diameter
     diameter = ball_diameter * 1e3
     size = diameter**1.8 if diameter <= 25.4 else 3.647 * diameter**1.4
     factor = dynamic_factor(gamma, inner_conformity, outer_conformity)
-    return float(material_factor * factor * math.cos(contact_angle) ** 0.7 * ball_count ** (2.0 / 3.0) * size)
+    one = float(material_factor * factor * math.cos(contact_angle) ** 0.7 * ball_count ** (2.0 / 3.0) * size)
+    return one * float(rows**0.7)
 
 
 def static_factor(gamma: float, inner_conformity: float = 0.52, outer_conformity: float = 0.53) -> float:
@@ -109,10 +112,11 @@ def static_rating(
     contact_angle: float = 0.0,
     inner_conformity: float = 0.52,
     outer_conformity: float = 0.53,
+    rows: int = 1,
 ) -> float:
-    """Basic static radial load rating C_0r = f_0 Z D_w^2 cos(alpha) [N] of one row (ISO 76)."""
+    """Basic static radial load rating C_0r = f_0 i Z D_w^2 cos(alpha) [N] of i rows (ISO 76)."""
     gamma = ball_diameter * math.cos(contact_angle) / pitch_diameter
-    factor = static_factor(gamma, inner_conformity, outer_conformity)
+    factor = static_factor(gamma, inner_conformity, outer_conformity) * rows
     return factor * ball_count * (ball_diameter * 1e3) ** 2 * math.cos(contact_angle)
 
 

@@ -179,7 +179,7 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
     from lambda_core.system.time_functions import initial
 
     model = found[0].context.model
-    z, phases = model.geometry.ball_count, len(found)
+    z, phases = model.geometry.balls, len(found)
     orbit = float(np.mean([e.orbit for e in found]))
     inner, outer = (initial(body.dofs["spin"].motion) for body in (model.inner_ring, model.outer_ring))
     relative = orbit - outer

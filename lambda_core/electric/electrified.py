@@ -95,7 +95,7 @@ def _electrified(
     case: str, chosen: ElectricModel, geometry: Geometry, materials: Mapping[str, Material], oil: Oil, roughness: float
 ) -> Electrified:
     plain: dict[str, Any] = {
-        name: float(value) for name, value in dataclasses.asdict(geometry).items() if name != "series"
+        name: float(value) for name, value in dataclasses.asdict(geometry).items() if not isinstance(value, str)
     }
     inner, outer = (
         Context(

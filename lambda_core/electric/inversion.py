@@ -126,7 +126,7 @@ class FilmModel:
         value = dict(zip(CONTACT_CHANNELS, each.contacts[ball, index].tolist(), strict=True))
         if value["load"] <= 0.0:
             return float(value["capacitance"])
-        raceway: Any = each.context.bundle.raceways[index]
+        raceway: Any = each.context.raceway(f"ball_{ring}")
         modulus, radius_x, oil = float(raceway["modulus"]), float(raceway["radius_x"]), raceway["oil"]
         law, out = each.context.kernels.compiled[f"ball_{ring}", "capacitance"].dispatcher, np.zeros(1)
         status = law(
@@ -144,7 +144,7 @@ class FilmModel:
 def _bulk_permittivity(each: Equilibrium, ring: str) -> float:
     """Return the relative permittivity of the oil at no pressure and its temperature."""
     element, context = f"ball_{ring}", each.context
-    oil: Any = context.bundle.raceways[RINGS.index(ring)]["oil"]
+    oil: Any = context.raceway(element)["oil"]
     pressure, temperature = np.zeros(1), np.full(1, float(oil["temperature"]))
     ln_eta, density, found = np.zeros(1), np.zeros(1), np.zeros(1)
     laws = context.kernels.compiled

@@ -53,7 +53,7 @@ class Live:
         self._network = Network(
             circuit_of(self._options, bearing.geometry),
             strength_of(self._laws, self._options, bearing.roughness),
-            model.geometry.ball_count,
+            model.geometry.balls,
             seed=self._options.seed,
             announce=announce,
         )

@@ -204,6 +204,7 @@ def freeze(
         begin,
         tuple(options),
         followed,
+        losses=scratch.rates.shape[-1] - L.BESIDE_LOSSES,
     )
 
 

@@ -14,7 +14,8 @@ from lambda_core.laws.jit.portable import WORD, Entry
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.ball_paths import path_velocities
-from lambda_core.solver.drivers.equilibrium import Equilibrium, roll
+from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.first_state import roll
 from lambda_core.solver.drivers.tables import CAGE
 from lambda_core.solver.entry import UNITS, build
 from lambda_core.solver.statics.continuation import STATIC_REPORT
@@ -67,7 +68,7 @@ class Start:
 def prepare_start(found: Equilibrium) -> Start:
     """Return what a start from a case's equilibrium needs."""
     context, model = found.context, found.context.model
-    size, balls = context.size, model.geometry.ball_count
+    size, balls = context.size, model.geometry.balls
     tail = size - context.bundle.states.size - context.bundle.active.size
     cage = [(tail + i, int(entry) - L.NS * CAGE) for i, entry in enumerate(context.bundle.active)]
     standing, turning = (_rolling(found, speed) for speed in (0.0, 1.0))

@@ -90,7 +90,7 @@ def create(file: h5py.File, provenance: Provenance, channels: Sequence[Channel])
 
 def _dimensions(file: h5py.File, model: BearingModel, channels: Sequence[Channel]) -> None:
     """Create the labels of every dimension that a channel has."""
-    ball = file.create_dataset("ball", data=np.arange(1, model.geometry.ball_count + 1))
+    ball = file.create_dataset("ball", data=np.arange(1, model.geometry.balls + 1))
     ball.attrs["long_name"] = "number of the ball"
     ball.make_scale("ball")
     known = {**DIMENSIONS, "marker": tuple(model.markers)}

@@ -20,6 +20,7 @@ from lambda_core.system.bearing import Geometry, Solver
 _SIGNATURE = b"GCOL\x01\x00\x00\x00"  # with version and reserved bytes
 _SIZE = struct.Struct("<Q")
 _OBJECT = struct.Struct("<HHIQ")  # index, references, reserved, size
+_WORDS = ("series", "arrangement")  # what a geometry says in words
 _LOOKED_AT = 64 << 20  # [byte] from the beginning: a run writes its texts before its samples
 
 
@@ -65,7 +66,7 @@ def check_model(model: Any) -> None:
         needed = {field.name for field in fields(kind) if field.default is MISSING}
         if not isinstance(table, Mapping) or not needed <= set(table) <= {field.name for field in fields(kind)}:
             raise ValueError(f"the {part} of its model is not whole")
-        if wrong := [name for name, value in table.items() if name != "series" and not _is_number(value)]:
+        if wrong := [name for name, value in table.items() if name not in _WORDS and not _is_number(value)]:
             raise ValueError(f"{part}.{wrong[0]} of its model is no number")
     depth = model.get("depth")
     if not isinstance(depth, Mapping) or "cage" not in depth or not _is_number(model.get("roughness")):

@@ -33,11 +33,17 @@ class Shoulder(Record):
     shoulder_deg: float = Field(description="contact angle of the shoulder's edge")
     margin_um: float = Field(description="along the groove from the end of the ellipse to the edge; below 0: beyond it")
     low: bool = Field(default=False, description="whether it is the low shoulder of angular contact, at the bottom")
+    ridge: bool = Field(default=False, description="whether it is the edge between the arcs of four-point contact")
 
     def warning(self) -> list[str]:
         """Return a sentence where the ellipse runs over the edge, else nothing."""
         if self.margin_um >= 0.0:
             return []
+        if self.ridge:
+            return [
+                f"the contact of ball {self.ball} runs {-self.margin_um:.0f} um over the edge between the arcs of the "
+                f"{self.ring} ring (ellipse to {self.ellipse_end_deg:.1f} deg): computed as if each arc went on"
+            ]
         if self.low:
             return [
                 f"the contact of ball {self.ball} runs over the low shoulder of the {self.ring} ring (ellipse to "
@@ -58,6 +64,7 @@ class Grooves:
     radius: FloatArray  # (2,) [m]
     edge: FloatArray  # (2,) [rad]
     one_sided: bool = False  # angular contact: the groove ends at its bottom on the side without load
+    ridge: FloatArray | None = None  # (2,) four-point contact: angle at which the two arcs of a ring meet [rad]
 
     @staticmethod
     def of(geometry: Mapping[str, Any]) -> Grooves:
@@ -69,8 +76,12 @@ class Grooves:
                 for ring in get_args(Ring)
             ]
         )
-        one_sided = float(geometry.get("contact_angle", 0.0)) > 0.0
-        return Grooves(radius, np.arccos(np.clip(1.0 - height / radius, -1.0, 1.0)), one_sided)
+        edge = np.arccos(np.clip(1.0 - height / radius, -1.0, 1.0))
+        resting = float(geometry.get("resting_angle", 0.0))
+        if resting > 0.0 and int(geometry.get("rows", 1)) == 1:
+            shift = (radius - 0.5 * float(geometry["ball_diameter"])) * math.sin(resting)
+            return Grooves(radius, edge, ridge=np.arcsin(shift / radius))
+        return Grooves(radius, edge, float(geometry.get("contact_angle", 0.0)) > 0.0)
 
 
 def shoulders(grooves: Grooves, load: FloatArray, angle: FloatArray, semi_axis: FloatArray) -> list[Shoulder]:
@@ -89,6 +100,16 @@ def shoulders(grooves: Grooves, load: FloatArray, angle: FloatArray, semi_axis: 
         carrying = load > CARRYING * load.max()
         low = _nearest(carrying, angle, side * angle + half, np.zeros(2), grooves.radius)
         found += [edge.model_copy(update={"low": True}) for edge in low if edge.margin_um < 0.0]
+    if grooves.ridge is not None and load.max(initial=0.0) > 0.0:
+        carrying = load > CARRYING * load.max()
+        over = _nearest(carrying, angle, half - np.abs(angle), -grooves.ridge, grooves.radius)
+        found += [
+            edge.model_copy(
+                update={"ridge": True, "ellipse_end_deg": -edge.ellipse_end_deg, "shoulder_deg": -edge.shoulder_deg}
+            )
+            for edge in over
+            if edge.margin_um < 0.0
+        ]
     return worst(found)
 
 

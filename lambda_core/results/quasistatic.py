@@ -112,7 +112,7 @@ def quasistatic_of(found: Equilibrium) -> QuasiStatic:
 
 def _azimuths(found: Equilibrium) -> FloatArray:
     """Return the azimuth of each ball, shape (Z,) [rad]."""
-    count = found.context.model.geometry.ball_count
+    count = found.context.model.geometry.balls
     azimuths: FloatArray = found.state[: L.NB * count].reshape(count, L.NB)[:, L.BPSI]
     return azimuths
 

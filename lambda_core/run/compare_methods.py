@@ -36,16 +36,18 @@ def equilibrium_state(
     """
     from lambda_core.solver.layout import BPSI, NB
 
-    channels = equilibrium.contacts
+    arcs = equilibrium.arcs
+    sides = arcs.shape[1] // 2
     contacts = tuple(
         ContactLoad(
             azimuth=float(equilibrium.state[NB * ball + BPSI]),
-            load_inner=float(channels[ball, 0, 0]),
-            load_outer=float(channels[ball, 1, 0]),
-            angle_inner=float(channels[ball, 0, 1]),
-            angle_outer=float(channels[ball, 1, 1]),
+            load_inner=float(arcs[ball, side, 0]),
+            load_outer=float(arcs[ball, sides + side, 0]),
+            angle_inner=float(arcs[ball, side, 1]),
+            angle_outer=float(arcs[ball, sides + side, 1]),
         )
-        for ball in range(channels.shape[0])
+        for side in range(sides)
+        for ball in range(arcs.shape[0])
     )
     speed = equilibrium.relative_speed
     parts = zip(LOSSES, equilibrium.losses, strict=True)

@@ -24,6 +24,7 @@ from lambda_core.laws.state import ROLE
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.engine import Advance
 from lambda_core.system.law_packages import foreign_laws
+from lambda_core.system.raceways import raceways
 from lambda_core.system.state_channels import states_of
 
 if TYPE_CHECKING:
@@ -75,8 +76,9 @@ class SuspiciousEngine(BearingEngine):
             return ""
         values = y[y.size - count :]
         first = 0
-        for side in RINGS:
-            kept = states_of(self.model, f"ball_{side}")
+        for raceway in raceways(self.model.geometry):
+            side = RINGS[raceway.ring]
+            kept = states_of(self.model, raceway.element)
             if not kept:
                 continue
             own = values[first : first + len(kept) * self.model.geometry.ball_count].reshape(-1, len(kept))
@@ -84,10 +86,11 @@ class SuspiciousEngine(BearingEngine):
             for state, column in zip(kept, own.T, strict=True):
                 far = np.flatnonzero(~(np.abs(column) < FAR * state.scale))
                 if far.size:
-                    law = self.model.laws[f"ball_{side}"][ROLE].model
+                    law = self.model.laws[raceway.element][ROLE].model
+                    ball = raceway.row * self.model.geometry.ball_count + int(far[0]) + 1
                     return (
                         f"{law.label}: its state {state.name} runs away, {column[far[0]]:.3g} {state.unit} at ball "
-                        f"{far[0] + 1}, ball - {side}, t = {self.time:.6g} s: more than {FAR:.0e} times its scale"
+                        f"{ball}, ball - {side}, t = {self.time:.6g} s: more than {FAR:.0e} times its scale"
                     )
         return ""
 

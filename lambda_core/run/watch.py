@@ -53,7 +53,7 @@ class Watch:
         self._observers, self._events = model.observers, model.events
         self._data = model_data(model) if self.any else {}
         self._sizes = {name: len(labels) for name, labels in DIMENSIONS.items()}
-        self._sizes |= {"ball": model.geometry.ball_count, "marker": len(model.markers)}
+        self._sizes |= {"ball": model.geometry.balls, "marker": len(model.markers)}
         self._before: dict[str, FloatArray] = {}  # time, rates and integrals at the sample before
         self._was: dict[str, bool] = {}  # event -> whether it was so at the sample before
         self._failed: dict[str, str] = {}  # what was called -> sentence

@@ -14,7 +14,7 @@ import numpy as np
 
 from lambda_core.case.case_writer import tables_toml
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.channels import CHANNELS, RINGS
+from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.files import check_folder
 from lambda_core.laws.kernels import sources_key
@@ -32,7 +32,7 @@ from lambda_core.shaft.whole_file import WHOLE, WholeFile, WholeWriter
 from lambda_core.solver.code_files import physics_sources
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
 from lambda_core.system.bearing import BearingModel, TimeFunction
-from lambda_core.system.state_channels import state_channels
+from lambda_core.system.state_channels import result_channels
 
 if TYPE_CHECKING:
     from lambda_core.shaft.model import ShaftModel
@@ -129,7 +129,7 @@ def _folder(model: ShaftModel, out: Path | None, force: bool) -> Path:
 
 
 def _channels(engine: WholeEngine) -> list[tuple]:  # type: ignore[type-arg]
-    return [(*CHANNELS, *state_channels(part.alone.model)) for part in engine.parts]
+    return [result_channels(part.alone.model) for part in engine.parts]
 
 
 def _keys(engine: WholeEngine, i: int) -> dict[str, str]:

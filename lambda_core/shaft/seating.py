@@ -25,8 +25,10 @@ def mounted(name: str, given: ShaftBearing, model: BearingModel, growth: float, 
         How far the warm housing carries the outer ring along x [m].
     """
     takes, angle = _SIGN[given.takes], model.geometry.contact_angle
-    if angle and not takes:
+    if angle and not takes and model.geometry.rated_rows == 1:
         ledger.problem(f"bearings.{name}.takes", 'is required: an angular contact bearing needs "+x" or "-x"')
+    if takes and model.geometry.rated_rows > 1:
+        ledger.problem(f"bearings.{name}.takes", "leave it out: this bearing takes thrust from both sides")
     play = axial_play(given, model) if takes else 0.0
     shift = growth - takes * (play + (given.preload or 0.0))
     dynamic, static, fatigue = _ratings(name, angle, model, ledger)
@@ -79,10 +81,10 @@ def _ratings(name: str, angle: float, model: BearingModel, ledger: Ledger) -> tu
     )
     size = (g.ball_count, g.ball_diameter, g.pitch_diameter)
     if dynamic is None:
-        dynamic = dynamic_rating(*size, contact_angle=angle)
+        dynamic = dynamic_rating(*size, contact_angle=angle, rows=g.rated_rows)
         ledger.assume(f"{name}: C = {dynamic * 1e-3:.1f} kN from the inner geometry (ISO 281)")
     if static is None:
-        static = static_rating(*size, contact_angle=angle)
+        static = static_rating(*size, contact_angle=angle, rows=g.rated_rows)
         ledger.assume(f"{name}: C_0 = {static * 1e-3:.1f} kN from the inner geometry (ISO 76)")
     if fatigue is None:
         fatigue = fatigue_load_limit(static, g.pitch_diameter)

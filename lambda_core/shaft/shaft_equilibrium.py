@@ -18,7 +18,7 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.elastic.beam import NODE
 from lambda_core.shaft.model import PLACES, MountedBearing, ShaftModel
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
-from lambda_core.solver.drivers.equilibrium import free_contact_angle
+from lambda_core.solver.drivers.first_state import free_contact_angle
 from lambda_core.solver.drivers.held_ring import POSE, HeldRing
 from lambda_core.system.bearing import BearingModel
 
@@ -219,7 +219,7 @@ def solve_shaft(model: ShaftModel, announce: Announce = None, kernels: SharedKer
 
 
 def _first_angle(bearing: MountedBearing) -> float:
-    return free_contact_angle(bearing.model) if bearing.takes else 0.0
+    return free_contact_angle(bearing.model) if bearing.takes else bearing.model.geometry.resting_angle
 
 
 def _first_guess(whole: _Whole) -> FloatArray:

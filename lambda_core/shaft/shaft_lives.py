@@ -49,15 +49,15 @@ def bearing_life(
     """
     g, angle, speed = bearing.model.geometry, bearing.nominal_angle, found.relative_speed
     gamma = g.ball_diameter * math.cos(angle) / g.pitch_diameter
-    load = dynamic_equivalent_load(radial, axial, bearing.static_rating, static_factor(gamma), angle).load
+    load = dynamic_equivalent_load(radial, axial, bearing.static_rating, static_factor(gamma), angle, g.rated_rows).load
     reference = reference_rating_life(
-        found.contacts[:, 0, 0].tolist(),
-        found.contacts[:, 1, 0].tolist(),
+        *found.loads_by_row(),
         dynamic_rating=bearing.dynamic_rating,
         gamma=gamma,
         inner_conformity=g.groove_radius_inner / g.ball_diameter,
         outer_conformity=g.groove_radius_outer / g.ball_diameter,
         nominal_angle=angle,
+        rows=g.rated_rows,
     )
     ratio = modified = None
     if speed > 0.0:
@@ -66,7 +66,7 @@ def bearing_life(
         if contamination is not None and ratio >= _LEAST_RATIO:
             factor = life_modification_factor(ratio, contamination, bearing.fatigue_limit, reference.equivalent_load)
             modified = life_hours(factor * reference.life, speed)
-    static_load = static_equivalent_load(radial, axial, angle)
+    static_load = static_equivalent_load(radial, axial, angle, g.rated_rows)
     return BearingLife(
         load,
         life_hours(basic_rating_life(bearing.dynamic_rating, load), speed),

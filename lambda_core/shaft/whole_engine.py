@@ -23,6 +23,7 @@ from lambda_core.solver.drivers.compiled_laws import Announce
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION, Advance
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
 from lambda_core.solver.drivers.observation import Scratch, channels_of
+from lambda_core.solver.drivers.ring_values import losses_of_raceways
 from lambda_core.solver.drivers.solver_context import state_scales
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import CAGE, INNER, OUTER, running
@@ -40,7 +41,7 @@ _WORK_PER_CALL = 500  # Newton iterations
 _COUNTERS = (
     "steps", "rejected", "failed", "newton_iterations", "rhs_calls", "jacobians", "ball_jacobians", "factorisations",
 )  # fmt: skip
-_PER_RACEWAY, _SHARED = 12, ("pocket", "land", "drag")  # losses of raceways; those that only samples part by bearing
+_SHARED = ("pocket", "land", "drag")  # losses that only samples part by bearing
 
 
 @dataclass(frozen=True)
@@ -270,7 +271,7 @@ class WholeEngine:
         powers = L.power_count(self._bundle)
         extra, one = np.zeros((1, powers + 2)), np.zeros((1, 1, 3))
         self._core.sample(
-            self._handle, np.array([self.time]), self._memory.y.reshape(1, -1), -1.0, np.zeros((1, 1, 2, 16)), one,
+            self._handle, np.array([self.time]), self._memory.y.reshape(1, -1), -1.0, np.zeros((1, 1, 1, 16)), one,
             one.copy(), extra, np.zeros((1, self._bundle.shared.size)), np.zeros((1, powers)), np.zeros(self.states),
         )  # fmt: skip
         return float(extra[0, 0])
@@ -292,13 +293,12 @@ class WholeEngine:
         self._drain()
         values, count = self._memory.integrals, len(self.parts)
         so_far = running(values)
-        raceways = values[: L.MECHANISMS * 2 * count].reshape(L.MECHANISMS, count, 2)
         parted = self._sampled[:, : len(_SHARED)]
         sums = parted.sum(axis=0)
         shares = np.where(sums > 0.0, parted / np.where(sums > 0.0, sums, 1.0), 1.0 / count)
         losses = []
-        for i in range(count):
-            own = dict(zip(LOSSES, [*raceways[:, i].ravel().tolist(), 0.0, 0.0, 0.0, 0.0], strict=True))
+        for i, part in enumerate(self.parts):
+            own = losses_of_raceways(part.alone.model.geometry, values, part.first_raceway)
             own |= {name: float(so_far[name]) * float(shares[i, k]) for k, name in enumerate(_SHARED)}
             losses.append(own)
         every = sum(sum(own.values()) for own in losses)

@@ -58,7 +58,7 @@ class Part:
     @property
     def balls(self) -> int:
         """How many."""
-        return self.alone.model.geometry.ball_count
+        return self.alone.model.geometry.balls
 
 
 def all_free(found: SolverContext) -> SolverContext:
@@ -73,14 +73,15 @@ def all_free(found: SolverContext) -> SolverContext:
 def make_parts(model: ShaftModel, shaft: LumpedShaft, contexts: list[SolverContext]) -> tuple[Part, ...]:
     """Give every bearing its places."""
     found: list[Part] = []
-    balls, states, slots = 0, 0, 0
+    balls, raceways, states, slots = 0, 0, 0, 0
     for i, (bearing, context) in enumerate(zip(model.bearings, contexts, strict=True)):
         lump = shaft.at(bearing.position)
         inner = lump + 1 if lump else 0
         outer = 1 if i == 0 else shaft.positions.size + 2 * i
         cage = shaft.positions.size + 2 * i + 1
-        found.append(Part(bearing, context, (inner, outer, cage), balls, 2 * i, states, slots))
+        found.append(Part(bearing, context, (inner, outer, cage), balls, raceways, states, slots))
         balls += found[-1].balls
+        raceways += context.bundle.raceways.size
         states += context.bundle.states.size
         slots += context.bundle.slots.size
     return tuple(found)

@@ -171,6 +171,8 @@ ROW = record(
     ("ball_mass", f8),  # [kg]
     ("ball_inertia", f8),  # [kg m2]
     ("pocket_circle", f8),  # radius of the pockets' circle [m]
+    ("pocket_offset", f8),  # of its plane from the cage's centre, along the axis [m]
+    ("pocket_phase", f8),  # of the first ball's pocket on the cage [rad]
     ("drag_on", i8),
     ("oil", OIL),
     ("guide_law", i8),  # row of Laws.guides

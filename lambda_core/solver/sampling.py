@@ -119,17 +119,23 @@ def _land_forces(bundle, forces):
 
 @helper
 def _contact_channels(balls, row, bundle, shorted, contacts, losses, rates):
-    """Write the channels of the raceway contacts of a row; returns the capacitance of its balls, or -1."""
+    """Write the channels of the raceway contacts of a row; returns the capacitance of its balls, or -1.
+
+    Contacts of a ball with one ring are parallel, its rings in series; raceways of a ring follow each other.
+    """
     total = 0.0
     for j in range(row.first_ball, row.first_ball + row.balls):
-        series = 0.0
+        series, parallel = 0.0, 0.0
         for k in range(row.raceways):
             raceway, values = bundle.raceways[row.first_raceway + k], contacts[j, k]
             if _raceway_channels(balls[j], j, raceway, bundle, shorted, values, losses, rates) != 1:
                 bundle.scratch[0].fault.ball = j
                 return -1.0
-            found = values.view(CONTACT_SAMPLE)[0].capacitance
-            series += 1.0 / found if found > 0.0 else np.inf
+            parallel += values.view(CONTACT_SAMPLE)[0].capacitance
+            if k + 1 < row.raceways and bundle.raceways[row.first_raceway + k + 1].body == raceway.body:
+                continue
+            series += 1.0 / parallel if parallel > 0.0 else np.inf
+            parallel = 0.0
         total += 1.0 / series
     return total
 
@@ -173,7 +179,7 @@ def observe(times, states, bundle, evaluate, shorted, contacts, pockets, lands, 
         The right-hand side.
     shorted : float
         Film parameter below which a contact counts as touching metal; below zero the stored energy alone is written.
-    contacts : float64[:, :, :, :], shape (n, Z, 2, 16)
+    contacts : float64[:, :, :, :], shape (n, Z, raceways of a row, 16)
         CONTACT_CHANNELS, records.CONTACT_SAMPLE.
     pockets : float64[:, :, :], shape (n, Z, 3)
         Force of the cage on each ball, axes x, r, t [N].

@@ -76,6 +76,29 @@ class Geometry:
     width: float  # [m]
     series: str
     contact_angle: float = 0.0  # free one of an angular contact bearing, which ratings go by; 0: radial contact [rad]
+    # Contact angle of a ball that touches without clearance while the rings are centred: of four-point contact, which
+    # one row has with it, and of the rows of a double row bearing; 0: the grooves of both rings face each other [rad]
+    resting_angle: float = 0.0
+    rows: int = 1  # of balls; ball_count is that of one row
+    row_distance: float = 0.0  # between the planes of the balls' centres [m]
+    arrangement: str = (
+        ""  # of two rows: "O" back to back, "X" face to face, "spherical" on one sphere of the outer ring
+    )
+
+    @property
+    def balls(self) -> int:
+        """Number of balls of all rows."""
+        return self.rows * self.ball_count
+
+    @property
+    def rated_rows(self) -> int:
+        """Rows by which the standards rate the bearing: of four-point contact each pair of arcs counts as one."""
+        return 2 if self.four_point else self.rows
+
+    @property
+    def four_point(self) -> bool:
+        """Whether each ring has two arcs for one row of balls."""
+        return self.rows == 1 and self.resting_angle > 0.0
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lambda_core.system.machine_templates import GENERAL, Machine
+from lambda_core.system.operating_limits import ONE_SIDE
 
 if TYPE_CHECKING:
     from lambda_core.catalogue.designation import Designation
@@ -35,8 +36,13 @@ maker = "{maker}"
 {tail}"""
 _NO_RATING = 10e3  # [N], where the catalogue has no rating to take a share of
 _MOST_SPEED = 0.5  # of the limiting speed that a new case starts with
+_PICK = '\nclearance_pick = "middle"'
 _MEASURED = 'or a measured value such as "14 um"'
-_KINDS = {"deep groove": "Deep-groove ball bearing", "angular contact": "Angular contact ball bearing"}
+_KINDS = {
+    "deep groove": "Deep-groove ball bearing",
+    "angular contact": "Angular contact ball bearing",
+    "four-point": "Four-point contact ball bearing",
+}
 # Thrust over radial load times tan(alpha) at which half the circumference is loaded (NSK, CAT. No. E728, 5.1);
 # with less fewer balls carry, and an angular contact bearing alone comes apart.
 _HALF_LOADED = 1.216
@@ -71,19 +77,22 @@ def fresh_case(name: str, bearing: BearingRow, read: Designation, machine: Machi
 
 def _clearance(machine: Machine, bearing: BearingRow, read: Designation) -> str:
     """Return the lines that say the clearance, or the contact angle that it follows from."""
-    if bearing.contact_angle is not None:
+    classes = [written for written, suffix in read.suffixes if suffix.kind == "clearance"]
+    if bearing.kind == "four-point" and not classes:
+        return _told('clearance = "CN"', 'class of the axial clearance, or axial_clearance = "100 um"') + _PICK
+    if bearing.kind == "angular contact" and bearing.contact_angle is not None:
         angle = f"{math.degrees(bearing.contact_angle.value):.3g} deg"
         return _told(f'# contact_angle = "{angle}"', "of the catalogue: the clearance follows from it")
-    pick = '\nclearance_pick = "middle"'
-    classes = [written for written, suffix in read.suffixes if suffix.kind == "clearance"]
     if classes:
         why = f"stands in the designation; {_MEASURED.removeprefix('or ')} would win"
-        return _told(f'# clearance = "{classes[0]}"', why) + pick
-    return _told(f'clearance = "{machine.clearance}"', f"class of ISO 5753-1, {_MEASURED}") + pick
+        return _told(f'# clearance = "{classes[0]}"', why) + _PICK
+    return _told(f'clearance = "{machine.clearance}"', f"class of ISO 5753-1, {_MEASURED}") + _PICK
 
 
 def _thrust(machine: Machine, bearing: BearingRow) -> tuple[float, str]:
     """Return axial over radial load, and the comment on it; angular contact needs enough to be held together."""
+    if bearing.kind == "four-point":
+        return max(machine.thrust, ONE_SIDE), f"along the shaft: {ONE_SIDE:g} of the radial load at least, SKF"
     least = _HALF_LOADED * math.tan(bearing.contact_angle.value) if bearing.contact_angle is not None else 0.0
     if least > machine.thrust:
         return 1.1 * least, "along the shaft; less opens an angular contact bearing that stands alone"

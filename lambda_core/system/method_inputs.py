@@ -140,4 +140,5 @@ def method_inputs(
         designation=next((str(v.value) for v in model.values if v.path == "bearing.designation"), ""),
         shoulder_diameter_inner=geometry.shoulder_diameter_inner,
         contact_angle=geometry.contact_angle,
+        rated_rows=geometry.rated_rows,
     )

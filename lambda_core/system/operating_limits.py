@@ -26,6 +26,8 @@ _ZERO_CELSIUS = 273.15
 PERMISSIBLE_TILT = math.radians(10.0 / 60.0)  # [rad]
 # "minimum loads corresponding to 0,01 C should be imposed on ball bearings": SKF, the same, requisite minimum load.
 MINIMUM_LOAD = 0.01  # over the dynamic rating
+# Axial over radial load from which on the balls of four-point contact run on one side: SKF, general catalogue 6000.
+ONE_SIDE = 1.27
 # ISO 281:2007, 5.1: the life equations hold up to P = 0.5 C.
 LARGEST_LIFE_LOAD = 0.5  # over the dynamic rating
 # Raceways and balls are ground and honed to 0.01 to 0.1 um, worn ones reach a few tenths (Harris and Kotzalas, Advanced
@@ -109,7 +111,10 @@ def _ratings(model: BearingModel) -> tuple[float, float]:
     g = model.geometry
     size, angle = (g.ball_count, g.ball_diameter, g.pitch_diameter), g.contact_angle
     dynamic, static = _known(model, "bearing.dynamic_rating"), _known(model, "bearing.static_rating")
-    return dynamic or dynamic_rating(*size, contact_angle=angle), static or static_rating(*size, contact_angle=angle)
+    return (
+        dynamic or dynamic_rating(*size, contact_angle=angle, rows=g.rated_rows),
+        static or static_rating(*size, contact_angle=angle, rows=g.rated_rows),
+    )
 
 
 def _load(model: BearingModel) -> Iterator[str]:
@@ -120,9 +125,14 @@ def _load(model: BearingModel) -> Iterator[str]:
     dynamic, static = _ratings(model)
     g = model.geometry
     factor = static_factor(g.ball_diameter * math.cos(g.contact_angle) / g.pitch_diameter)
-    equivalent = dynamic_equivalent_load(radial, axial, static, factor, g.contact_angle).load
-    resting = static_equivalent_load(radial, axial, g.contact_angle)
+    equivalent = dynamic_equivalent_load(radial, axial, static, factor, g.contact_angle, g.rated_rows).load
+    resting = static_equivalent_load(radial, axial, g.contact_angle, g.rated_rows)
     turns = _relative_speed(model) > 0.0
+    if g.four_point and axial < ONE_SIDE * radial:
+        yield (
+            f"the axial load of {_force(axial)} is below {ONE_SIDE:g} of the radial one: balls of four-point contact "
+            "run on both sides there, and slide (SKF)"
+        )
     if turns and equivalent < MINIMUM_LOAD * dynamic:
         yield (
             f"the load P = {_force(equivalent)} is below the minimum load of ball bearings, {MINIMUM_LOAD:g} C = "
@@ -199,7 +209,7 @@ def heating_factor(model: BearingModel) -> float | None:
     out = np.full(1, np.nan)
     g = model.geometry
     rolling = 0.25 * g.pitch_diameter * (1.0 - (g.ball_diameter / g.pitch_diameter) ** 2) * speed
-    load = 5.0 * static_equivalent_load(*(applied_load(model) or (0.0, 0.0))) / g.ball_count
+    load = 5.0 * static_equivalent_load(*(applied_load(model) or (0.0, 0.0))) / g.balls
     pressure = hertz_contact(load, context.radius_x, context.radius_y, context.e_eff).p_max
     try:
         flat_kernel(rheology.model)(np.zeros(3), temperatures, prepare(rheology, context), ln_eta, rho)

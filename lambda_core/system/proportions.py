@@ -14,6 +14,7 @@ from lambda_core.system.bearing import Geometry
 
 FILLING = (165.0, 198.0)  # angle that the balls span side by side, as at assembly [deg]
 ANGULAR_FILLING = (220.0, 325.0)  # of angular contact [deg]
+FOUR_POINT_FILLING = (249.0, 340.0)  # of four-point contact, with a split ring [deg]
 WALL = (0.22, 0.61)  # radial wall of a ring under the groove, over the ball diameter
 WIDTH = (1.20, 2.21)  # over the ball diameter
 
@@ -25,7 +26,7 @@ def proportion_warnings(g: Geometry) -> Iterator[str]:
     """
     ball = g.ball_diameter
     angle = 2.0 * (g.ball_count - 1) * math.degrees(math.asin(min(ball / g.pitch_diameter, 1.0)))
-    fewest, most = ANGULAR_FILLING if g.contact_angle else FILLING
+    fewest, most = FOUR_POINT_FILLING if g.four_point else ANGULAR_FILLING if g.contact_angle else FILLING
     if not fewest <= angle <= most:
         yield (
             f"{g.ball_count} balls of {ball * 1e3:.6g} mm side by side span {angle:.0f} deg of the pitch circle: "

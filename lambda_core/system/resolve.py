@@ -258,6 +258,9 @@ def case_hash(model: BearingModel) -> str:
     data = {name: _plain(getattr(model, name)) for name in names}
     if model.solver.resolve == 0.0:
         del data["solver"]["resolve"]
+    for name in ("resting_angle", "rows", "row_distance", "arrangement"):  # as before there were any
+        if getattr(model.geometry, name) == Geometry.__dataclass_fields__[name].default:
+            del data["geometry"][name]
     text = json.dumps(data, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()
 

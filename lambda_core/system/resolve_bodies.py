@@ -70,7 +70,7 @@ def ring_inertia(geometry: Geometry, ring: Literal["inner", "outer"], density: f
         groove = groove_volume(g.groove_radius_outer, g.race_diameter_outer, g.shoulder_diameter_outer)
     volume = math.pi / 4.0 * (large**2 - small**2) * g.width - groove
     whole = hollow_cylinder(density * volume, small / 2.0, large / 2.0, g.width)
-    if g.contact_angle == 0.0:
+    if g.contact_angle == 0.0 or g.four_point:
         return whole
     if ring == "inner":
         large = g.race_diameter_inner

@@ -13,18 +13,14 @@ from lambda_core.domain.units import show
 from lambda_core.system.bearing import Geometry
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.resolve_clearance import clearance_as_bought, picked
+from lambda_core.system.resolve_resting import has_arcs, resolve_resting
+from lambda_core.system.resolve_shoulders import FOUR_POINT_SHOULDERS, HIGH_SHOULDERS, shoulder
 
 # Contacts of a deep-groove bearing stay on the groove up to about this free contact angle.
 LARGEST_FREE_ANGLE = math.radians(45.0)
 # An interference of this share of the ball diameter alone presses every ball with about 4 GPa, the static
 # limit of ISO 76 (Palmgren's 0.436e-6 Q^(2/3)/D_w^(1/3) scaled from a 6319: 2.05 GPa at 0.0019 D_w).
 LARGEST_INTERFERENCE = 0.007
-# Shoulder diameters differ by 1.21 ball diameters: mean of catalogue shoulders, the same figure from
-# which missing inner geometry is derived.
-SHOULDER_SPREAD = 1.21
-# Height of the high shoulder over the raceway in ball diameters: means of SKF's 72 BE and 73 BE in the catalogue
-# (0.29 to 0.33 and 0.28 to 0.34); a test computes them anew.
-HIGH_SHOULDERS = {"inner": 0.316, "outer": 0.309}
 # ISO 76 and ISO 281 rate grooves up to 0.52 and 0.53; what is made lies below, as in the catalogue's estimates.
 CONFORMITY_INNER, CONFORMITY_OUTER = 0.515, 0.525
 # From a thousandth of the smallest bearing made to ten times the largest: beyond, a unit is wrong.
@@ -93,8 +89,15 @@ def resolve_geometry(
     races = _races(picker)
     pitch = _pitch(picker, races, bore, outside)
     grooves = (_groove(picker, "inner", ball), _groove(picker, "outer", ball))
-    angle = _contact_angle(bearing, row, ledger)
-    if angle == 0.0:
+    resting = 0.0
+    if has_arcs(bearing, row):
+        found = resolve_resting(bearing, row, sum(grooves) - ball, bore, ledger)
+        angle, resting = (found.free, found.resting) if found else (math.nan, 0.0)
+        bought = Limits(found.clearance, found.clearance) if found else None
+    elif bearing.axial_clearance is not None:
+        ledger.problem("bearing.axial_clearance", "is of four-point contact; here write a clearance or a contact_angle")
+        return None
+    elif (angle := _contact_angle(bearing, row, ledger)) == 0.0:
         bought = clearance_as_bought(bearing, races, ball, bore, catalogue, ledger)
     else:
         bought = _clearance_of_angle(angle, sum(grooves) - ball, ledger)
@@ -102,7 +105,8 @@ def resolve_geometry(
     if bought is None or any(math.isnan(x) for x in (bore, outside, width, count, ball, pitch, *grooves)):
         return None
     clearance = picked(bought, bearing.clearance_pick)
-    shoulders = (_shoulder(picker, "inner", ball, pitch, angle), _shoulder(picker, "outer", ball, pitch, angle))
+    heights = FOUR_POINT_SHOULDERS if resting else HIGH_SHOULDERS if angle else None
+    shoulders = (shoulder(picker, "inner", ball, pitch, heights), shoulder(picker, "outer", ball, pitch, heights))
     series = inline.series or (row.series if row else "")
     as_bought = Geometry(
         ball_count=round(count),
@@ -120,6 +124,7 @@ def resolve_geometry(
         width=width,
         series=series,
         contact_angle=angle,
+        resting_angle=resting,
     )
     geometry = with_clearance(as_bought, clearance)
     check_geometry(geometry, races, ledger)
@@ -239,24 +244,6 @@ def _groove(picker: Picker, ring: str, ball: float) -> float:
     return radius
 
 
-def _shoulder(picker: Picker, ring: str, ball: float, pitch: float, angle: float) -> float:
-    """Return the diameter of a ring's shoulder; of angular contact that of the high one, which carries the load."""
-    name = f"shoulder_diameter_{ring}"
-    diameter = picker.take(name)
-    sign = -1.0 if ring == "inner" else 1.0
-    if diameter is None and angle > 0.0:
-        height = HIGH_SHOULDERS[ring]
-        diameter = pitch + sign * (1.0 - 2.0 * height) * ball
-        text = f"high shoulder {height:g} D_w over the raceway"
-        picker.ledger.record(f"bearing.{name}", diameter, "length", text, "assumed")
-        picker.ledger.assume(f"{ring} ring: {text}, the mean of SKF's 72 and 73 BE; the low one is not in the model")
-    elif diameter is None:
-        diameter = pitch + sign * 0.5 * SHOULDER_SPREAD * ball
-        picker.ledger.record(f"bearing.{name}", diameter, "length", "pitch -+ 0.605 D_w", "assumed")
-        picker.ledger.assume("shoulder diameters: pitch diameter -+ 0.605 D_w, the mean of catalogue shoulders")
-    return diameter
-
-
 def mm(length: float) -> str:
     """Write a length for people."""
     return f"{length * 1e3:.6g} mm"
@@ -298,14 +285,14 @@ def check_geometry(geometry: Geometry, races: tuple[float | None, float | None],
         _check_races(g, races[0], races[1], say)
     inner_ok = g.race_diameter_inner < g.shoulder_diameter_inner < pitch
     outer_ok = pitch < g.shoulder_diameter_outer < g.race_diameter_outer
-    for ring, fine, shoulder, race in (
+    for ring, fine, edge, race in (
         ("inner", inner_ok, g.shoulder_diameter_inner, g.race_diameter_inner),
         ("outer", outer_ok, g.shoulder_diameter_outer, g.race_diameter_outer),
     ):
         if not fine:
             say(
                 f"bearing.geometry.shoulder_diameter_{ring}",
-                f"{mm(shoulder)} must lie between raceway and pitch: "
+                f"{mm(edge)} must lie between raceway and pitch: "
                 + " to ".join(mm(end) for end in sorted((race, pitch))),
             )
     cut = 2.0 * max(_half_width(g, "inner"), _half_width(g, "outer"))
@@ -345,7 +332,7 @@ def check_clearance(g: Geometry, ledger: Ledger) -> None:
         return
     curvature = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
     shown = f"{g.clearance * 1e6:.4g} um"
-    if curvature > 0.0 and g.clearance > 2.0 * curvature * (1.0 - math.cos(LARGEST_FREE_ANGLE)):
+    if curvature > 0.0 and g.clearance > 2.0 * curvature * (math.cos(g.resting_angle) - math.cos(LARGEST_FREE_ANGLE)):
         ledger.problem(
             "bearing.clearance", f"{shown} lets the contacts leave the grooves (free contact angle over 45 deg)"
         )

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from lambda_core.domain.channels import ARC_CHANNELS, CHANNELS
 from lambda_core.domain.elements import RACEWAYS
 from lambda_core.laws.state import ROLE, State
 
@@ -18,6 +20,18 @@ def states_of(model: BearingModel, element: str) -> tuple[State, ...]:
 
 
 def state_channels(model: BearingModel) -> tuple[Channel, ...]:
-    """Return one channel for each state, of both raceways together."""
+    """Return one channel for each state, of all raceways together."""
     found = {state.name: state.channel for element in RACEWAYS for state in states_of(model, element)}
+    if model.geometry.four_point:
+        return tuple(replace(channel, dims=("ball", "arc")) for channel in found.values())
     return tuple(found.values())
+
+
+def arc_channels(model: BearingModel) -> tuple[Channel, ...]:
+    """Return the channels of arcs, where a ring has two."""
+    return ARC_CHANNELS if model.geometry.four_point else ()
+
+
+def result_channels(model: BearingModel) -> tuple[Channel, ...]:
+    """Return what every sample of a run of the model carries."""
+    return (*CHANNELS, *arc_channels(model), *state_channels(model))

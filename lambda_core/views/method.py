@@ -55,7 +55,7 @@ class ContactLoad:
 class EquilibriumState:
     """The quasi-static solution as methods see it, SI."""
 
-    contacts: tuple[ContactLoad, ...]
+    contacts: tuple[ContactLoad, ...]  # ball by ball; of four-point contact of one pair of arcs, then of the other
     displacement: tuple[float, float, float, float, float]  # inner ring x, y, z [m], tilt_y, tilt_z [rad]
     # 5 x 5, rows of d(load)/d(displacement) in the same order [N/m, N/rad, N m/rad]; None when not computed
     stiffness: tuple[tuple[float, ...], ...] | None = None
@@ -97,6 +97,7 @@ class MethodInputs:
     designation: str = ""  # as it is written, with its suffixes
     shoulder_diameter_inner: float | None = None  # of the inner ring, on which lips of seals slide [m]
     contact_angle: float = 0.0  # free one of an angular contact bearing, which ratings go by; 0: radial contact [rad]
+    rated_rows: int = 1  # of balls, by which the standards rate it: two of four-point contact, a pair of arcs each
 
     @property
     def mean_diameter(self) -> float:

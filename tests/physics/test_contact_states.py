@@ -18,7 +18,7 @@ from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.plugins import OK, Parameters, State, law, parameter
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.solver.drivers.equilibrium import first_state
+from lambda_core.solver.drivers.first_state import first_state
 from lambda_core.solver.entry import core
 
 NAME = "6208-axial-1300"

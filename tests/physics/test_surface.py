@@ -118,7 +118,7 @@ def test_a_view_inside_the_contact_sees_the_same_surface() -> None:
     state.shared[0, L.STHETA] = 0.3
     state.balls[:, L.BVT], state.balls[:, L.BWX] = 2.0, 150.0
     y = m.vector(state)
-    field = contact_field(m.context, state.balls[0], m.shared_state(y, 0.0)[0], "inner")
+    field = contact_field(m.context, state.balls[0], m.shared_state(y, 0.0)[0], 0)
     pressure, nominal = (float(each.observe(y)["max_pressure"][0, 0]) for each in (m, machine(*STILL)))
     assert float(field.pressure.max()) == pytest.approx(pressure, rel=0.01)
     assert pressure != pytest.approx(nominal, rel=1e-3)

@@ -37,7 +37,7 @@ def test_what_is_impossible_is_refused(change: str) -> None:
 
 
 def test_the_ranges_are_those_of_the_catalogue() -> None:
-    filling: dict[str, list[float]] = {"deep groove": [], "angular contact": []}
+    filling: dict[str, list[float]] = {"deep groove": [], "angular contact": [], "four-point": []}
     wall, width = [], []
     for row in api.catalogue().bearings(limit=10_000):
         if row.ball_count is None or row.ball_diameter is None:
@@ -48,10 +48,15 @@ def test_the_ranges_are_those_of_the_catalogue() -> None:
         filling[row.kind].append(2.0 * (row.ball_count.value - 1) * math.degrees(math.asin(ball / pitch)))
         wall += [0.5 * (pitch - ball - bore) / ball, 0.5 * (outside - pitch - ball) / ball]
         width.append(broad / ball)
-    assert {kind: len(found) for kind, found in filling.items()} == {"deep groove": 349, "angular contact": 201}
+    assert {kind: len(found) for kind, found in filling.items()} == {
+        "deep groove": 349,
+        "angular contact": 201,
+        "four-point": 46,
+    }
     for found, (least, most), step in (
         (filling["deep groove"], proportions.FILLING, 1.0),
         (filling["angular contact"], proportions.ANGULAR_FILLING, 1.0),
+        (filling["four-point"], proportions.FOUR_POINT_FILLING, 1.0),
         (wall, proportions.WALL, 0.01),
         (width, proportions.WIDTH, 0.01),
     ):

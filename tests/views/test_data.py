@@ -292,13 +292,13 @@ def test_the_contact_field_carries_the_load_and_the_loss(radial_run: Result) -> 
     depth = radial_run.model["depth"]
     for index, ring in enumerate(("inner", "outer")):
         state = contact_state(sample, ball, ring)
-        same = contact_field(context, *state, ring, depth["strips"], depth["rows"])
+        same = contact_field(context, *state, index, depth["strips"], depth["rows"])
         # The contact angles at which the radii are frozen are found again, to 1e-4 rad.
         assert same.load == pytest.approx(sample["load"][ball, index], rel=1e-6)
         assert same.film == pytest.approx(sample["film_central"][ball, index], rel=1e-5)
         # Sliding is a small difference of large speeds.
         assert same.loss == pytest.approx(sample["contact_loss"][ball, index], rel=1e-3)
-        fine = contact_field(context, *state, ring, 81, 41)
+        fine = contact_field(context, *state, index, 81, 41)
         assert fine.loss == pytest.approx(same.loss, rel=0.03)
         # The pressure carries the elastic load; the recorded load has the small damping force in it too.
         assert np.sum(fine.pressure * fine.area) == pytest.approx(fine.load, rel=2e-3)

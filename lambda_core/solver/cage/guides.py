@@ -65,11 +65,11 @@ def _project(v, g):
 def pocket_state(ball, cage, j, row, g):
     """Write position and velocity of the row's ball j relative to its pocket, in the pocket's frame."""
     axis, omega = turning_body(cage)
-    write_frame(axis, cage.angle + 2.0 * math.pi * (j - row.first_ball) / row.balls, g)
+    write_frame(axis, cage.angle + row.pocket_phase + 2.0 * math.pi * (j - row.first_ball) / row.balls, g)
     c, s = math.cos(ball.azimuth), math.sin(ball.azimuth)
     # Ball from the cage's centre.
     d = subtract((ball.x, ball.radius * c, ball.radius * s), cage.position)
-    store(g.origin, scale(row.pocket_circle, g.radial))
+    store(g.origin, add(scale(row.pocket_circle, g.radial), scale(row.pocket_offset, axis)))
     store(g.place, _project(subtract(d, g.origin), g))
     v = subtract(subtract(inertial(ball.velocity, c, s), cage.velocity), cross(omega, d))
     store(g.velocity, _project(v, g))

@@ -22,6 +22,7 @@ from lambda_core.solver.contact import cell_probe as probe
 from lambda_core.solver.drivers.contact_grid import unit_grid
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.solver_context import SolverContext
+from lambda_core.system.raceways import raceways
 
 
 @dataclass(frozen=True)
@@ -97,9 +98,9 @@ def contact_state(sample: Mapping[str, FloatArray], ball: int, ring: str) -> tup
 
 
 def contact_field(
-    context: SolverContext, ball: FloatArray, body: FloatArray, ring: str, strips: int = 61, rows: int = 41
+    context: SolverContext, ball: FloatArray, body: FloatArray, place: int, strips: int = 61, rows: int = 41
 ) -> ContactField:
-    """Run the contact pipeline of one ball and one ring on a fine grid.
+    """Run the contact pipeline of one ball and one raceway on a fine grid.
 
     Parameters
     ----------
@@ -107,16 +108,16 @@ def contact_field(
         Of the equilibrium that the run started from.
     ball, body : float64[:], shapes (9,) and (12,)
         States of the ball and of the ring (lambda_core.solver.layout).
-    ring : str
-        ``inner`` or ``outer``.
+    place : int
+        Which of the bearing's raceways, in the order of system.raceways.raceways.
 
     Raises
     ------
     SolverError
         When the bodies do not touch, or a law refuses.
     """
-    index, bundle, kernels = RINGS.index(ring), context.bundle, context.kernels
-    raceway: Any = bundle.raceways[index]
+    bundle, kernels, groove = context.bundle, context.kernels, raceways(context.model.geometry)[place]
+    raceway: Any = bundle.raceways[place]
     grid = unit_grid(strips, rows)
     cells, scratch = np.zeros((2, L.CELL_ROWS, grid.shape[1] + L.GUARD)), np.zeros_like(bundle.scratch)
     losses = np.zeros(L.MECHANISMS * bundle.raceways.size)
@@ -124,9 +125,9 @@ def contact_field(
     finer = bundle._replace(grid=grid, cells=cells, scratch=scratch)
     probed = compile_host(probe.probe, probe.probe_sig, compiled_sources()).dispatcher
     run = probed.get_compile_result(probe.probe_sig).entry_point  # a dispatcher would work out types, and warn
-    status = run(ball.view(R.BALL), body.view(R.BODY_STATE), index, finer, losses)
+    status = run(ball.view(R.BALL), body.view(R.BODY_STATE), place, finer, losses)
     if status == -1:
-        raise SolverError(f"the ball does not touch the {ring} ring at this moment")
+        raise SolverError(f"the ball does not touch the {RINGS[groove.ring]} ring at this moment")
     if status != 1:
         bundle.scratch["fault"] = scratch["fault"]
         raise SolverError(fault_sentence(context))
@@ -136,7 +137,7 @@ def contact_field(
     def mesh(values: FloatArray) -> FloatArray:
         return values[: strips * rows].reshape(strips, rows).copy()
 
-    element = f"ball_{ring}"
+    element = groove.element
     pars = {name: context.parameters(element, name) for name in ("rheology", "permittivity")}
     ln_eta, density, permittivity = np.zeros((3, grid.shape[1]))
     inlet = np.full(grid.shape[1], float(raceway.oil.temperature))

@@ -9,9 +9,9 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.laws.state import ROLE
-from lambda_core.solver.drivers.law_inputs import RACEWAYS
 from lambda_core.solver.drivers.tables import Tables
 from lambda_core.system.bearing import BearingModel
+from lambda_core.system.raceways import raceways, raceways_of_a_ball
 from lambda_core.system.state_channels import state_channels, states_of
 
 _STEP = 1e-6  # of a state's scale, for the slopes of its rates
@@ -36,30 +36,41 @@ def state_arrays(model: BearingModel, tables: Tables) -> dict[str, Any]:
 
 def state_tail(model: BearingModel) -> FloatArray:
     """Return the scales of all states of contacts."""
-    rows = [np.tile([state.scale for state in states_of(model, e)], model.geometry.ball_count) for e in RACEWAYS]
+    rows = [
+        np.tile([state.scale for state in states_of(model, raceway.element)], model.geometry.ball_count)
+        for raceway in raceways(model.geometry)
+    ]
     return np.concatenate(rows).astype(np.float64)
 
 
 def channels_of_states(model: BearingModel, tails: FloatArray) -> dict[str, FloatArray]:
-    """Return the channels of states of contacts, shape (n, Z, 2), from the ends of n state vectors.
+    """Return the channels of states of contacts from the ends of n state vectors, shape (n, balls, 2).
 
-    NaN for a raceway whose law does not keep the state.
+    Of four-point contact (n, balls, 4), by arc. NaN for a raceway whose law does not keep the state.
     """
-    count, z = len(tails), model.geometry.ball_count
-    found = {channel.name: np.full((count, z, len(RACEWAYS)), np.nan) for channel in state_channels(model)}
+    g = model.geometry
+    count, z, places = len(tails), g.ball_count, len(raceways_of_a_ball(g))
+    found = {channel.name: np.full((count, g.balls, places), np.nan) for channel in state_channels(model)}
     begin = 0
-    for ring, element in enumerate(RACEWAYS):
-        states = states_of(model, element)
+    for i, raceway in enumerate(raceways(g)):
+        states, row = states_of(model, raceway.element), slice(raceway.row * z, (raceway.row + 1) * z)
         own = tails[:, begin : begin + z * len(states)].reshape(count, z, len(states))
-        for i, state in enumerate(states):
-            found[state.name][:, :, ring] = own[:, :, i]
+        for k, state in enumerate(states):
+            found[state.name][:, row, i % places] = own[:, :, k]
         begin += z * len(states)
     return found
 
 
-def hand_over(model: BearingModel, bundle: Any, sample: Mapping[str, FloatArray], ball: int, ring: int) -> None:
-    """Write the states that one contact has in a sample where the laws of its raceway read them."""
-    raceway, states = bundle.raceways[ring], states_of(model, RACEWAYS[ring])
+def hand_over(model: BearingModel, bundle: Any, sample: Mapping[str, FloatArray], ball: int, place: int) -> None:
+    """Write the states that a contact has in a sample where the laws of its raceway read them.
+
+    Parameters
+    ----------
+    place : int
+        Which one of the ball's contacts.
+    """
+    raceway = bundle.raceways[place]
+    states = states_of(model, raceways_of_a_ball(model.geometry)[place].element)
     begin, end = raceway["slots"]
     for slot in bundle.slots[begin:end]:
-        bundle.par[slot["place"]] = sample[states[slot["state"]].name][ball, ring]
+        bundle.par[slot["place"]] = sample[states[slot["state"]].name][ball, place]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.channels import CHANNELS, LOSSES, SHORTED
+from lambda_core.domain.channels import LOSSES, SHORTED
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
@@ -19,6 +19,7 @@ from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, 
 from lambda_core.solver.drivers.given import make_room
 from lambda_core.solver.drivers.modes import ring_modes
 from lambda_core.solver.drivers.observation import Scratch, channels_of
+from lambda_core.solver.drivers.ring_values import losses_by_ring
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import CAGE, running
@@ -29,7 +30,7 @@ from lambda_core.solver.sampling import CONTACT_CHANNELS
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import max_speed
-from lambda_core.system.state_channels import state_channels
+from lambda_core.system.state_channels import result_channels
 
 _CAPACITY = 512
 _FIRST_STEP = 1e-7  # [s]
@@ -90,12 +91,12 @@ class BearingEngine:
         capacity: int = _CAPACITY,
     ) -> None:
         self.model = model
-        self.channels = (*CHANNELS, *state_channels(model))
+        self.channels = result_channels(model)
         self._equilibrium = equilibrium or solve(model, announce=announce, strict=False)
         self._core = core(announce)
         self._context = self._equilibrium.context
         self.given = make_room(self._context, given)
-        self._balls = model.geometry.ball_count
+        self._balls = model.geometry.balls
         start = initial_state(self._equilibrium)
         self._memory = memory.make_memory(
             start,
@@ -217,7 +218,8 @@ class BearingEngine:
         """Return running time integrals from t = 0 (see the Engine protocol)."""
         values = self._memory.integrals
         so_far, now = running(values), self._angles()
-        result = {f"loss.{name}": float(values[i]) for i, name in enumerate(LOSSES)}
+        losses = losses_by_ring(self.model.geometry, values[: -L.BESIDE_LOSSES])
+        result = {f"loss.{name}": float(losses[i]) for i, name in enumerate(LOSSES)}
         stored = self._stored(self.time, self._memory.y) - self._start_energy
         result.update(
             input=float(so_far["input"]),
@@ -312,7 +314,7 @@ def initial_state(equilibrium: Equilibrium) -> FloatArray:
     """
     context = equilibrium.context
     model = context.model
-    z = model.geometry.ball_count
+    z = model.geometry.balls
     y = equilibrium.state.copy()
     balls = y[: L.NB * z].view(R.BALL)
     balls["velocity"][:, 2] = equilibrium.orbit * balls["radius"]

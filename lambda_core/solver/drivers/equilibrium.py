@@ -8,7 +8,6 @@ the mean orbital speed of the others.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,22 +15,24 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
-from lambda_core.domain.elements import DOFS
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.ball_paths import path_velocities
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
-from lambda_core.solver.drivers.law_inputs import RACEWAYS, guides, links, times
+from lambda_core.solver.drivers.first_state import first_frame, first_state, roll
+from lambda_core.solver.drivers.law_inputs import guides, links, times
+from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring, rings_of_contacts
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.tables import INNER, OUTER
 from lambda_core.solver.entry import Core, core
 from lambda_core.solver.faults import OUTSIDE, ROLES
+from lambda_core.solver.sampling import CONTACT_CHANNELS
 from lambda_core.solver.statics.continuation import STATIC_REPORT
 from lambda_core.solver.status import Status
-from lambda_core.system.bearing import BearingModel
+from lambda_core.system.bearing import BearingModel, Geometry
 from lambda_core.system.law_context import ContactFrame
-from lambda_core.system.time_functions import initial
+from lambda_core.system.raceways import raceways, raceways_of_a_ball
 
 _FRAME_ITERATIONS = 4
 _FRAME_TOLERANCE = 1e-4  # [rad] change of the frozen contact angle that ends the iteration
@@ -43,6 +44,7 @@ PATH_ITERATIONS = 20
 PATH_SHARE = 0.5  # of the way to the velocities that the paths have
 PATH_TOLERANCE = 0.05  # of the largest axial velocity
 NO_PATH = 1e-6  # of rolling
+_LOAD, _ANGLE = CONTACT_CHANNELS.index("load"), CONTACT_CHANNELS.index("contact_angle")
 
 
 @dataclass
@@ -53,8 +55,10 @@ class Equilibrium:
     ----------
     state : float64[:], shape (size,)
         State vector (layout in lambda_core.solver.layout), balls at their own orbital speeds.
-    contacts : float64[:, :, :], shape (Z, 2, 16)
-        Contact channels (compiled.observe.CONTACT_CHANNELS), inner then outer.
+    contacts : float64[:, :, :], shape (balls, 2, 16)
+        Contact channels (sampling.CONTACT_CHANNELS), inner then outer ring; see ring_values.contacts_by_ring.
+    arcs : float64[:, :, :], shape (balls, contacts of a ball, 16)
+        The same by raceway, in the order of system.raceways.raceways_of_a_ball.
     losses : float64[:], shape (16,)
         Dissipated power by mechanism [W].
     displacement : tuple of 5 floats
@@ -72,12 +76,18 @@ class Equilibrium:
     context: SolverContext
     state: FloatArray
     contacts: FloatArray
+    arcs: FloatArray
     losses: FloatArray
     displacement: tuple[float, float, float, float, float]
     orbit: float
     relative_speed: float
     iterations: int
     converged: bool = True
+
+    def loads_by_row(self) -> tuple[list[float], list[float]]:
+        """Return the loads on inner and outer raceways row by row, of four-point contact by pairs of arcs [N]."""
+        load, sides = self.arcs[:, :, _LOAD], self.arcs.shape[1] // 2
+        return load[:, :sides].T.ravel().tolist(), load[:, sides:].T.ravel().tolist()
 
 
 def solve(
@@ -105,7 +115,7 @@ def solve(
     if model.thermal is not None:
         raise SolverError(f"{model.name}: its temperatures are still to be found: nothing can be solved before")
     kernels = kernels or Kernels(model, announce)
-    frame = _first_frame(model)
+    frame = first_frame(model)
     oils = derive_oils(model, kernels, frame)
     # A law that breaks the rules is refused at once, not after the solver was compiled.
     check_laws(model, kernels, frame, oils)
@@ -117,7 +127,7 @@ def solve(
             state = first_state(context, phase)
         continue_static(compiled, context, state, friction=False)
         contacts, _ = contact_channels(compiled, context, state)
-        new = mean_frame(contacts, frame)
+        new = mean_frame(model.geometry, contacts, frame)
         change = max(abs(a - b) for a, b in zip(new.angles, frame.angles, strict=True))
         frame = new
         if change < _FRAME_TOLERANCE:
@@ -125,7 +135,7 @@ def solve(
     context = assemble(model, kernels, frame, oils)
     assert state is not None
     continue_static(compiled, context, state, friction=False)
-    roll(model, frame, state)
+    roll(model, frame, state, contacts)
     smooth, converged = state.copy(), True
     try:
         report = continue_static(compiled, context, state, friction=True)
@@ -135,13 +145,14 @@ def solve(
             raise
         state, converged, report = smooth, False, np.zeros(1, dtype=STATIC_REPORT)
         report["orbit"] = smooth[L.BVT] / smooth[L.BR]
-    contacts, losses = contact_channels(compiled, context, state)
+    arcs, losses = contact_channels(compiled, context, state)
     inner, outer = context.bundle.bodies_now[INNER], context.bundle.bodies_now[OUTER]
     x, y, z, tilt_y, tilt_z = (float(v) for v in (*inner.position, -inner.tilt[1], inner.tilt[0]))
     return Equilibrium(
         context,
         state,
-        contacts,
+        contacts_by_ring(model.geometry, arcs),
+        arcs,
         losses,
         displacement=(x, y, z, tilt_y, tilt_z),
         orbit=float(report["orbit"][0]),
@@ -151,83 +162,12 @@ def solve(
     )
 
 
-def _first_frame(model: BearingModel) -> ContactFrame:
-    """Guess contact angle and load from the external loads at t = 0."""
-    force = [initial(f) for f in model.inner_ring.force]
-    force = [f + model.inner_ring.mass * a for f, a in zip(force, model.gravity, strict=True)]
-    total = math.sqrt(sum(f * f for f in force))
-    load = max(total * 3.0 / model.geometry.ball_count, 1.0)
-    free = free_contact_angle(model) if abs(force[0]) > 0.1 * total else 0.0
-    return ContactFrame((free, free), (load, load))
-
-
-def free_contact_angle(model: BearingModel) -> float:
-    """Return the contact angle when the axial play is just taken up, without load [rad].
-
-    cos(alpha_0) = 1 - G_r/(2 A), A = r_i + r_o - D_w (Harris and Kotzalas 2006, eq. 2.9).
-    """
-    g = model.geometry
-    distance = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
-    return math.acos(max(-1.0, min(1.0, 1.0 - 0.5 * max(g.clearance, 0.0) / distance)))
-
-
-def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
-    """Return balls evenly spaced, one of them lowest (moved on by `phase` pitches), the inner ring in contact."""
-    model = context.model
-    g = model.geometry
-    z = g.ball_count
-    force = [initial(f) for f in model.inner_ring.force]
-    force = [f + model.inner_ring.mass * a for f, a in zip(force, model.gravity, strict=True)]
-    total = math.sqrt(sum(f * f for f in force))
-    move = [0.0, 0.0, 0.0]
-    if total > 0.0:
-        distance = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
-        axial_play = distance * math.sin(free_contact_angle(model))
-        move[0] = (axial_play + 2e-6) * force[0] / total if abs(force[0]) > 0.1 * total else 0.0
-        radial = math.hypot(force[1], force[2])
-        if radial > 0.1 * total:
-            for i in (1, 2):
-                move[i] = (0.5 * g.clearance + 2e-6) * force[i] / total
-    bodies = np.zeros(3, R.BODY_STATE)
-    for b, body in enumerate((model.inner_ring, model.outer_ring, model.cage_body)):
-        for d, name in enumerate(DOFS[:3]):
-            dof = body.dofs[name]
-            if dof.mode == "prescribed":
-                bodies["position"][b, d] = initial(dof.motion)
-            elif b == INNER and dof.mode == "free":
-                bodies["position"][b, d] = move[d]
-        if body.dofs["spin"].mode == "free":
-            bodies["spin"][b] = initial(body.dofs["spin"].motion)
-    y = np.zeros(context.size)
-    balls = y[: L.NB * z].view(R.BALL)
-    balls["x"] = 0.5 * (bodies["position"][INNER, 0] + bodies["position"][OUTER, 0])
-    balls["radius"] = 0.5 * g.pitch_diameter
-    balls["azimuth"] = [-0.5 * math.pi + 2.0 * math.pi * (j + phase) / z for j in range(z)]
-    context.shared_part(y)[:] = bodies.view(np.float64)[context.bundle.active]
-    y[context.size - context.bundle.states.size :] = context.bundle.states
-    roll(model, context.frame, y)
-    return y
-
-
-def roll(model: BearingModel, frame: ContactFrame, y: FloatArray) -> None:
-    """Set orbital speeds and spins to pure rolling at the frozen contact angle, in place."""
-    g = model.geometry
-    inner, outer = (initial(b.dofs["spin"].motion) for b in (model.inner_ring, model.outer_ring))
-    angle = float(np.mean(frame.angles))
-    lever = 0.5 * g.ball_diameter * math.cos(angle)
-    v_inner, v_outer = inner * (0.5 * g.pitch_diameter - lever), outer * (0.5 * g.pitch_diameter + lever)
-    spin = (v_outer - v_inner) / g.ball_diameter
-    balls = y[: L.NB * g.ball_count].view(R.BALL)
-    balls["velocity"][:, 2] = 0.5 * (v_inner + v_outer)
-    balls["spin"] = spin * math.cos(angle), -spin * math.sin(angle), 0.0
-
-
 def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *, friction: bool) -> StaticReport:
     """Run the continuation from `state`, in place; returns its report."""
     system = context.bundle.system[0]
     system["friction_on"], system["guides_on"] = int(friction), 0
     report, last = np.zeros(1, dtype=STATIC_REPORT), np.zeros(state.size)
-    balls = context.model.geometry.ball_count
+    balls = context.model.geometry.balls
     trust, held = np.ones(balls), np.zeros(balls, dtype=np.int64)
     status = Status.UNFINISHED
     while (
@@ -261,11 +201,12 @@ def _follow_paths(compiled: Core, context: SolverContext, state: FloatArray, rep
     A ball that is carried across the grooves while it goes round drags the rings sideways where it slips; at rest it
     would drag them twice as much. Under a radial or an axial load alone there is no axial path and nothing to do.
     """
-    balls = state[: L.NB * context.model.geometry.ball_count].view(R.BALL)
+    g = context.model.geometry
+    balls = state[: L.NB * g.balls].view(R.BALL)
     rolling = float(np.abs(balls["velocity"][:, 2]).max())
     moving = np.zeros((balls.size, 2))
     for k in range(PATH_ITERATIONS):
-        aim = path_velocities(balls)
+        aim = np.concatenate([path_velocities(row) for row in np.split(balls, g.rows)])
         across = float(np.abs(aim[:, 0]).max())
         change = float(np.abs(aim - moving)[:, 0].max())
         if across <= NO_PATH * rolling or change <= PATH_TOLERANCE * across:
@@ -290,9 +231,10 @@ def _no_equilibrium(report: StaticReport, *, friction: bool) -> str:
 
 
 def contact_channels(compiled: Core, context: SolverContext, state: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return contact channels (Z, 2, 16) and losses (16,) [W] at a state."""
-    z, bundle, powers = context.model.geometry.ball_count, context.bundle, L.power_count(context.bundle)
-    contacts, rates = np.zeros((1, z, 2, 16)), np.zeros((1, powers))
+    """Return contact channels by raceway (balls, contacts of a ball, 16) and losses (16,) [W] at a state."""
+    g, bundle, powers = context.model.geometry, context.bundle, L.power_count(context.bundle)
+    z = g.balls
+    contacts, rates = np.zeros((1, z, len(raceways_of_a_ball(g)), 16)), np.zeros((1, powers))
     system = bundle.system[0]
     system["guides_on"] = 0
     ok = compiled.observe(
@@ -303,14 +245,14 @@ def contact_channels(compiled: Core, context: SolverContext, state: FloatArray) 
     system["guides_on"] = 1
     if ok != 1:
         raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(context)}")
-    return contacts[0], rates[0, : -L.BESIDE_LOSSES].copy()
+    return contacts[0], losses_by_ring(g, rates[0, : -L.BESIDE_LOSSES]).copy()
 
 
-def mean_frame(contacts: FloatArray, before: ContactFrame) -> ContactFrame:
-    """Return load-weighted contact angles (absolute) and mean loads of the loaded contacts."""
-    angles, loads = [], []
+def mean_frame(geometry: Geometry, contacts: FloatArray, before: ContactFrame) -> ContactFrame:
+    """Return load-weighted contact angles (absolute) and mean loads of the loaded contacts of each ring."""
+    angles, loads, rings = [], [], rings_of_contacts(geometry)
     for i in range(2):
-        load, angle = contacts[:, i, 0], np.abs(contacts[:, i, 1])
+        load, angle = contacts[:, rings == i, _LOAD].ravel(), np.abs(contacts[:, rings == i, _ANGLE]).ravel()
         angles.append(float(np.sum(load * angle) / np.sum(load)) if np.sum(load) > 0.0 else before.angles[i])
         loads.append(float(np.mean(load[load > 0.0])) if np.any(load > 0.0) else before.mean_loads[i])
     return ContactFrame((angles[0], angles[1]), (loads[0], loads[1]))
@@ -335,7 +277,7 @@ def fault_sentence(context: SolverContext, time: float | None = None) -> str:
     elif role == "cage_contact":
         element = {0: "cage_inner", 1: "cage_outer"}.get(number, guides(context.model)[0])
     else:
-        element = RACEWAYS[max(number, 0)]
+        element = raceways(context.model.geometry)[max(number, 0)].element
     model = context.model.laws[element][role].model
     status = int(fault.status)
     if status == 1:

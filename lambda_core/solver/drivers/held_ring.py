@@ -14,10 +14,10 @@ from lambda_core.solver.drivers.equilibrium import (
     Equilibrium,
     contact_channels,
     continue_static,
-    first_state,
     mean_frame,
     solve,
 )
+from lambda_core.solver.drivers.first_state import first_state
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.stiffness import freed, stiffness_at
 from lambda_core.solver.entry import core
@@ -107,7 +107,7 @@ class HeldRing:
     def refresh(self) -> bool:
         """Freeze radii and films at the contact angles of the last pose; False where they stood there already."""
         contacts, _ = contact_channels(core(), self._context, self._state)
-        new = mean_frame(contacts, self._frame)
+        new = mean_frame(self.model.geometry, contacts, self._frame)
         change = max(abs(a - b) for a, b in zip(new.angles, self._frame.angles, strict=True))
         if change < _SAME_ANGLE:
             return False

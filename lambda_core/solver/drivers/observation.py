@@ -13,10 +13,12 @@ from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.contact_memory import channels_of_states
 from lambda_core.solver.drivers.equilibrium import fault_sentence
+from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.entry import Core
 from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.system.state_channels import arc_channels
 
 
 class Scratch(NamedTuple):
@@ -33,7 +35,7 @@ class Scratch(NamedTuple):
     @classmethod
     def of(cls, n: int, context: SolverContext) -> Scratch:
         """Allocate for `n` samples."""
-        z, powers = context.model.geometry.ball_count, L.power_count(context.bundle)
+        z, powers = context.model.geometry.balls, L.power_count(context.bundle)
         shapes = (
             (n, z, int(context.bundle.rows["raceways"].max()), 16),
             (n, z, 3),
@@ -70,7 +72,8 @@ def channels_of(
     """Return what was written about samples by the names of the channels."""
     if ok != 1:
         raise SolverError(fault_sentence(context))
-    n, z = times.size, context.model.geometry.ball_count
+    n, geometry = times.size, context.model.geometry
+    z = geometry.balls
     contacts, pockets, lands, extra, flat, rates, _ = scratch
     bodies = flat.view(R.BODY_STATE)
     balls = np.ascontiguousarray(states[:n, : L.NB * z]).view(R.BALL)
@@ -92,11 +95,15 @@ def channels_of(
         "land_force": lands,
         "bearing_capacitance": totals["capacitance"].copy(),
         "input_torque": totals["torque"].copy(),
-        "loss": rates[:, : -L.BESIDE_LOSSES].copy(),
+        "loss": losses_by_ring(geometry, rates[:, : -L.BESIDE_LOSSES]).copy(),
         "input_power": running(rates)["input"].copy(),
         "stored_energy": totals["stored_energy"].copy(),
     }
+    by_ring = contacts_by_ring(geometry, contacts)
     for i, name in enumerate(CONTACT_CHANNELS):
-        channels[name] = contacts[:, :, :, i].copy()
+        channels[name] = by_ring[:, :, :, i].copy()
+    for channel in arc_channels(context.model):
+        i = CONTACT_CHANNELS.index(channel.name.removeprefix("arc_"))
+        channels[channel.name] = contacts[:, :, :, i].copy()
     tails = states[:n, context.size - context.bundle.states.size :]
     return channels | channels_of_states(context.model, tails)

@@ -15,7 +15,7 @@ from lambda_core.solver import records as R
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.contact_grid import unit_grid
 from lambda_core.solver.drivers.contact_memory import state_arrays, state_tail
-from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils
+from lambda_core.solver.drivers.law_inputs import Oils
 from lambda_core.solver.drivers.tables import build_tables
 from lambda_core.solver.drivers.time_tables import build_times
 from lambda_core.solver.entry import core
@@ -24,6 +24,7 @@ from lambda_core.solver.integrator.blocks import make_blocks
 from lambda_core.solver.integrator.memory import Memory
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame
+from lambda_core.system.raceways import raceways
 
 
 def state_scales(model: BearingModel, active: NDArray[np.int64]) -> FloatArray:
@@ -37,7 +38,7 @@ def state_scales(model: BearingModel, active: NDArray[np.int64]) -> FloatArray:
     ball = [length, length, length / arm, speed, speed, speed, spin, spin, spin]
     body = [length] * 3 + [length / arm] * 3 + [speed] * 3 + [speed / arm] * 3
     shared = np.array(body * 3)
-    return np.concatenate([np.tile(ball, model.geometry.ball_count), shared[active], state_tail(model)])
+    return np.concatenate([np.tile(ball, model.geometry.balls), shared[active], state_tail(model)])
 
 
 @dataclass
@@ -70,9 +71,14 @@ class SolverContext:
         pointers = (c.evaluate_pointer, c.jacobian_pointer, advance, c.observe_pointer)
         return c.make_context(*pointers, self.bundle, self.blocks, self.factors, memory)
 
+    def raceway(self, element: str) -> Any:
+        """Return the record of a ring's raceway, of the first where it has several alike."""
+        found = (raceway.element for raceway in raceways(self.model.geometry))
+        return self.bundle.raceways[next(i for i, name in enumerate(found) if name == element)]
+
     def parameters(self, element: str, role: str) -> FloatArray:
         """Return the parameters of a raceway's law, a view of what compiled code reads."""
-        begin, end = self.bundle.raceways[RACEWAYS.index(element)]["parameters"][role]
+        begin, end = self.raceway(element)["parameters"][role]
         found: FloatArray = self.bundle.par[begin:end]
         return found
 

@@ -80,7 +80,7 @@ def _moved(
     found: SolverContext, context: SolverContext, state: FloatArray, displacement: Sequence[float]
 ) -> FloatArray:
     """Return a state of `found` in the layout of the freed ring."""
-    count = context.model.geometry.ball_count
+    count = context.model.geometry.balls
     shared = np.zeros(context.bundle.shared.size)
     shared[found.bundle.active] = found.shared_part(state)
     shared[list(_STATES)] = _SIGNS * np.array(displacement)

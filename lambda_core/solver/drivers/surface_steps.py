@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from lambda_core.solver.drivers.law_inputs import RACEWAYS
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.system.law_context import max_speed
 
@@ -24,8 +25,8 @@ def longest_step(context: SolverContext) -> float:
     model = context.model
     ratio = model.geometry.ball_diameter / model.geometry.pitch_diameter
     longest = math.inf
-    for i, element in enumerate(("ball_inner", "ball_outer")):
-        if context.bundle.raceways[i]["surface_on"] == 0:
+    for i, element in enumerate(RACEWAYS):
+        if context.raceway(element)["surface_on"] == 0:
             continue
         passing = 0.5 * (1.0 + (ratio if i == 0 else -ratio)) * max_speed(model)
         width = _shortest(context, element, context.frame.angles[i])

@@ -18,6 +18,8 @@ from lambda_core.solver import records as R
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of, times
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame, build_context, effective_modulus, prepare
+from lambda_core.system.raceways import raceways as raceways_of
+from lambda_core.system.raceways import raceways_of_a_ball, row_places
 from lambda_core.system.state_channels import states_of
 
 # Below this mean surface velocity the rolling losses change sign smoothly: far below any running speed, wide
@@ -72,20 +74,20 @@ def ball_mass(model: BearingModel) -> float:
 
 
 def build_tables(model: BearingModel, frame: ContactFrame, oils: Oils, terms: NDArray[np.void]) -> Tables:
-    """Return the tables of one bearing: three bodies, one row of balls, two raceways.
+    """Return the tables of one bearing: three bodies, its rows of balls and its raceways.
 
     Into `terms`, records.TERM, goes where the laws among them have their parameters.
     """
     parameters = _Parameters(model, frame, oils)
     raceways = _raceways(model, frame, oils, parameters)
     rows, lands = _rows(model, oils[0], parameters), _lands(model, oils[0], parameters)
-    rows[0]["drag"] = parameters.add("fluid_drag", "fluid_drag")
+    rows["drag"] = parameters.add("fluid_drag", "fluid_drag")
     between = _links(model, parameters)
     for i, element in enumerate(times(model)):
         terms["parameters"][(terms["kind"] == R.LAW) & (terms["law"] == i)] = parameters.add(element, "time_function")
     system = np.zeros(1, R.SYSTEM)
     s = system[0]
-    s["balls"], s["gravity"] = model.geometry.ball_count, model.gravity
+    s["balls"], s["gravity"] = model.geometry.balls, model.gravity
     s["roll_floor"], s["slip_floor"] = ROLL_FLOOR, SLIP_FLOOR
     s["surfaces"] = int(raceways["surface_on"].any())
     s["friction_on"], s["guides_on"] = 1, 1
@@ -115,22 +117,24 @@ def _oil(record: Any, oil: Oil) -> None:
 
 def _raceways(model: BearingModel, frame: ContactFrame, oils: Oils, parameters: _Parameters) -> Any:
     g, radius = model.geometry, 0.5 * model.geometry.ball_diameter
-    grooves = (g.groove_radius_inner, g.groove_radius_outer)
-    circles = (0.5 * g.race_diameter_inner + grooves[0], 0.5 * g.race_diameter_outer - grooves[1])
-    raceways = np.zeros(2, R.RACEWAY)
-    for i, (record, element, ring) in enumerate(
-        zip(raceways, RACEWAYS, (model.inner_material, model.outer_material), strict=True)
-    ):
-        rx, ry = ball_raceway_radii(g.ball_diameter, g.pitch_diameter, grooves[i], frame.angles[i], inner=i == INNER)
-        record["number"], record["body"], record["laws"] = i, (INNER, OUTER)[i], i
-        record["side"] = (-1.0, 1.0)[i]
-        record["groove_circle"], record["groove_radius"], record["ball_radius"] = circles[i], grooves[i], radius
+    grooves = raceways_of(g)
+    raceways = np.zeros(len(grooves), R.RACEWAY)
+    for i, (record, groove) in enumerate(zip(raceways, grooves, strict=True)):
+        ring, element = groove.ring, groove.element
+        rx, ry = ball_raceway_radii(
+            g.ball_diameter, g.pitch_diameter, groove.groove_radius, frame.angles[ring], inner=ring == INNER
+        )
+        material = (model.inner_material, model.outer_material)[ring]
+        record["number"], record["body"], record["laws"] = i, (INNER, OUTER)[ring], RACEWAYS.index(element)
+        record["side"] = (-1.0, 1.0)[ring]
+        record["groove_circle"], record["groove_radius"] = groove.groove_circle, groove.groove_radius
+        record["axial_offset"], record["ball_radius"] = groove.axial_offset, radius
         record["radius_x"], record["radius_y"] = rx, ry
-        record["modulus"] = effective_modulus(model.ball_material, ring)
-        record["radius_deformed"] = 2.0 * grooves[i] * radius / (grooves[i] + radius)
+        record["modulus"] = effective_modulus(model.ball_material, material)
+        record["radius_deformed"] = 2.0 * groove.groove_radius * radius / (groove.groove_radius + radius)
         record["roughness"] = model.roughness
         record["surface_on"] = int(model.laws[element]["surface"].model.name != "none")
-        _oil(record["oil"], oils[i])
+        _oil(record["oil"], oils[ring])
         for role in R.RACEWAY_ROLES:
             record["parameters"][role] = parameters.add(element, role)
     return raceways
@@ -139,29 +143,34 @@ def _raceways(model: BearingModel, frame: ContactFrame, oils: Oils, parameters: 
 def _keep_states(model: BearingModel, raceways: Any) -> Any:
     """Give the states of contacts their places; returns where laws read them: behind their own parameters."""
     slots: list[tuple[int, int]] = []
-    count = 0
-    for record, element in zip(raceways, RACEWAYS, strict=True):
-        kept = [state.name for state in states_of(model, element)]
+    count, each = 0, model.geometry.ball_count
+    for record, groove in zip(raceways, raceways_of(model.geometry), strict=True):
+        kept = [state.name for state in states_of(model, groove.element)]
         begin = len(slots)
         for role in R.RACEWAY_ROLES:
-            names, end = names_behind(model.laws[element][role].model), int(record["parameters"][role][1])
+            names, end = names_behind(model.laws[groove.element][role].model), int(record["parameters"][role][1])
             slots += [(kept.index(name), end - len(names) + i) for i, name in enumerate(names)]
-        record["states"], record["first_state"], record["slots"] = len(kept), count, (begin, len(slots))
-        count += len(kept) * model.geometry.ball_count
+        # compiled code counts the balls of all rows
+        record["states"], record["slots"] = len(kept), (begin, len(slots))
+        record["first_state"] = count - groove.row * each * len(kept)
+        count += len(kept) * each
     return np.array(slots, R.SLOT)
 
 
 def _rows(model: BearingModel, oil: Oil, parameters: _Parameters) -> Any:
     g, radius, mass = model.geometry, 0.5 * model.geometry.ball_diameter, ball_mass(model)
-    rows = np.zeros(1, R.ROW)
-    record = rows[0]
-    record["balls"], record["raceways"] = g.ball_count, 2
-    record["cage"], record["caged"] = CAGE, int(model.depth.cage)
-    record["ball_radius"], record["ball_mass"], record["ball_inertia"] = radius, mass, 0.4 * mass * radius**2
-    record["pocket_circle"] = 0.5 * g.pitch_diameter
-    record["drag_on"] = int(model.laws["fluid_drag"]["fluid_drag"].model.name != "none")
-    _oil(record["oil"], oil)
-    record["pocket"] = parameters.add(guides(model)[0], "cage_contact")
+    rows, pocket = np.zeros(g.rows, R.ROW), parameters.add(guides(model)[0], "cage_contact")
+    each = len(raceways_of_a_ball(g))
+    for i, (record, place) in enumerate(zip(rows, row_places(g), strict=True)):
+        record["number"], record["first_ball"], record["balls"] = i, i * g.ball_count, g.ball_count
+        record["first_raceway"], record["raceways"] = i * each, each
+        record["cage"], record["caged"] = CAGE, int(model.depth.cage)
+        record["ball_radius"], record["ball_mass"], record["ball_inertia"] = radius, mass, 0.4 * mass * radius**2
+        record["pocket_circle"], record["pocket_offset"] = 0.5 * g.pitch_diameter, place
+        record["pocket_phase"] = i * math.pi / g.ball_count  # the rows' balls stand in turn
+        record["drag_on"] = int(model.laws["fluid_drag"]["fluid_drag"].model.name != "none")
+        _oil(record["oil"], oil)
+        record["pocket"] = pocket
     return rows
 
 

@@ -52,14 +52,19 @@ _GRIP = 0.02  # share of the largest ball load below which the cage sets a ball'
 
 @helper
 def _load_shares(y, bundle, share):
-    """Write the load of each ball on its row's first raceway over the largest one."""
+    """Write the load of each ball on the ring of its row's first raceway over the largest one."""
     balls, kin = y[: NB * share.size].view(BALL), bundle.scratch[0].kinematics[0]
     largest = 1e-300
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
-        raceway = bundle.raceways[row.first_raceway]
+        body = bundle.raceways[row.first_raceway].body
         for j in range(row.first_ball, row.first_ball + row.balls):
-            share[j] = max(0.0, contact_kinematics(balls[j], bundle.bodies_now[raceway.body], raceway, kin))
+            share[j] = 0.0
+            for k in range(row.first_raceway, row.first_raceway + row.raceways):
+                raceway = bundle.raceways[k]
+                if raceway.body == body:
+                    delta = contact_kinematics(balls[j], bundle.bodies_now[body], raceway, kin)
+                    share[j] = max(share[j], delta)
             largest = max(largest, share[j])
     for j in range(share.size):
         share[j] = (share[j] / largest) ** 1.5

@@ -23,10 +23,10 @@ def _ratings(inputs: MethodInputs, assumptions: list[str]) -> tuple[float, float
     geometry = (inputs.ball_count, inputs.ball_diameter, inputs.pitch_diameter)
     dynamic, static, fatigue = inputs.dynamic_rating, inputs.static_rating, inputs.fatigue_limit
     if dynamic is None:
-        dynamic = dynamic_rating(*geometry, contact_angle=inputs.contact_angle)
+        dynamic = dynamic_rating(*geometry, contact_angle=inputs.contact_angle, rows=inputs.rated_rows)
         assumptions.append(f"C = {dynamic * 1e-3:.1f} kN from the inner geometry (ISO 281)")
     if static is None:
-        static = static_rating(*geometry, contact_angle=inputs.contact_angle)
+        static = static_rating(*geometry, contact_angle=inputs.contact_angle, rows=inputs.rated_rows)
         assumptions.append(f"C_0 = {static * 1e-3:.1f} kN from the inner geometry (ISO 76)")
     if fatigue is None:
         fatigue = fatigue_load_limit(static, inputs.pitch_diameter)
@@ -50,13 +50,13 @@ def evaluate_iso281(inputs: MethodInputs) -> MethodTable:
     assumptions: list[str] = []
     dynamic, static, fatigue = _ratings(inputs, assumptions)
     loads, angle = (inputs.radial_load, inputs.axial_load), inputs.contact_angle
-    equivalent = dynamic_equivalent_load(*loads, static, static_factor(_gamma(inputs)), angle)
+    equivalent = dynamic_equivalent_load(*loads, static, static_factor(_gamma(inputs)), angle, inputs.rated_rows)
     basic = basic_rating_life(dynamic, equivalent.load)
     rows = _life_rows("basic rating life", basic, inputs, "L_10")
     meaning = f"P = {equivalent.radial_factor:.3g} F_r + {equivalent.axial_factor:.3g} F_a"
     rows.append(MethodRow("life", "equivalent load", equivalent.load, "N", meaning))
     rows += _modified_rows("", basic, equivalent.load, fatigue, inputs, assumptions)
-    static_load = static_equivalent_load(*loads, angle)
+    static_load = static_equivalent_load(*loads, angle, inputs.rated_rows)
     rows.append(MethodRow("rating", "static equivalent load", static_load, "N", "P_0"))
     if static_load > 0.0:
         rows.append(MethodRow("rating", "static safety", static / static_load, "-", "C_0/P_0 (ISO 76)"))
@@ -101,6 +101,7 @@ def evaluate_ts16281(inputs: MethodInputs) -> MethodTable:
         outer_conformity=inputs.groove_radius_outer / inputs.ball_diameter,
         inner_rotates=inputs.inner_speed != 0.0 or inputs.outer_speed == 0.0,
         nominal_angle=inputs.contact_angle,
+        rows=inputs.rated_rows,
     )
     rows = _life_rows("reference rating life", result.life, inputs, "L_10r")
     rows.append(MethodRow("life", "reference equivalent load", result.equivalent_load, "N", "P_ref,r"))

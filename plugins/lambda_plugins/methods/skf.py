@@ -170,8 +170,10 @@ def skf_friction(
     mean_diameter = 0.5 * (bore_diameter + outside_diameter)
     k_z = K_Z
     if series in skf_angular.SERIES:
-        load_rolling, load_sliding = skf_angular.angular_variables(mean_diameter, radial_load, axial_load, speed)
-        k_z = skf_angular.K_Z
+        load_rolling, load_sliding = skf_angular.angular_variables(
+            mean_diameter, radial_load, axial_load, speed, series
+        )
+        k_z = skf_angular.K_Z[series]
     else:
         constants = series_constants(series)
         load_rolling, load_sliding = load_variables(constants, mean_diameter, radial_load, axial_load, static_rating)

@@ -1,4 +1,4 @@
-"""SKF's friction variables of single-row angular contact ball bearings.
+"""SKF's friction variables of angular contact ball bearings, of single row and of four-point contact.
 
 Source: SKF, general catalogue 6000, "Friction": tables 2a, 3 and 5, footnote: F_a is the external axial load.
 """
@@ -8,8 +8,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-K_Z = 4.4  # geometric constant of single-row angular contact ball bearings (table 5)
-SERIES = ("70", "72", "73")
+# Series -> geometric constant (table 5).
+K_Z = {"70": 4.4, "72": 4.4, "73": 4.4, "QJ2": 3.1, "QJ3": 3.1}
+SERIES = tuple(K_Z)
 
 
 @dataclass(frozen=True)
@@ -25,10 +26,11 @@ class AngularConstants:
 
 
 SINGLE_ROW = AngularConstants(5.03e-7, 1.97, 1.90e-12, 1.30e-2, 0.68, 1.91e-12)
+FOUR_POINT = AngularConstants(4.78e-7, 2.42, 1.40e-12, 1.20e-2, 0.9, 1.40e-12)
 
 
 def angular_variables(
-    mean_diameter: float, radial_load: float, axial_load: float, speed: float, constants: AngularConstants = SINGLE_ROW
+    mean_diameter: float, radial_load: float, axial_load: float, speed: float, series: str = "72"
 ) -> tuple[float, float]:
     """Load and geometry variables (G_rr, G_sl) in the catalogue's units (torque in N mm).
 
@@ -42,7 +44,8 @@ def angular_variables(
     speed : float
         Relative speed of the rings [rad/s]: centrifugal force F_g of the balls.
     """
-    diameter, rpm, c = mean_diameter * 1e3, speed * 30.0 / math.pi, constants
+    diameter, rpm = mean_diameter * 1e3, speed * 30.0 / math.pi
+    c = FOUR_POINT if series.startswith("QJ") else SINGLE_ROW
     pressed = diameter**4 * rpm**2
     rolling = c.r1 * diameter**1.97 * (radial_load + c.r3 * pressed + c.r2 * axial_load) ** 0.54
     loads = (radial_load + c.s3 * pressed) ** (4.0 / 3.0) + c.s2 * axial_load ** (4.0 / 3.0)

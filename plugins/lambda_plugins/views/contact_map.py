@@ -90,16 +90,29 @@ def _field(run: RunData, row: int, sample: dict[str, FloatArray], ball: int, rin
     from lambda_core.solver.drivers.contact_field import contact_field, contact_state
     from lambda_core.solver.drivers.contact_memory import hand_over
     from lambda_core.solver.drivers.equilibrium import solve
+    from lambda_core.system.raceways import raceways_of_a_ball
     from lambda_core.system.state_channels import state_channels
 
     try:
         context = solve(api.resolve(parse_case(run.case_toml, str(run.path)))).context
         _refuse_other_physics(run, context, ring)
         kept = run.sample(row, [channel.name for channel in state_channels(context.model)])
-        hand_over(context.model, context.bundle, kept, ball, ("inner", "outer").index(ring))
-        return contact_field(context, *contact_state(sample, ball, ring), ring, _STRIPS, _ROWS)
+        place = _place(run, row, context, ball, ring)
+        hand_over(context.model, context.bundle, kept, ball, place)
+        first = ball // context.model.geometry.ball_count * len(raceways_of_a_ball(context.model.geometry))
+        return contact_field(context, *contact_state(sample, ball, ring), first + place, _STRIPS, _ROWS)
     except (CaseError, SolverError) as error:
         raise NotApplicable(f"the contact cannot be computed again: {error}") from None
+
+
+def _place(run: RunData, row: int, context: SolverContext, ball: int, ring: str) -> int:
+    """Return which of a ball's contacts is that with a ring: with two arcs the one that carries more."""
+    from lambda_core.solver.drivers.ring_values import rings_of_contacts
+
+    places = np.flatnonzero(rings_of_contacts(context.model.geometry) == ("inner", "outer").index(ring))
+    if places.size == 1:
+        return int(places[0])
+    return int(places[np.argmax(run.sample(row, ("arc_load",))["arc_load"][ball, places])])
 
 
 def _refuse_other_physics(run: RunData, context: SolverContext, ring: str) -> None:

@@ -1,0 +1,66 @@
+"""What belongs to raceways, put together for their rings: results show a ring where it has two arcs."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import LOSSES, RINGS
+from lambda_core.solver import layout as L
+from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.system.bearing import Geometry
+from lambda_core.system.raceways import raceways, raceways_of_a_ball
+
+_LOAD = CONTACT_CHANNELS.index("load")
+# Of both contacts together; all else is that of the one which carries more.
+_SUMMED = tuple(CONTACT_CHANNELS.index(name) for name in ("capacitance_hertz", "capacitance", "contact_loss"))
+
+
+def rings_of_contacts(geometry: Geometry) -> NDArray[np.int64]:
+    """Return the ring of each contact of a ball, 0 inner, 1 outer."""
+    return np.array([raceway.ring for raceway in raceways_of_a_ball(geometry)])
+
+
+def contacts_by_ring(geometry: Geometry, contacts: FloatArray) -> FloatArray:
+    """Return the contacts of each ball with its rings, shape (..., Z, 2, channels), from those with its raceways.
+
+    Of two arcs the one that carries more is shown, with the capacitance and the loss of both.
+    """
+    if contacts.shape[-2] == len(RINGS):
+        return contacts
+    rings = rings_of_contacts(geometry)
+    found = np.empty((*contacts.shape[:-2], len(RINGS), contacts.shape[-1]))
+    for ring in range(len(RINGS)):
+        arcs = contacts[..., rings == ring, :]
+        most = np.argmax(arcs[..., _LOAD], axis=-1)[..., None, None]
+        found[..., ring, :] = np.take_along_axis(arcs, most, axis=-2)[..., 0, :]
+        found[..., ring, _SUMMED] = arcs[..., _SUMMED].sum(axis=-2)
+    return found
+
+
+def losses_by_ring(geometry: Geometry, powers: FloatArray) -> FloatArray:
+    """Return losses as channels.LOSSES has them, shape (..., 16), from those of every raceway and the rest."""
+    rings = np.array([raceway.ring for raceway in raceways(geometry)])
+    if rings.size == len(RINGS):
+        return powers
+    count = L.MECHANISMS * rings.size
+    each = powers[..., :count].reshape(*powers.shape[:-1], L.MECHANISMS, rings.size)
+    sums = np.stack([each[..., rings == ring].sum(axis=-1) for ring in range(len(RINGS))], axis=-1)
+    return np.concatenate([sums.reshape(*powers.shape[:-1], L.MECHANISMS * len(RINGS)), powers[..., count:]], axis=-1)
+
+
+def losses_of_raceways(geometry: Geometry, powers: FloatArray, first: int) -> dict[str, float]:
+    """Return what the raceways of one of several bearings dissipate, as channels.LOSSES has it; the rest is 0.
+
+    Parameters
+    ----------
+    powers : float64[:]
+        Of all bearings, or their integrals.
+    first : int
+        The bearing's first raceway.
+    """
+    count = len(raceways(geometry))
+    own = powers[: -L.RUNNING_SIZE].reshape(L.MECHANISMS, -1)[:, first : first + count]
+    rest = np.zeros(len(LOSSES) - L.MECHANISMS * len(RINGS))
+    return dict(zip(LOSSES, losses_by_ring(geometry, np.append(own.ravel(), rest)).tolist(), strict=True))
