@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.channels import LOSSES, SHORTED
+from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import BODIES
 from lambda_core.fmu.curves import Constant, constants
 from lambda_core.fmu.image import Image, host_words
@@ -87,7 +87,7 @@ class Frozen:
     start: Start
     varied: tuple[Varied, ...]
     constants: list[Constant]
-    losses: int = len(LOSSES)
+    losses: int
 
     def moves(self, body: str) -> bool:
         """Tell whether a body is there and can move."""
