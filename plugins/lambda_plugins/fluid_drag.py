@@ -163,7 +163,7 @@ def skf_catalogue(
     spin = omega_spin / par.spin
     out[0] = wet * orbit * par.force * abs(orbit)
     out[1] = wet * spin * par.moment * abs(spin)
-    if par.viscous_force > 0.0 or par.viscous_moment > 0.0:
+    if wet > 0.0 and (par.viscous_force > 0.0 or par.viscous_moment > 0.0):
         viscosity = (1e6 * nu) ** 1.379
         out[0] += wet * orbit * par.viscous_force * viscosity * (orbit * orbit + _SLOW * _SLOW) ** -0.1895
         out[1] += wet * spin * par.viscous_moment * viscosity * (spin * spin + _SLOW * _SLOW) ** -0.1895

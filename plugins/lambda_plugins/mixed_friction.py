@@ -71,7 +71,8 @@ def spikes_olver(Lambda: float, par: SpikesOlver, out: FloatArray) -> int:
     From friction measured in rough rolling and sliding contacts, mu = mu_film + (mu_bl - mu_film)/(1 + Lambda)^m,
     Lambda the smooth film over the composite rms roughness: Spikes and Olver 2003, Lubr. Sci. 16(1), 3.
     """
-    out[0] = (1.0 + at_least(Lambda, 0.0)) ** -par.exponent
+    share = 1.0 / (1.0 + at_least(Lambda, 0.0))
+    out[0] = share * share if par.exponent == 2.0 else share**par.exponent
     return OK
 
 

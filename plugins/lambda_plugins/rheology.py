@@ -8,6 +8,7 @@ from lambda_plugins.shapes import at_least, smooth_min
 LN_ETA_CAP = 27.631021115928547
 _CAP_WIDTH = 1.0
 LN_ETA_FLOOR = -18.0
+DOWSON_RISE, DOWSON_STIFFNESS = 0.6e-9, 1.7e-9  # of :func:`dowson_higginson` [1/Pa]
 
 
 def capped(ln_eta: float) -> float:
@@ -20,4 +21,4 @@ def dowson_higginson(p: float) -> float:
 
     1 + 0.6e-9 p/(1 + 1.7e-9 p): Dowson and Higginson 1966, Elasto-hydrodynamic Lubrication; 1.35 at most.
     """
-    return 1.0 + 0.6e-9 * p / (1.0 + 1.7e-9 * p)
+    return 1.0 + DOWSON_RISE * p / (1.0 + DOWSON_STIFFNESS * p)

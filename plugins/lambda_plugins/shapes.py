@@ -25,10 +25,20 @@ def smooth_min(value: float, limit: float, width: float) -> float:
 
     Continuous with its first derivative; exact outside the rounded corner, low by `width`/4 at its middle.
     """
+    # the quotient first: it need not wait for the value
+    return smooth_min_by(1.0 / corner(width), value, limit, width)
+
+
+def corner(width: float) -> float:
+    """Return what :func:`smooth_min` divides by; never zero."""
+    return 4.0 * width + 1e-300
+
+
+def smooth_min_by(per_corner: float, value: float, limit: float, width: float) -> float:
+    """Return :func:`smooth_min` by the inverse of :func:`corner`, for callers that divide by more at once."""
     held = at_most(value, limit + width)
     inside = at_least(held - (limit - width), 0.0)
-    # the quotient first: it need not wait for the value
-    return held - inside * inside * (1.0 / (4.0 * width + 1e-300))
+    return held - inside * inside * per_corner
 
 
 def cubic_friction_slope(speed: float, mu_s: float, mu_d: float, v_s: float, v_d: float) -> float:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Annotated
 
 from lambda_core.plugins import OK, FloatArray, Parameters, Quantity, law, parameter
-from lambda_plugins.shapes import at_least, at_most, smooth_min
-from lambda_plugins.vector_math import asinh, exp
+from lambda_plugins.shapes import at_least, at_most, corner, smooth_min, smooth_min_by
+from lambda_plugins.vector_math import asinh_of, asinh_quotient, exp
 
 # ln(eta) is held between them: far outside any liquid, with room to spare for exp()
 _LOG_ETA_MIN = -60.0
@@ -62,9 +62,15 @@ def ree_eyring(
     per_stress = 1.0 / (film * par.tau_eyring)
     for i in range(tau.size):
         log_eta = at_most(at_least(ln_eta[i], _LOG_ETA_MIN), _LOG_ETA_MAX)
-        stress = par.tau_eyring * asinh(exp(log_eta) * slip[i] * per_stress)
+        y = exp(log_eta) * slip[i] * per_stress
         limit = at_least(par.limit_ratio * p[i], 0.0)
-        tau[i] = smooth_min(stress, limit, 0.1 * limit)
+        width = 0.1 * limit
+        # asinh and the rounded corner by one division: a loop over cells waits for them most
+        above, below, k = asinh_quotient(y)
+        bend = corner(width)
+        inverse = 1.0 / (below * bend)
+        stress = par.tau_eyring * asinh_of(above * (inverse * bend), k, y)
+        tau[i] = smooth_min_by(inverse * below, stress, limit, width)
     return OK
 
 

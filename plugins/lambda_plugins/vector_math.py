@@ -77,12 +77,23 @@ def log1p(d: float) -> float:
     return _log(rest / (2.0 + rest), k) + (d - d)
 
 
-def asinh(y: float) -> float:
-    """Return asinh(y) for 0 <= y < 1e150: ln(1 + d), d = y + y^2/(1 + sqrt(1 + y^2)), with one division for both."""
+def asinh_quotient(y: float) -> tuple[float, float, int]:
+    """Return (above, below, k) such that asinh(y) is :func:`asinh_of` above/below; 0 <= y < 1e150, 1 < below."""
     root = math.sqrt(1.0 + y * y)
     k = _octave(y + root)
     mantissa = _mantissa(y + root, k)
     part = y * (1.0 + root) + y * y
     above = part if k == 0 else mantissa - 1.0
     below = 2.0 * (1.0 + root) + part if k == 0 else mantissa + 1.0
-    return _log(above / below, k) + (y - y)
+    return above, below, k
+
+
+def asinh_of(quotient: float, k: int, y: float) -> float:
+    """Return asinh(y) from the quotient of :func:`asinh_quotient`, NaN where y is not finite."""
+    return _log(quotient, k) + (y - y)
+
+
+def asinh(y: float) -> float:
+    """Return asinh(y) for 0 <= y < 1e150: ln(1 + d), d = y + y^2/(1 + sqrt(1 + y^2)), with one division for both."""
+    above, below, k = asinh_quotient(y)
+    return asinh_of(above / below, k, y)

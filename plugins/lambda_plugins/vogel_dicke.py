@@ -6,7 +6,7 @@ import math
 from typing import Annotated, NamedTuple
 
 from lambda_core.plugins import OK, Context, FloatArray, Parameters, Quantity, law, parameter
-from lambda_plugins.rheology import capped, dowson_higginson
+from lambda_plugins.rheology import DOWSON_RISE, DOWSON_STIFFNESS, capped
 from lambda_plugins.shapes import at_least, at_most
 
 _T_LOW = 233.15  # [K]
@@ -84,6 +84,11 @@ def vogel_dicke(p: FloatArray, T: FloatArray, par: Constants, ln_eta: FloatArray
         t = temperature - 273.15
         bar = 1e-5 * pressure
         stiffening = at_least(par.a1 + par.a2 * t + (par.b1 + par.b2 * t) * bar, 1.0)
-        ln_eta[i] = capped(par.ln_K + par.B / (temperature + par.C) + bar / stiffening)
-        rho[i] = (par.density_15 + par.density_slope * (t - 15.0)) * dowson_higginson(pressure)
+        # B/(C + t) + p/stiffening and the density by one division: a loop over cells waits for them most.
+        thinning, compression = temperature + par.C, 1.0 + DOWSON_STIFFNESS * pressure
+        both = thinning * stiffening
+        inverse = 1.0 / (both * compression)
+        ln_eta[i] = capped(par.ln_K + (par.B * stiffening + bar * thinning) * (inverse * compression))
+        density = par.density_15 + par.density_slope * (t - 15.0)
+        rho[i] = density * (1.0 + DOWSON_RISE * pressure * (inverse * both))
     return OK

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from lambda_plugins.normal_contact import hamrock_brewe
+from lambda_plugins.normal_contact import fitted, hamrock_brewe, known
 
 from lambda_core import api
 from lambda_core.discovery.manager import registry
@@ -74,7 +74,7 @@ def _spring_constant(equilibrium: Equilibrium) -> float:
     for groove, angle, inner in ((g.groove_radius_inner, angles[0], True), (g.groove_radius_outer, angles[1], False)):
         radii = ball_raceway_radii(g.ball_diameter, g.pitch_diameter, groove, angle, inner=inner)
         out = np.empty(4)
-        hamrock_brewe(1e-6, *radii, e_eff, np.zeros(1), out)
+        hamrock_brewe(1e-6, *radii, e_eff, known(radii, fitted), out)
         compliance += (float(out[0]) / 1e-9) ** (-2.0 / 3.0)
     return compliance**-1.5
 

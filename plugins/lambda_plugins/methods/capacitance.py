@@ -42,7 +42,7 @@ def plate_contact(inputs: MethodInputs, load: float, contact_angle: float, *, in
 
     from lambda_plugins.capacitance import schneider
     from lambda_plugins.film_thickness import FilmFloors, chittenden
-    from lambda_plugins.normal_contact import hamrock_brewe
+    from lambda_plugins.normal_contact import fitted, hamrock_brewe, known
 
     if inputs.permittivity is None:
         raise NotApplicable(f"the oil {inputs.oil.name} has no permittivity")
@@ -60,7 +60,7 @@ def plate_contact(inputs: MethodInputs, load: float, contact_angle: float, *, in
         inputs.inner_speed, inputs.outer_speed, inputs.ball_diameter, inputs.pitch_diameter, contact_angle
     )
     ellipse, film, whole = np.empty(4), np.empty(2), np.empty(1)
-    hamrock_brewe(1e-6, radius_x, radius_y, e_eff, NoParameters(), ellipse)
+    hamrock_brewe(1e-6, radius_x, radius_y, e_eff, known((radius_x, radius_y), fitted), ellipse)
     growth = (load / float(ellipse[0])) ** (1.0 / 3.0)  # semi-axes and pressure grow with Q^(1/3)
     semi_a, semi_b = float(ellipse[1]) * growth, float(ellipse[2]) * growth
     p_max, oil, floors = float(ellipse[3]) * growth, inputs.oil, FilmFloors(0.0, 0.0, 0.0, 0.0)
