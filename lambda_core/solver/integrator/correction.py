@@ -6,7 +6,7 @@ import math
 
 from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve
 from lambda_core.solver.integrator.state_blocks import solve_states
-from lambda_core.solver.layout import helper
+from lambda_core.solver.layout import NB, helper
 from lambda_core.solver.status import Status
 
 _REFACTOR = 0.41  # relative change of gamma beyond which M is factored anew; not a tie with one growth of the step
@@ -20,6 +20,17 @@ def norm(v, weight):
         x = v[i] * weight[i]
         total += x * x
     return math.sqrt(total / v.size)
+
+
+@helper
+def shared_norm(bundle, mem):
+    """Return the root mean square of the correction of the shared bodies, over the error allowed per step."""
+    first = NB * bundle.system[0].balls
+    total = 0.0
+    for i in range(first, first + bundle.active.size):
+        x = mem.change[i] * mem.weight[i]
+        total += x * x
+    return math.sqrt(total / max(bundle.active.size, 1))
 
 
 @helper

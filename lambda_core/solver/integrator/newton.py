@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lambda_core.solver.integrator.balance import finalise_step, leak_of_iterate
-from lambda_core.solver.integrator.correction import norm, renew, solve_correction
+from lambda_core.solver.integrator.correction import norm, renew, shared_norm, solve_correction
 from lambda_core.solver.integrator.damped import solve_damped
 from lambda_core.solver.layout import NB, helper
 from lambda_core.solver.status import Status
@@ -11,6 +11,9 @@ from lambda_core.solver.status import Status
 # Of the error allowed per step, while there is no history. Friction in a contact at rest changes sign within far less:
 # what the first steps leave of it turns it over at every later step, and those stay at nanoseconds.
 _FIRST_STEPS = 0.03
+# Of what the iteration may leave, in the bodies that all balls share, where vibrations are followed: what it leaves
+# there shakes modes of the rings that hardly anything damps.
+_SHARED = 0.1
 _MAX_NEWTON = 6
 _MAX_LOCAL = 4  # more iterations where Jacobians are renewed on the way
 _SLOW = 0.3  # convergence rate beyond which the Jacobian is renewed for the balls that are to blame
@@ -128,7 +131,10 @@ def solve_step(evaluate, jacobian, t, h, closer, bundle, bl, fa, mem):
             control.convergence_rate = max(0.2 * control.convergence_rate, size / (before + 1e-300))
         # Secants hide the rate of convergence.
         rate = 1.0 if swung else control.convergence_rate
-        if size * min(1.0, rate) <= tolerance and leak_of_iterate(bundle, mem, h) <= 1.0:
+        good = size * min(1.0, rate) <= tolerance
+        if good and mem.stages.shape[0] > 0:
+            good = shared_norm(bundle, mem) * min(1.0, rate) <= _SHARED * tolerance
+        if good and leak_of_iterate(bundle, mem, h) <= 1.0:
             finalise_step(bundle, mem)
             return Status.OK
         if iteration > 0 and size > _SLOW * before:
