@@ -57,6 +57,9 @@ class Shaft(Section):
         None,
         "where the coupling holds the shaft against turning, by the rest of the torque; absent: the left end",
     )
+    twists: bool = option(
+        False, "in motion: whether the shaft twists; otherwise torques go to the coupling without delay"
+    )
 
 
 class Housing(Section):

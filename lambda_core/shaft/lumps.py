@@ -1,8 +1,9 @@
 """A shaft as rigid lumps on its exact static stiffness: what the dynamics of the whole move.
 
 Lumps stand at every bearing and disc, in the middle of the pieces between them, and at the ends of long overhangs.
-Their stiffness is that of the beam condensed to them (Guyan 1965, AIAA J. 3, 380), so that static deflections under
-any load are exact. The mass of a piece goes to its two ends and its middle by the weights of the parabola through them
+Their stiffness, in bending, along and about the axis, is that of the beam condensed to them and to the turning of the
+place where the coupling leads it (Guyan 1965, AIAA J. 3, 380), so that static deflections under any load are exact.
+The mass of a piece goes to its two ends and its middle by the weights of the parabola through them
 (Simpson's rule where it is uniform: m/6, 2 m/3, m/6), which keep its mass, its centre and its moment of inertia.
 """
 
@@ -18,7 +19,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.beam import NODE, NODES
 from lambda_core.elastic.body import ElasticBody
-from lambda_core.shaft.model import PLACES, ShaftModel
+from lambda_core.shaft.model import ShaftModel
 
 _SAME = 1e-6  # [m] places nearer than this are one
 _LONG_OVERHANG = 1.0  # diameters, from which on the end of the shaft has a lump of its own
@@ -36,10 +37,12 @@ class LumpedShaft:
     Attributes
     ----------
     positions, mass, transverse_inertia, polar_inertia : float64[:], shape (n,)
-    stiffness : float64[:, :], shape (5 n, 5 n)
-        Between x, y, z and tilts about y and z of the lumps.
-    follow : float64[:, :], shape (6 nodes, 5 n)
-        How all nodes of the beam follow the lumps; turned round, how forces on nodes go to the lumps.
+    stiffness : float64[:, :], shape (6 n, 6 n) or (6 n + 1, 6 n + 1)
+        Between x, y, z and turns about x, y, z of the lumps; last, where no lump stands there, the coupling's turn.
+    follow : float64[:, :], shape (6 nodes, 6 n) or (6 nodes, 6 n + 1)
+        How all nodes of the beam follow; turned round, how forces on nodes go to the lumps.
+    driven : int
+        Lump that the coupling turns; n where it stands beside them.
     """
 
     positions: FloatArray
@@ -48,6 +51,7 @@ class LumpedShaft:
     polar_inertia: FloatArray
     stiffness: FloatArray
     follow: FloatArray
+    driven: int
 
     def at(self, position: float) -> int:
         """Return the number of the lump at a place [m]."""
@@ -70,8 +74,19 @@ def lump(model: ShaftModel) -> LumpedShaft:
         masses[i] += disc.mass
         polar[i] += disc.polar_inertia
         transverse[i] += disc.transverse_inertia
-    follow, stiffness = _condensed(body, places)
-    return LumpedShaft(places, masses, transverse, polar, stiffness, follow)
+    coupling = float(body.positions[model.drive // NODE])
+    near = np.flatnonzero(np.abs(places - coupling) <= _SAME)
+    driven = int(near[0]) if near.size else places.size
+    follow, stiffness = _condensed(body, places, None if near.size else model.drive)
+    return LumpedShaft(places, masses, transverse, polar, stiffness, follow, driven)
+
+
+def unbalance_of_lumps(model: ShaftModel, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
+    """Return the unbalance of every lump [kg m] and its azimuth at t = 0 [rad]."""
+    total = np.zeros(shaft.positions.size, dtype=complex)
+    for unbalance in model.unbalances:
+        total[shaft.at(unbalance.position)] += unbalance.amount * np.exp(1j * unbalance.angle)
+    return np.abs(total), np.angle(total)
 
 
 def _distinct(places: Sequence[float]) -> FloatArray:
@@ -170,12 +185,12 @@ def _hats(body: ElasticBody, places: FloatArray) -> FloatArray:
     return total
 
 
-def _condensed(body: ElasticBody, places: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return how all nodes follow the lumps, and the stiffness between these; nothing twists."""
+def _condensed(body: ElasticBody, places: FloatArray, coupling: int | None) -> tuple[FloatArray, FloatArray]:
+    """Return how all nodes follow the lumps and one more row, the coupling's, and the stiffness between these."""
     size = body.stiffness.shape[0]
-    kept = np.concatenate([body.rows(float(place)).start + np.array(PLACES) for place in places])
-    straight = np.flatnonzero(np.arange(size) % NODE != 3)
-    inner = np.setdiff1d(straight, kept)
+    beside = [] if coupling is None else [coupling]
+    kept = np.concatenate([*(np.arange(size)[body.rows(float(place))] for place in places), beside]).astype(int)
+    inner = np.setdiff1d(np.arange(size), kept)
     k = body.stiffness
     follow = np.zeros((size, kept.size))
     follow[kept, np.arange(kept.size)] = 1.0

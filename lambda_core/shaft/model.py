@@ -102,4 +102,5 @@ class ShaftModel:
     unbalances: tuple[Unbalance, ...] = ()
     speed_over_time: TimeFunction = ZERO
     varying: tuple[tuple[int, TimeFunction], ...] = ()  # row of a node and its load over time, in place of `loads`
+    twists: bool = False  # in motion
     case_toml: str = ""  # the case, complete: it runs again as it stands

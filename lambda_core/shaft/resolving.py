@@ -161,6 +161,7 @@ def _shaft(
         speed=initial(time_function(case.operation.speed)),
         speed_over_time=time_function(case.operation.speed),
         varying=_varying(case, body),
+        twists=case.shaft.twists,
         contamination=case.life.contamination,
         gears=gears,
         assumptions=tuple(ledger.assumptions),

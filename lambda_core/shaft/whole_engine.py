@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,15 +11,23 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, SHORTED
 from lambda_core.domain.errors import SolverError
-from lambda_core.shaft.lumps import lump
+from lambda_core.shaft.lumps import lump, unbalance_of_lumps
 from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
-from lambda_core.shaft.whole_start import load_terms, start_state, unbalance_of_lumps
-from lambda_core.shaft.whole_tables import Part, all_free, lump_bodies, make_parts, whole_bundle
+from lambda_core.shaft.whole_samples import WholeSamples
+from lambda_core.shaft.whole_start import load_terms, start_state
+from lambda_core.shaft.whole_tables import Part, all_free, led_bodies, lump_bodies, make_parts, whole_bundle
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.compiled_laws import Announce
-from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION, Advance
+from lambda_core.solver.drivers.engine import (
+    FIRST_STEP,
+    SAMPLES_PER_REVOLUTION,
+    SMALLEST_STEP,
+    WORK_PER_CALL,
+    Advance,
+    drive,
+)
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
 from lambda_core.solver.drivers.observation import Scratch, channels_of
 from lambda_core.solver.drivers.ring_values import losses_of_raceways
@@ -31,25 +38,14 @@ from lambda_core.solver.entry import core
 from lambda_core.solver.integrator import memory
 from lambda_core.solver.integrator.arrow import make_factors
 from lambda_core.solver.integrator.blocks import make_blocks
-from lambda_core.solver.status import Status
 from lambda_core.system.resolve_solver import STEPS_PER_PERIOD
 from lambda_core.system.time_functions import highest_frequency
 
 _CAPACITY = 512
-_FIRST_STEP, _SMALLEST_STEP = 1e-7, 1e-14  # [s]
-_WORK_PER_CALL = 500  # Newton iterations
 _COUNTERS = (
     "steps", "rejected", "failed", "newton_iterations", "rhs_calls", "jacobians", "ball_jacobians", "factorisations",
 )  # fmt: skip
 _SHARED = ("pocket", "land", "drag")  # losses that only samples part by bearing
-
-
-@dataclass(frozen=True)
-class WholeSamples:
-    """What was sampled: of the whole, and of every bearing as a run of it alone writes it."""
-
-    whole: dict[str, FloatArray]
-    each: list[dict[str, FloatArray]]
 
 
 class WholeEngine:
@@ -76,7 +72,6 @@ class WholeEngine:
         self.equilibria: list[Equilibrium] = [ring.equilibrium() for ring in self.start.rings]
         self.parts = make_parts(model, self.shaft, [all_free(found.context) for found in self.equilibria])
         bundle = whole_bundle(model, self.shaft, self.parts)
-        bundle.bodies["unbalance"][lump_bodies(self.shaft)] = unbalance_of_lumps(model, self.shaft)[0]
         terms, table = load_terms(model, self.shaft, self.parts)
         self._bundle = bundle._replace(terms=terms, table=table)
         self._blocks = make_blocks(self._bundle)
@@ -91,8 +86,8 @@ class WholeEngine:
             *(min(part.bearing.model.solver.max_step, longest_step(part.alone)) for part in self.parts),
             1.0 / (STEPS_PER_PERIOD * frequency) if frequency else math.inf,
         )
-        control["step"] = np.minimum(_FIRST_STEP, control["longest_step"])
-        control["shortest_step"], control["sample_interval"] = _SMALLEST_STEP, self.sample_interval
+        control["step"] = np.minimum(FIRST_STEP, control["longest_step"])
+        control["shortest_step"], control["sample_interval"] = SMALLEST_STEP, self.sample_interval
         count["stale"] = 1
         c = self._core
         self._handle = c.make_context(
@@ -121,7 +116,7 @@ class WholeEngine:
             lumps += bodies[INNER] / len(self.parts)
             for b in (OUTER, CAGE):
                 shared[L.NS * part.bodies[b] :][: L.NS] = bodies[b]
-        for body in lump_bodies(self.shaft):
+        for body in (*lump_bodies(self.shaft), *led_bodies(self.model, self.shaft)):
             shared[L.NS * body :][: L.NS] = lumps
         return np.concatenate([*balls, shared[self._bundle.active], *kept])
 
@@ -137,20 +132,11 @@ class WholeEngine:
 
     def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
         """Integrate until `time` >= `until` [s] or `pause` says so; samples gather meanwhile."""
-        status = Status.UNFINISHED
-        while self.time < until:
-            status = self._core.integrate(self._handle, until, _WORK_PER_CALL)
-            if status == Status.BUFFER_FULL:
-                self._drain()
-            elif status not in (Status.OK, Status.UNFINISHED):
-                break
-            if self.time < until and pause is not None and pause():
-                break
-        if status in (Status.OK, Status.UNFINISHED, Status.BUFFER_FULL):
-            return Advance(True, "")
-        if status == Status.REFUSED:
-            return Advance(False, self._fault())
-        return Advance(False, f"the time step fell below {_SMALLEST_STEP:g} s at t = {self.time:.6g} s")
+
+        def integrate(end: float) -> int:
+            return int(self._core.integrate(self._handle, end, WORK_PER_CALL))
+
+        return drive(integrate, self, until, pause, self._drain, self._fault)
 
     def _fault(self) -> str:
         """Say which law of which bearing refused."""
@@ -178,9 +164,7 @@ class WholeEngine:
         blocks, self._drained = self._drained, []
         if not blocks:
             return None
-        return WholeSamples(_joined([b.whole for b in blocks]), [
-            _joined([block.each[i] for block in blocks]) for i in range(len(self.parts))
-        ])  # fmt: skip
+        return WholeSamples.joined(blocks)
 
     def _drain(self) -> None:
         n = int(self._memory.count["samples_waiting"][0])
@@ -195,6 +179,7 @@ class WholeEngine:
             "time": times,
             "shaft_position": lumps["position"].copy(),
             "shaft_tilt": np.stack([-lumps["tilt"][:, :, 1], lumps["tilt"][:, :, 0]], axis=2),
+            "shaft_twist": self._twist(flat),
             "reaction_force": np.stack([wrenches[:, :3] for _, wrenches in found], axis=1),
             "reaction_moment": np.stack([wrenches[:, 3:] for _, wrenches in found], axis=1),
             "power_loss": sum((channels["loss"].sum(axis=1) for channels, _ in found), np.zeros(n)),
@@ -204,6 +189,15 @@ class WholeEngine:
             self._add_up(i, channels)
         self._last_time = float(times[-1])
         self._drained.append(WholeSamples(whole, each))
+
+    def _twist(self, flat: FloatArray) -> FloatArray:
+        """Return how far the lumps have turned beyond the coupling, shape (n, lumps) [rad]."""
+        angles, azimuths = flat.view(R.BODY_STATE)["angle"], unbalance_of_lumps(self.model, self.shaft)[1]
+        found: FloatArray = angles[:, lump_bodies(self.shaft)] - azimuths
+        if not self.model.twists:
+            return np.zeros_like(found)
+        lead = angles[:, led_bodies(self.model, self.shaft)] - np.append(azimuths, 0.0)[[self.shaft.driven]]
+        return found - lead
 
     def _bodies(self, states: FloatArray, times: FloatArray) -> FloatArray:
         """Return the whole shared state of samples, shape (n, 12 bodies)."""
@@ -277,11 +271,11 @@ class WholeEngine:
         return float(extra[0, 0])
 
     def _angles(self) -> FloatArray:
-        """Return the angles of all cages, then that of the shaft [rad]."""
+        """Return the angles of all cages, then those of all inner rings [rad]."""
         flat, tail = np.zeros(self._bundle.shared.size), L.NB * int(self._bundle.system["balls"][0])
         flat[self._bundle.active] = self._memory.y[tail : tail + self._bundle.active.size]
         angles = flat.view(R.BODY_STATE)["angle"]
-        return np.array([*(float(angles[part.bodies[CAGE]]) for part in self.parts), float(angles[0])])
+        return np.array([float(angles[part.bodies[body]]) for body in (CAGE, INNER) for part in self.parts])
 
     def integrals(self) -> list[dict[str, float]]:
         """Return the running integrals of every bearing since the start, as a run of it alone has them.
@@ -302,7 +296,7 @@ class WholeEngine:
             own |= {name: float(so_far[name]) * float(shares[i, k]) for k, name in enumerate(_SHARED)}
             losses.append(own)
         every = sum(sum(own.values()) for own in losses)
-        *cages, angle = (self._angles() - self._start_angles).tolist()
+        turned = (self._angles() - self._start_angles).tolist()
         return [
             {
                 **{f"loss.{name}": value for name, value in own.items()},
@@ -311,8 +305,8 @@ class WholeEngine:
                 "drive": float(self._sampled[i, len(_SHARED)]),
                 "stored": self._stored() - self._start_energy,
                 "relative_angle": float(so_far["relative_speed"]),
-                "cage_angle": float(cages[i]),
-                "inner_angle": angle,
+                "cage_angle": turned[i],
+                "inner_angle": turned[count + i],
                 **dict(zip("xyz", self._sampled[i, len(_SHARED) + 1 :].tolist(), strict=True)),
             }
             for i, own in enumerate(losses)
@@ -354,7 +348,3 @@ class WholeEngine:
 def _usual_interval(found: Equilibrium) -> float:
     """Return 1/100 of a turn of the cage [s]."""
     return 2.0 * math.pi / max(abs(found.orbit), 1.0) / SAMPLES_PER_REVOLUTION
-
-
-def _joined(blocks: list[dict[str, FloatArray]]) -> dict[str, FloatArray]:
-    return {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}

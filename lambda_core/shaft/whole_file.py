@@ -22,12 +22,13 @@ from lambda_core.results.run_status import Rows, Status
 from lambda_core.results.writer import DiskError
 
 WHOLE = "shaft.h5"
-LAYOUT, _ATTRIBUTE = 1, "lambda_bearing_shaft_layout"
+LAYOUT, _ATTRIBUTE = 2, "lambda_bearing_shaft_layout"
 _ROWS, _SLOT = 1024, 65536
 CHANNELS = (
     Channel("time", (), "s", "time"),
     Channel("shaft_position", ("lump", "axis"), "m", "displacement of the shaft at every lump"),
     Channel("shaft_tilt", ("lump", "tilt"), "rad", "tilt of the shaft at every lump about y and z"),
+    Channel("shaft_twist", ("lump",), "rad", "turn of the shaft at every lump beyond that of the coupling"),
     Channel("reaction_force", ("bearing", "axis"), "N", "force of every bearing on the shaft"),
     Channel("reaction_moment", ("bearing", "axis"), "N m", "moment of every bearing on the shaft about its centre"),
     Channel("power_loss", (), "W", "power that all bearings dissipate"),

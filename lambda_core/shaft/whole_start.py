@@ -7,13 +7,17 @@ import math
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.shaft.lumps import LumpedShaft
-from lambda_core.shaft.model import PLACES, ShaftModel
+from lambda_core.elastic.beam import NODE
+from lambda_core.shaft.lumps import LumpedShaft, unbalance_of_lumps
+from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState
 from lambda_core.shaft.whole_tables import (
+    LUMP_SIGNS,
+    LUMP_STATES,
     SIGNS,
     STATES,
     Part,
+    led_bodies,
     load_signals,
     lump_bodies,
     motion_signal,
@@ -28,6 +32,7 @@ from lambda_core.system.bearing import TimeFunction
 from lambda_core.system.time_functions import initial, scaled
 
 _SPIN = 5  # degree of freedom
+_ABOUT_X = 3  # row of a node
 
 
 def load_terms(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> tuple[np.ndarray, FloatArray]:
@@ -40,15 +45,19 @@ def load_terms(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -
     table: list[float] = []
     lumps = lump_bodies(shaft)
     given = model.loads + model.weight + model.growth
+    if not model.twists:  # torques go straight to the coupling
+        given[_ABOUT_X::NODE] = 0.0
     for row, function in model.varying:
+        if row % NODE == _ABOUT_X and not model.twists:
+            continue
         given[row] -= initial(function)
-        for share, signal in zip(shaft.follow[row], _signals(lumps), strict=True):
+        for share, signal in zip(shaft.follow[row, : NODE * lumps.size], _signals(lumps), strict=True):
             add_terms(signal, scaled(function, float(share)), rows, table)
-    still = (shaft.follow.T @ given).reshape(-1, len(PLACES))
+    still = (shaft.follow[:, : NODE * lumps.size].T @ given).reshape(-1, NODE)
     still[:, :3] -= np.outer(shaft.mass, model.gravity)
     for value, signal in zip(still.ravel(), _signals(lumps), strict=True):
         add_terms(signal, TimeFunction.constant(float(value)), rows, table)
-    for body in lumps:
+    for body in led_bodies(model, shaft):
         add_terms(motion_signal(int(body), _SPIN), model.speed_over_time, rows, table)
     for part in parts:
         outer, seating = part.bodies[OUTER], part.bearing.seating
@@ -64,14 +73,6 @@ def _signals(lumps: np.ndarray) -> list[int]:
     return [signal for body in lumps for signal in load_signals(int(body))]
 
 
-def unbalance_of_lumps(model: ShaftModel, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
-    """Return the unbalance of every lump [kg m] and its azimuth at t = 0 [rad]."""
-    total = np.zeros(shaft.positions.size, dtype=complex)
-    for unbalance in model.unbalances:
-        total[shaft.at(unbalance.position)] += unbalance.amount * np.exp(1j * unbalance.angle)
-    return np.abs(total), np.angle(total)
-
-
 def start_state(
     model: ShaftModel,
     shaft: LumpedShaft,
@@ -81,12 +82,15 @@ def start_state(
     equilibria: list[Equilibrium],
 ) -> FloatArray:
     """Return the state that the motion begins with: equilibrium, every ball at its cage's speed."""
-    bodies = np.zeros(shaft.positions.size + 2 * len(parts), R.BODY_STATE)
+    last = max(shaft.positions.size + 2 * len(parts) - 1, int(led_bodies(model, shaft).max()))
+    bodies = np.zeros(last + 1, R.BODY_STATE)
     flat = bodies.view(np.float64)
-    moved = np.array([state.displacement[model.body.rows(float(x)).start + np.array(PLACES)] for x in shaft.positions])
+    moved = np.array([state.displacement[model.body.rows(float(x))] for x in shaft.positions])
     for body, own, azimuth in zip(lump_bodies(shaft), moved, unbalance_of_lumps(model, shaft)[1], strict=True):
-        flat[L.NS * body + STATES] = SIGNS * own
-        bodies["angle"][body] = azimuth  # a body's unbalance points to its own angle 0
+        flat[L.NS * body + LUMP_STATES] = LUMP_SIGNS * own
+        bodies["angle"][body] *= model.twists
+        bodies["angle"][body] += azimuth  # a body's unbalance points to its own angle 0
+        bodies["spin"][body] = model.speed
     balls, kept = [], []
     for part, found, outer in zip(parts, equilibria, state.outer, strict=True):
         y, alone = initial_state(found), found.context

@@ -2,7 +2,8 @@
 
 Bodies stand in the order: first lump, outer ring of the first bearing, the other lumps, then the other outer rings and
 cages bearing by bearing. A bearing's inner ring is the lump at its place; every bearing has its own origin at its place
-along the shaft, so that all positions are displacements.
+along the shaft, so that all positions are displacements. Where the shaft twists and the coupling turns it beside all
+lumps, a body without mass comes last, whose angle leads.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import DOFS
-from lambda_core.shaft.lumps import LumpedShaft
+from lambda_core.shaft.lumps import LumpedShaft, unbalance_of_lumps
 from lambda_core.shaft.model import MountedBearing, ShaftModel
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
@@ -29,6 +30,9 @@ from lambda_core.system.bearing import DofState
 # State that each displacement of PLACES or POSE moves, and its sign: turning about +y moves a_z towards -.
 STATES = np.array([L.SX, L.SY, L.SZ, L.SAZ, L.SAY])
 SIGNS = np.array([1.0, 1.0, 1.0, -1.0, 1.0])
+# The same of a lump, which twists, too: of the six rows of a node.
+LUMP_STATES = np.array([L.SX, L.SY, L.SZ, L.STHETA, L.SAZ, L.SAY])
+LUMP_SIGNS = np.array([1.0, 1.0, 1.0, 1.0, -1.0, 1.0])
 _RATES = np.array([L.SVX, L.SVY, L.SVZ, L.SWY, L.SWZ])
 _OFFSETS = {"guide_law": 3, "drag_law": 1}  # laws of one bearing in these tables
 
@@ -92,6 +96,14 @@ def lump_bodies(shaft: LumpedShaft) -> NDArray[np.int64]:
     return np.array([0, *range(2, shaft.positions.size + 1)])
 
 
+def led_bodies(model: ShaftModel, shaft: LumpedShaft) -> NDArray[np.int64]:
+    """Return the bodies that the coupling turns: all lumps, or where the shaft twists one, or the body behind all."""
+    lumps = lump_bodies(shaft)
+    if not model.twists:
+        return lumps
+    return np.append(lumps, lumps.size + 2 * len(model.bearings))[[shaft.driven]]
+
+
 def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> L.Bundle:
     """Return everything that compiled code works on; loads are those of :func:`add_loads`."""
     first, bundles = parts[0].alone.bundle, [part.alone.bundle for part in parts]
@@ -121,13 +133,15 @@ def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...])
 
 
 def _bodies(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> Any:
-    bodies = np.zeros(shaft.positions.size + 2 * len(parts), R.BODY)
-    bodies["moves"] = 1
+    led = led_bodies(model, shaft)
+    bodies = np.zeros(max(shaft.positions.size + 2 * len(parts), int(led.max()) + 1), R.BODY)
+    bodies["moves"], bodies["mode"] = 1, R.LOCKED
     lumps = bodies[lump_bodies(shaft)]
     lumps["mass"], lumps["polar_inertia"] = shaft.mass, shaft.polar_inertia
     lumps["transverse_inertia"] = shaft.transverse_inertia
-    lumps["mode"] = [R.FREE] * 5 + [R.PRESCRIBED]
+    lumps["mode"], lumps["unbalance"] = R.FREE, unbalance_of_lumps(model, shaft)[0]
     bodies[lump_bodies(shaft)] = lumps
+    bodies["mode"][led, 5] = R.PRESCRIBED
     for i, part in enumerate(parts):
         inner, outer, cage = part.bodies
         alone = part.alone.bundle.bodies
@@ -210,24 +224,30 @@ def _ties(
     model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]
 ) -> tuple[NDArray[np.int64], FloatArray, FloatArray]:
     """Return the entries of the shared state that shaft and housing tie, their stiffness, and where they rest."""
-    size = STATES.size
-    bodies = [*lump_bodies(shaft), *(part.bodies[OUTER] for part in parts)]
-    tied = np.concatenate([L.NS * int(b) + STATES for b in bodies])
-    signs, lumps = np.tile(SIGNS, len(bodies)), size * shaft.positions.size
+    bodies = lump_bodies(shaft)
+    lead = [L.NS * (bodies.size + 2 * len(parts)) + L.STHETA] if shaft.driven == bodies.size else []
+    outer = [L.NS * part.bodies[OUTER] + STATES for part in parts]
+    tied = np.concatenate([*(L.NS * int(b) + LUMP_STATES for b in bodies), lead, *outer]).astype(np.int64)
+    lumps = shaft.stiffness.shape[0]
+    signs = np.concatenate([np.tile(LUMP_SIGNS, bodies.size), np.ones(len(lead)), np.tile(SIGNS, len(parts))])
     stiffness, rest = np.zeros((tied.size, tied.size)), np.zeros(tied.size)
     stiffness[:lumps, :lumps] = shaft.stiffness
+    rest[3 : 6 * bodies.size : 6] = unbalance_of_lumps(model, shaft)[1]  # a lump's angle 0 is that of its unbalance
     springs = np.concatenate([b.seating.stiffness for b in model.bearings])
     springs = np.where(np.isfinite(springs), springs, 0.0)
     stiffness[lumps:, lumps:] = np.diag(springs) + (0.0 if model.housing is None else model.housing)
     rest[lumps:] = np.concatenate([b.seating.shift for b in model.bearings])
+    if not model.twists:
+        turns = tied % L.NS == L.STHETA
+        stiffness[turns] = stiffness[:, turns] = 0.0
     used = np.flatnonzero(np.abs(stiffness).sum(axis=1))
     stiffness = (stiffness * np.outer(signs, signs))[np.ix_(used, used)]
-    return tied[used].astype(np.int64), np.ascontiguousarray(stiffness), (rest * signs)[used]
+    return tied[used], np.ascontiguousarray(stiffness), (rest * signs)[used]
 
 
 def load_signals(body: int) -> list[int]:
-    """Return the signals of a body that forces and moments in the order of PLACES have."""
-    return [PER_BODY * body + signal for signal in (FORCE, FORCE + 1, FORCE + 2, MOMENT + 1, MOMENT + 2)]
+    """Return the signals that forces and moments on a body have."""
+    return [PER_BODY * body + signal for signal in (FORCE, FORCE + 1, FORCE + 2, MOMENT, MOMENT + 1, MOMENT + 2)]
 
 
 def motion_signal(body: int, dof: int) -> int:

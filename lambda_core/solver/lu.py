@@ -2,7 +2,23 @@
 
 from __future__ import annotations
 
-from lambda_core.solver.layout import helper
+from lambda_core.solver.layout import helper, rows_helper
+
+
+@rows_helper
+def _dot(row, other, n):
+    """Return the inner product of the first n entries of two rows, summed in any order: terms do not wait."""
+    total = 0.0
+    for i in range(n):
+        total += row[i] * other[i]
+    return total
+
+
+@rows_helper
+def _take(row, factor, other, n):
+    """Take a multiple of the first n entries of another row from a row."""
+    for i in range(n):
+        row[i] -= factor * other[i]
 
 
 @helper
@@ -25,8 +41,7 @@ def lu_factor(m, pivots):
             f = m[i, k] * inverse
             m[i, k] = f
             if f != 0.0:
-                for c in range(k + 1, n):
-                    m[i, c] -= f * m[k, c]
+                _take(m[i, k + 1 :], f, m[k, k + 1 :], n - k - 1)
     return 1
 
 
@@ -39,12 +54,6 @@ def lu_solve(m, pivots, b):
         if row != k:
             b[k], b[row] = b[row], b[k]
     for i in range(1, n):
-        total = b[i]
-        for c in range(i):
-            total -= m[i, c] * b[c]
-        b[i] = total
+        b[i] -= _dot(m[i], b, i)
     for i in range(n - 1, -1, -1):
-        total = b[i]
-        for c in range(i + 1, n):
-            total -= m[i, c] * b[c]
-        b[i] = total / m[i, i]
+        b[i] = (b[i] - _dot(m[i, i + 1 :], b[i + 1 :], n - i - 1)) / m[i, i]

@@ -14,7 +14,14 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.compiled_laws import Announce
-from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION, Advance
+from lambda_core.solver.drivers.engine import (
+    FIRST_STEP,
+    SAMPLES_PER_REVOLUTION,
+    SMALLEST_STEP,
+    WORK_PER_CALL,
+    Advance,
+    drive,
+)
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, solve
 from lambda_core.solver.drivers.given import make_room
 from lambda_core.solver.drivers.modes import ring_modes
@@ -27,15 +34,11 @@ from lambda_core.solver.entry import Core, core
 from lambda_core.solver.integrator import memory
 from lambda_core.solver.integrator.tableau import STAGES
 from lambda_core.solver.sampling import CONTACT_CHANNELS
-from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import max_speed
 from lambda_core.system.state_channels import result_channels
 
 _CAPACITY = 512
-_FIRST_STEP = 1e-7  # [s]
-_SMALLEST_STEP = 1e-14  # [s]
-_WORK_PER_CALL = 500  # Newton iterations: some hundredths of a second
 _COUNTERS = (
     "steps",
     "rejected",
@@ -109,8 +112,8 @@ class BearingEngine:
         self.sample_interval = model.output.interval or self._usual_interval()
         control, count = self._memory.control, self._memory.count
         control["longest_step"] = min(model.solver.max_step, longest_step(self._context))
-        control["step"] = np.minimum(_FIRST_STEP, control["longest_step"])
-        control["shortest_step"] = _SMALLEST_STEP
+        control["step"] = np.minimum(FIRST_STEP, control["longest_step"])
+        control["shortest_step"] = SMALLEST_STEP
         control["sample_interval"] = self.sample_interval
         count["stale"] = 1
         self._handle = self._context.handle(self._memory)
@@ -147,20 +150,11 @@ class BearingEngine:
 
     def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
         """Integrate until `time` >= `until` [s] or `pause` says so; samples gather in the buffer meanwhile."""
-        status = Status.UNFINISHED
-        while self.time < until:
-            status = self._core.integrate(self._handle, until, _WORK_PER_CALL)
-            if status == Status.BUFFER_FULL:
-                self._drain()
-            elif status not in (Status.OK, Status.UNFINISHED):
-                break
-            if self.time < until and pause is not None and pause():
-                break
-        if status in (Status.OK, Status.UNFINISHED, Status.BUFFER_FULL):
-            return Advance(True, "")
-        if status == Status.REFUSED:
-            return Advance(False, fault_sentence(self._context, self.time))
-        return Advance(False, f"the time step fell below {_SMALLEST_STEP:g} s at t = {self.time:.6g} s")
+
+        def integrate(end: float) -> int:
+            return int(self._core.integrate(self._handle, end, WORK_PER_CALL))
+
+        return drive(integrate, self, until, pause, self._drain, lambda: fault_sentence(self._context, self.time))
 
     def advance_exactly(self, until: float) -> Advance:
         """Integrate until `time` == `until` [s]: steps on the way there are cut to end at it."""

@@ -10,9 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.channels import Channel
+from lambda_core.solver.status import Status
 
 # Enough for ball passes and pocket impacts; each sample costs about three right-hand sides.
 SAMPLES_PER_REVOLUTION = 100.0
+FIRST_STEP, SMALLEST_STEP = 1e-7, 1e-14  # [s]
+WORK_PER_CALL = 500  # Newton iterations: some hundredths of a second
 
 
 @dataclass(frozen=True)
@@ -21,6 +24,45 @@ class Advance:
 
     ok: bool
     message: str  # a sentence with model, distribution, ball, ring, time and inputs when not ok
+
+
+class Timed(Protocol):
+    """Something that integrates over time."""
+
+    @property
+    def time(self) -> float:
+        """Return the start of the next step [s]."""
+
+
+def drive(
+    integrate: Callable[[float], int], engine: Timed, until: float, pause: Callable[[], bool] | None,
+    drain: Callable[[], None], fault: Callable[[], str],
+) -> Advance:  # fmt: skip
+    """Call the compiled integrator until `engine.time` >= `until` [s] or `pause` says so.
+
+    Parameters
+    ----------
+    integrate : callable
+        Takes steps up to a time, for some hundredths of a second; returns a Status.
+    drain : callable
+        Empties the buffer of samples.
+    fault : callable
+        Says which law refused.
+    """
+    status: int = Status.UNFINISHED
+    while engine.time < until:
+        status = integrate(until)
+        if status == Status.BUFFER_FULL:
+            drain()
+        elif status not in (Status.OK, Status.UNFINISHED):
+            break
+        if engine.time < until and pause is not None and pause():
+            break
+    if status in (Status.OK, Status.UNFINISHED, Status.BUFFER_FULL):
+        return Advance(True, "")
+    if status == Status.REFUSED:
+        return Advance(False, fault())
+    return Advance(False, f"the time step fell below {SMALLEST_STEP:g} s at t = {engine.time:.6g} s")
 
 
 class Engine(Protocol):

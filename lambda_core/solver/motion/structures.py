@@ -1,13 +1,14 @@
 """Elastic structures that tie bodies together, shafts and housings: one matrix of stiffness between their places.
 
-Forces are -K (u - u_0) of positions and components of axes, with the potential (u - u_0).K (u - u_0)/2: small
-deflections of linear bodies. A force along a component of a body's axis is a moment on the body.
+Forces are -K (u - u_0) of positions, components of axes and angles about them, with the potential
+(u - u_0).K (u - u_0)/2: small deflections of linear bodies. A force along a component of a body's axis is a moment on
+the body, one along its angle a moment about its axis.
 """
 
 from __future__ import annotations
 
 from lambda_core.solver.contact.contact_kinematics import axis_x
-from lambda_core.solver.layout import NS, SAY, helper
+from lambda_core.solver.layout import NS, SAY, SAZ, helper
 
 
 @helper
@@ -36,9 +37,13 @@ def structure_forces(bundle):
         if c == SAY:
             wrench.moment[0] -= az * force
             wrench.moment[2] += ax * force
-        else:
+        elif c == SAZ:
             wrench.moment[0] += ay * force
             wrench.moment[1] -= ax * force
+        else:
+            wrench.moment[0] += ax * force
+            wrench.moment[1] += ay * force
+            wrench.moment[2] += az * force
 
 
 @helper
@@ -46,7 +51,7 @@ def structure_columns(bundle, bl):
     """Add the slopes of these forces, to the first order of small tilts."""
     for i in range(bundle.tied.size):
         b, c = bundle.tied[i] // NS, bundle.tied[i] % NS
-        row, sign = (c, 1.0) if c < SAY else ((5, 1.0) if c == SAY else (4, -1.0))
+        row, sign = (c, 1.0) if c < SAY else ((5, 1.0) if c == SAY else ((4, -1.0) if c == SAZ else (3, 1.0)))
         for k in range(bundle.tied.size):
             bl.shared[b, row, bundle.tied[k]] -= sign * bundle.tie_stiffness[i, k]
 
