@@ -197,7 +197,7 @@ class WholeEngine:
         if not self.model.twists:
             return np.zeros_like(found)
         lead = angles[:, led_bodies(self.model, self.shaft)] - np.append(azimuths, 0.0)[[self.shaft.driven]]
-        return found - lead
+        return np.asarray(found - lead)
 
     def _bodies(self, states: FloatArray, times: FloatArray) -> FloatArray:
         """Return the whole shared state of samples, shape (n, 12 bodies)."""
