@@ -44,6 +44,14 @@ def fmu(
             help='Option that the host may change: "lubricant.temperature=20..90 degC". Repeatable.',
         ),
     ] = None,
+    platforms: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--platform",
+            metavar="NAME",
+            help="System that it is for: linux (default), windows, linux-arm, mac-arm, mac-intel. Repeatable.",
+        ),
+    ] = None,
     processor: Annotated[
         str,
         typer.Option(
@@ -56,7 +64,7 @@ def fmu(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Write a case as a co-simulation unit (FMU): the compiled solver without Python, for Linux on x86-64.
+    """Write a case as a co-simulation unit (FMU): the compiled solver without Python.
 
     It starts at the equilibrium of the case at t = 0. Needs a C compiler; the extra fmu brings one.
     """
@@ -70,6 +78,7 @@ def fmu(
             fmi=fmi,
             couple=couple.value,
             vary=vary or (),
+            platforms=platforms or ("linux",),
             processor=processor,
             force=force,
             announce=speaker.say,

@@ -29,7 +29,7 @@ PROCESSORS = {
     "native": "of this machine",
 }
 _CPU, _FEATURES = "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES"
-_FOLDERS = {2: "linux64", 3: "x86_64-linux"}
+_VERSIONS = (2, 3)
 _STEP = 1e-4  # [s] between communication points, as a proposal
 _END = 0.1  # [s]
 _FIXED_TIME = (1980, 1, 1, 0, 0, 0)  # of files in the archive: the same case makes the same bytes
@@ -43,11 +43,12 @@ def export_fmu(
     fmi: int = 2,
     couple: Coupling = "force",
     vary: Iterable[str] = (),
+    platforms: Iterable[str] = ("linux",),
     processor: str = "x86-64-v3",
     force: bool = False,
     announce: Callable[[str], None] | None = None,
 ) -> Path:
-    """Write a bearing as a co-simulation FMU for Linux on x86-64.
+    """Write a bearing as a co-simulation FMU.
 
     Its library holds the compiled solver, the laws of the case and its data at the equilibrium of t = 0; it needs the C
     library and nothing else.
@@ -65,8 +66,12 @@ def export_fmu(
         bearing puts reactions.
     vary : iterable of str
         Options ``path=low..high`` that the host may change: temperatures as inputs, all others as tunable parameters.
+    platforms : iterable of str
+        Systems that the FMU has a library for: "linux", "windows", "linux-arm", "mac-arm", "mac-intel". All but Linux
+        are built by the compiler of the extra ``fmu``; with one of them functions of mathematics are the program's
+        own, which give equal bits on every system on x86-64.
     processor : str
-        The least processor that runs it: "x86-64-v3" (default), "x86-64-v2", "x86-64-v4", or "native".
+        The least processor of x86-64 that runs it: "x86-64-v3" (default), "x86-64-v2", "x86-64-v4", or "native".
     force : bool
         Overwrite a file that stands there.
     announce : callable, optional
@@ -80,8 +85,8 @@ def export_fmu(
     Raises
     ------
     UsageError
-        For an unknown version, coupling or processor, a file that exists, a folder that takes none, on another system,
-        or without a C compiler.
+        For an unknown version, coupling, platform or processor, a file that exists, a folder that takes none, on
+        another system, or without a C compiler.
     CaseError, SolverError
         With a sentence about the case or its equilibrium.
     """
@@ -92,7 +97,8 @@ def export_fmu(
     from lambda_core.system.cases import case
     from lambda_core.system.checking import resolve
 
-    if fmi not in _FOLDERS:
+    wanted = tuple(dict.fromkeys(platforms))
+    if fmi not in _VERSIONS:
         raise UsageError(f"FMI {fmi} is not written: 2 or 3")
     if couple not in COUPLINGS:
         raise UsageError(unknown_name("coupling", couple, COUPLINGS))
@@ -100,9 +106,14 @@ def export_fmu(
         raise UsageError(unknown_name("processor", processor, PROCESSORS))
     if (platform.system(), platform.machine()) != ("Linux", "x86_64"):
         raise UsageError(f"FMUs are built on Linux x86-64 only, not on {platform.system()} {platform.machine()}")
-    from lambda_core.fmu.library import compiler
+    from lambda_core.fmu.library import PLATFORMS, compiler
 
-    compiler()
+    if not wanted:
+        raise UsageError(f"for which system: {', '.join(PLATFORMS)}?")
+    for name in wanted:
+        if name not in PLATFORMS:
+            raise UsageError(unknown_name("platform", name, PLATFORMS))
+        compiler(name)
     loaded = _loaded(source, overrides) if not isinstance(source, str | Path) else case(source, overrides)
     options = tuple(vary)
     varied(options, loaded)
@@ -112,7 +123,7 @@ def export_fmu(
         raise UsageError(f"{target} exists: choose another name with --out, or overwrite it with --force")
     check_folder(target.parent, target)
     task = {"case": standalone_toml(loaded), "out": str(target.absolute()), "fmi": fmi, "couple": couple}
-    task["vary"] = options
+    task |= {"vary": options, "platforms": wanted}
     if processor == os.environ.get(_CPU, "native"):
         write(task, announce)
     else:
@@ -142,7 +153,7 @@ def write(task: Mapping[str, Any], announce: Callable[[str], None] | None = None
     from lambda_core.case.case_io import apply_overrides, parse_case
     from lambda_core.fmu.description import About, description
     from lambda_core.fmu.frozen import freeze
-    from lambda_core.fmu.library import build, library_parts
+    from lambda_core.fmu.library import PLATFORMS, build, library_parts
     from lambda_core.fmu.variables import variables
     from lambda_core.fmu.varied import varied
     from lambda_core.thermal.temperatures import ready_model
@@ -157,7 +168,7 @@ def write(task: Mapping[str, Any], announce: Callable[[str], None] | None = None
     frozen = freeze(ready_model(case, (), announce), task["couple"], announce, tuple(options.values()), changed)
     model = frozen.model
     seen = variables(frozen)
-    parts = library_parts(frozen, seen)
+    parts = library_parts(frozen, seen, task["platforms"])
     about = About(
         name=model.name,
         text=f"rolling bearing, coupled by {task['couple']}, started at its equilibrium",
@@ -168,12 +179,10 @@ def write(task: Mapping[str, Any], announce: Callable[[str], None] | None = None
         step=_STEP,
     )
     with tempfile.TemporaryDirectory(prefix="lambda-bearing-") as made:
-        library = build(parts, f"fmi{fmi}", Path(made), about.identifier)
-        files = {
-            "modelDescription.xml": description(about, seen, fmi),
-            f"binaries/{_FOLDERS[fmi]}/{library.name}": library.read_bytes(),
-            "resources/case.toml": text.encode(),
-        }
+        files = {"modelDescription.xml": description(about, seen, fmi), "resources/case.toml": text.encode()}
+        for platform in task["platforms"]:
+            library = build(parts, f"fmi{fmi}", Path(made), about.identifier, platform)
+            files[f"binaries/{PLATFORMS[platform].folders[fmi]}/{library.name}"] = library.read_bytes()
     _zip(files, Path(task["out"]))
 
 
@@ -185,7 +194,7 @@ def _zip(parts: Mapping[str, bytes], target: Path) -> None:
         with zipfile.ZipFile(beside, "w", zipfile.ZIP_DEFLATED) as archive:
             for name, content in parts.items():
                 about = zipfile.ZipInfo(name, _FIXED_TIME)
-                about.external_attr = (0o755 if name.endswith(".so") else 0o644) << 16
+                about.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
                 archive.writestr(about, content, zipfile.ZIP_DEFLATED)
         beside.replace(target)
     finally:

@@ -36,7 +36,7 @@ class Unit:
         self.token = root.get("guid" if self.fmi == 2 else "instantiationToken", "").encode()
         self.variables = {v.get("name", ""): v for v in root.iterfind("ModelVariables/*")}
         self.references = {name: int(v.get("valueReference", "-1")) for name, v in self.variables.items()}
-        (self.file,) = folder.glob("binaries/*/*.so")
+        (self.file,) = (*folder.glob("binaries/linux64/*.so"), *folder.glob("binaries/x86_64-linux/*.so"))
         self.library = c.CDLL(str(self.file))
 
     def named(self, causality: str) -> list[str]:

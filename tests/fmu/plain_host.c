@@ -1,6 +1,16 @@
 /* A host in C: loads the library of an FMU 2.0, takes steps under a load and prints its outputs, bit for bit.
    plain_host LIBRARY TOKEN STEPS STEP INPUT VALUE OUTPUT... (value references) */
+#ifdef _WIN32
+#include <windows.h>
+#define OPEN(file) (void *)LoadLibraryA(file)
+#define FUNCTION(library, name) GetProcAddress((HMODULE)(library), name)
+#define WHY() "it cannot be loaded"
+#else
 #include <dlfcn.h>
+#define OPEN(file) dlopen(file, RTLD_NOW)
+#define FUNCTION(library, name) dlsym(library, name)
+#define WHY() dlerror()
+#endif
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,9 +29,9 @@ static void hear(void *host, const char *name, int status, const char *category,
 }
 
 int main(int n, char **words) {
-  void *library = dlopen(words[1], RTLD_NOW);
-  if (!library) return fprintf(stderr, "%s\n", dlerror()), 2;
-#define FIND(result, name, ...) result (*name)(__VA_ARGS__) = (result(*)(__VA_ARGS__))dlsym(library, #name)
+  void *library = OPEN(words[1]);
+  if (!library) return fprintf(stderr, "%s\n", WHY()), 2;
+#define FIND(result, name, ...) result (*name)(__VA_ARGS__) = (result(*)(__VA_ARGS__))FUNCTION(library, #name)
   FIND(void *, fmi2Instantiate, const char *, int, const char *, const char *, const callbacks *, int, int);
   FIND(int, fmi2SetupExperiment, void *, int, double, double, int, double);
   FIND(int, fmi2EnterInitializationMode, void *);

@@ -1,4 +1,6 @@
+#if defined(__x86_64__)
 #include <cpuid.h>
+#endif
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -33,6 +35,7 @@ int lb_say(lb_bearing *b, int status, const char *form, ...) {
 
 /* Whether the processor has what the code needs, and the system keeps its wide registers. */
 static int fits(void) {
+#if defined(__x86_64__)
   unsigned found[4];
   for (size_t i = 0; i < sizeof lb_needs / sizeof *lb_needs; i++) {
     unsigned leaf = lb_needs[i][0], bit = lb_needs[i][2];
@@ -44,6 +47,9 @@ static int fits(void) {
   if (!__get_cpuid(1, &found[0], &found[1], &found[2], &found[3]) || !(found[2] >> 27 & 1)) return 0;
   __asm__("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
   return (low & LB_REGISTERS) == LB_REGISTERS;
+#else
+  return 1; /* the least processor of its kind is enough */
+#endif
 }
 
 lb_bearing *lb_create(const char *name, void *host, void *logger,

@@ -1,13 +1,11 @@
 /* FMI 2.0 for co-simulation: names and types of its functions are those of the standard (fmi-standard.org, version 2.0.4). */
-#include <stdlib.h>
-#include <string.h>
-
-#include "core.h"
-#include "token.h"
+#define PREFIX fmi2
+#define STATE FMUstate
+#define DESERIALISE DeSerialize
+#include "interface.h"
 
 typedef void *component;
 typedef unsigned reference;
-typedef int status;
 typedef int boolean;
 typedef void (*logger)(void *, const char *, status, const char *, const char *, ...);
 typedef struct {
@@ -28,22 +26,9 @@ LB_API const char *fmi2GetVersion(void) { return "2.0"; }
 LB_API component fmi2Instantiate(const char *name, int kind, const char *token, const char *resources,
                                  const callbacks *functions, boolean visible, boolean logging) {
   (void)resources, (void)visible;
-  void (*say)(lb_bearing *, int, const char *, const char *) = functions && functions->log ? tell : NULL;
-  lb_bearing *b = lb_create(name, functions ? functions->environment : NULL, say ? (void *)functions->log : NULL, say);
-  if (!b) return NULL;
-  b->logging = logging;
-  if (kind != 1) {
-    lb_say(b, LB_ERROR, "this bearing is for co-simulation: it brings its own integrator");
-  } else if (!token || strcmp(token, LB_TOKEN) != 0) {
-    lb_say(b, LB_ERROR, "the model description is not that of this library: export the bearing again");
-  } else {
-    return b;
-  }
-  lb_free(b);
-  return NULL;
+  void *log = functions ? (void *)functions->log : NULL, *environment = functions ? functions->environment : NULL;
+  return made(name, token, logging, environment, log, tell, kind == 1 ? NULL : own_integrator);
 }
-
-LB_API void fmi2FreeInstance(component c) { lb_free(c); }
 
 LB_API status fmi2SetDebugLogging(component c, boolean on, size_t n, const char *const categories[]) {
   (void)n, (void)categories;
@@ -57,12 +42,6 @@ LB_API status fmi2SetupExperiment(component c, boolean with_tolerance, double to
   return lb_plan(c, start);
 }
 LB_API status fmi2EnterInitializationMode(component c) { return lb_enter(c); }
-LB_API status fmi2ExitInitializationMode(component c) { return lb_leave(c); }
-LB_API status fmi2Terminate(component c) { return lb_end(c); }
-LB_API status fmi2Reset(component c) {
-  lb_reset(c);
-  return LB_OK;
-}
 
 LB_API status fmi2GetReal(component c, const reference which[], size_t n, double values[]) {
   return lb_get(c, which, n, values);
@@ -79,12 +58,9 @@ LB_API status fmi2GetInteger(component c, const reference which[], size_t n, int
   return LB_OK;
 }
 
-static status none(component c, const reference *which, size_t n, const char *kind) {
-  return n ? lb_unknown(c, which[0], kind) : LB_OK;
-}
 LB_API status fmi2SetInteger(component c, const reference which[], size_t n, const int values[]) {
   (void)values;
-  return n ? lb_say(c, LB_ERROR, "the variable with the value reference %u is no integer input", which[0]) : LB_OK;
+  return no_integer_input(c, which, n);
 }
 LB_API status fmi2GetBoolean(component c, const reference which[], size_t n, boolean values[]) {
   (void)values;
@@ -101,26 +77,6 @@ LB_API status fmi2GetString(component c, const reference which[], size_t n, cons
 LB_API status fmi2SetString(component c, const reference which[], size_t n, const char *const values[]) {
   (void)values;
   return none(c, which, n, "string");
-}
-
-LB_API status fmi2GetFMUstate(component c, void **state) { return lb_save(c, state); }
-LB_API status fmi2SetFMUstate(component c, void *state) { return lb_restore(c, state); }
-LB_API status fmi2FreeFMUstate(component c, void **state) {
-  (void)c;
-  free(*state);
-  *state = NULL;
-  return LB_OK;
-}
-LB_API status fmi2SerializedFMUstateSize(component c, void *state, size_t *size) {
-  (void)c, (void)state;
-  *size = lb_packed_size();
-  return LB_OK;
-}
-LB_API status fmi2SerializeFMUstate(component c, void *state, char bytes[], size_t size) {
-  return lb_pack(c, state, bytes, size);
-}
-LB_API status fmi2DeSerializeFMUstate(component c, const char bytes[], size_t size, void **state) {
-  return lb_unpack(c, bytes, size, state);
 }
 
 LB_API status fmi2GetDirectionalDerivative(component c, const reference unknowns[], size_t n, const reference knowns[],

@@ -1,14 +1,13 @@
 /* FMI 3.0 for co-simulation: names and types of its functions are those of the standard (fmi-standard.org, version 3.0.2). */
 #include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "core.h"
-#include "token.h"
+#define PREFIX fmi3
+#define STATE FMUState
+#define DESERIALISE Deserialize
+#include "interface.h"
 
 typedef void *instance;
 typedef uint32_t reference;
-typedef int status;
 typedef void (*logger)(void *, status, const char *, const char *);
 
 static void tell(lb_bearing *b, int what, const char *category, const char *sentence) {
@@ -17,41 +16,25 @@ static void tell(lb_bearing *b, int what, const char *category, const char *sent
 
 LB_API const char *fmi3GetVersion(void) { return "3.0"; }
 
-static instance create(const char *name, const char *token, bool logging, void *environment, logger log,
-                       const char *wrong) {
-  void (*say)(lb_bearing *, int, const char *, const char *) = log ? tell : NULL;
-  lb_bearing *b = lb_create(name, environment, (void *)log, say);
-  if (!b) return NULL;
-  b->logging = logging;
-  if (!wrong && (!token || strcmp(token, LB_TOKEN) != 0))
-    wrong = "the model description is not that of this library: export the bearing again";
-  if (!wrong) return b;
-  lb_say(b, LB_ERROR, "%s", wrong);
-  lb_free(b);
-  return NULL;
-}
-
 LB_API instance fmi3InstantiateCoSimulation(const char *name, const char *token, const char *resources, bool visible,
                                             bool logging, bool events, bool early, const reference needed[], size_t n,
                                             void *environment, logger log, void *update) {
   (void)resources, (void)visible, (void)early, (void)needed, (void)n, (void)update;
-  return create(name, token, logging, environment, log, events ? "this bearing has no events" : NULL);
+  return made(name, token, logging, environment, (void *)log, tell, events ? "this bearing has no events" : NULL);
 }
 
-static const char own_integrator[] = "this bearing is for co-simulation: it brings its own integrator";
 LB_API instance fmi3InstantiateModelExchange(const char *name, const char *token, const char *resources, bool visible,
                                              bool logging, void *environment, logger log) {
   (void)resources, (void)visible;
-  return create(name, token, logging, environment, log, own_integrator);
+  return made(name, token, logging, environment, (void *)log, tell, own_integrator);
 }
 LB_API instance fmi3InstantiateScheduledExecution(const char *name, const char *token, const char *resources,
                                                   bool visible, bool logging, void *environment, logger log,
                                                   void *update, void *lock, void *unlock) {
   (void)resources, (void)visible, (void)update, (void)lock, (void)unlock;
-  return create(name, token, logging, environment, log, own_integrator);
+  return made(name, token, logging, environment, (void *)log, tell, own_integrator);
 }
 
-LB_API void fmi3FreeInstance(instance c) { lb_free(c); }
 LB_API status fmi3SetDebugLogging(instance c, bool on, size_t n, const char *const categories[]) {
   (void)n, (void)categories;
   ((lb_bearing *)c)->logging = on;
@@ -63,12 +46,6 @@ LB_API status fmi3EnterInitializationMode(instance c, bool with_tolerance, doubl
   (void)with_tolerance, (void)tolerance, (void)with_end, (void)end;
   int planned = lb_plan(c, start);
   return planned == LB_OK ? lb_enter(c) : planned;
-}
-LB_API status fmi3ExitInitializationMode(instance c) { return lb_leave(c); }
-LB_API status fmi3Terminate(instance c) { return lb_end(c); }
-LB_API status fmi3Reset(instance c) {
-  lb_reset(c);
-  return LB_OK;
 }
 
 static status amount(instance c, size_t n, size_t values) {
@@ -85,18 +62,18 @@ LB_API status fmi3GetInt64(instance c, const reference which[], size_t n, int64_
 }
 LB_API status fmi3SetInt64(instance c, const reference which[], size_t n, const int64_t values[], size_t count) {
   (void)values, (void)count;
-  return n ? lb_say(c, LB_ERROR, "the variable with the value reference %u is no integer input", which[0]) : LB_OK;
+  return no_integer_input(c, which, n);
 }
 
 /* Kinds of variables that a bearing has none of. */
 #define NO_SUCH(kind, type, word)                                                                                     \
   LB_API status fmi3Get##kind(instance c, const reference which[], size_t n, type values[], size_t count) {           \
     (void)values, (void)count;                                                                                        \
-    return n ? lb_unknown(c, which[0], word) : LB_OK;                                                                 \
+    return none(c, which, n, word);                                                                 \
   }                                                                                                                   \
   LB_API status fmi3Set##kind(instance c, const reference which[], size_t n, const type values[], size_t count) {     \
     (void)values, (void)count;                                                                                        \
-    return n ? lb_unknown(c, which[0], word) : LB_OK;                                                                 \
+    return none(c, which, n, word);                                                                 \
   }
 NO_SUCH(Float32, float, "32-bit real")
 NO_SUCH(Int8, int8_t, "8-bit integer")
@@ -110,49 +87,29 @@ NO_SUCH(Boolean, bool, "boolean")
 typedef const char *text;
 LB_API status fmi3GetString(instance c, const reference which[], size_t n, text values[], size_t count) {
   (void)values, (void)count;
-  return n ? lb_unknown(c, which[0], "string") : LB_OK;
+  return none(c, which, n, "string");
 }
 LB_API status fmi3SetString(instance c, const reference which[], size_t n, const text values[], size_t count) {
   (void)values, (void)count;
-  return n ? lb_unknown(c, which[0], "string") : LB_OK;
+  return none(c, which, n, "string");
 }
 LB_API status fmi3GetBinary(instance c, const reference which[], size_t n, size_t sizes[], const uint8_t *values[],
                             size_t count) {
   (void)sizes, (void)values, (void)count;
-  return n ? lb_unknown(c, which[0], "binary") : LB_OK;
+  return none(c, which, n, "binary");
 }
 LB_API status fmi3SetBinary(instance c, const reference which[], size_t n, const size_t sizes[],
                             const uint8_t *const values[], size_t count) {
   (void)sizes, (void)values, (void)count;
-  return n ? lb_unknown(c, which[0], "binary") : LB_OK;
+  return none(c, which, n, "binary");
 }
 LB_API status fmi3GetClock(instance c, const reference which[], size_t n, bool values[]) {
   (void)values;
-  return n ? lb_unknown(c, which[0], "clock") : LB_OK;
+  return none(c, which, n, "clock");
 }
 LB_API status fmi3SetClock(instance c, const reference which[], size_t n, const bool values[]) {
   (void)values;
-  return n ? lb_unknown(c, which[0], "clock") : LB_OK;
-}
-
-LB_API status fmi3GetFMUState(instance c, void **state) { return lb_save(c, state); }
-LB_API status fmi3SetFMUState(instance c, void *state) { return lb_restore(c, state); }
-LB_API status fmi3FreeFMUState(instance c, void **state) {
-  (void)c;
-  free(*state);
-  *state = NULL;
-  return LB_OK;
-}
-LB_API status fmi3SerializedFMUStateSize(instance c, void *state, size_t *size) {
-  (void)c, (void)state;
-  *size = lb_packed_size();
-  return LB_OK;
-}
-LB_API status fmi3SerializeFMUState(instance c, void *state, uint8_t bytes[], size_t size) {
-  return lb_pack(c, state, bytes, size);
-}
-LB_API status fmi3DeserializeFMUState(instance c, const uint8_t bytes[], size_t size, void **state) {
-  return lb_unpack(c, bytes, size, state);
+  return none(c, which, n, "clock");
 }
 
 LB_API status fmi3GetDirectionalDerivative(instance c, const reference unknowns[], size_t n, const reference knowns[],

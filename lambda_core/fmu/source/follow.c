@@ -6,7 +6,7 @@ static double curve(const lb_curve *c, double at) {
   const lb_option *o = &lb_options[c->option];
   double above = 0.0, below = 0.0;
   for (unsigned i = 0; i <= c->order; i++) {
-    double where = 0.5 * (o->lowest + o->highest) + 0.5 * (o->highest - o->lowest) * cos(M_PI * i / c->order);
+    double where = 0.5 * (o->lowest + o->highest) + 0.5 * (o->highest - o->lowest) * cos(3.14159265358979323846 * i / c->order);
     double far = at - where, share = i == 0 || i == c->order ? 0.5 : 1.0;
     if (far == 0.0) return lb_values[c->first + i];
     share = (i % 2 ? -share : share) / far;

@@ -25,6 +25,7 @@ from numba.core import types
 from numba.core.registry import cpu_target
 
 from lambda_core.domain.errors import SolverError, UsageError
+from lambda_core.laws.jit.emission import Target, machine_code
 from lambda_core.laws.jit.machine_code import Pointer, environment_key
 from lambda_core.laws.jit.plain import is_plain
 
@@ -41,6 +42,8 @@ _LIBM = {
 # What Numba's memory management asks for, in a few lines of C; the equilibrium allocates its workspaces.
 MEMORY_SOURCE = Path(__file__).with_name("portable_memory.c")
 _MEMORY = {"NRT_MemInfo_alloc_aligned", "NRT_MemInfo_call_dtor", "NRT_Free"}
+# Of these no own version is written, see fmu/source/mathematics.c.
+_UNLIKE = {"erf", "erfc", "lgamma", "tgamma"}
 _RESULT = {"void": "", "ptr": "null", "double": "0.0"}
 _DECLARED = re.compile(r"declare (?:\w+ )*?(\w+) @\S+?(\(.*?\))")
 _TEXT = "text"  # what errors would say, with the paths of files here: left out
@@ -89,8 +92,10 @@ def symbol(pointer: Pointer) -> str:
     return str(_compiled(pointer).fndesc.llvm_cfunc_wrapper_name)
 
 
-def object_code(entries: Sequence[Entry], table: Sequence[Pointer], cache: Path) -> bytes:
-    """Return an object file with the entries and all that they call.
+def object_codes(
+    entries: Sequence[Entry], table: Sequence[Pointer], cache: Path, targets: Sequence[Target], *, alike: bool
+) -> list[bytes]:
+    """Return an object file per target with the entries and all that they call.
 
     Parameters
     ----------
@@ -99,17 +104,37 @@ def object_code(entries: Sequence[Entry], table: Sequence[Pointer], cache: Path)
         Functions that an image points to, for ``lb_functions``, an array of their addresses.
     cache : Path
         Folder of compiled code: what was made once of the same functions is kept there.
+    alike : bool
+        Whether functions that systems compute differently are refused.
 
     Raises
     ------
     SolverError
         When something in it cannot run without Python.
     """
-    codegen = cpu_target.target_context.codegen()
     pointers = [*table, *(entry.pointer for entry in entries)]
-    kept = cache / f"portable-{_content(entries, pointers)[:24]}" / "code.o"
-    with suppress(OSError):
-        return kept.read_bytes()
+    folder = cache / f"portable-{_content(entries, pointers)[:24]}"
+    whole, made = None, []
+    for target in targets:
+        kept = folder / f"{target.triple or 'here'}{'-alike' if alike else ''}.o"
+        with suppress(OSError):
+            made.append(kept.read_bytes())
+            continue
+        whole = whole or _linked(entries, table, pointers)
+        if alike:
+            _refuse_unlike(whole)
+        made.append(machine_code(whole, target))
+        with suppress(OSError):  # a cache that cannot be written costs time only
+            folder.mkdir(parents=True, exist_ok=True)
+            part = kept.with_name(f"{os.getpid()}.part")
+            part.write_bytes(made[-1])
+            part.replace(kept)
+    return made
+
+
+def _linked(entries: Sequence[Entry], table: Sequence[Pointer], pointers: Sequence[Pointer]) -> Any:
+    """Return everything in one module, without Python."""
+    codegen = cpu_target.target_context.codegen()
     whole = llvm.parse_assembly(_head(codegen))
     names, callers = _link(whole, pointers)
     whole.link_in(llvm.parse_assembly(str(_doors(codegen, names, entries, table))))
@@ -120,23 +145,25 @@ def object_code(entries: Sequence[Entry], table: Sequence[Pointer], cache: Path)
     for name in ("lb_functions", *(entry.name for entry in entries)):
         _within(whole, name)
     whole.verify()
-    made = _machine_code(whole, codegen)
-    with suppress(OSError):  # a cache that cannot be written costs time only
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        part = kept.with_name(f"{os.getpid()}.part")
-        part.write_bytes(made)
-        part.replace(kept)
-    return made
+    return whole
 
 
-def data_code(name: str, data: bytes) -> bytes:
+def _refuse_unlike(whole: Any) -> None:
+    unlike = sorted({each.name for each in whole.functions if each.is_declaration} & _UNLIKE)
+    if unlike:
+        raise SolverError(
+            f"a law calls {', '.join(unlike)}, whose digits differ from system to system: export for linux alone"
+        )
+
+
+def data_code(name: str, data: bytes, target: Target) -> bytes:
     """Return an object file with constant bytes under a name, at a line of the processor's cache."""
     codegen = cpu_target.target_context.codegen()
     module = ir.Module("data")
     _constant(module, name, ir.ArrayType(BYTE, len(data)), bytearray(data)).align = 64
     whole = llvm.parse_assembly(_head(codegen) + str(module.globals[name]))
     _within(whole, name)
-    return _machine_code(whole, codegen)
+    return machine_code(whole, target)
 
 
 def _within(whole: Any, name: str) -> None:
@@ -147,14 +174,6 @@ def _within(whole: Any, name: str) -> None:
 
 def _head(codegen: Any) -> str:
     return f'target triple = "{codegen._llvm_module.triple}"\ntarget datalayout = "{codegen._data_layout}"\n'
-
-
-def _machine_code(whole: Any, codegen: Any) -> bytes:
-    machine = llvm.Target.from_triple(whole.triple).create_target_machine(
-        cpu=codegen._get_host_cpu_name(), features=codegen._tm_features, opt=3, reloc="pic", codemodel="default"
-    )
-    made: bytes = machine.emit_object(whole)
-    return made
 
 
 def _content(entries: Sequence[Entry], pointers: Iterable[Pointer]) -> str:
