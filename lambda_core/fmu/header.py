@@ -103,6 +103,7 @@ def _start_numbers(frozen: Frozen) -> dict[str, object]:
         "STATE": image.place(frozen.memory.y),
         "STATES": start.state.size,
         "BALLS": start.trust.size,
+        "BALLS_OF_A_ROW": start.slope.size,
         "BALL_SIZE": R.BALL.itemsize,
         "REPORT_SIZE": start.report.nbytes,
         "REPORT_ORBIT": image.place(start.report) + _at(STATIC_REPORT, "orbit"),
@@ -132,9 +133,9 @@ def _given_places(frozen: Frozen) -> Iterable[tuple[str, int]]:
 
 def _start_tables(frozen: Frozen) -> list[str]:
     start = frozen.start
-    rolling = ", ".join(f"{{{_reals(row)}}}" for row in start.rolling.tolist())
+    rolling = ", ".join(_reals(row) for row in start.rolling.reshape(-1, 4).tolist())
     return [
-        f"static const double lb_rolling[2][4] = {{{rolling}}};",
+        f"static const double lb_rolling[] = {{{rolling}}};",
         f"static const double lb_path[] = {{{_reals(start.slope.tolist())}}};",
         f"static const unsigned lb_cage[][2] = {{{_pairs(start.cage or ((0, 0),))}}};",
     ]

@@ -31,10 +31,10 @@ class Start:
     ----------
     state, weight, last, trust, held, report : arrays
         As :func:`lambda_core.solver.statics.continuation.solve_static` takes them; `state` is the case's equilibrium.
-    rolling : float64[:, 4]
-        Orbital velocity [m/s] and spin [rad/s] of a rolling ball: at rest of the inner ring, and per speed of it.
+    rolling : float64[:, :, 4], shape (2, balls, 4)
+        Orbital velocity [m/s] and spin [rad/s] of rolling balls: at rest of the inner ring, and per speed of it.
     slope : float64[:]
-        Derivative with azimuth at ball 0 from values at every ball [1/rad].
+        Derivative with azimuth at the first ball of a row from values at every ball of it [1/rad].
     cage : tuple of (int, int)
         Entries of the state that are the cage's: where, and which of :data:`lambda_core.solver.records.BODY_STATE`.
     speed : float
@@ -72,9 +72,9 @@ def prepare_start(found: Equilibrium) -> Start:
     tail = size - context.bundle.states.size - context.bundle.active.size
     cage = [(tail + i, int(entry) - L.NS * CAGE) for i, entry in enumerate(context.bundle.active)]
     standing, turning = (_rolling(found, speed) for speed in (0.0, 1.0))
-    row = np.zeros((balls, balls), R.BALL)
+    row = np.zeros((model.geometry.ball_count,) * 2, R.BALL)
     row["radius"], row["velocity"][..., 2] = 1.0, 1.0
-    row["x"] = np.eye(balls)
+    row["x"] = np.eye(len(row))
     return Start(
         state=found.state.copy(),
         weight=1.0 / context.scale,
@@ -97,6 +97,6 @@ def _rolling(found: Equilibrium, speed: float) -> FloatArray:
         found.context.model, inner_ring=dataclasses.replace(ring, dofs={**ring.dofs, SPIN: dof})
     )
     y = found.state.copy()
-    roll(model, found.context.frame, y)
-    ball = y[: L.NB].view(R.BALL)[0]
-    return np.array([ball["velocity"][2], *ball["spin"]])
+    roll(model, found.context.frame, y, found.arcs)
+    balls = y[: L.NB * model.geometry.balls].view(R.BALL)
+    return np.column_stack([balls["velocity"][:, 2], balls["spin"]])

@@ -16,19 +16,21 @@ static int equilibrium(lb_bearing *b, int friction) {
 }
 
 static void roll(lb_bearing *b) {
-  double speed = LB_SPIN >= 0 ? REAL(b, LB_SPIN) : LB_SPEED, rolling[4];
-  for (int i = 0; i < 4; i++) rolling[i] = lb_rolling[0][i] + speed * lb_rolling[1][i];
+  double speed = LB_SPIN >= 0 ? REAL(b, LB_SPIN) : LB_SPEED;
   for (unsigned j = 0; j < LB_BALLS; j++) {
-    REAL(b, BALL(j, VELOCITY) + 16) = rolling[0];
-    for (int i = 0; i < 3; i++) REAL(b, BALL(j, SPIN) + 8 * i) = rolling[1 + i];
+    const double *still = lb_rolling + 4 * j, *turning = still + 4 * LB_BALLS;
+    REAL(b, BALL(j, VELOCITY) + 16) = still[0] + speed * turning[0];
+    for (int i = 1; i < 4; i++) REAL(b, BALL(j, SPIN) + 8 * (i - 1)) = still[i] + speed * turning[i];
   }
 }
 
-/* Velocity of a ball along its path, axial or radial: where its neighbours are it comes by. */
+/* Velocity of a ball along its path, axial or radial: where its neighbours in the row are it comes by. */
 static double path(lb_bearing *b, unsigned j, unsigned place) {
+  unsigned first = j - j % LB_BALLS_OF_A_ROW;
   double slope = 0.0;
-  for (unsigned m = 0; m < LB_BALLS; m++)
-    slope += lb_path[(m + LB_BALLS - j) % LB_BALLS] * REAL(b, LB_START_STATE + LB_BALL_SIZE * m + place);
+  for (unsigned m = 0; m < LB_BALLS_OF_A_ROW; m++)
+    slope += lb_path[(first + m + LB_BALLS_OF_A_ROW - j) % LB_BALLS_OF_A_ROW] *
+             REAL(b, LB_START_STATE + LB_BALL_SIZE * (first + m) + place);
   return slope * REAL(b, BALL(j, VELOCITY) + 16) / REAL(b, BALL(j, RADIUS));
 }
 
