@@ -42,7 +42,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.system.law_trials import law_problems
     from lambda_core.thermal.temperatures import thermal, thermal_pictures, warm_up
 if TYPE_CHECKING:  # what the faces build on, and the classes that calls take and return
-    from lambda_core.batch.run_queue import QueuedRun, RunQueue
+    from lambda_core.batch.run_queue import QueuedRun, RunKind, RunQueue
     from lambda_core.batch.scheduler import StudyProgress
     from lambda_core.batch.studies import StudyStatus
     from lambda_core.case.cards import FieldCard, Kind, field_card
@@ -51,6 +51,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.case.draft import Draft
     from lambda_core.case.modelling import Models
     from lambda_core.case.parts import InlineMaterial
+    from lambda_core.case.shaft import ShaftCase
     from lambda_core.case.signals import SIGNAL_KINDS
     from lambda_core.catalogue.designation import Designation, read_designation
     from lambda_core.catalogue.protocol import BearingRow, CageRow, Catalogue, LubricantRow, MaterialRow
@@ -64,8 +65,8 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.run.duty_cycle import DutyCycle
     from lambda_core.run.estimate import Estimate
     from lambda_core.run.progress import Progress
-    from lambda_core.shaft.model import ShaftModel
-    from lambda_core.shaft.shaft_report import ShaftReport
+    from lambda_core.shaft.model import MountedBearing, ShaftModel
+    from lambda_core.shaft.shaft_report import BearingOnShaft, ShaftReport
     from lambda_core.shaft.whole_summary import WholeSummary
     from lambda_core.system.bearing import BearingModel, Geometry
     from lambda_core.system.describe import ValueReport, value_reports

@@ -105,12 +105,15 @@ def _check_shaft(case: str, changes: list[str], *, as_json: bool) -> None:
         typer.echo("\n".join(wrapped(api.describe_shaft(model).splitlines(), columns())))
 
 
-def schema(out: FileOption = None) -> None:
+def schema(
+    out: FileOption = None,
+    shaft: Annotated[bool, typer.Option("--shaft", help="That of the files of shafts in bearings.")] = False,
+) -> None:
     """Print the JSON schema of case files, for editors."""
     from lambda_core import api
     from lambda_core.domain.files import check_target
 
-    text = json.dumps(api.schema(), indent=2)
+    text = json.dumps(api.schema(shaft=shaft), indent=2)
     if out is None:
         typer.echo(text)
     else:

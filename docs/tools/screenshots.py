@@ -74,7 +74,7 @@ def app_of(pilot: Pilot[None]) -> BuilderApp:
 async def checked(pilot: Pilot[None]) -> None:
     """Wait for the first check."""
     builder = app_of(pilot).builder
-    await until(pilot, lambda: builder.check.model or builder.check.problems)
+    await until(pilot, lambda: builder.check.resolved or builder.check.problems)
 
 
 async def estimated(pilot: Pilot[None]) -> None:
@@ -117,6 +117,16 @@ async def law(pilot: Pilot[None]) -> None:
     await estimated(pilot)
     await node(pilot, "forces.ball_inner.traction")
     await pilot.press("down")
+
+
+async def shaft(pilot: Pilot[None]) -> None:
+    await estimated(pilot)
+    await node(pilot, "bearings.left")
+
+
+async def shaft_answer(pilot: Pilot[None]) -> None:
+    await estimated(pilot)
+    await pilot.press("f3")
 
 
 async def solver(pilot: Pilot[None]) -> None:
@@ -287,6 +297,8 @@ SCENES: dict[str, Scene] = {
     "mistakes": Scene(None, mistakes),
     "palette": Scene(_6208, palette),
     "bearings": Scene(_6208, bearings),
+    "shaft": Scene("box.toml", shaft),
+    "shaft-answer": Scene("box.toml", shaft_answer),
     "estimated": Scene(_6208, estimated_row),
     "oils": Scene(_6208, oils),
     "own-row": Scene(_6208, own_row),
@@ -385,6 +397,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         os.environ["LAMBDA_BEARING_DATA"] = str(Path(folder) / "data")
+        subprocess.run([sys.executable, "-m", "lambda_cli", "init", "box", "--shaft"], check=True, capture_output=True)
         for case in (_6319, "6208-axial-2000", _6208):
             command = [sys.executable, "-m", "lambda_cli", "run", case, "--quiet"]
             subprocess.run(command, check=True, capture_output=True)

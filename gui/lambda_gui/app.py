@@ -24,7 +24,7 @@ from lambda_gui.theme import DARK, LIGHT
 if TYPE_CHECKING:
     from textual.widget import Widget
 
-    from lambda_core.api import QueuedRun
+    from lambda_core.api import QueuedRun, RunKind
     from lambda_gui.taken import Kind, Taken
 
 _POLL = 0.2  # how often runs are asked what is new [s]
@@ -124,7 +124,7 @@ class BuilderApp(CaseApp):
             if found is not None:
                 builder.take(found)
 
-        before = builder.draft.get("bearing", "designation")
+        before = builder.draft.get(*builder.bearing, "designation")
         self.push_screen(CatalogueScreen(catalogue, kind, before if isinstance(before, str) else ""), taken)
 
     def action_help(self) -> None:
@@ -141,21 +141,21 @@ class BuilderApp(CaseApp):
     # -- runs --
 
     def action_run_case(self) -> None:
-        """Run the case as it stands, saved or not."""
+        """Run the case as it stands, saved or not; a shaft moves with all its bearings."""
         builder = self.builder
-        model = builder.check.model
+        model = builder.check.resolved
         if model is None:
             count = len(builder.check.problems)
             text = f"{count} mistake{'s' * (count != 1)} to mend first: F8" if count else "still checking"
             self.notify(text, severity="warning", timeout=4)
             return
-        self._queue_up(model.name, model.case_toml)
+        self._queue_up(model.name, model.case_toml, "shaft" if builder.draft.is_shaft else "run")
 
-    def _queue_up(self, name: str, case_toml: str, study_toml: str = "") -> None:
+    def _queue_up(self, name: str, case_toml: str, kind: RunKind, study_toml: str = "") -> None:
         path = self.builder.draft.path
         folder = path.resolve().parent if path else Path.cwd()
         try:
-            run = self.queue.add(name, case_toml, folder, study_toml)
+            run = self.queue.add(name, case_toml, folder, kind, study_toml)
         except LambdaError as error:
             self.notify(str(error), severity="error", timeout=10)
             return
@@ -201,7 +201,7 @@ class BuilderApp(CaseApp):
         """Run a study of a case."""
         import tomlkit
 
-        self._queue_up(str(study["name"]), case_toml, tomlkit.dumps(study))
+        self._queue_up(str(study["name"]), case_toml, "study", tomlkit.dumps(study))
 
     def action_runs(self, shown: QueuedRun | None = None) -> None:
         """Show all runs."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, cast
 
 from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.roles import MOTION_ROLES
-from lambda_gui.outline import Keys
+from lambda_gui.nodes import Keys
 from lambda_gui.rows import Surroundings
 
 if TYPE_CHECKING:
@@ -62,6 +62,8 @@ class CaseAround(Surroundings):
 
     def names(self, kind: str) -> list[str]:
         """Return the names of one kind in the catalogue."""
+        if kind == "support":
+            return ["locked", "free"]
         if kind not in self._names:
             from contextlib import closing
 
@@ -84,6 +86,8 @@ def _path(keys: Keys) -> str:
     first = keys[0]
     if keys[:2] in (("bearing", "geometry"), ("lubricant", "properties")):
         keys = (first, *keys[2:])
+    if first == "bearings" and keys[2:3] == ("geometry",):
+        keys = (*keys[:2], *keys[3:])
     if first in ("models", "parameters") and keys[1] in MOTION_ROLES:
         keys = ("forces", MOTION_ROLES[keys[1]].elements[0], *keys)
     return ".".join(keys)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from rich.text import Text
 from textual import events
@@ -14,19 +13,21 @@ from textual.timer import Timer
 from textual.widgets import Footer, Tree
 
 from lambda_core.domain.errors import Problem
+from lambda_core.domain.option_tree import option_paths
+from lambda_gui import entries
 from lambda_gui.checking import belongs, node_of
 from lambda_gui.derived import Derived
 from lambda_gui.forms import NodeForm
 from lambda_gui.head import Head
 from lambda_gui.live_draft import LiveDraft
+from lambda_gui.nodes import Keys, Node
 from lambda_gui.option_help import OptionHelp
-from lambda_gui.outline import NAMED, Keys, Node
 from lambda_gui.rows import Edited, Left, Row
 from lambda_gui.sketch import Sketch
 from lambda_gui.tree import ModelTree
 
 if TYPE_CHECKING:
-    from lambda_core.api import Draft, Estimate
+    from lambda_core.api import Draft
     from lambda_gui.taken import Taken
 
 
@@ -132,7 +133,14 @@ class BuilderScreen(LiveDraft):
 
     def _show_node_help(self, node: Node) -> None:
         words = node.help[:1].upper() + node.help[1:]
+        if node.section is not None and not node.section.installed:
+            words += f"; + adds a {node.section.one}" + ", Del removes it" * (node.kind == "item")
         self.query_one(OptionHelp).show(Text.assemble((node.heading, "bold"), f"  {words}"))
+
+    @property
+    def bearing(self) -> Keys:
+        """Where the bearing is written that a row of the catalogue is taken for."""
+        return ("bearing",)
 
     @property
     def form(self) -> NodeForm | None:
@@ -151,18 +159,30 @@ class BuilderScreen(LiveDraft):
 
     def on_node_form_opened(self, event: NodeForm.Opened) -> None:
         """Do what a button of the form asks for."""
-        what, _, rest = event.what.partition(" ")
-        if what == "catalogue":
+        if event.what == "catalogue":
             self.action_catalogue()
-        elif what == "node":
-            self.query_one(ModelTree).go_to(rest)
+        elif event.what == "node":
+            self.query_one(ModelTree).go_to(event.name)
             self.query_one(ModelTree).focus()
-        elif what in ("add", "remove"):
-            section, _, name = rest.partition(" ")
-            if what == "remove" or self.draft.get(section, name) is None:
-                self.draft.set(section, name, value=dict(NAMED[section].begins) if what == "add" else None)
-                self.edited()
-            self.go_to((section, name) if what == "add" else (section,))
+        elif self.form is not None:
+            self._change_tables(event.what, self.form.node, event.name)
+
+    def on_model_tree_wished(self, event: ModelTree.Wished) -> None:
+        """Add a table, or take one out."""
+        self._change_tables(event.what, event.node)
+
+    def _change_tables(self, what: str, node: Node, name: str = "") -> None:
+        """Let a table of a section come or go, or have another name, and go there."""
+        if node.section is None or (node.section.installed and what == "add" and not name):
+            return
+        if what == "remove":
+            place = entries.remove(node, self.draft)
+            self.query_one(ModelTree).focus()
+        else:
+            change = {"add": entries.add, "rename": entries.rename}[what]
+            place = change(node, self.draft, name)
+        self.edited()
+        self.go_to(place)
 
     def on_descendant_focus(self, event: events.DescendantFocus) -> None:
         """Say what the option under the keyboard is."""
@@ -185,10 +205,13 @@ class BuilderScreen(LiveDraft):
         self._wanted = keys
         tree.go_to(node.key)
 
-    def those_on_nodes(self, paths: Iterable[str]) -> list[str]:
+    def options(self) -> list[str]:
         """Return the options that stand on some node."""
-        places = {place for node in self.query_one(ModelTree).all_nodes() for place in node.places}
-        split = ((path, tuple(path.split("."))) for path in paths)
+        nodes = self.query_one(ModelTree).all_nodes()
+        places = {place for node in nodes for place in node.places}
+        items = (group for node in nodes if node.kind == "item" for group in node.groups)
+        shown = (".".join(keys) for group in items for keys in group.fields)
+        split = ((path, tuple(path.split("."))) for path in dict.fromkeys((*option_paths(self.draft.root), *shown)))
         return [path for path, keys in split if any(keys[: n + 1] in places for n in range(len(keys)))]
 
     # -- changes --
@@ -212,10 +235,10 @@ class BuilderScreen(LiveDraft):
         if self.form is not None:
             self.form.reload(self.check.problems)
         self.query_one(Derived).show_check(self.check)
-        self.query_one(Sketch).show_model(self.check.model)
+        self.query_one(Sketch).show_check(self.check)
         self._show_head()
 
-    def show_estimate(self, estimate: Estimate | None, say: str) -> None:
+    def show_estimate(self, estimate: Any, say: str) -> None:
         """Show the numbers that follow."""
         if self.is_attached:
             self.query_one(Derived).show_estimate(estimate, say)
@@ -279,9 +302,9 @@ class BuilderScreen(LiveDraft):
     def take(self, found: Taken) -> None:
         """Put a row of the catalogue into the case; values of another bearing or oil written here go."""
         if found.kind == "bearing":
-            self.draft.set("bearing", "designation", value=found.name)
-            self.draft.set("bearing", "maker", value=found.maker)
-            old = ("bearing", "geometry")
+            self.draft.set(*self.bearing, "designation", value=found.name)
+            self.draft.set(*self.bearing, "maker", value=found.maker)
+            old = (*self.bearing, "geometry")
         else:
             self.draft.set("lubricant", "name", value=found.name)
             old = ("lubricant", "properties")
@@ -291,7 +314,7 @@ class BuilderScreen(LiveDraft):
         if found.said:
             self.notify(f"{found.name}: {found.said}; Ctrl+Z takes it back", timeout=8)
         self.draft.seal()
-        self.go_to((found.kind, "designation" if found.kind == "bearing" else "name"))
+        self.go_to((*self.bearing, "designation") if found.kind == "bearing" else ("lubricant", "name"))
         if self.form is not None:
             self.form.reload(self.check.problems)
         self.edited()

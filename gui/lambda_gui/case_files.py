@@ -13,7 +13,8 @@ from lambda_core import api
 from lambda_core.domain.errors import LambdaError
 from lambda_gui import recovery
 from lambda_gui.builder import BuilderScreen
-from lambda_gui.dialogs import EMPTY, MACHINE, Ask, AskText, OpenCase
+from lambda_gui.dialogs import EMPTY, MACHINE, SHAFT, Ask, AskText, OpenCase
+from lambda_gui.shaft_screen import ShaftScreen
 
 if TYPE_CHECKING:
     from lambda_core.api import Draft
@@ -29,10 +30,12 @@ class CaseApp(App[None]):
         return screen
 
     def open(self, source: str) -> None:
-        """Work on a case file, a copy of a built-in case, what is usual in a machine, or ("") an empty model."""
+        """Work on a case file, a copy of a built-in case, what is usual in a machine, an empty model or shaft."""
         try:
             if source.startswith(MACHINE):
                 draft = api.draft(machine=source.removeprefix(MACHINE))
+            elif source == SHAFT:
+                draft = api.draft(shaft=True)
             else:
                 draft = api.draft(source or None)
         except LambdaError as error:
@@ -47,7 +50,7 @@ class CaseApp(App[None]):
     def _open(self, draft: Draft | None, then: Callable[[], None] | None = None) -> None:
         """Work on a draft in place of the one before; `then` is called unless unsaved work on it is recovered."""
         draft = draft or api.draft()
-        screen = BuilderScreen(draft)
+        screen = (ShaftScreen if draft.is_shaft else BuilderScreen)(draft)
         if any(isinstance(shown, BuilderScreen) for shown in self.screen_stack):
             while not isinstance(self.screen, BuilderScreen):
                 self.pop_screen()  # whatever lies over the case belongs to the case before
@@ -67,8 +70,7 @@ class CaseApp(App[None]):
 
         def answered(answer: str | None) -> None:
             if answer == "recover":
-                recovery.take(rescue, draft)
-                self.builder.edited()
+                self._recover(rescue, draft)
                 return
             if answer == "discard":
                 recovery.forget(rescue)
@@ -80,6 +82,16 @@ class CaseApp(App[None]):
             Ask(f"There is unsaved work on {what} from {rescue.age()}.", ["recover", "discard", "decide later"]),
             answered,
         )
+
+    def _recover(self, rescue: recovery.Rescue, draft: Draft) -> None:
+        """Put rescued work into the draft; work without a file may be on a shaft, which has another screen."""
+        if rescue.is_shaft == draft.is_shaft:
+            recovery.take(rescue, draft)
+            self.builder.edited()
+            return
+        other = api.draft(shaft=rescue.is_shaft)
+        recovery.take(rescue, other)
+        self._open(other)
 
     def action_open_case(self) -> None:
         """Ask for another case."""

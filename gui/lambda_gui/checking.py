@@ -7,15 +7,17 @@ from collections.abc import Iterable, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_origin
 
-from lambda_core.api import Case
+from pydantic import BaseModel
+
+from lambda_core.api import Case, ShaftCase
 from lambda_core.domain.errors import Problem
 from lambda_core.domain.option_tree import model_at
-from lambda_gui.outline import Keys, Node
+from lambda_gui.nodes import Keys, Node
 
 if TYPE_CHECKING:
-    from lambda_core.api import BearingModel, Catalogue, ValueReport
+    from lambda_core.api import BearingModel, Catalogue, ShaftModel, ValueReport
 
 
 @dataclass(frozen=True)
@@ -24,12 +26,20 @@ class Check:
 
     problems: tuple[Problem, ...] = ()
     model: BearingModel | None = None
+    shaft: ShaftModel | None = None  # in place of the model, of a shaft in several bearings
     values: tuple[ValueReport, ...] = ()
     warnings: tuple[str, ...] = ()  # where a valid case leaves what bearing, oil and laws are made for
 
+    @property
+    def resolved(self) -> BearingModel | ShaftModel | None:
+        """What the case is, resolved."""
+        return self.model or self.shaft
+
 
 class Checker:
-    """Checks drafts against one open catalogue: opening it takes as long as a check."""
+    """Checks drafts of one bearing against one open catalogue: opening it takes as long as a check."""
+
+    root: type[BaseModel] = Case
 
     def __init__(self) -> None:
         self._catalogue: Catalogue | None = None
@@ -38,18 +48,30 @@ class Checker:
     def check(self, tables: Mapping[str, Any], folder: Path | None) -> Check:
         """Check tables as they would stand in a file; heavy parts are imported at the first call."""
         from lambda_core import api
-        from lambda_core.api import operating_warnings, value_reports
 
         try:
             with self._turn:
                 if self._catalogue is None:
                     self._catalogue = api.catalogue()
-                model = api.check(_with_needed(tables), folder=folder, catalogue=self._catalogue)
+                return self._resolved(_with_needed(tables, self.root), folder, self._catalogue)
         except api.CaseError as error:
-            return Check(tuple(sorted(error.problems, key=_order)))
+            return Check(tuple(sorted(error.problems, key=self._order)))
         except api.LambdaError as error:  # a broken catalogue or plugin: nothing can be checked
             return Check((Problem("", str(error)),))
-        return Check((), model, tuple(value_reports(model)), tuple(operating_warnings(model)))
+
+    def _resolved(self, tables: Mapping[str, Any], folder: Path | None, catalogue: Catalogue) -> Check:
+        """Return the check of a case without mistakes; LambdaError where there are any."""
+        from lambda_core import api
+        from lambda_core.api import operating_warnings, value_reports
+
+        model = api.check(tables, folder=folder, catalogue=catalogue)
+        return Check((), model, None, tuple(value_reports(model)), tuple(operating_warnings(model)))
+
+    def _order(self, problem: Problem) -> int:
+        """Return the place of a problem's table in the case, so that mistakes come in the order of the tree."""
+        names = list(self.root.model_fields)
+        first = problem.where.partition(".")[0]
+        return names.index(first) if first in names else len(names)
 
     def close(self) -> None:
         """Release the catalogue; the next check opens it anew, with what has been added meanwhile."""
@@ -66,16 +88,35 @@ def plugin_faults() -> list[str]:
     return [f"{fault.distribution}: {fault.message}" for fault in registry().faults if fault.is_broken]
 
 
-def _order(problem: Problem) -> int:
-    """Return the place of a problem's table in the case, so that mistakes come in the order of the tree."""
-    names = list(Case.model_fields)
-    first = problem.where.partition(".")[0]
-    return names.index(first) if first in names else len(names)
+class ShaftChecker(Checker):
+    """Checks drafts of a shaft in several bearings."""
+
+    root = ShaftCase
+
+    def _resolved(self, tables: Mapping[str, Any], folder: Path | None, catalogue: Catalogue) -> Check:
+        """Return the check of a shaft without mistakes, with what every bearing takes from the catalogue."""
+        from lambda_core import api
+        from lambda_core.api import operating_warnings, value_reports
+
+        shaft = api.check_shaft(tables, folder=folder, catalogue=catalogue)
+        values, warnings = [], []
+        for number, bearing in enumerate(shaft.bearings):
+            own = f"bearings.{bearing.name}."
+            values += [
+                value.model_copy(update={"path": own + value.path.removeprefix("bearing.")})
+                if value.path.startswith("bearing.") else value
+                for value in value_reports(bearing.model) if number == 0 or value.path.startswith("bearing.")
+            ]  # fmt: skip
+            warnings += [f"{bearing.name}: {warning}" for warning in operating_warnings(bearing.model)]
+        return Check((), None, shaft, tuple(values), tuple(warnings))
 
 
-def _with_needed(tables: Mapping[str, Any]) -> dict[str, Any]:
+def _with_needed(tables: Mapping[str, Any], root: type[BaseModel]) -> dict[str, Any]:
     """Return a copy with an empty table where a required one is missing: the mistakes are then about its options."""
-    needed = (name for name, info in Case.model_fields.items() if info.is_required() and model_at(Case, (name,)))
+    needed = (
+        name for name, info in root.model_fields.items()
+        if info.is_required() and get_origin(info.annotation) is not dict and model_at(root, (name,))
+    )  # fmt: skip
     return {**{name: {} for name in needed}, **deepcopy(dict(tables))}
 
 

@@ -7,12 +7,11 @@ from functools import partial
 
 from textual.command import DiscoveryHit, Hit, Hits, Provider
 
-from lambda_core.api import Case
-from lambda_core.domain.option_tree import field_at, option_paths
 from lambda_gui.builder import BuilderScreen
+from lambda_gui.nodes import told
 
 # The options that are changed most often; where words fit them as well as others they come first.
-_USUAL = ("loads.radial", "loads.axial", "operation.speed", "lubricant.temperature")
+_USUAL = ("loads.radial", "loads.axial", "operation.speed", "lubricant.temperature", "shaft.drive")
 _AHEAD = 1.5
 _LINE = 70  # characters that fit under a hit on a narrow screen
 
@@ -31,10 +30,8 @@ class OptionSearch(Provider):
     async def startup(self) -> None:
         """Find the options that stand on some node."""
         if isinstance(self.screen, BuilderScreen):
-            self._options = [
-                (path, path.replace("_", " "), (info.description if (info := field_at(Case, path)) else "") or "")
-                for path in self.screen.those_on_nodes(option_paths(Case))
-            ]
+            root = self.screen.draft.root
+            self._options = [(path, path.replace("_", " "), told(root, path)) for path in self.screen.options()]
 
     async def search(self, query: str) -> Hits:
         """Yield the options that match."""
@@ -53,6 +50,6 @@ class OptionSearch(Provider):
         if not isinstance(self.screen, BuilderScreen):
             return
         for path in _USUAL:
-            info = field_at(Case, path)
-            go = partial(self.screen.go_to, tuple(path.split(".")))
-            yield DiscoveryHit(path, go, help=gist(info.description or "") if info is not None else "")
+            if words := told(self.screen.draft.root, path):
+                go = partial(self.screen.go_to, tuple(path.split(".")))
+                yield DiscoveryHit(path, go, help=gist(words))

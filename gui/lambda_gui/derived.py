@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich.text import Text
 from textual.widgets import Static
@@ -29,7 +29,7 @@ class Derived(Static):
     def __init__(self) -> None:
         super().__init__(id="derived")
         self._check: Check | None = None
-        self._estimate: Estimate | None = None
+        self._estimate: Any = None  # an Estimate; of a shaft its ShaftReport
         self._say = ""
         self.is_current = False  # whether the numbers are those of the case as it stands
 
@@ -39,7 +39,7 @@ class Derived(Static):
         self.is_current = False
         self.draw()
 
-    def show_estimate(self, estimate: Estimate | None, say: str) -> None:
+    def show_estimate(self, estimate: Any, say: str) -> None:
         """Take an estimate, or what is being done about it."""
         if estimate is not None:
             self._estimate, self.is_current = estimate, True

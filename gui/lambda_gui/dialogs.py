@@ -77,6 +77,7 @@ class AskText(ModalScreen[str | None]):
 
 
 EMPTY = ""
+SHAFT = "shaft:"  # an empty shaft
 MACHINE = "machine:"  # what stands before the name of a machine to start from
 _NAMES = 18  # columns for the names of cases; what is longer is wrapped
 
@@ -88,7 +89,7 @@ def _short(folder: Path) -> str:
 
 
 class OpenCase(ModalScreen[str | None]):
-    """Which case to work on: "" for an empty one, a file, a machine, a built-in name; None when left with Esc."""
+    """Which case to work on: empty, a shaft, a file, a machine, a built-in name; None when left with Esc."""
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("escape", "dismiss(None)", "Back"),
@@ -122,7 +123,10 @@ class OpenCase(ModalScreen[str | None]):
 
         from lambda_core import api
 
-        self._offers = [(EMPTY, "empty model", "start from nothing")]
+        self._offers = [
+            (EMPTY, "empty model", "one bearing, start from nothing"),
+            (SHAFT, "new shaft", "a shaft in several bearings, start from nothing"),
+        ]
         here = [f for f in sorted(self._folder.glob("*.toml")) if f.name[0] != "." and f.name != "pyproject.toml"]
         self._offers += [(str(file), file.name, f"in {self._folder.name or self._folder}") for file in here]
         known = {file.resolve() for file in here}

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
-from rich.console import Group, RenderableType
+from rich.console import Group as Lines
+from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 from textual.app import ComposeResult
@@ -22,9 +23,10 @@ from lambda_gui.around import CaseAround
 from lambda_gui.checking import by_place
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.details import Sources
+from lambda_gui.entries import free_name, is_list
 from lambda_gui.fields import ChoiceRow, ParagraphRow, TextRow, row_for
 from lambda_gui.laws import law_choice_row, law_choices, law_row
-from lambda_gui.outline import NAMED, Keys, Node, table_model
+from lambda_gui.nodes import Group, Keys, Node, table_model
 from lambda_gui.parts import FreedomRow, MaterialRow
 from lambda_gui.places import Option
 from lambda_gui.rows import Row, Stepped
@@ -35,7 +37,8 @@ if TYPE_CHECKING:
     from lambda_core.api import Draft
     from lambda_core.domain.errors import Problem
 
-_NAMES = {"bearing.designation": "bearing", "lubricant.name": "lubricant"}
+_NAMES = {"designation": "bearing", "name": "lubricant"}  # options that name a row of the catalogue
+_MATERIALS = ("materials", "shaft", "housing")  # sections in which a table is a material
 
 _ROOMY = 56  # width of a form from which on nothing is shortened
 _LABEL, _LABEL_NARROW = 30, 17  # most room for labels; 20 columns are left for values on a form at 80 columns
@@ -56,11 +59,11 @@ _STRANGER = FieldCard(
 
 def row_at(draft: Draft, keys: Keys, around: CaseAround) -> Row:
     """Return the row for one option of the case."""
-    table, name, place = table_model(keys[:-1]), keys[-1], Option(draft, keys)
+    table, name, place = table_model(draft.root, keys[:-1]), keys[-1], Option(draft, keys)
     card, annotation = field_card(table, name), table.model_fields[name].annotation
     if keys[0] == "bodies" and name in DOFS and len(keys) == 3:
-        return FreedomRow(place, card, around, table_model(keys))
-    if keys[0] == "materials":
+        return FreedomRow(place, card, around, table_model(draft.root, keys))
+    if keys[0] in _MATERIALS and card.kind == "table":
         return MaterialRow(place, card, around)
     if keys == ("bodies", "cage", "type"):
         return ChoiceRow(place, card, around, lambda: [ChoiceEntry(name, name) for name in around.names("cage")])
@@ -71,7 +74,8 @@ def row_at(draft: Draft, keys: Keys, around: CaseAround) -> Row:
     if card.kind == "signal":
         return SignalRow(place, card, around, list(members(annotation)))
     if card.kind == "text":
-        return TextRow(place, card, around, kind=_NAMES.get(".".join(keys), ""))
+        kind = "support" if keys[-2:-1] == ("support",) else _NAMES.get(name, "") if len(keys) > 1 else ""
+        return TextRow(place, card, around, kind=kind)
     return row_for(place, card, around)
 
 
@@ -98,11 +102,11 @@ class NodeForm(VerticalScroll, can_focus=False):
         """The person goes back to the tree."""
 
     class Opened(Message):
-        """A button asks for something: "catalogue", "add SECTION NAME", "remove SECTION NAME", "node KEY"."""
+        """A button asks for something: "catalogue", "add", "rename" (with a name), "remove", "node" (with its key)."""
 
-        def __init__(self, what: str) -> None:
+        def __init__(self, what: str, name: str = "") -> None:
             super().__init__()
-            self.what = what
+            self.what, self.name = what, name
 
     def __init__(self, node: Node, draft: Draft, around: CaseAround) -> None:
         super().__init__()
@@ -152,16 +156,18 @@ class NodeForm(VerticalScroll, can_focus=False):
                 yield Static(group.title, classes="group")
             for keys in group.fields:
                 yield row_at(self._draft, keys, self._around)
-            yield from self._strangers(group.table)
+            yield from self._strangers(group)
         if node.kind == "item":
             yield from watcher_rows(self._draft, node, self._around)
         if not (node.groups or node.kind in ("role", "roles", "named", "item")):
             for child in node.children:
                 yield from _link(child)
 
-    def _strangers(self, table: Keys) -> Iterator[Widget]:
+    def _strangers(self, group: Group) -> Iterator[Widget]:
         """Yield a row for each key of a hand-written file that is no option, so that it can be taken out."""
-        written, known = self._draft.get(*table) if table else self._draft.tables, table_model(table).model_fields
+        table = group.table
+        written = self._draft.get(*table) if table else self._draft.tables
+        known = table_model(self._draft.root, table).model_fields
         for name in written if isinstance(written, dict) else ():
             if name not in known:
                 yield TextRow(
@@ -169,20 +175,29 @@ class NodeForm(VerticalScroll, can_focus=False):
                 )
 
     def _buttons(self) -> Iterator[Widget]:
-        node = self.node
-        if node.key in ("bearing", "lubricant"):
+        node, what = self.node, self.node.section
+        if node.key in ("bearing", "lubricant") or _is_bearing(node):
             with Horizontal(classes="buttons"):
                 yield Button("F2  choose from the catalogue", id="catalogue", compact=True)
-        if node.kind == "named":
+        if node.kind == "named" and what is not None:
             for child in node.children:
                 yield from _link(child)
-            if NAMED[node.key].installed:
+            if what.installed:
                 yield from new_watchers(node)
+            elif is_list(node):
+                with Horizontal(classes="buttons"):
+                    yield Button(f"add a {what.one}", id="add", compact=True)
             else:
-                yield Input(placeholder=f"a new {NAMED[node.key].one}, then Enter", compact=True, id="new-name")
-        if node.kind == "item":
+                proposed = free_name(node, self._draft) if what.usual else ""
+                words = f": {proposed}, or its name" if proposed else ""
+                yield Input(placeholder=f"a new {what.one}{words}, then Enter", compact=True, id="new-name")
+        if node.kind == "item" and what is not None:
+            if not (is_list(node) or what.installed):
+                yield Input(placeholder=f"another name than {node.table[-1]}", compact=True, id="rename")
             with Horizontal(classes="buttons"):
-                yield Button(f"remove this {NAMED[node.key.partition('.')[0]].one}", id="remove", compact=True)
+                if is_list(node):
+                    yield Button("add one after it", id="add", compact=True)
+                yield Button("remove it" if is_list(node) else f"remove this {what.one}", id="remove", compact=True)
 
     def reload(self, problems: Sequence[Problem]) -> None:
         """Show what is written and what is wrong with it."""
@@ -199,7 +214,7 @@ class NodeForm(VerticalScroll, can_focus=False):
         own = {row.place.keys[-1] for row in self.query(Row)}
         found = [
             value
-            for value in (self._around.table(self.node.key) if self.node.key in ("bearing", "lubricant") else ())
+            for value in (self._around.table(self.node.key) if _has_values(self.node) else ())
             if value.path.rpartition(".")[2] not in own and value.source != "case"
         ]
         if not found:
@@ -217,7 +232,7 @@ class NodeForm(VerticalScroll, can_focus=False):
         told = Text()
         sources.write(told)
         title = "from the catalogue or derived; grade" + (", source" if told else "")
-        return Group(Text(title, style="italic"), table, told)
+        return Lines(Text(title, style="italic"), table, told)
 
     def show(self, keys: Keys) -> None:
         """Bring one option into view and to the keyboard: the row that is most about it."""
@@ -230,9 +245,10 @@ class NodeForm(VerticalScroll, can_focus=False):
 
     def enter(self) -> None:
         """Give the keyboard to the first entry."""
-        first = next(self._stops(), None)
-        if first is not None:
-            first.focus()
+        stops = list(self._stops())
+        adds = [stop for stop in stops if stop.id in ("new-name", "add")] if self.node.kind == "named" else []
+        if stops:
+            (adds or stops)[0].focus()
 
     def _stops(self) -> Iterator[Widget]:
         return (widget for widget in self.query("*").results(Widget) if widget.focusable)
@@ -269,16 +285,32 @@ class NodeForm(VerticalScroll, can_focus=False):
         """Hand the wish on."""
         event.stop()
         what = event.button.id or ""
-        if what == "remove" or what.startswith("new-"):
-            section, _, name = self.node.key.partition(".")
-            what = f"remove {section} {name}" if what == "remove" else f"add {section} {what.removeprefix('new-')}"
-        self.post_message(self.Opened(what))
+        if what.startswith("new-"):
+            self.post_message(self.Opened("add", event.button.name or ""))
+        else:
+            self.post_message(self.Opened(what))
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
-        """Ask for a new table of a name."""
-        if event.input.id == "new-name" and event.value.strip():
+        """Ask for a new table of a name, or for another name of this one."""
+        name, section = event.value.strip(), self.node.section
+        if event.input.id == "new-name" and section is not None:
             event.stop()
-            self.post_message(self.Opened(f"add {self.node.key} {event.value.strip()}"))
+            name = name or (free_name(self.node, self._draft) if section.usual else "")
+            if name:
+                self.post_message(self.Opened("add", name))
+        elif event.input.id == "rename" and name:
+            event.stop()
+            self.post_message(self.Opened("rename", name))
+
+
+def _is_bearing(node: Node) -> bool:
+    """Tell whether a node is that of one of several bearings."""
+    return len(node.table) == 2 and node.table[0] == "bearings"
+
+
+def _has_values(node: Node) -> bool:
+    """Tell whether a form shows what its table takes from the catalogue."""
+    return node.key in ("bearing", "lubricant") or _is_bearing(node)
 
 
 def _meets(one: Keys, other: Keys) -> bool:
@@ -300,7 +332,7 @@ class _Link(Button):
 
     def press(self) -> _Link:
         """Open the node."""
-        self.post_message(NodeForm.Opened(f"node {self._node.key}"))
+        self.post_message(NodeForm.Opened("node", self._node.key))
         return self
 
 

@@ -37,12 +37,12 @@ class Head(Static):
         count = len(check.problems)
         if count:
             right.append(f"▲ {count} mistake{'s' * (count > 1)}  F8", style=colours["error"])
-        elif check.model is not None:
+        elif check.resolved is not None:
             beyond = len(check.warnings)
             right.append("ready", style=colours["warning" if beyond else "success"])
             if beyond:
                 right.append(f", ▲ {beyond} warning{'s' * (beyond > 1)}  F8", style=colours["warning"])
-            right.append(f"  {len(check.model.assumptions)} assumptions", style="dim")
+            right.append(f"  {len(check.resolved.assumptions)} assumptions", style="dim")
         if running:
             right = Text.assemble((running, "bold"), "   ", right)
         left.pad_right(max(1, self.app.size.width - 2 - left.cell_len - right.cell_len))

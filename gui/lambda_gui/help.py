@@ -42,6 +42,36 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
             ("Ctrl+Q", "quit; asks for unsaved changes and runs that go on"),
         ),
     ),
+    "ShaftScreen": (
+        "A shaft in several bearings",
+        "The tree has pieces, bearings, gears, discs and loads; the form of the node under the cursor stands beside "
+        "it. Below, the upper half of the shaft is drawn to scale, and how it bends (z vertical, y horizontal); beside "
+        "it stands what the equilibrium says, grey while it is solved anew.",
+        (
+            ("↑ ↓ → ←", "move in the tree; open or close a node; → on an open node goes into its form"),
+            ("+  Del", "in the tree: add a piece, a bearing ... beside the node; remove the one under the cursor"),
+            ("Enter", "into the form; in a field: complete the unit and go on; on a choice: open its list"),
+            ("Esc", "from the form back to the tree"),
+            ("F2", "catalogue: for the bearing whose form is shown; oils on the form of the lubricant"),
+            ("F3", "everything that the equilibrium says, with bending moment and natural frequencies"),
+            ("F5 or Ctrl+R", "let the shaft move with all its bearings; its folder appears under Results"),
+            ("F6  F7", "results; runs"),
+            ("F8", "go to the next mistake; the warnings where there is none"),
+            ("Ctrl+S", "save; only what you changed is changed in the file"),
+            ("Ctrl+Z  Ctrl+Y", "undo, redo"),
+            ("Ctrl+O", "open another case, a built-in one, or an empty model or shaft"),
+            ("Ctrl+P", "all commands; type the name of any option to go to it"),
+            ("⊢left⊣  ~b~", "a bearing that holds the shaft both ways along x; one that floats; ⊢b or b⊣: one way"),
+            ("→ ← ↑ ↓ ⊗ ⊙", "how a load, a gear or a bearing pushes the shaft; ⊗ along +y, into the picture"),
+            ("● ╱ ╲", "a ball; the contact line of an angular contact bearing: ╱ ╲ is O, ╲ ╱ is X"),
+        ),
+    ),
+    "ShaftAnswerScreen": (
+        "What the shaft does",
+        "The equilibrium of the whole: every bearing in a column, the shaft below, then the bend, the bending moment "
+        "and the natural frequencies over speed.",
+        (("Space PgDn PgUp", "scroll"), ("Esc or F3", "back"), *_ALL),
+    ),
     "CatalogueScreen": (
         "The catalogue",
         "Type to filter: words of designation, maker or series, a dimension, or conditions such as d=40 and C>30. "
@@ -132,7 +162,7 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     ),
     "OpenCase": (
         "Open a case",
-        "An empty model, a case file of this folder, or a copy of a built-in case.",
+        "An empty model or shaft, a case file of this folder, or a copy of a built-in case.",
         (("type", "filter the list, or write the path of a file"), *_ASKING),
     ),
     "PickList": (

@@ -5,17 +5,17 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
+import os
 import pickle
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from lambda_core.domain.errors import LambdaError
 
-if TYPE_CHECKING:
-    from lambda_core.api import Estimate
-
+# The matrices are small: threads that wait for each other on them take ten times the processor time of one.
+_ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 _STARTS = 3  # a process that keeps dying is not started for ever
 
 
@@ -77,7 +77,9 @@ class Helper:
         pipe, null = asyncio.subprocess.PIPE, asyncio.subprocess.DEVNULL
         command = (sys.executable, "-P", "-m", "lambda_gui.helper_process")
         try:
-            self._process = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe, stderr=null)
+            self._process = await asyncio.create_subprocess_exec(
+                *command, stdin=pipe, stdout=pipe, stderr=null, env=os.environ | _ONE_THREAD
+            )
         except OSError as error:
             raise LambdaError(f"the helper process cannot be started: {error.strerror}") from None
         return self._process
@@ -102,10 +104,12 @@ class Estimator:
     ----------
     tell : callable
         ``tell(estimate, sentence)``: an estimate, or what is being done or what went wrong.
+    work : str
+        What the helper does with a case: "estimate", or "shaft" for the equilibrium of a whole shaft.
     """
 
-    def __init__(self, tell: Callable[[Estimate | None, str], None]) -> None:
-        self._tell = tell
+    def __init__(self, tell: Callable[[Any, str], None], work: str = "estimate") -> None:
+        self._tell, self._work = tell, work
         self._helper = Helper(lambda text: tell(None, text))
         self._waiting: tuple[dict[str, Any], Path | None] | None = None
         self._is_busy = False
@@ -126,7 +130,7 @@ class Estimator:
 
     async def _answer(self, tables: dict[str, Any], folder: Path | None) -> None:
         try:
-            found = await self._helper.ask("estimate", tables=tables, folder=str(folder) if folder else None)
+            found = await self._helper.ask(self._work, tables=tables, folder=str(folder) if folder else None)
         except LambdaError as error:
             found, words = None, str(error)
         else:

@@ -26,6 +26,13 @@ def estimate(say: Say, tables: dict[str, Any], folder: str | None) -> Any:
     return api.estimate(api.check(tables, folder=Path(folder) if folder else None), announce=say)
 
 
+def shaft(say: Say, tables: dict[str, Any], folder: str | None) -> Any:
+    """Solve the equilibrium of a shaft in its bearings."""
+    from lambda_core import api
+
+    return api.shaft(api.check_shaft(tables, folder=Path(folder) if folder else None), announce=say)
+
+
 def summary(say: Say, path: str) -> Any:
     """Return the summary of a result."""
     from lambda_core import api
@@ -115,7 +122,7 @@ def differences(say: Say, sources: list[str]) -> Any:
     return api.side_by_side(sources)
 
 
-_DOES = (estimate, summary, case_text, views, view, draw, report, study_cost, duty, study_summary, differences)
+_DOES = (estimate, shaft, summary, case_text, views, view, draw, report, study_cost, duty, study_summary, differences)
 _WORK: dict[str, Callable[..., Any]] = {work.__name__: work for work in _DOES}
 
 

@@ -9,7 +9,7 @@ from rich.text import Text
 from textual.widget import Widget
 from textual.widgets import Static
 
-from lambda_core.api import FieldCard, Models, field_card
+from lambda_core.api import Case, FieldCard, Models, field_card
 from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.roles import DEFAULT_MODELS, ROLES
 from lambda_gui.branch import Branch
@@ -17,7 +17,7 @@ from lambda_gui.choice import Choice, unset
 from lambda_gui.choice import Entry as ChoiceEntry
 from lambda_gui.entry import text_of
 from lambda_gui.fields import ChoiceRow, row_for
-from lambda_gui.outline import Node, table_model
+from lambda_gui.nodes import Node, table_model
 from lambda_gui.places import Option, Part
 from lambda_gui.rows import Left, Surroundings
 
@@ -48,7 +48,7 @@ def _gist(role: str, name: str) -> str:
 
 def law_card(node: Node) -> FieldCard:
     """Return the card of the choice of a role's model."""
-    table = table_model(node.law_places[0][:-1])
+    table = table_model(Case, node.law_places[0][:-1])
     return field_card(table, "law") if ROLES[node.role].section else field_card(Models, node.role)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from copy import deepcopy
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from textual import work
 from textual.screen import Screen
@@ -13,12 +13,12 @@ from textual.timer import Timer
 
 from lambda_core.domain.errors import LambdaError
 from lambda_gui.around import CaseAround
-from lambda_gui.checking import Check, Checker, plugin_faults
+from lambda_gui.checking import Check, Checker, ShaftChecker, plugin_faults
 from lambda_gui.helper import Estimator
 from lambda_gui.recovery import Keeper
 
 if TYPE_CHECKING:
-    from lambda_core.api import Draft, Estimate
+    from lambda_core.api import Draft
 
 _CHECK_AFTER = 0.1  # of quiet [s]
 _KEEP_AFTER = 2.0  # of unsaved work [s]
@@ -40,8 +40,8 @@ class LiveDraft(Screen[None]):
         self.check = Check()
         self.checked_in = 0.0  # how long the last check took [s]
         self.keeper = Keeper()
-        self._estimator = Estimator(self.show_estimate)
-        self._checker = Checker()
+        self._estimator = Estimator(self.show_estimate, "shaft" if draft.is_shaft else "estimate")
+        self._checker = ShaftChecker() if draft.is_shaft else Checker()
         self._check_timer: Timer | None = None
         self._has_told_faults = False
 
@@ -70,8 +70,8 @@ class LiveDraft(Screen[None]):
         """Show what the last check found."""
         raise NotImplementedError
 
-    def show_estimate(self, estimate: Estimate | None, say: str) -> None:
-        """Show an estimate, or what is being done about it."""
+    def show_estimate(self, estimate: Any, say: str) -> None:
+        """Show an estimate (of a shaft its equilibrium), or what is being done about it."""
         raise NotImplementedError
 
     @work(thread=True, exclusive=True, group="check")
@@ -96,7 +96,7 @@ class LiveDraft(Screen[None]):
         self.check, self.checked_in = found, took
         self.around.learn(found.values)
         self.show_check()
-        if found.model is not None:
+        if found.resolved is not None:
             self.run_worker(self._estimator.ask(deepcopy(self.draft.tables), self.draft.folder), group="estimate")
 
     def _keep(self) -> None:

@@ -1,4 +1,4 @@
-"""The model tree: which nodes there are, and which options of the case stand on which node.
+"""The model tree of one bearing: which nodes there are, and which options of the case stand on which node.
 
 The order is that in which a multibody model is set up. Every declared option has one place;
 a new option of a section appears on that section's node by itself.
@@ -6,20 +6,10 @@ a new option of a section appears on that section's node by itself.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
-from functools import cached_property
-from typing import Literal
-
-from pydantic import BaseModel
-
 from lambda_core.api import Case
 from lambda_core.domain.elements import DOFS
-from lambda_core.domain.option_tree import members, model_at
 from lambda_core.domain.roles import MOTION_ROLES, ROLES
-
-Keys = tuple[str, ...]
-Kind = Literal["form", "roles", "role", "named", "item"]
+from lambda_gui.nodes import Group, Keys, Named, Names, Node, about, form_node, plain_fields
 
 BODIES = {"inner_ring": "Inner ring", "outer_ring": "Outer ring", "cage": "Cage"}
 ELEMENTS = {
@@ -47,99 +37,6 @@ SHORT = {
     "cage_contact": "cage",
     "fluid_drag": "drag",
 }
-
-
-@dataclass(frozen=True)
-class Group:
-    """Options of one table of the case under a heading."""
-
-    title: str
-    table: Keys
-    names: tuple[str, ...]
-
-    @property
-    def fields(self) -> list[Keys]:
-        """Places of the options."""
-        return [(*self.table, name) for name in self.names]
-
-
-@dataclass(eq=False)
-class Node:
-    """One node of the tree.
-
-    Attributes
-    ----------
-    key : str
-        Unique, stable.
-    groups : list of Group
-        The options on its form, in order.
-    role, element : str
-        Of a node for one role: which, and of which force element ("" for all of them).
-    heading : str
-        Over the form; the title where nothing else is given.
-    short : str
-        Title where the tree is narrow; the title where nothing else is given.
-    in_file : list of tuple
-        Places that the node answers for but has no row for: they are written in the case's file.
-    """
-
-    key: str
-    title: str
-    help: str = ""
-    groups: list[Group] = field(default_factory=list)
-    children: list[Node] = field(default_factory=list)
-    kind: Kind = "form"
-    role: str = ""
-    element: str = ""
-    heading: str = ""
-    short: str = ""
-    in_file: list[Keys] = field(default_factory=list)
-
-    def __post_init__(self) -> None:
-        self.heading = self.heading or self.title
-        self.short = self.short or self.title
-
-    def walk(self) -> Iterator[Node]:
-        """Yield this node and all below it."""
-        yield self
-        for child in self.children:
-            yield from child.walk()
-
-    @cached_property
-    def places(self) -> list[Keys]:
-        """Places in the case that this node answers for."""
-        found = [place for group in self.groups for place in group.fields] + self.in_file
-        if self.kind == "role":
-            found += list(self.law_places)
-        if self.kind in ("named", "item"):
-            found.append(tuple(self.key.split(".", 1)))
-        return found
-
-    @property
-    def law_places(self) -> tuple[Keys, Keys]:
-        """Where the model of a role and its parameters are written."""
-        base: Keys
-        if self.role == "force_element":
-            return ("elements", self.element, "law"), ("elements", self.element, "parameters")
-        if ROLES[self.role].section:
-            base = (ROLES[self.role].section, self.role)
-            return (*base, "law"), (*base, "parameters")
-        base = ("forces", self.element) if self.element else ()
-        return (*base, "models", self.role), (*base, "parameters", self.role)
-
-
-Names = Mapping[str, tuple[str, ...]]  # section of NAMED -> names in the case
-
-
-@dataclass(frozen=True)
-class Named:
-    """A section of tables under names that the case gives, or, of plugins' own, that they have."""
-
-    title: str
-    about: str  # the section, in the tree's help
-    one: str  # one of it, after "new" and "remove this"
-    begins: dict[str, str]  # what is written of a new one
-    installed: Literal["", "observer", "event"] = ""  # kind of which the names are those of what is installed
 
 
 NAMED = {
@@ -190,9 +87,9 @@ def _bodies() -> Node:
     parts = {"inner_ring": "inner", "outer_ring": "outer", "cage": "cage"}
     nodes = []
     for body, title in BODIES.items():
-        own = [name for name in plain_fields(("bodies", body)) if name not in DOFS]
+        own = [name for name in plain_fields(Case, ("bodies", body)) if name not in DOFS]
         groups = [Group("", ("bodies", body), tuple(own)), Group("Material", ("materials",), (parts[body],))]
-        nodes.append(Node(f"bodies.{body}", title, _doc(("bodies", body)), groups))
+        nodes.append(Node(f"bodies.{body}", title, about(Case, ("bodies", body)), groups))
     balls = Node("bodies.balls", "Balls", "number and size are the bearing's", [Group("", ("materials",), ("balls",))])
     nodes.insert(2, balls)
     return Node("bodies", "Bodies", "rings, balls and cage: masses, materials, the cage's type", children=nodes)
@@ -203,14 +100,14 @@ def _named(section: str, names: Names) -> Node:
     what = NAMED[section]
     nodes = []
     for name in names.get(section, ()):
-        node = Node(f"{section}.{name}", name, what.about, kind="item")
+        node = Node(f"{section}.{name}", name, what.about, kind="item", section=what, table=(section, name))
         if section == "markers":
-            node.groups = [Group("", (section, name), tuple(plain_fields((section, name))))]
+            node.groups = [Group("", (section, name), tuple(plain_fields(Case, (section, name))))]
         elif section == "elements":
             node.groups = [Group("", (section, name), ("first", "second"))]
             node.role, node.element = "force_element", name
         nodes.append(node)
-    return Node(section, what.title, what.about, children=nodes, kind="named")
+    return Node(section, what.title, what.about, children=nodes, kind="named", section=what, table=(section,))
 
 
 def _forces(names: Names) -> Node:
@@ -228,7 +125,7 @@ def _forces(names: Names) -> Node:
             Node(
                 f"forces.{element}",
                 title,
-                f"{_doc(('forces', element), own=False)}: models of its own before the general ones",
+                f"{about(Case, ('forces', element), own=False)}: models of its own before the general ones",
                 kind="roles",
                 element=element,
                 children=[_role(element, role) for role in roles],
@@ -242,22 +139,22 @@ def _role(element: str, role: str) -> Node:
     key = f"forces.{element}.{role}" if element else f"models.{role}"
     title = role.replace("_", " ")
     heading = f"{ELEMENTS.get(element, 'All elements')} · {title}"
-    about = ROLES[role].summary
-    return Node(key, title, about, kind="role", role=role, element=element, heading=heading, short=SHORT.get(role, ""))
+    told = ROLES[role].summary
+    return Node(key, title, told, kind="role", role=role, element=element, heading=heading, short=SHORT.get(role, ""))
 
 
 def _loads() -> Node:
-    own = [name for name in plain_fields(("loads",)) if name not in BODIES]
+    own = [name for name in plain_fields(Case, ("loads",)) if name not in BODIES]
     nodes = [
-        Node("operation", "Drive", _doc(("operation",)), [_group(("operation",))]),
+        Node("operation", "Drive", about(Case, ("operation",)), [_group(("operation",))]),
         Node("loads", "Loads", "external loads on the inner ring over time", [Group("", ("loads",), tuple(own))]),
     ]
     for body, title in BODIES.items():
         freedoms = Group("", ("bodies", body), tuple(name for name in DOFS))
-        more = Group("Further loads", ("loads", body), tuple(plain_fields(("loads", body))))
+        more = Group("Further loads", ("loads", body), tuple(plain_fields(Case, ("loads", body))))
         text = f"boundary conditions of the {title.lower()}: free, locked, or moved; further loads on it"
         nodes.append(Node(f"boundary.{body}", title, text, [freedoms, more], heading=f"{title} · boundary conditions"))
-    nodes.append(Node("gravity", "Gravity", _doc(("gravity",)), [_group(("gravity",))]))
+    nodes.append(Node("gravity", "Gravity", about(Case, ("gravity",)), [_group(("gravity",))]))
     return Node("motion", "Loads and motion", "what drives, loads and holds the bodies", children=nodes)
 
 
@@ -299,7 +196,7 @@ def _electric() -> Node:
 def _film_law(role: str, title: str) -> Node:
     """Return the node of a law that stands in a section of its own, beside further options of that section."""
     table = ("electric", role)
-    names = tuple(name for name in plain_fields(table) if name not in ("law", "parameters"))
+    names = tuple(name for name in plain_fields(Case, table) if name not in ("law", "parameters"))
     return Node(
         f"electric.{role}", title, ROLES[role].summary, [Group("", table, names)] if names else [],
         kind="role", role=role, heading=f"Electric circuit · {title.lower()}",
@@ -307,39 +204,14 @@ def _film_law(role: str, title: str) -> Node:
 
 
 def _form(key: str, title: str, table: Keys) -> Node:
-    return Node(key, title, _doc(table), [_group(table)])
+    return form_node(Case, key, title, table)
 
 
 def _group(table: Keys) -> Group:
-    return Group("", table, tuple(plain_fields(table)))
+    return Group("", table, tuple(plain_fields(Case, table)))
 
 
 def _case_fields() -> list[str]:
     """Return the options that stand before the first table of the file."""
     elsewhere = ("parameters", *(section for section, what in NAMED.items() if what.installed))
-    return [name for name in plain_fields(()) if name not in elsewhere]
-
-
-def table_model(table: Keys) -> type[BaseModel]:
-    """Return the class of a table of the case."""
-    found = model_at(Case, table)
-    assert found is not None, table
-    return found
-
-
-def plain_fields(table: Keys) -> list[str]:
-    """Return the options of a table that are no tables themselves (time functions are options)."""
-    model = table_model(table)
-    return [
-        name
-        for name, info in model.model_fields.items()
-        if not any("kind" not in inner.model_fields for inner in members(info.annotation))
-    ]
-
-
-def _doc(table: Keys, *, own: bool = True) -> str:
-    """Return what a table is: the first sentence of its class, or the description of its field."""
-    if not own:
-        return str(table_model(table[:-1]).model_fields[table[-1]].description)
-    text = (table_model(table).__doc__ or "").strip().split("\n")[0]
-    return text[:1].lower() + text[1:].rstrip(".") if text else ""
+    return [name for name in plain_fields(Case, ()) if name not in elsewhere]

@@ -16,8 +16,8 @@ from lambda_core.api import BearingRow, FieldCard, Kind, LubricantRow
 from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.units import UNITS
 from lambda_gui.fields import row_for
+from lambda_gui.nodes import Keys
 from lambda_gui.option_help import OptionHelp
-from lambda_gui.outline import Keys
 from lambda_gui.places import Held
 from lambda_gui.rows import Row, Rows, Surroundings
 

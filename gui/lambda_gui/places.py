@@ -6,7 +6,7 @@ from copy import deepcopy
 from typing import Any, Protocol
 
 from lambda_core.api import Draft
-from lambda_gui.outline import Keys
+from lambda_gui.nodes import Keys
 
 
 class Place(Protocol):

@@ -14,7 +14,7 @@ from textual.widget import Widget
 from textual.widgets import Static
 
 from lambda_core.api import FieldCard
-from lambda_gui.outline import Keys
+from lambda_gui.nodes import Keys
 from lambda_gui.places import Place
 
 if TYPE_CHECKING:

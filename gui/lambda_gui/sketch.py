@@ -13,8 +13,9 @@ from textual.widgets import Static
 from lambda_gui.axes import SIGNS, axes_sketch
 
 if TYPE_CHECKING:
-    from lambda_core.api import BearingModel, Geometry
-    from lambda_gui.outline import Node
+    from lambda_core.api import Geometry
+    from lambda_gui.checking import Check
+    from lambda_gui.nodes import Node
 
 _POINTS = 4  # along each side of a pixel, for smooth edges
 _WITH_AXES = ("motion", "operation", "loads", "boundary", "gravity", "markers")
@@ -33,10 +34,10 @@ class Sketch(Static):
         self._section: Section | None = None
         self._is_about_axes = False
 
-    def show_model(self, model: BearingModel | None) -> None:
+    def show_check(self, check: Check) -> None:
         """Take the geometry of a resolved case; one with mistakes leaves the last."""
-        if model is not None:
-            self._section = section_of_geometry(model.geometry)
+        if check.model is not None:
+            self._section = section_of_geometry(check.model.geometry)
             self.draw()
 
     def show_node(self, node: Node) -> None:

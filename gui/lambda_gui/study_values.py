@@ -8,7 +8,7 @@ from typing import Any
 
 from lambda_core.api import Case, FieldCard, Kind, field_card
 from lambda_core.domain.option_tree import field_at, model_at, option_paths
-from lambda_gui.outline import Keys
+from lambda_gui.nodes import Keys
 
 MODES = ("quasi-static", "dynamic")
 # What is asked where nothing else is: the simulation, catalogues beside it on one axis, film, pressure, life.

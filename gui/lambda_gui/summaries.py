@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.elements import DOFS
 from lambda_core.domain.roles import DEFAULT_MODELS
-from lambda_gui.outline import Keys, Node, table_model
+from lambda_gui.nodes import Keys, Node, table_model
+from lambda_gui.shaft_summaries import of_shaft
 
 if TYPE_CHECKING:
     from lambda_core.api import Draft
@@ -20,6 +21,8 @@ def summary(node: Node, draft: Draft, around: CaseAround) -> str:
     Parts after a tab are left out where the room is short.
     """
     key = node.key
+    if draft.is_shaft and node.kind != "role":
+        return of_shaft(node, draft, around)
     if node.kind == "role":
         written = draft.get(*node.law_places[0])
         return str(written or around.resolved(node.law_places[0]) or DEFAULT_MODELS[node.role])
@@ -52,7 +55,7 @@ def summary(node: Node, draft: Draft, around: CaseAround) -> str:
     if node.kind == "named":
         return str(len(node.children) or "none")
     if node.kind == "item":
-        written = draft.get(*node.key.split(".", 1))
+        written = draft.get(*node.table)
         told = {"markers": "body", "elements": "law", "events": "action"}.get(key.partition(".")[0], "")
         return _text(written.get(told)).replace("_", " ") if isinstance(written, Mapping) else ""
     if key in ("bearing.geometry", "bearing.fits", "bearing.temperatures", "lubricant.properties"):
@@ -83,7 +86,7 @@ def _loads(loads: Any) -> str:
 
 def _freedoms(node: Node, draft: Draft) -> str:
     body = node.key.split(".")[1]
-    table = table_model(("bodies", body))
+    table = table_model(draft.root, ("bodies", body))
     modes: dict[str, int] = {}
     for name in DOFS:
         mode = _text(draft.get("bodies", body, name, "mode"))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, ClassVar
 
 from rich.text import Text
@@ -12,7 +12,9 @@ from textual.widgets import Tree
 from textual.widgets.tree import TreeNode
 
 from lambda_gui.checking import node_of
-from lambda_gui.outline import NAMED, Keys, Node, outline
+from lambda_gui.nodes import Keys, Node
+from lambda_gui.outline import NAMED, outline
+from lambda_gui.shaft_outline import shaft_names, shaft_outline
 from lambda_gui.summaries import summary
 
 if TYPE_CHECKING:
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
 _ROOMY = 44  # width of the tree from which on roles have their full names
 _NARROW = 38
 _COLUMN, _COLUMN_ROOMY = 17, 25  # where what is set stands, as far as there is room
-_OPEN = ("bearing", "bodies", "motion", "lubricant", "markers")
+_OPEN = ("bearing", "bodies", "motion", "lubricant", "markers", "shaft", "bearings", "gears", "discs", "loads")
 
 
 class ModelTree(Tree[Node]):
@@ -34,6 +36,8 @@ class ModelTree(Tree[Node]):
         Binding("right", "deeper", "Open", show=False),
         Binding("left", "shallower", "Close", show=False),
         Binding("space", "toggle_node", "Open or close", show=False),
+        Binding("plus,insert", "add", "Add", show=False),
+        Binding("delete", "take_out", "Remove", show=False),
     ]
     DEFAULT_CSS = """
     ModelTree { background: $background; padding: 0; scrollbar-size-vertical: 1; scrollbar-size-horizontal: 0; }
@@ -41,6 +45,13 @@ class ModelTree(Tree[Node]):
 
     class Entered(Message):
         """The person goes into the form of the node under the cursor."""
+
+    class Wished(Message):
+        """A table is to be added beside the node under the cursor, or that of the node is to go."""
+
+        def __init__(self, what: str, node: Node) -> None:
+            super().__init__()
+            self.what, self.node = what, node
 
     def __init__(self, draft: Draft, around: CaseAround) -> None:
         super().__init__("case", id="tree")
@@ -51,17 +62,19 @@ class ModelTree(Tree[Node]):
         self._plant()
 
     def _plant(self) -> None:
+        is_open = {line.data.key: line.is_expanded for line in self._tree_nodes.values() if line.data is not None}
+        self.clear()
         self._names = _names(self.draft)
-        for node in outline(self._names):
-            self._add(self.root, node)
+        for node in (shaft_outline if self.draft.is_shaft else outline)(self._names):
+            self._add(self.root, node, is_open)
         self.root.expand()
         self.cursor_line = 0
 
-    def _add(self, parent: TreeNode[Node], node: Node) -> None:
+    def _add(self, parent: TreeNode[Node], node: Node, is_open: Mapping[str, bool]) -> None:
         if node.children:
-            branch = parent.add(node.title, node, expand=node.key in _OPEN)
+            branch = parent.add(node.title, node, expand=is_open.get(node.key, False) or node.key in _OPEN)
             for child in node.children:
-                self._add(branch, child)
+                self._add(branch, child, is_open)
         else:
             parent.add_leaf(node.title, node)
 
@@ -72,7 +85,6 @@ class ModelTree(Tree[Node]):
     def refresh_marks(self, problems: Sequence[Problem]) -> None:
         """Count the mistakes of each node and say what is set; named tables that came or went are taken in."""
         if _names(self.draft) != self._names:
-            self.clear()
             self._plant()
         nodes = self.all_nodes()
         self._wrong = {}
@@ -150,6 +162,20 @@ class ModelTree(Tree[Node]):
         else:
             self.post_message(self.Entered())
 
+    def action_add(self) -> None:
+        """Add a table to the section under the cursor."""
+        line = self.cursor_node
+        while line is not None and line.data is not None and line.data.section is None:
+            line = line.parent
+        if line is not None and line.data is not None:
+            self.post_message(self.Wished("add", line.data))
+
+    def action_take_out(self) -> None:
+        """Remove the table under the cursor."""
+        node = self.cursor_node.data if self.cursor_node is not None else None
+        if node is not None and node.kind == "item":
+            self.post_message(self.Wished("remove", node))
+
     def action_shallower(self) -> None:
         """Close the node, or go to the one above."""
         line = self.cursor_node
@@ -173,5 +199,7 @@ def _fitting(parts: list[str], room: int) -> str:
 
 def _names(draft: Draft) -> dict[str, tuple[str, ...]]:
     """Return what stands in the sections of named tables."""
+    if draft.is_shaft:
+        return shaft_names(draft)
     found = {section: draft.get(section) for section in NAMED}
     return {section: tuple(tables) for section, tables in found.items() if isinstance(tables, dict)}

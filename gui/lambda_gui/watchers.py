@@ -11,7 +11,7 @@ from textual.widgets import Button, Static
 from lambda_core import api
 from lambda_core.api import FieldCard
 from lambda_gui.fields import row_for
-from lambda_gui.outline import NAMED, Node
+from lambda_gui.nodes import Node
 from lambda_gui.places import Option
 from lambda_gui.rows import Surroundings
 
@@ -26,8 +26,8 @@ _ACTION = FieldCard(
 
 def watcher_rows(draft: Draft, node: Node, around: Surroundings) -> Iterator[Widget]:
     """Yield what an observer or event is, and a row for each of its parameters; nothing for other tables."""
-    section, _, name = node.key.partition(".")
-    kind = NAMED[section].installed
+    section, name = node.table[0], node.table[-1]
+    kind = node.section.installed if node.section is not None else ""
     if not kind:
         return
     card = next((card for card in api.watchers(kind) if card.name == name), None)
@@ -51,12 +51,13 @@ def watcher_rows(draft: Draft, node: Node, around: Surroundings) -> Iterator[Wid
 
 def new_watchers(node: Node) -> Iterator[Widget]:
     """Yield a button for each observer or event that is installed and not in the case."""
-    what = NAMED[node.key]
+    what = node.section
+    assert what is not None
     assert what.installed
     used = [child.title for child in node.children]
     cards = [card for card in api.watchers(what.installed) if card.name not in used]
     for card in cards:
-        yield Button(f"add {card.name}", id=f"new-{card.name.replace(':', '--')}", compact=True)
+        yield Button(f"add {card.name}", id=f"new-{card.name.replace(':', '--')}", name=card.name, compact=True)
         yield Static(card.title, classes="about", markup=False)
     if not cards:
         text = f"no {'other ' if used else ''}{what.one} is installed: packages bring them (docs/plugins.md)"

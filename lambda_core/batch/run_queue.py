@@ -21,30 +21,32 @@ from lambda_core.batch.scheduler import Counts, Director, StudyProgress
 from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.run.progress import Progress
 
-Kind = Literal["run", "study"]
+RunKind = Literal["run", "study", "shaft"]
 State = Literal["waiting", "running", "done", "stopped", "failed"]
 
 _MOST_KEPT = 4000  # points of the progress; older ones are thinned out
 _CONVERGED, _PARTIAL, _INTERRUPTED = 0, 5, 130
 _FORGOTTEN_AFTER = 86400.0  # [s] age at which the files of a run that nobody took in are cleared away
 # What the program is told to do: at first, and to go on.
-_WORK: dict[Kind, tuple[list[str], list[str]]] = {
+_WORK: dict[RunKind, tuple[list[str], list[str]]] = {
     "run": (["run", "case.toml", "--out"], ["resume"]),
     "study": (["study", "run", "study.toml", "--out"], ["study", "resume"]),
+    "shaft": (["shaft", "case.toml", "--run", "--out"], ["resume"]),
 }
-_COMPLETE: dict[Kind, str] = {"run": "converged", "study": "every point has a result"}
-_SHORT: dict[Kind, str] = {"run": "not converged", "study": "not every point has a result"}
+_COMPLETE: dict[RunKind, str] = {"run": "converged", "study": "every point has a result", "shaft": "converged"}
+_SHORT: dict[RunKind, str] = {"run": "not converged", "study": "not every point has a result", "shaft": "not converged"}
+_ENDING: dict[RunKind, str] = {"run": ".h5", "study": "", "shaft": "-run"}
 
 
 @dataclass
 class QueuedRun:
-    """One run, or one study: waiting, going on, or ended."""
+    """One run of a bearing or of a shaft, or one study: waiting, going on, or ended."""
 
     name: str
-    result: Path  # the file, or the folder of a study
+    result: Path  # the file, or the folder of a study or of the run of a shaft
     folder: Path  # of its own files: the case as it was, what it says
     command: Sequence[str] = ()  # of the program that runs cases
-    kind: Kind = "run"
+    kind: RunKind = "run"
     resumes: bool = False
     state: State = "waiting"
     message: str = ""
@@ -119,7 +121,7 @@ class QueuedRun:
         self.take_in()
         words, code = self.message, self.program.code
         if code is None:  # started by a queue that is gone: the result file knows how it ended
-            code = _code_of(self.result) if self.kind == "run" else _code_of_study(self.result)
+            code = _CODE_OF[self.kind](self.result)
         if code == _CONVERGED:
             self.state, self.message = "done", _COMPLETE[self.kind]
         elif code == _PARTIAL:
@@ -163,11 +165,12 @@ class QueuedRun:
                 self.message = line.strip()  # an error in plain words
 
 
-def _code_of(result: Path) -> int:
+def _code_of_run(result: Path) -> int:
     from lambda_core.run.answers import summary
+    from lambda_core.run.shaft_motion import is_shaft_run, shaft_result
 
     try:
-        found = summary(result)
+        found = shaft_result(result) if is_shaft_run(result) else summary(result)
     except LambdaError:
         return 1
     if found.converged:
@@ -185,6 +188,9 @@ def _code_of_study(folder: Path) -> int:
     if found.pending:
         return _INTERRUPTED
     return _PARTIAL if found.failed or found.partial else _CONVERGED
+
+
+_CODE_OF = {"run": _code_of_run, "shaft": _code_of_run, "study": _code_of_study}
 
 
 class RunQueue:
@@ -205,13 +211,15 @@ class RunQueue:
         self._folder, self._command, self._ended = folder, tuple(command), ended
         self._director = Director[QueuedRun, QueuedRun](self, Programs(1), QueuedRun.begin, _never_lost, keep_after=0.0)
 
-    def add(self, name: str, case_toml: str, folder: Path, study_toml: str = "") -> QueuedRun:
+    def add(self, name: str, case_toml: str, folder: Path, kind: RunKind = "run", study_toml: str = "") -> QueuedRun:
         """Put a case, or a study of it, into the queue; what comes of it goes into `folder` under a free name.
 
         Parameters
         ----------
+        kind : "run", "study" or "shaft"
+            What is done with the case; "shaft" where it is that of a shaft in bearings.
         study_toml : str
-            The study, whose case is ``case.toml``; without one the case is run.
+            Of a study, whose case is ``case.toml``.
 
         Raises
         ------
@@ -221,8 +229,7 @@ class RunQueue:
         if not os.access(folder, os.W_OK | os.X_OK):
             raise UsageError(f"the folder {folder} is not writable: save the case in another one first")
         own = self._folder / f"{time.strftime('%Y%m%d-%H%M%S')}-{os.getpid()}-{len(self.runs)}"
-        kind: Kind = "study" if study_toml else "run"
-        run = QueuedRun(name, self._free(folder, name, ".h5" if kind == "run" else ""), own, self._command, kind)
+        run = QueuedRun(name, self._free(folder, name, _ENDING[kind]), own, self._command, kind)
         about = {"name": name, "result": str(run.result), "kind": kind}
         files = {"case.toml": case_toml, "study.toml": study_toml, "about": json.dumps(about)}
         try:
@@ -268,7 +275,7 @@ class RunQueue:
             try:
                 about = json.loads((own / "about").read_text(encoding="utf-8"))
                 program = Program.found(own)
-                kind: Kind = "study" if about.get("kind") == "study" else "run"
+                kind: RunKind = about.get("kind", "run")
                 run = QueuedRun(about["name"], Path(about["result"]), own, self._command, kind, state="running")
                 run.program, run._is_news = program, True
                 is_alive = program.is_alive()

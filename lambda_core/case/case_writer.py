@@ -7,11 +7,12 @@ import re
 import tempfile
 import tomllib
 from collections.abc import Mapping
+from difflib import SequenceMatcher
 from pathlib import Path
 from typing import Any
 
 import tomlkit
-from tomlkit.items import Array, Trivia
+from tomlkit.items import AoT, Array, Table, Trivia
 from tomlkit.toml_document import TOMLDocument
 
 from lambda_core.case.builtin import builtin_cases, builtin_text
@@ -161,6 +162,11 @@ def _item(value: Any, *, inside: bool = False) -> Any:
         table: Any = tomlkit.inline_table() if inside else tomlkit.table(is_super_table=_only_tables(value))
         _fill(table, value, inside=inside)
         return table
+    if not inside and _are_tables(value):
+        tables = tomlkit.aot()
+        for part in value:
+            tables.append(_item(part))
+        return tables
     return _List(value) if isinstance(value, list) else tomlkit.item(value)
 
 
@@ -191,9 +197,17 @@ def _only_tables(value: Mapping[str, Any]) -> bool:
     return bool(value) and all(isinstance(v, Mapping) and not _is_inline(v) for v in value.values())
 
 
+def _are_tables(value: Any) -> bool:
+    """Tell whether a value is a list of tables that are written one below the other."""
+    return isinstance(value, list) and bool(value) and all(isinstance(v, Mapping) and not _is_inline(v) for v in value)
+
+
 def _fill(container: Any, values: Mapping[str, Any], *, inside: bool = False) -> None:
     """Add plain values first, then sub-tables: TOML reads that order without repeated headers."""
-    plain = [key for key, value in values.items() if not isinstance(value, Mapping) or _is_inline(value)]
+    plain = [
+        key for key, value in values.items()
+        if not _are_tables(value) and (not isinstance(value, Mapping) or _is_inline(value))
+    ]  # fmt: skip
     for key in [*plain, *(key for key in values if key not in plain)]:
         if isinstance(container, TOMLDocument) and key not in plain:
             container.add(tomlkit.nl())
@@ -211,7 +225,29 @@ def _update(container: Any, before: Mapping[str, Any], after: Mapping[str, Any])
         if isinstance(value, Mapping) and not _is_inline(value) and isinstance(old, Mapping):
             known = before.get(key)
             _update(old, known if isinstance(known, Mapping) else {}, value)
-        elif key in container:
-            container[key] = _item(value)
+        elif isinstance(old, AoT) and _are_tables(value):
+            _update_tables(old, before[key], value)
         else:
-            container[key] = _item(value)
+            container[key] = _apart(_item(value)) if old is None else _item(value)
+
+
+def _apart(item: Any) -> Any:
+    """Return what comes into a file; a table stands apart from the one that follows."""
+    if isinstance(item, Table) and not item.is_super_table():
+        item.add(tomlkit.nl())
+    return item
+
+
+def _update_tables(tables: AoT, before: list[Any], after: list[Any]) -> None:
+    """Bring the tables of a list from what they say to `after`; one that moves up or down keeps its text."""
+    steps = SequenceMatcher(None, list(map(str, before)), list(map(str, after)), autojunk=False)
+    for what, begin, end, first, last in reversed(steps.get_opcodes()):
+        if what == "equal":
+            continue
+        same = min(end - begin, last - first)
+        for i in range(same):
+            _update(tables[begin + i], before[begin + i], after[first + i])
+        for i in reversed(range(begin + same, end)):
+            del tables[i]
+        for i, part in enumerate(after[first + same : last]):
+            tables.insert(begin + same + i, _apart(_item(part)))

@@ -7,12 +7,15 @@ from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, get_origin
+
+from pydantic import BaseModel
 
 from lambda_core.case.builtin import builtin_cases, builtin_text
 from lambda_core.case.case import Case
-from lambda_core.case.case_io import load_case, syntax_problem, validate_case
+from lambda_core.case.case_io import is_shaft, load_case, syntax_problem, validate_case
 from lambda_core.case.case_writer import save_text, tables_toml
+from lambda_core.case.shaft import ShaftCase
 from lambda_core.domain.elements import DOFS
 from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.domain.files import read_text
@@ -32,9 +35,6 @@ class _Change:
 _SEAL = _Change((), None, None)
 
 
-_EMPTY_SAYS = ("observers", "events")  # sections whose tables ask for something even when they are empty
-
-
 @dataclass
 class Draft:
     """What an editor of a case holds.
@@ -50,12 +50,15 @@ class Draft:
         Text of the file when it was last read or written: comments and spellings are kept from it.
     tables : dict
         What the file would say now.
+    root : type of BaseModel
+        What the file is to be: the case of one bearing (`Case`), or of a shaft in several (`ShaftCase`).
     """
 
     path: Path | None
     original: str
     tables: dict[str, Any]
     folder: Path | None = None  # that file names in the tables are relative to; None: the working directory
+    root: type[BaseModel] = Case
     _saved: dict[str, Any] = field(default_factory=dict)
     _done: list[_Change] = field(default_factory=list)
     _undone: list[_Change] = field(default_factory=list)
@@ -71,20 +74,18 @@ class Draft:
         for key in keys:
             if isinstance(value, str) and key == _MODE and _is_dof(keys[:-1]):
                 return value
-            if not isinstance(value, Mapping) or key not in value:
-                return None
-            value = value[key]
+            value = _inner(value, key)
         return value
 
     def set(self, *keys: str, value: Any) -> None:
         """Write a value, or take it out with None; empty tables go with their last value.
 
-        Changes of one place that follow each other are undone together.
+        Changes of one place that follow each other are undone together. Tables of a list come and go with the list.
 
         Parameters
         ----------
         *keys : str
-            Path of the option.
+            Path of the option; of a table in a list its number, from "0" on.
         value : object
             What would stand in the file.
         """
@@ -132,37 +133,47 @@ class Draft:
         return change.keys
 
     def _put(self, keys: Keys, value: Any) -> None:
-        tables: list[dict[str, Any]] = [self.tables]
+        tables: list[Any] = [self.tables]
         for key in keys[:-1]:
-            inner = tables[-1].get(key)
-            if not isinstance(inner, dict):
+            inner = _inner(tables[-1], key)
+            if not isinstance(inner, dict | list):
                 inner = {_MODE: inner} if isinstance(inner, str) and _is_dof(keys[:-1]) else {}
-            tables[-1][key] = inner
+                tables[-1][key] = inner
             tables.append(inner)
         if value is None:
             tables[-1].pop(keys[-1], None)
         else:
             tables[-1][keys[-1]] = deepcopy(value)
         for table, key in zip(reversed(tables[:-1]), reversed(keys[:-1]), strict=True):
-            if not table[key] and not (keys[0] in _EMPTY_SAYS and table is tables[1]):
+            if isinstance(table, list):
+                continue
+            if not table[key] and not (table is not self.tables and table is tables[1] and self._names_tables(keys[0])):
                 del table[key]
             elif _is_dof(keys[:-1]) and set(table[key]) == {_MODE}:
                 table[key] = table[key][_MODE]
 
+    def _names_tables(self, section: str) -> bool:
+        """Tell whether a section has tables under names of its own, each of which says something even when empty."""
+        info = self.root.model_fields.get(section)
+        return info is not None and get_origin(info.annotation) is dict
+
     # -- what it means --
 
+    @property
+    def is_shaft(self) -> bool:
+        """Whether it is the case of a shaft in several bearings."""
+        return self.root is ShaftCase
+
     def case(self) -> Case:
-        """Return the case; CaseError with every mistake of the file itself."""
+        """Return the case of one bearing; CaseError with every mistake of the file itself."""
         return validate_case(self.tables, str(self.tables.get("name", "case")), self.folder)
 
     def is_changed(self, *keys: str) -> bool:
         """Tell whether what stands at a place (everything without one) differs from the file."""
         saved: Any = self._saved
         for key in keys:
-            if isinstance(saved, Mapping):
-                saved = saved.get(key)
-            elif key != _MODE or not _is_dof(keys[:-1]):
-                saved = None
+            if not isinstance(saved, str) or key != _MODE or not _is_dof(keys[:-1]):
+                saved = _inner(saved, key)
         return bool((self.get(*keys) if keys else self.tables) != saved)
 
     # -- the file --
@@ -199,13 +210,20 @@ class Draft:
             return True
 
 
+def _inner(value: Any, key: str) -> Any:
+    """Return what stands under a key of a table, or a number of a list; None where there is nothing."""
+    if isinstance(value, list):
+        return value[int(key)] if key.isdecimal() and int(key) < len(value) else None
+    return value.get(key) if isinstance(value, Mapping) else None
+
+
 def _is_dof(keys: Keys) -> bool:
     return len(keys) == 3 and keys[0] == "bodies" and keys[2] in DOFS
 
 
-def new_draft(name: str = "untitled") -> Draft:
-    """Return a draft that says nothing but its name."""
-    return Draft(None, "", {"name": name}, Path.cwd())
+def new_draft(name: str = "untitled", *, shaft: bool = False) -> Draft:
+    """Return a draft that says nothing but its name: the case of one bearing, or of a shaft in several."""
+    return Draft(None, "", {"name": name}, Path.cwd(), ShaftCase if shaft else Case)
 
 
 def open_draft(source: str | Path) -> Draft:
@@ -233,7 +251,8 @@ def draft_of(text: str, path: Path | None) -> Draft:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise CaseError(path.name if path else "case", [syntax_problem(str(error), text)]) from None
-    return Draft(path, text, tables, path.resolve().parent if path else Path.cwd())
+    root = ShaftCase if is_shaft(tables) else Case
+    return Draft(path, text, tables, path.resolve().parent if path else Path.cwd(), root)
 
 
 def _read(path: Path) -> str:

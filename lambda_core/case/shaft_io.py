@@ -40,3 +40,9 @@ def validate_shaft(data: Mapping[str, Any], source: str = "shaft", folder: Path 
         return ShaftCase.model_validate(data, context={"folder": folder})
     except ValidationError as error:
         raise CaseError(source, problems(error, ShaftCase, data)) from None
+
+
+def shaft_json_schema() -> dict[str, Any]:
+    """Return the JSON schema of the file of a shaft, for editors."""
+    schema = ShaftCase.model_json_schema(mode="validation")
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "lambda-bearing shaft", **schema}

@@ -75,7 +75,7 @@ class ShaftModel:
         Stiffness between all outer rings in an elastic housing, zeros where a ring is free; None: rigid seats.
     drive : int
         Row of the turning of the node that the coupling holds.
-    outline, discs, load_places
+    outline, discs, load_places, wheels
         What a drawing shows.
     unbalances : tuple of Unbalance
         Of the discs; they count in motion.
@@ -99,6 +99,7 @@ class ShaftModel:
     outline: tuple[tuple[float, float, float, float], ...]  # begin, end, diameter, bore of each section [m]
     discs: tuple[tuple[str, float], ...]  # name and position [m]
     load_places: tuple[tuple[str, float], ...]  # of loads and gears [m]
+    wheels: tuple[tuple[str, float, float], ...] = ()  # of gears: name, position, pitch diameter [m]
     unbalances: tuple[Unbalance, ...] = ()
     speed_over_time: TimeFunction = ZERO
     varying: tuple[tuple[int, TimeFunction], ...] = ()  # row of a node and its load over time, in place of `loads`

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from contextlib import closing
+from contextlib import closing, nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -36,7 +36,13 @@ _COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_
 Source = str | Path | Mapping[str, Any] | ShaftCase
 
 
-def check_shaft(source: Source, overrides: Iterable[str] = ()) -> ShaftModel:
+def check_shaft(
+    source: Source,
+    overrides: Iterable[str] = (),
+    *,
+    folder: Path | None = None,
+    catalogue: Catalogue | None = None,
+) -> ShaftModel:
     """Read and resolve the case of a shaft in bearings without solving it.
 
     Parameters
@@ -45,6 +51,10 @@ def check_shaft(source: Source, overrides: Iterable[str] = ()) -> ShaftModel:
         File, plain tables as they stand in one, or a case.
     overrides : iterable of str
         Changes ``path=value``.
+    folder : Path, optional
+        That file names in plain tables are relative to; default: the working directory.
+    catalogue : Catalogue, optional
+        An open one, left open; default: one of its own.
 
     Returns
     -------
@@ -61,7 +71,7 @@ def check_shaft(source: Source, overrides: Iterable[str] = ()) -> ShaftModel:
     if isinstance(source, ShaftCase):
         tables, name, folder = source.written(), source.name, source.folder
     elif isinstance(source, Mapping):
-        tables, name, folder = dict(source), str(source.get("name", "shaft")), None
+        tables, name = dict(source), str(source.get("name", "shaft"))
     else:
         tables, name, folder = shaft_tables(source), Path(source).name, Path(source).resolve().parent
     tables = overridden(tables, overrides, ShaftCase)
@@ -71,10 +81,10 @@ def check_shaft(source: Source, overrides: Iterable[str] = ()) -> ShaftModel:
         case = validate_shaft(tables, name, folder)
     except CaseError as error:
         found += error.problems
-    with closing(registry().catalogue()) as catalogue:
-        models = _bearings(tables, folder, catalogue, found)
+    with closing(registry().catalogue()) if catalogue is None else nullcontext(catalogue) as opened:
+        models = _bearings(tables, folder, opened, found)
         ledger = Ledger(assumptions=list(case.assumptions) if case else [])
-        resolved = _shaft(case, models, catalogue, ledger) if case else None
+        resolved = _shaft(case, models, opened, ledger) if case else None
     if found or ledger.problems or resolved is None:
         raise CaseError(name, [*found, *(p for p in ledger.problems if p not in found)])
     return replace(resolved, case_toml=tables_toml(_anywhere(tables, folder)))
@@ -168,6 +178,7 @@ def _shaft(
         outline=_outline(case),
         discs=tuple((name, disc.position) for name, disc in case.discs.items()),
         load_places=tuple(places),
+        wheels=tuple((name, gear.position, gear.pitch_diameter) for name, gear in case.gears.items()),
         unbalances=tuple(
             Unbalance(disc.position, disc.unbalance, disc.unbalance_angle)
             for disc in case.discs.values()

@@ -159,8 +159,13 @@ def machines() -> dict[str, str]:
     return {name: f"{machine.words}: {machine.bearing} {machine.clearance}" for name, machine in MACHINES.items()}
 
 
-def schema() -> dict[str, Any]:
+def schema(*, shaft: bool = False) -> dict[str, Any]:
     """Return the JSON schema of a case file.
+
+    Parameters
+    ----------
+    shaft : bool
+        That of the file of a shaft in several bearings.
 
     Returns
     -------
@@ -168,11 +173,12 @@ def schema() -> dict[str, Any]:
         JSON Schema, draft 2020-12.
     """
     from lambda_core.case.case_io import case_json_schema
+    from lambda_core.case.shaft_io import shaft_json_schema
 
-    return case_json_schema()
+    return shaft_json_schema() if shaft else case_json_schema()
 
 
-def draft(source: str | Path | None = None, *, machine: str | None = None) -> Draft:
+def draft(source: str | Path | None = None, *, machine: str | None = None, shaft: bool = False) -> Draft:
     """Open a case for editing: a file, a copy of a built-in case, what is usual in a machine, or nothing yet.
 
     Parameters
@@ -181,6 +187,8 @@ def draft(source: str | Path | None = None, *, machine: str | None = None) -> Dr
         File or built-in name; None for an empty draft.
     machine : str, optional
         Instead of `source`: one of :func:`machines`.
+    shaft : bool
+        An empty draft is that of a shaft in several bearings; what a file holds decides for itself.
 
     Returns
     -------
@@ -198,7 +206,7 @@ def draft(source: str | Path | None = None, *, machine: str | None = None) -> Dr
 
     if machine is not None:
         return draft_of(_machine_text(machine, machine, None), None)
-    return new_draft() if source is None else open_draft(source)
+    return new_draft(shaft=shaft) if source is None else open_draft(source)
 
 
 def catalogue() -> Catalogue:

@@ -1,0 +1,85 @@
+"""Tables that come into a case and go: those under names, and the numbered ones of a list."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from itertools import chain, count
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from lambda_core.api import Draft
+    from lambda_gui.nodes import Keys, Node
+
+
+def is_list(node: Node) -> bool:
+    """Tell whether the tables of a section, or of the section of a table, have numbers in place of names."""
+    last = node.table[-2:] if node.kind == "item" else node.table[-1:]
+    return last[0] == "sections"
+
+
+def free_name(node: Node, draft: Draft) -> str:
+    """Return a name that no table of the section has yet."""
+    assert node.section is not None
+    section = _section(node)
+    usual = node.section.usual or (node.section.one,)
+    taken = draft.get(*section) or {}
+    numbered = (f"{usual[-1]}-{number}" for number in count(2))
+    return next(name for name in chain(usual, numbered) if name not in taken)
+
+
+def add(node: Node, draft: Draft, name: str = "") -> Keys:
+    """Write a new table into a section, or after the table of a node, and return its place; a known name leads there.
+
+    Parameters
+    ----------
+    name : str
+        Of the table; without one the next of the usual names.
+    """
+    assert node.section is not None
+    section = _section(node)
+    if is_list(node):
+        tables: list[Any] = deepcopy(draft.get(*section) or [])
+        at = int(node.table[-1]) + 1 if node.kind == "item" else len(tables)
+        tables.insert(at, dict(node.section.begins))
+        _put(draft, section, tables)
+        return (*section, str(at))
+    place = (*section, name or free_name(node, draft))
+    if draft.get(*place) is None:
+        draft.seal()
+        draft.set(*place, value=dict(node.section.begins))
+        draft.seal()
+    return place
+
+
+def remove(node: Node, draft: Draft) -> Keys:
+    """Take the table of a node out and return where to go."""
+    section = _section(node)
+    if not is_list(node):
+        draft.seal()
+        draft.set(*node.table, value=None)
+        return section
+    tables, at = deepcopy(draft.get(*section)), int(node.table[-1])
+    del tables[at]
+    _put(draft, section, tables or None)
+    return (*section, str(min(at, len(tables) - 1))) if tables else section
+
+
+def rename(node: Node, draft: Draft, name: str) -> Keys:
+    """Give the table of a node another name, in its place; a name that is taken changes nothing."""
+    section = _section(node)
+    tables: dict[str, Any] = draft.get(*section)
+    if name in tables:
+        return node.table
+    _put(draft, section, {name if key == node.table[-1] else key: deepcopy(table) for key, table in tables.items()})
+    return (*section, name)
+
+
+def _section(node: Node) -> Keys:
+    return node.table[:-1] if node.kind == "item" else node.table
+
+
+def _put(draft: Draft, section: Keys, tables: Any) -> None:
+    """Write a whole section as one change of its own."""
+    draft.seal()
+    draft.set(*section, value=tables)
+    draft.seal()

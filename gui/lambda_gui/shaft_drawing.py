@@ -1,0 +1,266 @@
+"""A shaft in its bearings drawn to scale, two pixels per character, and below it how it bends."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from rich.text import Text
+
+if TYPE_CHECKING:
+    from lambda_core.api import MountedBearing, ShaftModel, ShaftReport
+
+_DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))  # of a braille sign: four down, two across
+_HALF = 1.4  # a half section is drawn where a whole one would be that much smaller
+_ROOMY = 15  # lines from which on the bend has an axis of its own
+_BALL = 1.9  # radius in pixels from which on a ball is drawn as a circle
+_FACE = 0.12  # width of a gear over its pitch diameter, which the case does not say
+_DISC = 0.5  # height of a disc beyond the largest radius of the shaft, which the case does not say either
+
+
+@dataclass
+class Canvas:
+    """Pixels, braille dots and letters of one picture.
+
+    Attributes
+    ----------
+    width, height : int
+        In characters.
+    """
+
+    width: int
+    height: int
+    _pixels: dict[tuple[int, int], str] = field(default_factory=dict)
+    _dots: dict[tuple[int, int], tuple[int, str]] = field(default_factory=dict)
+    _letters: dict[tuple[int, int], tuple[str, str]] = field(default_factory=dict)
+
+    def box(self, left: float, right: float, top: float, bottom: float, colour: str) -> None:
+        """Fill a box given in pixels; what is thinner than a pixel has one."""
+        first, last = round(left), max(round(left) + 1, round(right))
+        high, low = round(top), max(round(top) + 1, round(bottom))
+        for row in range(max(0, high), min(2 * self.height, low)):
+            for column in range(max(0, first), min(self.width, last)):
+                self._pixels[row, column] = colour
+
+    def circle(self, x: float, y: float, radius: float, colour: str) -> None:
+        """Fill a circle given in pixels."""
+        for row in range(int(y - radius), int(y + radius) + 1):
+            for column in range(int(x - radius), int(x + radius) + 1):
+                if (column + 0.5 - x) ** 2 + (row + 0.5 - y) ** 2 < radius**2:
+                    self._pixels[row, column] = colour
+
+    def dot(self, across: int, down: int, colour: str) -> None:
+        """Set a braille dot: two across and four down per character."""
+        cell = (down // 4, across // 2)
+        if 0 <= cell[0] < self.height and 0 <= cell[1] < self.width:
+            self._dots[cell] = (self._dots.get(cell, (0, ""))[0] | _DOTS[down % 4][across % 2], colour)
+
+    def is_free(self, line: int, column: int, length: int) -> bool:
+        """Tell whether no letter stands in a place, nor beside it."""
+        return all((line, at) not in self._letters for at in range(column - 1, column + length + 1))
+
+    def words(self, line: int, column: int, text: str, colour: str) -> None:
+        """Write over everything."""
+        for offset, letter in enumerate(text):
+            if 0 <= column + offset < self.width:
+                self._letters[line, column + offset] = (letter, colour)
+
+    def text(self, background: str) -> Text:
+        """Return the picture."""
+        text = Text(no_wrap=True)
+        for line in range(self.height):
+            for column in range(self.width):
+                above, below = (self._pixels.get((2 * line + half, column), background) for half in (0, 1))
+                if (line, column) in self._letters:
+                    letter, colour = self._letters[line, column]
+                    text.append(letter, style=f"{colour} on {above if above != background else below}")
+                elif (line, column) in self._dots and above == below == background:
+                    sign, colour = self._dots[line, column]
+                    text.append(chr(0x2800 + sign), style=colour)
+                else:
+                    text.append("▀", style=f"{above} on {below}") if above != below else text.append(
+                        " ", style=f"on {above}"
+                    )
+            text.append("\n" if line < self.height - 1 else "")
+        return text
+
+
+@dataclass(frozen=True)
+class _Scale:
+    """Where a place stands on the canvas, in pixels."""
+
+    left: float
+    axis: float  # row of the axis
+    unit: float  # metres per pixel
+
+    def x(self, place: float) -> float:
+        return self.left + place / self.unit
+
+    def rows(self, inner: float, outer: float, *, below: bool) -> tuple[float, float]:
+        """Return top and bottom of what lies between two radii, above the axis or below it."""
+        near, far = inner / self.unit, outer / self.unit
+        return (self.axis + near, self.axis + far) if below else (self.axis - far, self.axis - near)
+
+
+def drawn_shaft(
+    model: ShaftModel, report: ShaftReport | None, width: int, height: int, colours: Mapping[str, str]
+) -> Text:
+    """Draw sections, bearings, gears, discs and loads to scale, names around them, and the bend below.
+
+    Parameters
+    ----------
+    report : ShaftReport, optional
+        Of this shaft; without one the bend is left out.
+    width, height : int
+        Room in characters; a character is taken as twice as high as wide.
+    colours : mapping
+        Variables of the theme.
+    """
+    canvas = Canvas(width, height)
+    bend = 0 if report is None else (2 if height < _ROOMY else max(4, height // 4))
+    lines = max(2, height - 2 - bend)  # of the drawing, between the names above and those below
+    radius, length = _largest(model), model.outline[-1][1]
+    across = length / max(8, width - 2)
+    is_half = 2.0 * radius / (2 * lines) > _HALF * across
+    lines -= 0 if is_half else lines % 2  # the axis lies between two lines
+    unit = max(across, (radius if is_half else 2.0 * radius) / (2 * lines))
+    axis = 2.0 * (1 + lines) if is_half else 2.0 + lines
+    scale = _Scale(round(0.5 * (width - length / unit)), axis, unit)
+    sides = (False,) if is_half else (False, True)
+    _rotor(canvas, model, scale, sides, colours)
+    for bearing in model.bearings:
+        _bearing(canvas, bearing, scale, sides, colours)
+    for column in range(round(scale.x(0.0)) - 1, round(scale.x(length)) + 1):
+        if column % 4:
+            canvas.words(int(axis) // 2 - 1, column, "▁", colours["border-blurred"])
+    _names_above(canvas, model, scale, colours)
+    _names_below(canvas, model, report, scale, 1 + lines, colours)
+    if report is not None:
+        _bend(canvas, report, scale, height - bend, bend, colours)
+    return canvas.text(colours["background"])
+
+
+def _largest(model: ShaftModel) -> float:
+    """Return the largest radius of what is drawn [m]."""
+    shaft = 0.5 * max(diameter for _, _, diameter, _ in model.outline)
+    found = [shaft * (1.0 + _DISC * bool(model.discs)), *(0.5 * diameter for *_, diameter in model.wheels)]
+    return max(*found, *(0.5 * bearing.model.geometry.outside_diameter for bearing in model.bearings))
+
+
+def _rotor(
+    canvas: Canvas, model: ShaftModel, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]
+) -> None:
+    """Draw gears and discs behind the sections of the shaft."""
+    tall = 0.5 * max(diameter for _, _, diameter, _ in model.outline)
+    for below in sides:
+        for _, place, diameter in model.wheels:
+            half = max(0.5 * _FACE * diameter, scale.unit)
+            canvas.box(scale.x(place - half), scale.x(place + half),
+                       *scale.rows(0.0, 0.5 * diameter, below=below), colours["primary"])  # fmt: skip
+        for _, place in model.discs:
+            at = scale.x(place)
+            canvas.box(at - 0.5, at + 0.5, *scale.rows(0.0, (1.0 + _DISC) * tall, below=below), colours["success"])
+        for begin, end, diameter, bore in model.outline:
+            top, bottom = scale.rows(0.5 * bore, 0.5 * diameter, below=below)
+            canvas.box(scale.x(begin), scale.x(end), top, bottom, colours["secondary"])
+
+
+def _bearing(
+    canvas: Canvas, bearing: MountedBearing, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]
+) -> None:
+    """Draw rings, and a ball between them; the contact line of an angular contact bearing shows O and X."""
+    g, middle = bearing.model.geometry, scale.x(bearing.position)
+    left, right = (scale.x(bearing.position + sign * 0.5 * g.width) for sign in (-1.0, 1.0))
+    for below in sides:
+        canvas.box(
+            left, right, *scale.rows(0.5 * g.bore_diameter, 0.5 * g.outside_diameter, below=below), colours["accent"]
+        )
+        centre = scale.rows(0.5 * g.pitch_diameter, 0.5 * g.pitch_diameter, below=below)[0]
+        size = 0.5 * g.ball_diameter / scale.unit
+        if size >= _BALL:
+            canvas.circle(middle, centre, size, colours["background"])
+        if size < _BALL or bearing.nominal_angle:
+            sign = ("╱" if (bearing.takes > 0) != below else "╲") if bearing.takes and bearing.nominal_angle else "●"
+            canvas.words(int(centre) // 2, int(middle), sign, colours["foreground" if size >= _BALL else "background"])
+
+
+def _names_above(canvas: Canvas, model: ShaftModel, scale: _Scale, colours: Mapping[str, str]) -> None:
+    """Name gears, discs and loads over the drawing, a load with the way it pushes."""
+    for name, place in (*model.load_places, *model.discs):
+        rows = model.body.rows(place)
+        force = model.loads[rows.start : rows.start + 3]
+        is_load = any(name == one for one, _ in model.load_places)
+        label = f"{name} {_way(*force)}".rstrip() if is_load else name
+        column = min(max(0, round(scale.x(place) - 0.5 * len(label))), max(0, canvas.width - len(label)))
+        if canvas.is_free(0, column, len(label)):
+            canvas.words(0, column, label, colours["primary" if is_load else "success"])
+
+
+def _names_below(
+    canvas: Canvas, model: ShaftModel, report: ShaftReport | None, scale: _Scale, line: int, colours: Mapping[str, str]
+) -> None:
+    """Name bearings with what holds them along x, and the way in which they push the shaft."""
+    forces = {bearing.name: bearing.force_N for bearing in report.bearings} if report is not None else {}
+    for bearing in model.bearings:
+        label = f"{_held(bearing)} {_way(*forces.get(bearing.name, (0.0, 0.0, 0.0)))}".rstrip()
+        column = round(scale.x(bearing.position) - 0.5 * len(label))
+        column = min(max(0, column), max(0, canvas.width - len(label)))
+        while not canvas.is_free(line, column, len(label)) and column + len(label) < canvas.width:
+            column += 1
+        canvas.words(line, column, label, colours["accent"])
+
+
+def _held(bearing: MountedBearing) -> str:
+    """Write the name of a bearing between stops on the sides that hold the shaft; one that floats has waves."""
+    if bearing.takes:
+        return f"{bearing.name}⊣" if bearing.takes > 0 else f"⊢{bearing.name}"
+    stiffness = bearing.seating.stiffness[0]
+    if stiffness == 0.0:
+        return f"~{bearing.name}~"
+    return f"⊢{bearing.name}⊣" if math.isinf(stiffness) else f"≷{bearing.name}≷"
+
+
+def _way(x: float, y: float, z: float) -> str:
+    """Draw the larger parts of a force: along the shaft, up or down, into the picture (y) or out of it."""
+    largest = max(abs(x), abs(y), abs(z))
+    signs = (("→", "←", x), ("⊗", "⊙", y), ("↑", "↓", z))
+    return "".join(pos if part > 0.0 else neg for pos, neg, part in signs if abs(part) > max(0.25 * largest, 1e-9))
+
+
+def _bend(
+    canvas: Canvas, report: ShaftReport, scale: _Scale, first: int, lines: int, colours: Mapping[str, str]
+) -> None:
+    """Draw the deflection, vertical and horizontal, under the shaft, with its largest value."""
+    places = [1e-3 * place for place in report.positions_mm]
+    curves = (("primary", [d[2] for d in report.deflection_um]), ("warning", [d[1] for d in report.deflection_um]))
+    top = max([0.0, *(max(values) for _, values in curves)])
+    low = min([0.0, *(min(values) for _, values in curves)])
+    high = (top - low) or 1.0
+    dots = 4 * lines - 1
+
+    def down(value: float) -> int:
+        return 4 * first + round((top - value) / high * dots)
+
+    begin, end = 2.0 * scale.x(places[0]), 2.0 * scale.x(places[-1])
+    for across in range(round(begin), round(end) + 1, 3):
+        canvas.dot(across, down(0.0), colours["border-blurred"])
+    for name, values in curves:
+        for across in range(round(begin), round(end) + 1):
+            place = (across - begin) / max(end - begin, 1e-9) * places[-1]
+            canvas.dot(across, down(_between(place, places, values)), colours[name])
+    for line, (words, (name, values)) in enumerate(zip("zy", curves, strict=True)):
+        room = round(begin) // 2 - 1
+        label = f"{words} {min(values):.3g}..{max(values):.3g} um"
+        if len(label) > room:
+            label = f"{words} {max(values, key=abs):.3g} um"
+        canvas.words(first + line, 0, label, colours[name])
+
+
+def _between(place: float, places: list[float], values: list[float]) -> float:
+    """Return the value at a place, on the straight line between its neighbours."""
+    for left, right, a, b in zip(places, places[1:], values, values[1:], strict=False):
+        if place <= right and right > left:
+            return a + (b - a) * (place - left) / (right - left)
+    return values[-1]

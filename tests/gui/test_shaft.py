@@ -1,0 +1,188 @@
+"""Shafts in the builder: from nothing by keys alone, files with comments, mistakes, what the shaft does."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+from driving import LARGE, SMALL, builder, checked, focused_place, screen_text, wait_for, write
+from lambda_gui.app import BuilderApp
+from lambda_gui.derived import Derived
+from lambda_gui.helper import Estimator
+from lambda_gui.nodes import Node
+from lambda_gui.shaft_answer_screen import ShaftAnswerScreen
+from lambda_gui.shaft_outline import shaft_outline
+from lambda_gui.shaft_screen import ShaftScreen
+from lambda_gui.tree import ModelTree
+from textual.pilot import Pilot
+
+from lambda_core import api
+from lambda_core.case.shaft import ShaftCase
+from lambda_core.domain.option_tree import option_paths
+
+NAMES = {"shaft.sections": ("0",), "bearings": ("b",), "gears": ("g",), "discs": ("d",), "loads": ("l",)}
+
+
+def bearing_on_shaft(name: str, position: float) -> api.BearingOnShaft:
+    """Return what could be said of a bearing: solving it would take compiled code."""
+    return api.BearingOnShaft(
+        name=name, title="6208", position_mm=position, force_N=[213.0, 416.0, 286.0], moment_Nm=[0.0, 0.0],
+        radial_load_N=505.0, axial_load_N=-213.0, displacement_um=[1.0, 2.0, 3.0], misalignment_mrad=[0.1, 0.2],
+        outer_ring_um=[0.0, 0.0, 0.0], clearance_um=13.0, loaded_balls=9, max_load_N=236.0, max_load_ring="inner",
+        max_pressure_GPa=1.1, contact_angle_deg=[10.0, 13.0], equivalent_load_N=600.0, basic_rating_life_h=4e5,
+        reference_rating_life_h=2e6, modified_rating_life_h=None, viscosity_ratio=2.0, static_safety=30.0,
+        friction_torque_Nmm=61.0, power_loss_W=19.0, film_um=[0.4, 0.6], stiffness=[[1e7] * 6] * 6,
+        housed_stiffness=[[1e7] * 6] * 6, damping=[[1e3] * 6] * 6, housed_damping=[[1e3] * 6] * 6, contacts=[], warnings=[],
+    )  # fmt: skip
+
+
+def report() -> api.ShaftReport:
+    """Return what could be said of the shaft that `init --shaft` writes."""
+    mode = {"frequency_Hz": 600.0, "direction": 1.0, "kind": "bending", "damping_ratio": 0.0}
+    return api.ShaftReport(
+        case="box", speed_rpm=3000.0, bearings=[bearing_on_shaft("left", 21.0), bearing_on_shaft("right", 148.0)],
+        gears={"wheel": [796.0, 300.0, 213.0]}, system_life_h=4e5, friction_torque_Nmm=122.0, drive_torque_Nm=-47.8,
+        shaft_mass_kg=4.4, positions_mm=[0.0, 85.0, 170.0], deflection_um=[[0.0, 0.0, -1.0]] * 2 + [[0.0, -15.0, -2.0]],
+        slope_mrad=[[0.0, 0.0]] * 3, cut_positions_mm=[0.0, 85.0, 170.0], shear_N=[[0.0, 0.0]] * 3,
+        bending_moment_Nm=[[0.0, 0.0], [28.0, 3.0], [0.0, 0.0]], torque_Nm=[0.0] * 3,
+        critical_speeds=[{"speed_rpm": 40012.0, "direction": 0.0}], modes=[mode],
+        campbell=[{"speed_rpm": speed, "modes": [mode]} for speed in (0.0, 6000.0)], iterations=5, residual=0.0,
+        assumptions=[],
+    )  # fmt: skip
+
+
+@pytest.fixture
+def answered(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Answer at once, in place of the process beside the builder."""
+
+    async def ask(self: Estimator, tables: dict[str, Any], folder: Path | None) -> None:
+        self._tell(report(), "")
+
+    monkeypatch.setattr(Estimator, "ask", ask)
+
+
+def nodes() -> list[Node]:
+    return [node for top in shaft_outline(NAMES) for node in top.walk()]
+
+
+def test_every_option_of_a_shaft_has_exactly_one_place() -> None:
+    fields = [keys for node in nodes() for group in node.groups for keys in group.fields]
+    fields += [keys for node in nodes() if node.role for keys in node.law_places]
+    assert len(fields) == len(set(fields))
+    shown = {".".join(keys) for keys in fields}
+    named = {name for name in NAMES if "." not in name}
+    for path in option_paths(ShaftCase):
+        if path in (*named, "parameters"):
+            continue
+        path = path.replace("sections.", "sections.0.")
+        assert path in shown or path.rpartition(".")[0] in shown, path
+    for section, (name,) in NAMES.items():
+        table = ShaftCase.model_fields[section].annotation.__args__[1] if section in named else None  # type: ignore
+        for path in option_paths(table) if table is not None else ():
+            assert f"{section}.{name}.{path}" in shown, path
+
+
+async def from_tree(pilot: Pilot[None], key: str, place: tuple[str, ...]) -> None:
+    """Add a table from the tree and wait for its form."""
+    await pilot.press("escape")
+    pilot.app.screen.query_one(ModelTree).go_to(key)
+    await pilot.pause(0.1)
+    await pilot.press("plus")
+    await wait_for(pilot, lambda: focused_place(pilot)[:-1] == place)
+
+
+async def test_a_shaft_from_nothing_by_keys(work_folder: Path) -> None:
+    async with BuilderApp().run_test(size=SMALL) as pilot:
+        await wait_for(pilot, lambda: "new shaft" in screen_text(pilot.app))  # type: ignore[arg-type]
+        await pilot.press(*"new", "enter")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, ShaftScreen))
+        await from_tree(pilot, "shaft", ("shaft", "sections", "0"))
+        await pilot.press(*"170", "enter", *"40", "enter", "enter", "enter")  # the last one adds a piece
+        await wait_for(pilot, lambda: focused_place(pilot)[:-1] == ("shaft", "sections", "1"))
+        await pilot.press(*"30", "enter", *"35", "enter")
+        for name, place in (("left", "20"), ("right", "150")):
+            await from_tree(pilot, "bearings", ("bearings", name))
+            await write(pilot, "6208")
+            await pilot.press("enter", *place, "enter")
+        draft = builder(pilot).draft
+        await checked(pilot)
+        assert {problem.where for problem in builder(pilot).check.problems} == {
+            "operation.speed",
+            "lubricant.name",
+            "lubricant.temperature",
+            "bearings.left.maker",
+            "bearings.right.maker",
+        }
+        for path, text in {"bearings.left.maker": "SKF", "bearings.right.maker": "SKF", "operation.speed": "3000 rpm",
+                           "lubricant.name": "FVA3", "lubricant.temperature": "70 degC"}.items():  # fmt: skip
+            draft.set(*path.split("."), value=text)
+        await checked(pilot)
+        assert builder(pilot).check.shaft is not None
+        pilot.app.screen.query_one(ModelTree).focus()
+        pilot.app.screen.query_one(ModelTree).go_to("shaft.sections.1")
+        await pilot.pause(0.1)
+        await pilot.press("delete")
+        assert len(draft.get("shaft", "sections")) == 1
+        await pilot.press("ctrl+z")
+        assert draft.get("shaft", "sections") == [
+            {"length": "170 mm", "diameter": "40 mm"},
+            {"length": "30 mm", "diameter": "35 mm"},
+        ]
+        draft.save(work_folder / "mine.toml")
+    assert len(api.check_shaft(work_folder / "mine.toml").bearings) == 2
+
+
+@pytest.mark.usefixtures("answered")
+async def test_a_shaft_file_keeps_its_comments_and_says_what_it_does(work_folder: Path) -> None:
+    path = api.init_shaft("box")
+    before = path.read_text(encoding="utf-8").splitlines()
+    async with BuilderApp("box.toml").run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        await wait_for(pilot, lambda: pilot.app.screen.query_one(Derived).is_current)
+        shown = screen_text(pilot.app)  # type: ignore[arg-type]
+        for words in ("⊢left⊣", "~right~", "wheel", "radial", "bends", "critical", "⌀ 48 mm · x 110 mm"):
+            assert words in shown, words
+        await pilot.press("f3")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, ShaftAnswerScreen))
+        assert "moment about y" in screen_text(pilot.app)  # type: ignore[arg-type]
+        await pilot.press("escape")
+        screen = builder(pilot)
+        screen.go_to(("bearings", "right", "position"))
+        await wait_for(pilot, lambda: focused_place(pilot) == ("bearings", "right", "position"))
+        await pilot.press("ctrl+a", *"190", "enter")
+        await checked(pilot)
+        assert "is not on the shaft: 0 mm" in screen_text(pilot.app)  # type: ignore[arg-type]
+        assert pilot.app.screen.query_one(ModelTree).wrong_nodes() == ["bearings.right"]
+        screen.draft.set("bearings", "right", "position", value="149 mm")
+        await checked(pilot)
+        assert not screen.check.problems
+        await pilot.press("ctrl+s")
+        await wait_for(pilot, lambda: not screen.draft.is_changed())
+    after = path.read_text(encoding="utf-8").splitlines()
+    assert [line for line in after if line not in before] == ['position = "149 mm"']
+
+
+def test_pieces_of_a_list_come_and_go_with_their_comments() -> None:
+    text = '[shaft]\n[[shaft.sections]]\nlength = "1 mm" # one\n\n[[shaft.sections]]\nlength = "2 mm" # two\n'
+    from lambda_core.case.draft import draft_of
+
+    draft = draft_of(text, None)
+    assert draft.is_shaft
+    one, two = draft.get("shaft", "sections")
+    draft.set("shaft", "sections", value=[one, {"length": "3 mm"}, two])
+    draft.set("shaft", "sections", "2", "length", value="4 mm")
+    assert "# one" in draft.text()
+    assert "# two" in draft.text()
+    assert tomllib.loads(draft.text()) == draft.tables
+    draft.seal()
+    draft.set("shaft", "sections", value=[two])
+    assert tomllib.loads(draft.text()) == draft.tables
+    while draft.undo():
+        pass
+    assert draft.text() == text
+
+
+def test_the_schema_of_shafts_knows_every_table() -> None:
+    assert set(api.schema(shaft=True)["properties"]) == set(ShaftCase.model_fields)
