@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import tables as md
 from pydantic import BaseModel
 
-from lambda_core.case import modelling, motion, parts, signals
+from lambda_core.case import elastic, modelling, motion, parts, signals
 from lambda_core.case.cards import FieldCard, field_card
 from lambda_core.case.case import Case
 from lambda_core.domain.elements import ELEMENTS
@@ -22,6 +22,7 @@ _SHARED: dict[type[BaseModel], str] = {
     motion.Marker: "markers.NAME",
     motion.BetweenBodies: "elements.NAME",
     modelling.ForceElement: "forces.ELEMENT",
+    elastic.BendingRing: "elastic.RING",
     motion.Translation: "bodies.BODY.x",
     motion.Tilt: "bodies.BODY.tilt_y",
     motion.Spin: "bodies.BODY.spin",
@@ -34,6 +35,7 @@ _WHERE: dict[type[BaseModel], str] = {
     motion.BetweenBodies: "NAME is yours. What the law writes acts on the second body, its opposite on the first.",
     modelling.ForceElement: f"ELEMENT is {', '.join(f'`{name}`' for name in ELEMENTS)}. What stands here comes before "
     "`models` and `parameters` of the whole bearing.",
+    elastic.BendingRing: "RING is `inner_ring` or `outer_ring`. [What it does](../elastic-rings.md).",
     motion.Translation: "Also for `y` and `z`, of every body.",
     motion.Tilt: "Also for `tilt_z`, of every body.",
     motion.Spin: "Of the outer ring and the cage.",

@@ -8,6 +8,7 @@ from typing import Any
 
 from pydantic import PrivateAttr, model_validator
 
+from lambda_core.case.elastic import Elastic
 from lambda_core.case.electric import Electric
 from lambda_core.case.modelling import Depth, Forces, Models, Output, Parameters, Solver
 from lambda_core.case.motion import BetweenBodies, Bodies, Gravity, Loads, Marker, Operation
@@ -42,6 +43,7 @@ class Case(Section):
     parameters: Parameters = option({}, "parameters by role, for every force element with that role")
     forces: Forces = option({}, "models and parameters of single force elements")
     elements: dict[str, BetweenBodies] = option({}, "force elements between bodies, beside those of the bearing")
+    elastic: Elastic = option({}, "parts of the bearing that bend")
     gravity: Gravity = option({}, "acceleration of gravity")
     depth: Depth = option({}, "modelling depth")
     solver: Solver = option({}, "integrator and averages")

@@ -41,6 +41,7 @@ DIMENSIONS: dict[str, tuple[str, ...]] = {
     "tilt": ("y", "z"),
     "cylindrical": ("axial", "radial", "tangential"),
     "mechanism": LOSSES,
+    "wave": ("cosine", "sine"),
 }
 
 

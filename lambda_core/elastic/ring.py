@@ -13,6 +13,8 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 
+MOST_ORDERS = 12  # waves round a ring that anybody needs: beyond, a ring of a bearing is no thin one any more
+
 
 @dataclass(frozen=True)
 class ElasticRing:
@@ -36,6 +38,26 @@ class ElasticRing:
     youngs_modulus: float
     density: float
     bedding: float = 0.0
+
+    @staticmethod
+    def rectangle(
+        radius: float, height: float, width: float, youngs_modulus: float, density: float, *, housing: float = 0.0
+    ) -> ElasticRing:
+        """Return a ring of a rectangular section in a housing.
+
+        Parameters
+        ----------
+        radius : float
+            Of the line through the sections' centres [m].
+        height, width : float
+            Of the section, radially and axially [m].
+        youngs_modulus, density : float
+            [Pa], [kg/m3]
+        housing : float
+            Force over the displacement of the undeformed ring in its bedding: pi R k [N/m].
+        """
+        area, moment = height * width, width * height**3 / 12.0
+        return ElasticRing(radius, area, moment, youngs_modulus, density, housing / (math.pi * radius))
 
     def stiffness(self, order: int) -> float:
         """Return k_n = pi E I (n^2 - 1)^2/R^3 + pi R k of the amplitude of cos(n th) or sin(n th) [N/m]."""
@@ -79,3 +101,49 @@ class ElasticRing:
         half = 2.0 * order * spin / (order**2 + 1)
         root = math.sqrt(self.frequency(order) ** 2 + half**2)
         return root + half, root - half
+
+
+def shape(amplitudes: FloatArray, azimuths: FloatArray) -> FloatArray:
+    """Return the radial displacement of a ring, outwards [m].
+
+    Parameters
+    ----------
+    amplitudes : float64[:, :], shape (orders, 2)
+        Of cosine and sine of 2, 3, ... waves [m].
+    azimuths : float64[:], shape (m,)
+        In the ring's frame [rad].
+    """
+    angles = np.arange(2, 2 + len(amplitudes))[:, None] * azimuths[None, :]
+    return np.asarray(amplitudes[:, 0] @ np.cos(angles) + amplitudes[:, 1] @ np.sin(angles), dtype=float)
+
+
+@dataclass(frozen=True)
+class RingWaves:
+    """The waves of an elastic ring that a bearing's model follows: orders 2 to `orders`, with modal damping.
+
+    Attributes
+    ----------
+    ring : ElasticRing
+        The ring in its bedding.
+    orders : int
+        Highest number of waves round the ring.
+    damping_ratio : float
+        Of every wave, over critical [-].
+    """
+
+    ring: ElasticRing
+    orders: int
+    damping_ratio: float
+
+    @property
+    def counts(self) -> range:
+        """Numbers of waves round the ring, rising."""
+        return range(2, self.orders + 1)
+
+    def damping(self, order: int) -> float:
+        """Return 2 zeta m_n w_n of an amplitude [N s/m]."""
+        return 2.0 * self.damping_ratio * self.ring.mass(order) * self.ring.frequency(order)
+
+    def coupling(self, order: int) -> float:
+        """Return 4 n/(n^2 + 1) m_n: Coriolis force on one amplitude, over the other's rate and the ring's spin [kg]."""
+        return 4.0 * order / (order**2 + 1) * self.ring.mass(order)

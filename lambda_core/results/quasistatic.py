@@ -5,12 +5,14 @@ from __future__ import annotations
 import dataclasses
 import math
 
+import numpy as np
 from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, RINGS
 from lambda_core.domain.loading import CARRYING, Ring, largest_contact, loaded_balls
 from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.elastic.ring import shape
 from lambda_core.results.averages import finite
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, warnings
 from lambda_core.results.record import INTERFACE, Record
@@ -25,9 +27,25 @@ from lambda_core.results.summary import (
 )
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.wave_tables import waves_at
 from lambda_core.solver.sampling import CONTACT_CHANNELS
 from lambda_core.system.operating_limits import operating_warnings
 from lambda_core.system.time_functions import initial
+
+_PLACES = 720  # round a ring, where its shape is looked at
+
+
+class RingShape(Record):
+    """How an elastic ring bends, in its own frame."""
+
+    ring: Ring
+    orders: list[int] = Field(description="numbers of waves round the ring")
+    cosine_um: list[float] = Field(description="amplitude of cos(n azimuth) of each, outwards")
+    sine_um: list[float] = Field(description="amplitude of sin(n azimuth) of each, outwards")
+    outwards_um: float = Field(description="farthest displacement outwards")
+    outwards_deg: float = Field(description="azimuth where that is")
+    inwards_um: float = Field(description="farthest displacement inwards")
+    inwards_deg: float = Field(description="azimuth where that is")
 
 
 class QuasiStatic(Record):
@@ -50,6 +68,7 @@ class QuasiStatic(Record):
     contacts: list[Contact]
     inner_ring_displacement_um: list[float]
     inner_ring_tilt_mrad: list[float]
+    ring_shapes: list[RingShape] = Field(description="how elastic rings bend; empty where all are rigid", default=[])
     film_um: list[float] = Field(description="smallest and largest central film under load")
     film_parameter: list[float] = Field(description="smallest and largest Lambda under load")
     capacitance_note: str = Field(description="which contacts asperities short, where they do", default="")
@@ -97,6 +116,7 @@ def quasistatic_of(found: Equilibrium) -> QuasiStatic:
         contacts=contact_list({**channels, "ball_azimuth": _azimuths(found)}),
         inner_ring_displacement_um=[1e6 * value for value in (x, y, z)],
         inner_ring_tilt_mrad=[1e3 * tilt_y, 1e3 * tilt_z],
+        ring_shapes=_ring_shapes(found),
         film_um=span(1e6 * channels["film_central"][carrying]),
         film_parameter=span(channels["film_parameter"][carrying]),
         capacitance_note=capacitance_note(load, channels["capacitance"]),
@@ -108,6 +128,27 @@ def quasistatic_of(found: Equilibrium) -> QuasiStatic:
         iterations=found.iterations,
         assumptions=list(model.assumptions),
     )
+
+
+def _ring_shapes(found: Equilibrium) -> list[RingShape]:
+    """Return how the elastic rings bend."""
+    context, azimuths = found.context, np.linspace(0.0, 2.0 * np.pi, _PLACES, endpoint=False)
+    shapes = []
+    for body, amplitudes in waves_at(context.bundle, context.model, context.shared_part(found.state)).items():
+        bent = shape(amplitudes, azimuths)
+        shapes.append(
+            RingShape(
+                ring="inner" if body == "inner_ring" else "outer",
+                orders=list(context.model.elastic[body].counts),
+                cosine_um=(1e6 * amplitudes[:, 0]).tolist(),
+                sine_um=(1e6 * amplitudes[:, 1]).tolist(),
+                outwards_um=1e6 * float(bent.max()),
+                outwards_deg=math.degrees(azimuths[int(bent.argmax())]),
+                inwards_um=-1e6 * float(bent.min()),
+                inwards_deg=math.degrees(azimuths[int(bent.argmin())]),
+            )
+        )
+    return shapes
 
 
 def _azimuths(found: Equilibrium) -> FloatArray:

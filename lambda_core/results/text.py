@@ -14,7 +14,7 @@ from lambda_core.domain.wrapping import HEAD, wrapped
 if TYPE_CHECKING:
     from lambda_core.results.currents import Currents
     from lambda_core.results.limits import Shoulder
-    from lambda_core.results.quasistatic import QuasiStatic
+    from lambda_core.results.quasistatic import QuasiStatic, RingShape
     from lambda_core.results.rating import Rating
     from lambda_core.results.summary import Summary
 
@@ -128,6 +128,14 @@ def _digits(value: float | None) -> int:
     return 1 if not value else min(3, max(0, 2 - math.floor(math.log10(abs(value)))))
 
 
+def _bent(found: RingShape, units: UnitSystem) -> tuple[str, str]:
+    """Say how far an elastic ring bends out and in, and where."""
+    return (
+        f"{found.ring} {units.text(found.outwards_um, 'um', 2)} outwards at {found.outwards_deg:.0f} deg",
+        f"{units.text(found.inwards_um, 'um', 2)} inwards at {found.inwards_deg:.0f} deg",
+    )
+
+
 def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSystem = SI) -> str:
     """Return what an equilibrium says, a line per subject and a table of contacts; `width` as above."""
     tilt_y, tilt_z = found.inner_ring_tilt_mrad
@@ -150,6 +158,7 @@ def quasistatic_text(found: QuasiStatic, width: int | None = None, units: UnitSy
         line(
             "inner ring", _place(found.inner_ring_displacement_um, units), f"tilt y {tilt_y:.4f}  z {tilt_z:.4f} mrad"
         ),
+        *(line("" if i else "shape of rings", *_bent(bent, units)) for i, bent in enumerate(found.ring_shapes)),
         line("friction torque", units.text(found.friction_torque_Nmm, "N mm"), "(without cage)"),
         *breakdown_lines(found.friction_breakdown_Nmm, units),
         line("ball orbit", f"{number(found.orbit_speed_ratio, 4)} of inner ring"),

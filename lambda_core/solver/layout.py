@@ -156,6 +156,7 @@ class Bundle(NamedTuple):
     bodies: Any  # BODY (bodies,)
     rows: Any  # ROW (rows,)
     raceways: Any  # RACEWAY (raceways,)
+    waves: Any  # WAVE (waves of elastic rings,): mostly none
     lands: Any  # LAND (stations,)
     links: Any  # LINK (force elements between bodies,)
     tied: Any  # int64 (n,): entries of the shared state that elastic structures tie together; mostly none
@@ -193,6 +194,7 @@ _TYPES = {
     "bodies": table_t(R.BODY),
     "rows": table_t(R.ROW),
     "raceways": table_t(R.RACEWAY),
+    "waves": table_t(R.WAVE),
     "lands": table_t(R.LAND),
     "links": table_t(R.LINK),
     "tied": iarray1,

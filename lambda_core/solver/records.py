@@ -72,6 +72,12 @@ KINEMATICS = record(
     ("lift", f8),  # height of the raceway's surface above the nominal groove [m]
     ("rise_t", f8),  # its slopes with the place of the ball's centre along t and s [-]
     ("rise_s", f8),
+    ("widening", f8),  # how far the waves of an elastic ring carry the groove's circle outwards there [m]
+    ("widening_slope", f8),  # and its slope with the azimuth [m]
+    ("widening_rate", f8),  # and its rate, in the ring's material [m/s]
+    ("wave_cosine", f8),  # of the contact's azimuth in the ring's material
+    ("wave_sine", f8),
+    ("outward", f8),  # component of n away from the ring's axis
 )
 TANGENT = record(*((name, WRENCH) for name in DRIVERS))  # derivative of the wrench with each driver
 CONTACT = record(
@@ -201,6 +207,13 @@ RACEWAY = record(
     ("states", i8),  # that every contact of it keeps
     ("first_state", i8),  # of ball 0, among the states of all contacts
     ("slots", i8, (2,)),  # where its laws read them: begin, end
+    ("waves", i8, (2,)),  # of its ring, in the table of waves: begin, end
+)
+WAVE = record(  # a pattern of waves round an elastic ring, whose orders rise from 2
+    ("ring", i8),  # body
+    ("body", i8),  # whose y and z are its amplitudes: of the cosine, of the sine [m]
+    ("order", i8),  # number of waves
+    ("coupling", f8),  # Coriolis force on one amplitude over the other's rate and the ring's spin [kg]
 )
 SLOT = record(
     ("state", i8),  # which one of its contact

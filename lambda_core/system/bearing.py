@@ -17,6 +17,7 @@ from lambda_core.case.electric import Electric
 from lambda_core.case.thermal import Thermal
 from lambda_core.domain.elements import BodyName
 from lambda_core.domain.fits import Mounting
+from lambda_core.elastic.ring import RingWaves
 from lambda_core.laws.context import Material, Oil
 from lambda_core.laws.law import Law
 from lambda_core.views.observer import Action, Event, Observer
@@ -266,6 +267,8 @@ class BearingModel:
         What plugins write of a run, and what they look out for, by name.
     links : mapping of str to Link
         Force elements between bodies beside those of the bearing, by name.
+    elastic : mapping of str to RingWaves
+        Rings that bend, "inner_ring" before "outer_ring".
     values : tuple of ResolvedValue
         Every frozen number with its origin.
     """
@@ -302,3 +305,4 @@ class BearingModel:
     observers: Mapping[str, ChosenObserver] = field(default_factory=dict)
     events: Mapping[str, ChosenEvent] = field(default_factory=dict)
     links: Mapping[str, Link] = field(default_factory=dict)
+    elastic: Mapping[BodyName, RingWaves] = field(default_factory=dict)

@@ -200,7 +200,16 @@ def _bodies(model: BearingModel) -> dict[str, str]:
     bodies = {"inner_ring": model.inner_ring, "outer_ring": model.outer_ring}
     if model.depth.cage:
         bodies["cage"] = model.cage_body
-    return {name: _body_text(body) for name, body in bodies.items()}
+    return {name: _body_text(body) + _bending_text(model, name) for name, body in bodies.items()}
+
+
+def _bending_text(model: BearingModel, name: str) -> str:
+    """Say with how many waves a ring bends, and how fast; nothing of a rigid body."""
+    waves = next((waves for body, waves in model.elastic.items() if body == name), None)
+    if waves is None:
+        return ""
+    lowest = show(waves.ring.frequency(waves.counts[0]) / (2.0 * math.pi), "frequency", 4)
+    return f"; bends with 2 to {waves.orders} waves, two of them at {lowest}"
 
 
 def _body_text(body: Body) -> str:

@@ -45,6 +45,7 @@ from lambda_core.system.resolve_bodies import (
 )
 from lambda_core.system.resolve_clearance import clearance_in_operation, resolve_mounting
 from lambda_core.system.resolve_designation import resolve_designation
+from lambda_core.system.resolve_elastic import resolve_elastic
 from lambda_core.system.resolve_electric import resolve_electric
 from lambda_core.system.resolve_geometry import check_clearance, resolve_geometry, with_clearance
 from lambda_core.system.resolve_laws import LawResolver, ModelSource
@@ -120,6 +121,7 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
     oil_level = resolve_oil_level(case.lubricant, lubricant, geometry.ball_diameter, ledger)
     cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, materials["cage"], ledger)
     inertias = _inertias(case, geometry, materials, cage_estimate, ledger)
+    elastic = resolve_elastic(case, geometry, materials, ledger)
     _check_spins(case, geometry, ledger)
     solver = resolve_solver(case, geometry, laws, ledger, is_static=is_static)
     names = (designation, oil.name, *(material.name for material in materials.values()), cage_row.name)
@@ -161,6 +163,7 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
         observers=observers,
         events=events,
         links=between,
+        elastic=elastic,
     )
 
 
@@ -253,7 +256,8 @@ def case_hash(model: BearingModel) -> str:
         silent |= {"thermal", "mounting"}
     if model.electric is None:
         silent |= {"electric"}
-    absent = [name for name in ("observers", "events", "links") if not getattr(model, name)]  # as before there were any
+    # Left out where a model has none: the hash is that from before there were any.
+    absent = [name for name in ("observers", "events", "links", "elastic") if not getattr(model, name)]
     names = [f.name for f in dataclasses.fields(model) if f.name not in (*silent, *absent)]
     data = {name: _plain(getattr(model, name)) for name in names}
     if model.solver.resolve == 0.0:

@@ -1,16 +1,15 @@
-"""The states that the contacts of a resolved model keep."""
+"""The channels of a resolved model beside those of every run: states of contacts, arcs, waves of elastic rings."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from lambda_core.domain.channels import ARC_CHANNELS, CHANNELS
-from lambda_core.domain.elements import RACEWAYS
+from lambda_core.domain.channels import ARC_CHANNELS, CHANNELS, Channel
+from lambda_core.domain.elements import BODIES, RACEWAYS
 from lambda_core.laws.state import ROLE, State
 
 if TYPE_CHECKING:
-    from lambda_core.domain.channels import Channel
     from lambda_core.system.bearing import BearingModel
 
 
@@ -32,6 +31,20 @@ def arc_channels(model: BearingModel) -> tuple[Channel, ...]:
     return ARC_CHANNELS if model.geometry.four_point else ()
 
 
+def wave_channels(model: BearingModel) -> tuple[Channel, ...]:
+    """Return one channel for each number of waves of each elastic ring."""
+    return tuple(
+        Channel(
+            f"{body}_waves_{order}",
+            ("wave",),
+            "m",
+            f"amplitudes of {order} waves round the {BODIES[body].split(' with')[0]}, outwards, in the ring's frame",
+        )
+        for body, waves in model.elastic.items()
+        for order in waves.counts
+    )
+
+
 def result_channels(model: BearingModel) -> tuple[Channel, ...]:
     """Return what every sample of a run of the model carries."""
-    return (*CHANNELS, *arc_channels(model), *state_channels(model))
+    return (*CHANNELS, *arc_channels(model), *state_channels(model), *wave_channels(model))

@@ -70,6 +70,7 @@ def _described(path: str) -> str:
     path = re.sub(rf"^forces\.({'|'.join(ELEMENTS)})\.", "forces.ELEMENT.", path)
     path = re.sub(rf"^loads\.({'|'.join(BODIES)})\.", "loads.BODY.", path)
     path = re.sub(r"^materials\.(inner|outer|balls|cage)\.", "materials.PART.", path)
+    path = re.sub(r"^elastic\.(inner|outer)_ring\.", "elastic.RING.", path)
     match = re.fullmatch(rf"bodies\.({'|'.join(BODIES)})\.({'|'.join(DOFS)})\.(\w+)", path)
     if match:
         dof = {"y": "x", "z": "x", "tilt_z": "tilt_y"}.get(match[2], match[2])

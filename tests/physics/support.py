@@ -51,7 +51,7 @@ class State:
     """A state vector with named parts; `vector` packs it."""
 
     balls: FloatArray  # (Z, 9)
-    shared: FloatArray  # (3, 12); what is not free is ignored
+    shared: FloatArray  # (bodies, 12); what is not free is ignored
 
     def copy(self) -> State:
         return State(self.balls.copy(), self.shared.copy())
@@ -92,14 +92,14 @@ class Machine:
         return np.concatenate([state.balls.ravel(), state.shared.ravel()[self.active], self.context.bundle.states])
 
     def state(self, y: FloatArray) -> State:
-        shared = np.zeros(3 * L.NS)
+        shared = np.zeros(self.context.bundle.shared.size)
         shared[self.active] = self.context.shared_part(y)
-        return State(y[: L.NB * self.count].reshape(-1, L.NB).copy(), shared.reshape(3, L.NS))
+        return State(y[: L.NB * self.count].reshape(-1, L.NB).copy(), shared.reshape(-1, L.NS))
 
     def at_rest(self, azimuth: float = 0.0) -> State:
         """Return balls in the middle of the play, everything centred and at rest."""
         z, g = self.count, self.model.geometry
-        balls, shared = np.zeros((z, L.NB)), np.zeros((3, L.NS))
+        balls, shared = np.zeros((z, L.NB)), np.zeros((self.context.bundle.bodies.size, L.NS))
         balls[:, L.BR] = 0.5 * g.pitch_diameter
         balls[:, L.BPSI] = azimuth + 2.0 * np.pi * np.arange(z) / z
         shared[2, L.STHETA] = azimuth
@@ -142,9 +142,9 @@ class Machine:
             system["friction_on"] = 1
 
     def shared_state(self, y: FloatArray, t: float) -> FloatArray:
-        """Return the whole shared state (3, 12), prescribed motions included."""
+        """Return the whole shared state (bodies, 12), prescribed motions included."""
         self.evaluate(y, t, want=0)
-        return np.array(self.context.bundle.shared).reshape(3, L.NS)
+        return np.array(self.context.bundle.shared).reshape(-1, L.NS)
 
 
 def time_function(m: Machine, kind: str, body: int, component: int, t: float) -> FloatArray:
@@ -248,7 +248,7 @@ def jostle(m: Machine, state: State, rng: np.random.Generator, shift: float = 1.
     ball_scale = np.repeat([shift, motion], [3, 6]) * [20e-6, 20e-6, 1e-3, 0.3, 0.1, 0.3, 30.0, 30.0, 30.0]
     body_scale = np.repeat([shift, motion], [6, 6]) * [10e-6, 10e-6, 10e-6, 3e-4, 3e-4, 1e-3, 0.05, 0.05, 0.05, 1, 1, 3]
     new.balls += rng.uniform(-1.0, 1.0, (z, L.NB)) * ball_scale
-    new.shared += rng.uniform(-1.0, 1.0, (3, L.NS)) * body_scale
+    new.shared += rng.uniform(-1.0, 1.0, new.shared.shape) * body_scale
     return new
 
 

@@ -40,6 +40,10 @@ LINKS = (
     "elements.spring.second=cage", "elements.spring.parameters.stiffness_z=0.1 N/um",
     "elements.spring.parameters.preload_x=20 N",
 )  # fmt: skip
+ELASTIC = (
+    "elastic.outer_ring.housing_stiffness=100 N/um", "elastic.outer_ring.orders=4",
+    "elastic.inner_ring.housing_stiffness=300 N/um", "elastic.inner_ring.orders=3",
+)  # fmt: skip
 MODELS: dict[str, tuple[str, ...]] = {
     "force elements": (TIGHT, *ALL_FREE, *LINKS),
     "default": (TIGHT,),
@@ -58,6 +62,7 @@ MODELS: dict[str, tuple[str, ...]] = {
         TIGHT, *ALL_FREE, "bodies.inner_ring.spin=free", "bodies.inner_ring.spin.damping=0.01 N m s/rad",
         "bodies.outer_ring.spin.damping=0.02 N m s/rad",
     ),
+    "elastic rings": (TIGHT, *ALL_FREE, *ELASTIC),
     "ring-guided cage": (TIGHT, "bodies.cage.guidance=outer ring", "bodies.cage.land_clearance=2 um"),
     "exact Hertz, no friction": (
         TIGHT, "models.normal_contact=hertz-exact", "models.traction=newtonian", "models.rolling_resistance=none",

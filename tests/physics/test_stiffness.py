@@ -54,6 +54,7 @@ def without_friction(found: Equilibrium) -> Equilibrium:
     [
         ("6208-axial-1300", ()),
         ("6319-cp10-1500", ("loads.axial=5 kN",)),
+        ("6319-cp10-1500", ("loads.axial=5 kN", "elastic.outer_ring.housing_stiffness=100 N/um")),
         ("6319-cp10-1500", ("loads.axial=5 kN", "bodies.inner_ring.tilt_y=locked", "bodies.inner_ring.tilt_z=locked")),
     ],
 )

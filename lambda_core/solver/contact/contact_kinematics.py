@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 
+from lambda_core.solver.contact.ring_waves import widen
 from lambda_core.solver.faults import SURFACE, report
 from lambda_core.solver.layout import helper, part, raceway_laws
 from lambda_core.solver.vec import (
@@ -55,11 +56,13 @@ def surface_lift(ball, ring, raceway, bundle, kin):
     """Look up the raceway's surface under a ball, for `contact_kinematics` to take: call it first where one is in use.
 
     Writes kin.lift, the height, and kin.rise_t, kin.rise_s, its slopes with the ball centre's place along t and s; NaN
-    when the law refused. In the quasi-static equilibrium raceways are nominal.
+    when the law refused. In the quasi-static equilibrium raceways are nominal but for the waves of elastic rings.
     """
     scratch = bundle.scratch[0]
     kin.lift, kin.rise_t, kin.rise_s = 0.0, 0.0, 0.0
-    if raceway.surface_on == 0 or bundle.system[0].guides_on == 0:
+    kin.widening, kin.widening_slope, kin.widening_rate = 0.0, 0.0, 0.0
+    textured, bends = raceway.surface_on == 1 and bundle.system[0].guides_on == 1, raceway.waves[1] > raceway.waves[0]
+    if not (textured or bends):
         return
     c, s = math.cos(ball.azimuth), math.sin(ball.azimuth)
     ay, az = ring.tilt[0], ring.tilt[1]
@@ -72,6 +75,10 @@ def surface_lift(ball, ring, raceway, bundle, kin):
     lean = p0 + (ay * q1 + az * q2) / (1.0 + axis_x(ay, az))
     azimuth = math.atan2(q2 - az * lean, q1 - ay * lean) - ring.angle
     azimuth -= 2.0 * math.pi * math.floor(azimuth / (2.0 * math.pi) + 0.5)
+    if bends:
+        widen(raceway, azimuth, bundle, kin)
+    if not textured:
+        return
     angle = math.atan2(raceway.side * axial, raceway.side * radial)
     out, par = scratch.surface[:], part(bundle.par, raceway.parameters.surface)
     out[:] = np.nan
@@ -107,7 +114,7 @@ def contact_kinematics(ball, ring, raceway, kin):
     axis, centre, along, across = _from_axis(ball, ring, c, s)
     rho = math.sqrt(across[1] * across[1] + across[0] * across[0] + across[2] * across[2])
     p = across[0] / rho, across[1] / rho, across[2] / rho
-    axial, radial = along - raceway.axial_offset, rho - raceway.groove_circle
+    axial, radial = along - raceway.axial_offset, rho - raceway.groove_circle - kin.widening
     length = math.sqrt(axial * axial + radial * radial)
     delta = length + raceway.ball_radius - raceway.groove_radius + kin.lift
     kin.penetration = delta
@@ -121,6 +128,9 @@ def contact_kinematics(ball, ring, raceway, kin):
     s_ = cross(n, t)
     reach = raceway.ball_radius - 0.5 * delta
     arm = add(centre, scale(reach, n))
+    kin.outward = nr
+    if raceway.waves[1] > raceway.waves[0]:
+        kin.rise_t -= nr * kin.widening_slope / rho
     _velocities(ball, ring, axis, centre, (c, s), (t, s_, n), (rho, length, nr), reach, arm, kin)
     store(kin.t, t)
     store(kin.s, s_)
@@ -159,7 +169,7 @@ def _velocities(ball, ring, axis, centre, azimuth, frame, lengths, reach, arm, k
     kin.entrainment_s = 0.5 * dot(both, s_) - point_s
     # A raceway that rises under the ball: the penetration's own rate.
     normal = dot(slip, n) + kin.rise_t * (dot(u, t) - sigma * rho)
-    kin.normal_velocity = normal + kin.rise_s * dot(u, s_)
+    kin.normal_velocity = normal + kin.rise_s * dot(u, s_) - nr * kin.widening_rate
 
 
 @helper

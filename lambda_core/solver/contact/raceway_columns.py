@@ -6,8 +6,9 @@ import numpy as np
 
 from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, surface_lift
 from lambda_core.solver.contact.contact_states import hand_states
+from lambda_core.solver.contact.ring_waves import wave_pushes
 from lambda_core.solver.contact.tangent import wrench_at
-from lambda_core.solver.layout import NB, NS, STHETA, helper, raceway_laws
+from lambda_core.solver.layout import NB, NS, STHETA, SVY, SVZ, SY, SZ, helper, raceway_laws
 from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
 from lambda_core.solver.records import BALL, BODY_STATE
 from lambda_core.solver.vec import clear
@@ -56,7 +57,7 @@ def _contact_columns(ball, j, ring, raceway, row, bundle, bl):
         add_slope(bl.from_ball[p], c, fm[3], fm[1], step)
     for c in range(NS):
         column = NS * p + c
-        if index[column] < 0 or (c == STHETA and raceway.surface_on == 0):
+        if index[column] < 0 or (c == STHETA and raceway.surface_on == 0 and raceway.waves[0] == raceway.waves[1]):
             continue
         step = body_step(c, False)
         near_ring[0] = ring
@@ -70,6 +71,64 @@ def _contact_columns(ball, j, ring, raceway, row, bundle, bl):
         _wrenches_near(scratch, bl)
         add_slope(bl.to_shared, column, fm[2], fm[0], step)
         add_slope(on_ring, column, fm[3], fm[1], step)
+
+
+@helper
+def _push_slopes(raceway, r, bundle, slopes, column, step, bl):
+    """Add the change of a contact's push on the waves of its ring, over a step, to one column of their force slopes.
+
+    The push where it was stands in bl.pushes[0]; scratch holds what is near it.
+    """
+    scratch, near = bundle.scratch[0], bl.pushes[1]
+    wave_pushes(raceway, scratch.kinematics[1], scratch.wrench[1], near)
+    for i in range(raceway.waves[1] - raceway.waves[0]):
+        p = bl.reach.place[r, bundle.waves[raceway.waves[0] + i].body]
+        slopes[p, 1, column] += (near[2 * i] - bl.pushes[0, 2 * i]) / step
+        slopes[p, 2, column] += (near[2 * i + 1] - bl.pushes[0, 2 * i + 1]) / step
+
+
+@helper
+def _wave_columns(ball, j, ring, raceway, row, bundle, bl):
+    """Add what the waves of an elastic ring change of a contact, and what changes the contact's push on them."""
+    scratch, r = bundle.scratch[0], row.number
+    p, kin, fm = bl.reach.place[r, raceway.body], scratch.kinematics[1], bl.wrenches
+    near_ball, near_ring = bl.ball.view(BALL), bl.body.view(BODY_STATE)
+    wave_pushes(raceway, scratch.kinematics[0], scratch.wrench[0], bl.pushes[0])
+    for c in range(NB + NS):
+        if c >= NB and bl.reach.index[r, NS * p + c - NB] < 0:
+            continue
+        step = ball_step(c, False) if c < NB else body_step(c - NB, False)
+        for _ in range(2):
+            near_ball[0] = ball
+            near_ring[0] = ring
+            if c < NB:
+                bl.ball[c] += step
+            else:
+                bl.body[c - NB] += step
+            if _touches(near_ball[0], near_ring[0], raceway, bundle, kin) > 0.0:
+                _wrenches_near(scratch, bl)
+                if c < NB:
+                    _push_slopes(raceway, r, bundle, bl.from_ball, c, step, bl)
+                else:
+                    _push_slopes(raceway, r, bundle, bl.parts[j], NS * p + c - NB, step, bl)
+                break
+            step = -step
+    for i in range(raceway.waves[0], raceway.waves[1]):
+        body = bundle.waves[i].body
+        first = NS * bl.reach.place[r, body]
+        for c in (SY, SZ, SVY, SVZ):
+            kept, step = bundle.shared[NS * body + c], body_step(c, False)
+            for _ in range(2):
+                bundle.shared[NS * body + c] = kept + step
+                touches = _touches(ball, ring, raceway, bundle, kin) > 0.0
+                bundle.shared[NS * body + c] = kept
+                if touches:
+                    _wrenches_near(scratch, bl)
+                    add_slope(bl.to_shared, first + c, fm[2], fm[0], step)
+                    add_slope(bl.parts[j, p], first + c, fm[3], fm[1], step)
+                    _push_slopes(raceway, r, bundle, bl.parts[j], first + c, step, bl)
+                    break
+                step = -step
 
 
 @helper
@@ -95,4 +154,6 @@ def raceway_columns(ball, j, row, bundle, bl):
             scratch.fault.ball = j
             return 0
         _contact_columns(ball, j, ring, raceway, row, bundle, bl)
+        if raceway.waves[1] > raceway.waves[0]:
+            _wave_columns(ball, j, ring, raceway, row, bundle, bl)
     return 1

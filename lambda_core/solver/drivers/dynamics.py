@@ -183,7 +183,7 @@ class BearingEngine:
         Force x, y, z [N] and moment x, y, z about the body's centre [N m] of all contacts and force elements on it:
         without its loads, weight and support.
         """
-        wrenches: FloatArray = self._context.bundle.body_wrenches.view(np.float64).reshape(-1, 6)
+        wrenches: FloatArray = self._context.bundle.body_wrenches[: CAGE + 1].view(np.float64).reshape(-1, 6)
         return wrenches.copy()
 
     def forget_samples(self) -> None:
@@ -289,7 +289,7 @@ class BearingEngine:
         bundle = self._context.bundle
         bodies, tail = np.zeros(bundle.bodies.size, R.BODY_STATE), L.NB * self._balls
         bodies.view(np.float64)[bundle.active] = self._context.shared_part(self._memory.y)
-        inner, outer, cage = (float(angle) for angle in bodies["angle"])
+        inner, outer, cage = (float(angle) for angle in bodies["angle"][: CAGE + 1])
         if not self.model.depth.cage:
             cage = float(np.mean(self._memory.y[:tail].view(R.BALL)["azimuth"]))
         return cage - outer, inner - outer

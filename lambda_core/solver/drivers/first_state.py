@@ -58,7 +58,7 @@ def first_state(context: SolverContext, phase: float = 0.0) -> FloatArray:
         if radial > 0.1 * total:
             for i in (1, 2):
                 move[i] = (0.5 * g.clearance + 2e-6) * force[i] / total
-    bodies = np.zeros(3, R.BODY_STATE)
+    bodies = np.zeros(context.bundle.bodies.size, R.BODY_STATE)
     for b, body in enumerate((model.inner_ring, model.outer_ring, model.cage_body)):
         for d, name in enumerate(DOFS[:3]):
             dof = body.dofs[name]

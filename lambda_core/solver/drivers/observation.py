@@ -8,6 +8,7 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
+from lambda_core.domain.elements import BODIES
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
@@ -16,6 +17,7 @@ from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.tables import running
+from lambda_core.solver.drivers.wave_tables import wave_amplitudes
 from lambda_core.solver.entry import Core
 from lambda_core.solver.sampling import CONTACT_CHANNELS
 from lambda_core.system.state_channels import arc_channels
@@ -75,7 +77,8 @@ def channels_of(
     n, geometry = times.size, context.model.geometry
     z = geometry.balls
     contacts, pockets, lands, extra, flat, rates, _ = scratch
-    bodies = flat.view(R.BODY_STATE)
+    everything = flat.view(R.BODY_STATE)
+    bodies = everything[:, : len(BODIES)]
     balls = np.ascontiguousarray(states[:n, : L.NB * z]).view(R.BALL)
     totals = extra[:, : R.floats_of(R.TOTALS)].view(R.TOTALS)[:, 0]
     channels: dict[str, FloatArray] = {
@@ -106,4 +109,4 @@ def channels_of(
         i = CONTACT_CHANNELS.index(channel.name.removeprefix("arc_"))
         channels[channel.name] = contacts[:, :, :, i].copy()
     tails = states[:n, context.size - context.bundle.states.size :]
-    return channels | channels_of_states(context.model, tails)
+    return channels | channels_of_states(context.model, tails) | wave_amplitudes(everything, context.model)

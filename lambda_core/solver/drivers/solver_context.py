@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import BODIES
 from lambda_core.laws.context import Oil
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
@@ -18,6 +19,7 @@ from lambda_core.solver.drivers.contact_memory import state_arrays, state_tail
 from lambda_core.solver.drivers.law_inputs import Oils
 from lambda_core.solver.drivers.tables import build_tables
 from lambda_core.solver.drivers.time_tables import build_times
+from lambda_core.solver.drivers.wave_tables import waves_of
 from lambda_core.solver.entry import core
 from lambda_core.solver.integrator.arrow import make_factors
 from lambda_core.solver.integrator.blocks import make_blocks
@@ -37,7 +39,7 @@ def state_scales(model: BearingModel, active: NDArray[np.int64]) -> FloatArray:
     length, speed, spin = 50e-6, 0.1, 7.0
     ball = [length, length, length / arm, speed, speed, speed, spin, spin, spin]
     body = [length] * 3 + [length / arm] * 3 + [speed] * 3 + [speed / arm] * 3
-    shared = np.array(body * 3)
+    shared = np.array(body * (len(BODIES) + len(waves_of(model))))
     return np.concatenate([np.tile(ball, model.geometry.balls), shared[active], state_tail(model)])
 
 

@@ -100,19 +100,26 @@ def _fill_slopes(context: SolverContext, state: FloatArray) -> None:
 
 
 def _eliminated(context: SolverContext) -> FloatArray:
-    """Return the stiffness left when the balls' positions are eliminated, shape (5, 5)."""
-    blocks, body = context.blocks, context.model.inner_ring
-    columns, rows = blocks.index[list(_STATES)], blocks.index[list(_RATES)]
-    own = blocks.reach.index[0]  # the inner ring is the first body that a ball touches, too
-    own_columns, own_rows = own[list(_STATES)], own[list(_RATES)]
-    inertia = np.array([body.mass] * 3 + [body.transverse_inertia] * 2)
+    """Return the stiffness left when the balls' positions and the waves of rings are eliminated, shape (5, 5)."""
+    blocks, body, waves = context.blocks, context.model.inner_ring, context.bundle.waves["body"]
+    amplitudes = [L.NS * int(wave) + axis for wave in waves for axis in (L.SY, L.SZ)]
+    columns = blocks.index[[*_STATES, *amplitudes]]
+    rows = blocks.index[[*_RATES, *(place + L.SVX for place in amplitudes)]]
+    # what a ball touches: the inner ring, and the waves
+    own_columns, own_rows = (np.searchsorted(blocks.reach.columns[0], places) for places in (columns, rows))
+    masses = np.repeat(context.bundle.bodies["mass"][waves], 2)
+    inertia = np.concatenate([[body.mass] * 3, [body.transverse_inertia] * 2, masses])
     positions, accelerations = [L.BX, L.BR], [L.BVX, L.BVR]
     slope = blocks.d[np.ix_(rows, columns)].copy()
     for ball, on_ball, on_ring in zip(blocks.a, blocks.b, blocks.c, strict=True):
         feel = on_ball[np.ix_(accelerations, own_columns)]
         if not np.any(feel):
-            continue  # the inner ring does not touch this ball
+            continue  # neither the inner ring nor waves touch this ball
         hold = ball[np.ix_(accelerations, positions)]
         slope -= on_ring[np.ix_(own_rows, positions)] @ np.linalg.solve(hold, feel)
-    matrix: FloatArray = -inertia[:, None] * slope * _SIGNS[None, :]
+    slope *= -inertia[:, None]
+    bent = len(_STATES)
+    if amplitudes:
+        slope[:bent, :bent] -= slope[:bent, bent:] @ np.linalg.solve(slope[bent:, bent:], slope[bent:, :bent])
+    matrix: FloatArray = slope[:bent, :bent] * _SIGNS[None, :]
     return matrix

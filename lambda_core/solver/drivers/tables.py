@@ -16,6 +16,7 @@ from lambda_core.laws.state import names_behind
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of, times
+from lambda_core.solver.drivers.wave_tables import give_waves, wave_bodies, wave_rows
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame, build_context, effective_modulus, prepare
 from lambda_core.system.raceways import raceways as raceways_of
@@ -38,6 +39,7 @@ class Tables(NamedTuple):
     bodies: Any
     rows: Any
     raceways: Any
+    waves: Any
     lands: Any
     links: Any
     slots: Any
@@ -74,12 +76,14 @@ def ball_mass(model: BearingModel) -> float:
 
 
 def build_tables(model: BearingModel, frame: ContactFrame, oils: Oils, terms: NDArray[np.void]) -> Tables:
-    """Return the tables of one bearing: three bodies, its rows of balls and its raceways.
+    """Return the tables of one bearing: three bodies and those of elastic rings, its rows of balls and its raceways.
 
     Into `terms`, records.TERM, goes where the laws among them have their parameters.
     """
     parameters = _Parameters(model, frame, oils)
     raceways = _raceways(model, frame, oils, parameters)
+    waves = wave_rows(model)
+    give_waves(raceways, waves)
     rows, lands = _rows(model, oils[0], parameters), _lands(model, oils[0], parameters)
     rows["drag"] = parameters.add("fluid_drag", "fluid_drag")
     between = _links(model, parameters)
@@ -89,10 +93,11 @@ def build_tables(model: BearingModel, frame: ContactFrame, oils: Oils, terms: ND
     s = system[0]
     s["balls"], s["gravity"] = model.geometry.balls, model.gravity
     s["roll_floor"], s["slip_floor"] = ROLL_FLOOR, SLIP_FLOOR
-    s["surfaces"] = int(raceways["surface_on"].any())
+    s["surfaces"] = int(raceways["surface_on"].any() or waves.size > 0)
     s["friction_on"], s["guides_on"] = 1, 1
     slots = _keep_states(model, raceways)
-    return Tables(system, _bodies(model), rows, raceways, lands, between, slots, parameters.all())
+    bodies = np.concatenate([_bodies(model), wave_bodies(model)])
+    return Tables(system, bodies, rows, raceways, waves, lands, between, slots, parameters.all())
 
 
 def _bodies(model: BearingModel) -> Any:

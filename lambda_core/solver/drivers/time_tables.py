@@ -12,6 +12,7 @@ from lambda_core.domain.elements import DOFS
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.law_inputs import times
+from lambda_core.solver.drivers.wave_tables import wave_states, weightless
 from lambda_core.system.bearing import BearingModel, LawTerm, TimeFunction
 
 _KINDS = {"constant": R.CONSTANT, "ramp": R.RAMP, "harmonic": R.HARMONIC, "table": R.TABLE, "law": R.LAW}
@@ -72,5 +73,6 @@ def build_times(model: BearingModel) -> tuple[NDArray[np.void], FloatArray, NDAr
         for axis in range(3):
             add_terms(PER_BODY * b + FORCE + axis, body.force[axis], rows, table, laws)
             add_terms(PER_BODY * b + MOMENT + axis, body.moment[axis], rows, table, laws)
-    terms = np.concatenate([np.zeros(0, R.TERM), *rows])
+    active += wave_states(model)
+    terms = np.concatenate([np.zeros(0, R.TERM), *rows, weightless(model, PER_BODY, FORCE)])
     return terms, np.array(table or [0.0]), np.array(sorted(active), dtype=np.int64)

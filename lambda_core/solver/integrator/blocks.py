@@ -34,6 +34,7 @@ class Blocks(NamedTuple):
     near_rate: Any  # (12,) and of a perturbed one
     wrenches: Any  # WRENCH (4,): on ball and body, then on both where one of them is perturbed
     map: Any  # (12, 6) d(rate)/d(force, moment) of one body
+    pushes: Any  # (2, 2 waves): of one contact on the waves of its ring, and where a state is perturbed
     index: Any  # int64 (12 bodies,): position among the free shared states, or -1
 
 
@@ -52,6 +53,7 @@ _BLOCK_TYPES = {
     "slope": table_t(R.TANGENT),
     "wrenches": table_t(R.WRENCH),
     "map": array2,
+    "pushes": array2,
     "index": iarray1,
 }
 blocks_t = types.NamedTuple([_BLOCK_TYPES.get(name, array1) for name in Blocks._fields], Blocks)
@@ -84,5 +86,6 @@ def make_blocks(bundle: Any) -> Blocks:
         near_rate=zeros(NS),
         wrenches=zeros(4, R.WRENCH),
         map=zeros((NS, 6)),
+        pushes=zeros((2, 2 * bundle.waves.size)),
         index=index,
     )

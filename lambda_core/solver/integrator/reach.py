@@ -1,8 +1,8 @@
 """Which bodies, and so which columns of the Jacobian, the balls of each row reach.
 
-A ball touches the raceways of its row and its cage and nothing else, so its blocks hold the columns of those bodies
-alone: the *own* bodies of its row. Numbers among them are places; a row with fewer than the widest leaves the rest
-unused.
+A ball touches the raceways of its row, the waves of their rings and its cage and nothing else, so its blocks hold the
+columns of those bodies alone: the *own* bodies of its row. Numbers among them are places; a row with fewer than the
+widest leaves the rest unused.
 """
 
 from __future__ import annotations
@@ -34,7 +34,9 @@ reach_t = types.NamedTuple([_TYPES.get(name, iarray2) for name in Reach._fields]
 def _own_bodies(bundle: Any, row: Any) -> list[int]:
     """Return the bodies that the balls of a row touch, in order."""
     begin = int(row["first_raceway"])
-    touched = {int(body) for body in bundle.raceways["body"][begin : begin + int(row["raceways"])]}
+    raceways = bundle.raceways[begin : begin + int(row["raceways"])]
+    touched = {int(body) for body in raceways["body"]}
+    touched |= {int(body) for first, last in raceways["waves"] for body in bundle.waves["body"][first:last]}
     return sorted(touched | ({int(row["cage"])} if row["caged"] else set()))
 
 

@@ -20,6 +20,7 @@ from lambda_core.solver.cage.guides import (
 from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, surface_lift
 from lambda_core.solver.contact.contact_states import hand_states, lost_in, state_rates
 from lambda_core.solver.contact.dissipation import raceway_losses
+from lambda_core.solver.contact.ring_waves import push_waves
 from lambda_core.solver.faults import FLUID_DRAG, report
 from lambda_core.solver.layout import cells_of, drag_law, grid_of, guide_law, helper, part, raceway_laws
 from lambda_core.solver.vec import clear, increase
@@ -43,6 +44,8 @@ def add_contact(raceway, j, bundle):
     apply_wrench(scratch.kinematics[0], scratch.wrench[0], bundle.ball_wrenches[j], scratch.on_ring)
     increase(on_body.force, scratch.on_ring.force)
     increase(on_body.moment, scratch.on_ring.moment)
+    if raceway.waves[1] > raceway.waves[0]:
+        push_waves(raceway, bundle)
 
 
 @helper

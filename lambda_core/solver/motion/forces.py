@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from lambda_core.solver.contact.ring_waves import turn_waves
 from lambda_core.solver.layout import NB, helper, losses_of, running_of
 from lambda_core.solver.motion.equations import ball_rates, body_rates
 from lambda_core.solver.motion.force_elements import cage_forces, clear_forces, drag_force, land_forces, raceway_forces
@@ -112,6 +113,7 @@ def evaluate(t, y, bundle, dydt, rates, want):
     if link_forces(t, bundle, running) != 1:
         return 0
     structure_forces(bundle)
+    turn_waves(bundle)
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         for j in range(row.first_ball, row.first_ball + row.balls):

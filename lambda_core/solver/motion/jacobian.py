@@ -18,6 +18,7 @@ import math
 
 from lambda_core.solver.cage.guide_columns import land_columns, neighbour_columns, pocket_columns
 from lambda_core.solver.contact.raceway_columns import raceway_columns
+from lambda_core.solver.contact.ring_waves import turning_columns
 from lambda_core.solver.layout import BPSI, NB, NS, helper
 from lambda_core.solver.motion.block_rows import ball_block, body_rows, force_map, shared_rows
 from lambda_core.solver.motion.force_elements import drag_force
@@ -129,6 +130,7 @@ def jacobian(t, y, bundle, bl):
     if link_columns(t, bundle, bl) != 1:
         return 0
     structure_columns(bundle, bl)
+    turning_columns(bundle, bl)
     for r in range(bundle.rows.size):
         for j in range(bl.reach.first[r], bl.reach.first[r + 1]):
             bl.due[j] = 1

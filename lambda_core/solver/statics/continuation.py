@@ -15,7 +15,7 @@ import numba
 import numpy as np
 from numba import types
 
-from lambda_core.solver.contact.contact_kinematics import contact_kinematics
+from lambda_core.solver.contact.contact_kinematics import contact_kinematics, surface_lift
 from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve, factors_t
 from lambda_core.solver.integrator.blocks import blocks_t
 from lambda_core.solver.integrator.memory import evaluate_t, jacobian_t
@@ -63,6 +63,8 @@ def _load_shares(y, bundle, share):
             for k in range(row.first_raceway, row.first_raceway + row.raceways):
                 raceway = bundle.raceways[k]
                 if raceway.body == body:
+                    if bundle.system[0].surfaces == 1:
+                        surface_lift(balls[j], bundle.bodies_now[body], raceway, bundle, kin)
                     delta = contact_kinematics(balls[j], bundle.bodies_now[body], raceway, kin)
                     share[j] = max(share[j], delta)
             largest = max(largest, share[j])

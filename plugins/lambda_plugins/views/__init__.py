@@ -22,6 +22,7 @@ def register_views(register: Callable[[View], None]) -> None:
         friction,
         heat,
         ring,
+        ring_shape,
         study,
     )
 
@@ -35,6 +36,7 @@ def register_views(register: Callable[[View], None]) -> None:
         balls,
         cage,
         ring,
+        ring_shape,
         capacitance,
         electric,
         comparison,

@@ -1,0 +1,170 @@
+"""Elastic rings: rigid limit, a finite-element ring under the same loads, waves of a turning ring, resuming."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from lambda_core import api
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import CaseError
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.dynamics import BearingEngine
+
+from .support import integrate, machine
+
+CASE = "6319-cp10-1500"
+
+
+def soft(stiffness: str, orders: int = 6, ring: str = "outer_ring") -> tuple[str, ...]:
+    """Return overrides that make a ring elastic."""
+    return (f"elastic.{ring}.housing_stiffness={stiffness}", f"elastic.{ring}.orders={orders}")
+
+
+@pytest.mark.parametrize("ring", ["outer_ring", "inner_ring"])
+def test_in_a_rigid_housing_a_ring_is_rigid(ring: str) -> None:
+    """Loads, displacement and torque are those of rigid rings: 1e-6."""
+    rigid, stiff = api.quasistatic(CASE), api.quasistatic(CASE, soft("1e15 N/m", ring=ring))
+    assert stiff.max_load_N == pytest.approx(rigid.max_load_N, rel=1e-6)
+    assert stiff.friction_torque_Nmm == pytest.approx(rigid.friction_torque_Nmm, rel=1e-6)
+    assert stiff.inner_ring_displacement_um[2] == pytest.approx(rigid.inner_ring_displacement_um[2], rel=1e-6)
+
+
+def beam_ring(loads: FloatArray, azimuths: FloatArray, waves: int, elements: int = 720) -> FloatArray:
+    """Return the amplitudes of `waves` waves of the outer ring's radial displacement, by straight beam elements [m].
+
+    A polygon of Euler-Bernoulli beams (Przemieniecki 1968, Theory of Matrix Structural Analysis, eq. 5.116) that hardly
+    stretch, on radial springs, loaded at its corners. Nothing of it is taken from the theory of waves.
+    """
+    model = api.check(CASE)
+    g, steel, width = model.geometry, model.outer_material, model.geometry.width
+    inside, outside = 0.5 * g.race_diameter_outer, 0.5 * g.outside_diameter
+    radius, height = 0.5 * (inside + outside), outside - inside
+    bending = steel.youngs_modulus * width * height**3 / 12.0
+    stretching = 1e4 * bending / radius**2 * 10.0
+    bed = 1e8 / (math.pi * radius) * (2.0 * math.pi * radius / elements)  # [N/m] of one corner
+    size, length = 3 * elements, 2.0 * radius * math.sin(math.pi / elements)
+    around = 2.0 * math.pi * np.arange(elements) / elements
+    k = np.zeros((size, size))
+    a, b, c, d = (
+        stretching / length, 12.0 * bending / length**3, 6.0 * bending / length**2, 4.0 * bending / length,
+    )  # fmt: skip
+    local = np.array(
+        [[a, 0, 0, -a, 0, 0], [0, b, c, 0, -b, c], [0, c, d, 0, -c, d / 2],
+         [-a, 0, 0, a, 0, 0], [0, -b, -c, 0, b, -c], [0, c, d / 2, 0, -c, d]]
+    )  # fmt: skip
+    for i in range(elements):
+        along = around[i] + math.pi / elements + math.pi / 2.0
+        one = np.array([[math.cos(along), math.sin(along), 0], [-math.sin(along), math.cos(along), 0], [0, 0, 1]])
+        turn = np.kron(np.eye(2), one)
+        rows = np.r_[3 * i : 3 * i + 3, np.arange(3 * (i + 1), 3 * (i + 1) + 3) % size]
+        k[np.ix_(rows, rows)] += turn.T @ local @ turn
+    force = np.zeros(size)
+    for i, angle in enumerate(around):
+        out = np.array([math.cos(angle), math.sin(angle)])
+        k[3 * i : 3 * i + 2, 3 * i : 3 * i + 2] += bed * np.outer(out, out)
+        k[3 * i : 3 * i + 2, 3 * i : 3 * i + 2] += 1e-6 * bed * np.eye(2)  # nothing else keeps it from turning
+    for load, azimuth in zip(loads, azimuths, strict=True):
+        i = round(azimuth / (2.0 * math.pi / elements)) % elements
+        force[3 * i : 3 * i + 2] += load * np.array([math.cos(around[i]), math.sin(around[i])])
+    moved = np.linalg.solve(k, force).reshape(-1, 3)
+    radial = moved[:, 0] * np.cos(around) + moved[:, 1] * np.sin(around)
+    return np.array([2.0 * np.mean(radial * f(waves * around)) for f in (np.cos, np.sin)])
+
+
+def test_the_shape_is_that_of_a_ring_of_beams() -> None:
+    """Amplitudes of 2 to 4 waves under the equilibrium's own loads: 1 % of the largest."""
+    found = api.quasistatic(CASE, soft("100 N/um"))
+    (bent,) = found.ring_shapes
+    outer = [contact for contact in found.contacts if contact.ring == "outer"]
+    loads = np.array([contact.load_N * math.cos(math.radians(contact.contact_angle_deg)) for contact in outer])
+    azimuths = np.radians([contact.azimuth_deg for contact in outer])
+    largest = math.hypot(bent.cosine_um[0], bent.sine_um[0])
+    for i, waves in enumerate((2, 3, 4)):
+        beams = 1e6 * beam_ring(loads, azimuths, waves, 360)
+        assert np.abs(beams - [bent.cosine_um[i], bent.sine_um[i]]).max() < 0.01 * largest
+
+
+def test_a_soft_housing_spreads_the_load() -> None:
+    """The softer the housing, the more balls carry and the less the most loaded one; the bearing gives way more."""
+    rigid, firm, soft_one = (api.quasistatic(CASE, o) for o in ((), soft("1000 N/um"), soft("100 N/um")))
+    assert rigid.max_load_N > 1.05 * firm.max_load_N > 1.05**2 * soft_one.max_load_N
+    assert rigid.loaded_balls <= firm.loaded_balls <= soft_one.loaded_balls
+    displacements = [each.inner_ring_displacement_um[2] for each in (rigid, firm, soft_one)]
+    assert displacements[0] > displacements[1] > displacements[2]
+    (bent,) = soft_one.ring_shapes
+    assert abs(math.sin(math.radians(bent.inwards_deg))) < 0.4  # flat at the sides
+    assert abs(math.sin(math.radians(bent.outwards_deg))) > 0.9  # out below and above
+
+
+@pytest.mark.parametrize(("waves", "lag"), [(2, 0.400), (3, 0.200)])
+def test_the_pattern_of_a_turning_ring_lags(waves: int, lag: float) -> None:
+    """Bryan 1890, Proc. Camb. Phil. Soc. 7, 101: seen from the ring a pattern turns back by 2/(n^2 + 1): 1 %.
+
+    From a run of the compiled core: the outer ring turns, no ball touches it, nothing damps its waves.
+    """
+    m = machine(
+        *soft("0 N/m", 3), "elastic.outer_ring.damping_ratio=0", "bearing.clearance=300 um", "gravity.z=0 m/s2",
+        "loads.radial=0 N", "bodies.outer_ring.spin=free", "models.fluid_drag=none", "depth.cage=false",
+        "operation.speed=100 rpm",
+    )  # fmt: skip
+    ring = m.model.elastic["outer_ring"].ring
+    spin = 5e-3 * ring.frequency(waves)
+    start, body = m.at_rest(), 3 + waves - 2
+    start.shared[1, L.SSIGMA], start.shared[body, L.SY] = spin, 20e-6
+    period = 2.0 * math.pi / ring.frequency(waves)
+    with m.frictionless():
+        motion = integrate(m, m.vector(start), 20.0 * period, 1e-7, samples=2000, longest=period / 300.0)
+    seen = np.array([m.state(y).shared[body] for y in motion.states])
+    size = np.hypot(seen[:, L.SY], seen[:, L.SZ])
+    last = motion.times > 16.0 * period
+    at = int(np.flatnonzero(last)[np.argmax(size[last])])
+    turned = math.atan2(seen[at, L.SZ], seen[at, L.SY])
+    turned -= math.pi * round(turned / math.pi)  # a swing has two ends
+    assert -turned / waves / motion.times[at] / spin == pytest.approx(lag, rel=0.01)
+
+
+def test_energy_and_waves_of_a_run() -> None:
+    """Waves settle about those of the equilibrium; what is put in is dissipated or stored to 1e-3."""
+    model = api.check("6319-cp10-3000", soft("100 N/um"))
+    engine = BearingEngine(model)
+    assert engine.advance(0.02).ok
+    integrals = engine.integrals()
+    lost = sum(value for name, value in integrals.items() if name.startswith("loss."))
+    assert abs(integrals["input"] - lost - integrals["stored"]) < 1e-3 * integrals["input_abs"]
+    assert integrals["loss.support"] > 0.0
+    samples = engine.samples()
+    ellipse = samples["outer_ring_waves_2"]
+    assert ellipse.shape == (samples["time"].size, 2)
+    (start,) = api.quasistatic(model).ring_shapes
+    assert 1e6 * ellipse[-1, 0] == pytest.approx(start.cosine_um[0], rel=0.2)
+
+
+def test_a_continued_run_is_the_uninterrupted_one() -> None:
+    model = api.check("6319-cp10-3000", soft("100 N/um", 3))
+    whole, first, second = (BearingEngine(model) for _ in range(3))
+    whole.advance(2e-3)
+    whole.advance(4e-3)
+    first.advance(2e-3)
+    second.restore(first.state())
+    second.advance(4e-3)
+    for name, value in whole.now().items():
+        np.testing.assert_array_equal(second.now()[name], value, err_msg=name)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"orders": 4}, "elastic.outer_ring.housing_stiffness"),
+        ({"housing_stiffness": "-1 N/m"}, "elastic.outer_ring.housing_stiffness"),
+        ({"housing_stiffness": "1 N/m", "orders": 1}, "elastic.outer_ring.orders"),
+        ({"housing_stiffness": "1 N/m", "section_height": "300 mm"}, "leaves no hole in the ring"),
+        ({"housing_stiffness": "1 N/m", "bedding": 3}, "elastic.outer_ring.bedding"),
+    ],
+)
+def test_mistakes(changes: dict[str, object], said: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        api.check(api.case(CASE).with_(elastic={"outer_ring": changes}))
+    assert said in str(caught.value)
