@@ -252,19 +252,6 @@ def _dissipated(mem, h):
 
 
 @helper
-def swings(mem, h):
-    """Return whether nearly all that the scheme dissipates in this step is of speeds whose changes turned round."""
-    w, swung, total = h / mem.control[0].last_step, 0.0, 0.0
-    for i in range(mem.new.size):
-        now, before = (mem.new[i] - mem.y[i]) / w, mem.y[i] - mem.y1[i]
-        lost = mem.inertia[i] * (now - before) * (now - before)
-        total += lost
-        if now * before < 0.0:
-            swung += lost
-    return swung > 0.9 * total
-
-
-@helper
 def _quadrature(mem, h, losses):
     """Return the error of the dissipated energy in this step [J]: the BDF's increment against the trapezium's.
 

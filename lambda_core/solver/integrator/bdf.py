@@ -6,7 +6,7 @@ absolute scales per state, and by the energy that a step gives or takes.
 
 from __future__ import annotations
 
-from lambda_core.solver.integrator.balance import add_to_integrals, leak_of_step, swings
+from lambda_core.solver.integrator.balance import add_to_integrals, leak_of_step
 from lambda_core.solver.integrator.correction import norm
 from lambda_core.solver.integrator.newton import solve_step
 from lambda_core.solver.integrator.stepping import take_steps
@@ -96,6 +96,19 @@ def _error(mem, share):
 
 
 @helper
+def _swings(mem, h):
+    """Return whether nearly all that the scheme dissipates in this step is of speeds whose changes turned round."""
+    w, swung, total = h / mem.control[0].last_step, 0.0, 0.0
+    for i in range(mem.new.size):
+        now, before = (mem.new[i] - mem.y[i]) / w, mem.y[i] - mem.y1[i]
+        lost = mem.inertia[i] * (now - before) * (now - before)
+        total += lost
+        if now * before < 0.0:
+            swung += lost
+    return swung > 0.9 * total
+
+
+@helper
 def _attempt(evaluate, jacobian, h, bundle, bl, fa, mem):
     """Try a step; see stepping.take_steps."""
     share, history = _predict(mem, h), mem.count[0].history
@@ -110,7 +123,7 @@ def _attempt(evaluate, jacobian, h, bundle, bl, fa, mem):
             return outcome, error, power
         leak = leak_of_step(mem, h)
         error = max(error, leak)
-        if closer == 1 or error <= _QUIET or h > _SHORT * mem.control[0].longest_step or not swings(mem, h):
+        if closer == 1 or error <= _QUIET or h > _SHORT * mem.control[0].longest_step or not _swings(mem, h):
             return outcome, error, power
         closer = 1
 
