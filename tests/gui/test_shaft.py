@@ -34,7 +34,8 @@ def bearing_on_shaft(name: str, position: float) -> api.BearingOnShaft:
         max_pressure_GPa=1.1, contact_angle_deg=[10.0, 13.0], equivalent_load_N=600.0, basic_rating_life_h=4e5,
         reference_rating_life_h=2e6, modified_rating_life_h=None, viscosity_ratio=2.0, static_safety=30.0,
         friction_torque_Nmm=61.0, power_loss_W=19.0, film_um=[0.4, 0.6], stiffness=[[1e7] * 6] * 6,
-        housed_stiffness=[[1e7] * 6] * 6, damping=[[1e3] * 6] * 6, housed_damping=[[1e3] * 6] * 6, contacts=[], warnings=[],
+        housed_stiffness=[[1e7] * 6] * 6, damping=[[1e3] * 6] * 6, housed_damping=[[1e3] * 6] * 6,
+        contacts=[], warnings=[],
     )  # fmt: skip
 
 
