@@ -40,6 +40,13 @@ def summary(say: Say, path: str) -> Any:
     return api.summary(path)
 
 
+def shaft_summary(say: Say, path: str) -> Any:
+    """Return the summary of the run of a shaft."""
+    from lambda_core import api
+
+    return api.shaft_result(path)
+
+
 def case_text(say: Say, path: str) -> str:
     """Return the case that a result was computed from."""
     from lambda_core import api
@@ -122,7 +129,10 @@ def differences(say: Say, sources: list[str]) -> Any:
     return api.side_by_side(sources)
 
 
-_DOES = (estimate, shaft, summary, case_text, views, view, draw, report, study_cost, duty, study_summary, differences)
+_DOES = (
+    estimate, shaft, summary, shaft_summary, case_text, views, view, draw, report, study_cost, duty, study_summary,
+    differences,
+)  # fmt: skip
 _WORK: dict[str, Callable[..., Any]] = {work.__name__: work for work in _DOES}
 
 

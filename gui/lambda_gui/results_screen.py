@@ -21,7 +21,7 @@ from lambda_gui.charts import lines_of, notes_text, shape_of, widget_for
 from lambda_gui.dialogs import AskText
 from lambda_gui.export import DIFFERENCES, SUMMARY, ExportScreen
 from lambda_gui.pictures import NONE_HERE
-from lambda_gui.result_files import is_study, named, results_in, stamp_of
+from lambda_gui.result_files import is_shaft_run, is_study, named, results_in, stamp_of
 from lambda_gui.summary_view import summary_view
 from lambda_gui.table_views import differences_view, study_view
 
@@ -158,6 +158,8 @@ class ResultsScreen(ExportScreen):
         chosen = self.chosen()
         if len(chosen) > 1:
             return "results"
+        if chosen and is_shaft_run(chosen[0]):
+            return "shaft"
         return "study" if chosen and is_study(chosen[0]) else "result"
 
     def action_mark(self) -> None:
@@ -167,6 +169,9 @@ class ResultsScreen(ExportScreen):
             return
         if is_study(path):
             self.notify("a study is looked at by itself; its points stand beside each other in its views", timeout=4)
+            return
+        if is_shaft_run(path):
+            self.notify("a shaft is looked at by itself; its bearings can be marked", timeout=4)
             return
         self._marked ^= {path}
         was_many = len(self._marked - {path}) > 1 or len(self._marked) > 1
@@ -181,7 +186,7 @@ class ResultsScreen(ExportScreen):
             if text is None:
                 return
             path = Path(text).expanduser()
-            if path.is_dir() and not is_study(path):
+            if path.is_dir() and not (is_study(path) or is_shaft_run(path)):
                 self._folder = path
             elif path.exists():
                 self._more.append(path)
@@ -210,7 +215,7 @@ class ResultsScreen(ExportScreen):
         """List the views of one result, of several, or of a study."""
         subject = self._subject = self._of()
         try:
-            cards = await self._helper.ask("views", subject=subject)
+            cards = await self._helper.ask("views", subject=subject) if subject != "shaft" else []
         except LambdaError as error:
             self.notify(str(error), severity="error")
             return
@@ -300,6 +305,10 @@ class ResultsScreen(ExportScreen):
             beside = await self._helper.ask("differences", sources=[str(path) for path in paths])
             await self._put(*map(Static, differences_view(beside, width, self._units)))
             self.say()
+        elif is_shaft_run(paths[0]):
+            whole = await self._helper.ask("shaft_summary", path=str(paths[0]))
+            await self._put(Static(Text(self._units.sentence(whole.text(width)))))
+            self.say(whole.state)
         elif is_study(paths[0]):
             status, points = await self._helper.ask("study_summary", path=str(paths[0]))
             await self._put(*map(Static, study_view(status, points, width, self._units)))
