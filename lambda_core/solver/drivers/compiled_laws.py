@@ -22,6 +22,8 @@ from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame, build_context, prepare
 
 Announce = Callable[[str], None] | None
+# Hash of a law's code, force element and parameters of what this process has tried out and found in order.
+_in_order: set[tuple[str, str, str]] = set()
 
 
 class Kernels:
@@ -34,7 +36,6 @@ class Kernels:
         # one model in several force elements is compiled once
         known: dict[tuple[str, str], Any] = {}
         self.compiled: dict[tuple[str, str], Any] = {}
-        self.tried: set[tuple[str, str, str, str]] = set()  # what check_laws has found in order
         for element, roles in model.laws.items():
             for role, law in roles.items():
                 name = (role, law.model.label)  # two packages may have laws of one name
@@ -67,7 +68,7 @@ class Kernels:
 def check_laws(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> None:
     """Try every law out with the parameters of this run before any compiled code calls it.
 
-    Kernels that serve many runs (a study) are tried once for each choice of parameters.
+    A law is tried once by a process for each choice of parameters: many runs of it take no longer for that.
 
     Raises
     ------
@@ -77,10 +78,11 @@ def check_laws(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils:
     for element, roles in model.laws.items():
         context = build_context(model, element, frame, oil_of(oils, element))
         for role, law in roles.items():
-            key = (element, role, law.model.name, law.parameters.model_dump_json())
-            if key not in kernels.tried:
-                check_choice(law.model, prepare(law, context), kernels.compiled[element, role])
-                kernels.tried.add(key)
+            compiled = kernels.compiled[element, role]
+            key = (compiled.key, element, law.parameters.model_dump_json())
+            if key not in _in_order:
+                check_choice(law.model, prepare(law, context), compiled)
+                _in_order.add(key)
 
 
 def derive_oils(model: BearingModel, kernels: Kernels, frame: ContactFrame) -> Oils:
@@ -96,12 +98,16 @@ def _derive_oil(model: BearingModel, kernels: Kernels, frame: ContactFrame, elem
     """
     law = model.laws[element]["rheology"]
     par = prepare(law, build_context(model, element, frame, model.oil))
-    check_choice(law.model, par, kernels.compiled[element, "rheology"])
+    compiled = kernels.compiled[element, "rheology"]
+    key = (compiled.key, element, law.parameters.model_dump_json())
+    if key not in _in_order:
+        check_choice(law.model, par, compiled)
+        _in_order.add(key)
     t, dp, dt = model.oil.temperature, 1e6, 0.5
     p = np.array([0.0, dp, 2.0 * dp, 0.0, 0.0])
     temperatures = np.array([t, t, t, t - dt, t + dt])
     ln_eta, rho = np.full(5, np.nan), np.full(5, np.nan)
-    status = kernels.compiled[element, "rheology"].dispatcher(p, temperatures, par, ln_eta, rho)
+    status = compiled.dispatcher(p, temperatures, par, ln_eta, rho)
     if status != 1 or not np.all(np.isfinite(ln_eta)) or not np.all(rho > 0.0):
         raise SolverError(f"{law.model.label}: no finite viscosity and density at {t:.2f} K (status {status})")
     alpha = (-3.0 * ln_eta[0] + 4.0 * ln_eta[1] - ln_eta[2]) / (2.0 * dp)
