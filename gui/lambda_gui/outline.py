@@ -89,7 +89,10 @@ def _bodies() -> Node:
     for body, title in BODIES.items():
         own = [name for name in plain_fields(Case, ("bodies", body)) if name not in DOFS]
         groups = [Group("", ("bodies", body), tuple(own)), Group("Material", ("materials",), (parts[body],))]
-        nodes.append(Node(f"bodies.{body}", title, about(Case, ("bodies", body)), groups))
+        node = Node(f"bodies.{body}", title, about(Case, ("bodies", body)), groups)
+        if body != "cage":
+            node.children = [_form(f"elastic.{body}", "Elastic", ("elastic", body))]
+        nodes.append(node)
     balls = Node("bodies.balls", "Balls", "number and size are the bearing's", [Group("", ("materials",), ("balls",))])
     nodes.insert(2, balls)
     return Node("bodies", "Bodies", "rings, balls and cage: masses, materials, the cage's type", children=nodes)
