@@ -17,6 +17,9 @@ from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials
 from lambda_core.case.signals import ForceSignal, MomentSignal, SpeedSignal
 from lambda_core.domain.units import (
     Angle,
+    AngularDamping,
+    AngularStiffness,
+    Damping,
     Force,
     Inertia,
     Length,
@@ -24,6 +27,7 @@ from lambda_core.domain.units import (
     Moment,
     Power,
     SmallLength,
+    Stiffness,
     Temperature,
     Unbalance,
     parse,
@@ -139,14 +143,46 @@ class ShaftBearing(Bearing):
 
 
 class ShaftDisc(Section):
-    """A rigid wheel, rotor or coupling on the shaft."""
+    """A rigid wheel, rotor or coupling on the shaft: its mass and inertia, or its shape."""
 
     position: Length = option(description="of its centre along the shaft")
-    mass: Mass = option(description="mass", gt=0.0)
-    polar_inertia: Inertia = option("0 kg m2", "moment of inertia about the axis", ge=0.0)
-    transverse_inertia: Inertia | None = option(None, "about a diameter; absent: half the polar one", ge=0.0)
+    mass: Mass | None = option(None, "mass; absent: that of the shape", gt=0.0)
+    polar_inertia: Inertia | None = option(None, "about the axis; absent: 0, or that of the shape", ge=0.0)
+    transverse_inertia: Inertia | None = option(
+        None, "about a diameter; absent: half the polar one, or that of the shape", ge=0.0
+    )
+    diameter: Length | None = option(None, "in place of the mass: a cylinder of this outside diameter", gt=0.0)
+    width: Length | None = option(None, "width of the cylinder", gt=0.0)
+    bore: Length = option("0 mm", "bore of the cylinder", ge=0.0)
+    material: MaterialChoice = option("100Cr6", "of the cylinder: catalogue name or a table of properties")
     unbalance: Unbalance = option("0 g mm", "mass times eccentricity; counts in motion (shaft --run)", ge=0.0)
     unbalance_angle: Angle = option("0 deg", "azimuth of the unbalance at t = 0, from +y to +z")
+
+    @model_validator(mode="after")
+    def _has_a_mass(self) -> ShaftDisc:
+        if (self.mass is None) == (self.diameter is None):
+            raise ValueError("give the mass, or diameter and width of a cylinder, one of them")
+        if (self.diameter is None) != (self.width is None):
+            raise ValueError("a cylinder needs diameter and width")
+        if self.diameter is not None and self.bore >= self.diameter:
+            raise ValueError("the bore must be smaller than the diameter")
+        return self
+
+
+class ShaftSpring(Section):
+    """Spring and damper between a place of the shaft and the ground, without force where the shaft is drawn."""
+
+    position: Length = option(description="where it holds the shaft")
+    x: Stiffness = option("0 N/m", "stiffness along the shaft", ge=0.0)
+    y: Stiffness = option("0 N/m", "horizontal", ge=0.0)
+    z: Stiffness = option("0 N/m", "vertical", ge=0.0)
+    tilt_y: AngularStiffness = option("0 N m/rad", "against rotation about y", ge=0.0)
+    tilt_z: AngularStiffness = option("0 N m/rad", "against rotation about z", ge=0.0)
+    damping_x: Damping = option("0 N s/m", "damping along the shaft", ge=0.0)
+    damping_y: Damping = option("0 N s/m", "horizontal", ge=0.0)
+    damping_z: Damping = option("0 N s/m", "vertical", ge=0.0)
+    damping_tilt_y: AngularDamping = option("0 N m s/rad", "of rotation about y", ge=0.0)
+    damping_tilt_z: AngularDamping = option("0 N m s/rad", "of rotation about z", ge=0.0)
 
 
 class PointLoad(Section):
@@ -206,6 +242,7 @@ class ShaftCase(Section):
     discs: dict[str, ShaftDisc] = option({}, "rigid bodies on the shaft, by name")
     loads: dict[str, PointLoad] = option({}, "forces and moments on the shaft, by name")
     gears: dict[str, Gear] = option({}, "gears on the shaft, by name")
+    springs: dict[str, ShaftSpring] = option({}, "springs and dampers between shaft and ground, by name")
     housing: Housing = option({}, "the housing")
     operation: ShaftOperation = option(description="what turns the shaft")
     lubricant: Lubricant = option(description="the oil")
@@ -220,7 +257,7 @@ class ShaftCase(Section):
     @model_validator(mode="after")
     def _names(self, info: Any) -> ShaftCase:
         self._folder = (info.context or {}).get("folder")
-        for table in ("bearings", "discs", "loads", "gears"):
+        for table in ("bearings", "discs", "loads", "gears", "springs"):
             for name in getattr(self, table):
                 if not _NAME.match(name):
                     raise ValueError(f'{table}: "{name}": use letters, digits, dot, dash and underscore in names')

@@ -64,7 +64,13 @@ hand = "right"
 # position = "5 mm"
 # force_z = "-800 N"
 
-# Wheels and rotors that are not part of the sections.
+# Springs and dampers between shaft and ground.
+# [springs.seal]
+# position = "160 mm"
+# z = "1 N/um"                   # also x, y, tilt_y, tilt_z
+# damping_z = "200 N s/m"
+
+# Wheels and rotors that are not part of the sections: mass and inertia, or diameter, width and bore of a cylinder.
 [discs.wheel]
 position = "85 mm"
 mass = "2.5 kg"

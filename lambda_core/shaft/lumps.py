@@ -1,6 +1,7 @@
 """A shaft as rigid lumps on its exact static stiffness: what the dynamics of the whole move.
 
-Lumps stand at every bearing and disc, in the middle of the pieces between them, and at the ends of long overhangs.
+Lumps stand at every bearing, disc and spring, in the middle of the pieces between them, and at the ends of long
+overhangs.
 Their stiffness, in bending, along and about the axis, is that of the beam condensed to them and to the turning of the
 place where the coupling leads it (Guyan 1965, AIAA J. 3, 380), so that static deflections under any load are exact.
 The mass of a piece goes to its two ends and its middle by the weights of the parabola through them
@@ -61,7 +62,8 @@ class LumpedShaft:
 def lump(model: ShaftModel) -> LumpedShaft:
     """Cut the shaft into lumps."""
     body = model.body
-    mains = _distinct([*(b.position for b in model.bearings), *(place for _, place in model.discs)])
+    held = [*(b.position for b in model.bearings), *(spring.position for spring in model.springs)]
+    mains = _distinct([*held, *(place for _, place in model.discs)])
     places = _between(model, _with_ends(model, mains, _LONG_OVERHANG))
     masses = _masses(body, places)
     if masses.min() < _LEAST * masses.sum() / masses.size:  # an overhang that its neighbours cannot carry

@@ -56,6 +56,16 @@ class Unbalance:
 
 
 @dataclass(frozen=True)
+class ShaftSpring:
+    """Spring and damper between shaft and ground."""
+
+    name: str
+    position: float  # [m]
+    stiffness: tuple[float, ...]  # over PLACES [N/m, N m/rad]
+    damping: tuple[float, ...]  # likewise [N s/m, N m s/rad]
+
+
+@dataclass(frozen=True)
 class ShaftModel:
     """Shaft, bearings and loads.
 
@@ -104,4 +114,5 @@ class ShaftModel:
     speed_over_time: TimeFunction = ZERO
     varying: tuple[tuple[int, TimeFunction], ...] = ()  # row of a node and its load over time, in place of `loads`
     twists: bool = False  # in motion
+    springs: tuple[ShaftSpring, ...] = ()
     case_toml: str = ""  # the case, complete: it runs again as it stands

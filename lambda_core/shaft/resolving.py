@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from contextlib import closing, nullcontext
 from dataclasses import replace
@@ -24,8 +25,9 @@ from lambda_core.domain.units import show
 from lambda_core.elastic.body import Disc, ElasticBody, shaft_body
 from lambda_core.elastic.sections import BodyMaterial, RoundSection
 from lambda_core.shaft.elastic_housing import housing_stiffness
-from lambda_core.shaft.model import ShaftModel, Unbalance
+from lambda_core.shaft.model import ShaftModel, ShaftSpring, Unbalance
 from lambda_core.shaft.seating import mounted
+from lambda_core.solver.drivers.held_ring import POSE
 from lambda_core.system.bearing import BearingModel, TimeFunction
 from lambda_core.system.checking import check
 from lambda_core.system.ledger import Ledger
@@ -133,9 +135,10 @@ def _shaft(
     material = _material(case.shaft.material, "shaft.material", catalogue, ledger)
     around = _material(case.housing.material, "housing.material", catalogue, ledger)
     gears = _gears(case, ledger)
+    discs = _discs(case, catalogue, ledger)
     if material is None or around is None or ledger.problems or len(models) < len(case.bearings):
         return None
-    body = _body(case, material)
+    body = _body(case, material, discs)
     growth = around.thermal_expansion * (case.housing.temperature - REFERENCE_TEMPERATURE)
     bearings = sorted(
         (
@@ -172,6 +175,15 @@ def _shaft(
         speed_over_time=time_function(case.operation.speed),
         varying=_varying(case, body),
         twists=case.shaft.twists,
+        springs=tuple(
+            ShaftSpring(
+                name,
+                spring.position,
+                tuple(getattr(spring, dof) for dof in POSE),
+                tuple(getattr(spring, f"damping_{dof}") for dof in POSE),
+            )
+            for name, spring in case.springs.items()
+        ),
         contamination=case.life.contamination,
         gears=gears,
         assumptions=tuple(ledger.assumptions),
@@ -189,7 +201,7 @@ def _shaft(
 
 def _places(case: ShaftCase, ledger: Ledger) -> None:
     """Note everything that stands beside the shaft, and bearings in one place."""
-    parts = {f"{table}.{name}": part.position for table in ("bearings", "discs", "loads", "gears")
+    parts = {f"{table}.{name}": part.position for table in ("bearings", "discs", "loads", "gears", "springs")
              for name, part in getattr(case, table).items()}  # fmt: skip
     if case.shaft.drive is not None:
         parts["shaft.drive"] = case.shaft.drive
@@ -241,16 +253,31 @@ def _outline(case: ShaftCase) -> tuple[tuple[float, float, float, float], ...]:
     return tuple((ends[i], ends[i + 1], s.diameter, s.bore) for i, s in enumerate(case.shaft.sections))
 
 
-def _body(case: ShaftCase, material: BodyMaterial) -> ElasticBody:
+def _discs(case: ShaftCase, catalogue: Catalogue, ledger: Ledger) -> list[Disc]:
+    """Return the rigid bodies on the shaft, their masses given or from their shapes."""
+    found = []
+    for name, given in case.discs.items():
+        mass, polar, transverse = given.mass or 0.0, 0.0, 0.0
+        if given.diameter is not None and given.width is not None:
+            material = _material(given.material, f"discs.{name}.material", catalogue, ledger)
+            outer, inner = given.diameter**2, given.bore**2
+            mass = 0.25 * math.pi * (outer - inner) * given.width * (material.density if material else 0.0)
+            polar = mass * (outer + inner) / 8.0
+            transverse = 0.5 * polar + mass * given.width**2 / 12.0
+        if given.polar_inertia is not None:
+            polar, transverse = given.polar_inertia, 0.5 * given.polar_inertia
+        if given.transverse_inertia is not None:
+            transverse = given.transverse_inertia
+        found.append(Disc(given.position, mass, transverse, polar))
+    return found
+
+
+def _body(case: ShaftCase, material: BodyMaterial, discs: list[Disc]) -> ElasticBody:
     sections = [(s.length, RoundSection(s.diameter, s.bore, material)) for s in case.shaft.sections]
-    discs = [
-        Disc(d.position, d.mass, 0.5 * d.polar_inertia if d.transverse_inertia is None else d.transverse_inertia,
-             d.polar_inertia)
-        for d in case.discs.values()
-    ]  # fmt: skip
     places = [bearing.position for bearing in case.bearings.values()]
     places += [load.position for load in case.loads.values()]
     places += [gear.position for gear in case.gears.values()]
+    places += [spring.position for spring in case.springs.values()]
     drive = [] if case.shaft.drive is None else [case.shaft.drive]
     return shaft_body(sections, places=[*places, *drive], discs=discs)
 

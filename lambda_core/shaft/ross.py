@@ -66,6 +66,10 @@ def ross_rotor(model: ShaftModel, state: ShaftState | None = None, announce: Ann
         block = np.ix_(*2 * [np.arange(NODE * node, NODE * (node + 1))])
         rotor.K0[block] += _rest(k)
         rotor.C0[block] += _rest(c)
+    for spring in model.springs:
+        for matrix, values in ((rotor.K0, spring.stiffness), (rotor.C0, spring.damping)):
+            rows = NODE * body.node(spring.position) + np.array(_THEIRS)
+            matrix[rows, rows] += np.array(values)
     return rotor
 
 

@@ -86,6 +86,9 @@ class _Whole:
         deflects = np.setdiff1d(np.arange(self.size), frame)
         self.linear = np.zeros((count, count))
         self.linear[np.ix_(deflects, deflects)] = model.body.stiffness[np.ix_(deflects, deflects)]
+        for spring in model.springs:
+            held_by = self.moves[model.body.rows(spring.position).start + np.array(PLACES)]
+            self.linear[: self.size, : self.size] += held_by.T @ np.diag(spring.stiffness) @ held_by
         self.given = np.zeros(count)
         self.given[: self.size] = self.moves.T @ (model.loads + model.weight + model.growth)
         held = [model.drive]

@@ -109,6 +109,7 @@ class ShaftReport(Record):
     axes: tuple[str, ...] = Field(default=AXES, description="order of rows and columns of the stiffness matrices")
     bearings: list[BearingOnShaft] = Field(description="from left to right")
     gears: dict[str, list[float]] = Field(description="tangential, radial and axial force [N]")
+    springs: dict[str, list[float]] = Field(description="force of each spring on the shaft: x, y, z [N]")
     system_life_h: float | None = Field(description="of all bearings by their reference rating lives, 90 %")
     friction_torque_Nmm: float | None = Field(description="of all bearings")
     drive_torque_Nm: float = Field(description="of the coupling on the shaft, friction left out")
@@ -154,6 +155,10 @@ def report_of(model: ShaftModel, state: ShaftState) -> ShaftReport:
         speed_rpm=rpm,
         bearings=bearings,
         gears={name: [g.tangential, g.radial, g.axial] for name, g in model.gears.items()},
+        springs={
+            s.name: _listed(-np.array(s.stiffness[:3]) * state.displacement[model.body.rows(s.position)][:3])
+            for s in model.springs
+        },
         system_life_h=finite(system_life(lives)) if lives else None,
         friction_torque_Nmm=None if None in torques else sum(t for t in torques if t is not None),
         drive_torque_Nm=state.drive_torque,

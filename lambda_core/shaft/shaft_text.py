@@ -100,6 +100,8 @@ def _shaft_lines(report: ShaftReport) -> list[str]:
     ]
     for name, (tangential, radial, axial) in report.gears.items():
         lines.append(f"{'gear ' + name:<{HEAD}}F_t {tangential:.4g} N   F_r {radial:.4g} N   F_a {axial:.4g} N")
+    for name, (x, y, z) in report.springs.items():
+        lines.append(f"{'spring ' + name:<{HEAD}}force x {_digits(x)} N   y {_digits(y)} N   z {_digits(z)} N")
     speeds = [f"{one.speed_rpm:.5g} {_way(one.direction)}" for one in report.critical_speeds[:4]]
     lines.append(f"{'critical speeds':<{HEAD}}{', '.join(speeds) or NONE} 1/min")
     bending = [mode for mode in report.modes if mode.kind == "bending"][:4]

@@ -103,6 +103,9 @@ def supported(model: ShaftModel, state: ShaftState) -> FloatArray:
     whole = model.body.stiffness.copy()
     k, rows = _in_series(model, state.stiffness), _rows(model)
     whole[np.ix_(rows, rows)] += 0.5 * (k + k.T)
+    for spring in model.springs:
+        own = model.body.rows(spring.position).start + np.array(PLACES)
+        whole[own, own] += spring.stiffness
     return whole
 
 
@@ -113,6 +116,9 @@ def damped(model: ShaftModel, state: ShaftState, dampings: FloatArray) -> FloatA
     for bearing, own in zip(model.bearings, dampings, strict=True):
         turning = model.body.rows(bearing.position).start + _ABOUT_X
         found[turning, turning] = own[_ABOUT_X, _ABOUT_X]
+    for spring in model.springs:
+        places = model.body.rows(spring.position).start + np.array(PLACES)
+        found[places, places] += spring.damping
     return found
 
 

@@ -282,7 +282,7 @@ class WholeEngine:
 
         What its raceways dissipate is exact; pocket, land and drag are known exactly for all bearings together and are
         parted by their samples. Energy is balanced for the whole: input is that of the whole less what the other
-        bearings dissipate, stored that of the whole, so that the residual is the whole's.
+        bearings and the dampers of the shaft dissipate, stored that of the whole, so that the residual is the whole's.
         """
         self._drain()
         values, count = self._memory.integrals, len(self.parts)
@@ -295,7 +295,7 @@ class WholeEngine:
             own = losses_of_raceways(part.alone.model.geometry, values, part.first_raceway)
             own |= {name: float(so_far[name]) * float(shares[i, k]) for k, name in enumerate(_SHARED)}
             losses.append(own)
-        every = sum(sum(own.values()) for own in losses)
+        every = sum(sum(own.values()) for own in losses) + float(so_far["support"])  # dampers of the shaft, too
         turned = (self._angles() - self._start_angles).tolist()
         return [
             {

@@ -142,6 +142,10 @@ def _bodies(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> A
     lumps["mode"], lumps["unbalance"] = R.FREE, unbalance_of_lumps(model, shaft)[0]
     bodies[lump_bodies(shaft)] = lumps
     bodies["mode"][led, 5] = R.PRESCRIBED
+    for spring in model.springs:
+        body = lump_bodies(shaft)[shaft.at(spring.position)]
+        bodies["stiffness"][body, : STATES.size] += spring.stiffness
+        bodies["damping"][body, : STATES.size] += spring.damping
     for i, part in enumerate(parts):
         inner, outer, cage = part.bodies
         alone = part.alone.bundle.bodies

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ValidationError
 
 from lambda_core.case.problems import problems
-from lambda_core.domain.errors import unknown_name
+from lambda_core.domain.errors import LambdaError, unknown_name
+from lambda_core.system.bearing import ChosenLaw
 from lambda_core.system.ledger import Ledger
+
+if TYPE_CHECKING:
+    from lambda_core.system.resolve_laws import ModelSource
 
 
 def given_parameters(what: str, model: type[BaseModel], texts: Mapping[str, Any], where: str, ledger: Ledger) -> Any:
@@ -44,3 +48,28 @@ def record_parameters(parameters: BaseModel, texts: Mapping[str, Any], where: st
         plain = value if isinstance(value, int | float | str) else str(value)
         ledger.record(f"{where}.{key}", plain, "", origins[key], "given" if key in texts else "default")
     return origins
+
+
+def law_by_name(
+    role: str, name: str, texts: Mapping[str, Any], where: str, registry: ModelSource, ledger: Ledger
+) -> ChosenLaw | None:
+    """Return the law that a table of a case names, with its parameters; None with every mistake in the ledger.
+
+    Parameters
+    ----------
+    texts : mapping
+        What stands in the table `parameters` beside the name.
+    where : str
+        Path in the case of the table that has `law` and `parameters`.
+    """
+    try:
+        chosen = registry.model(role, name)
+    except LambdaError as error:
+        ledger.problem(f"{where}.law", str(error))
+        return None
+    own = f"{where}.parameters"
+    parameters = given_parameters(f"{role} {chosen.name}", chosen.parameters, texts, own, ledger)
+    if parameters is None:
+        return None
+    ledger.record(f"{where}.law", chosen.name, "", chosen.distribution or "built-in", "given")
+    return ChosenLaw(chosen, parameters, record_parameters(parameters, texts, own, ledger))

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lambda_core.case.motion import BetweenBodies
 from lambda_core.domain.elements import BODIES, BodyName
-from lambda_core.domain.errors import LambdaError, unknown_name
+from lambda_core.domain.errors import unknown_name
 from lambda_core.system.bearing import ELEMENT_PREFIX, ChosenLaw, Link
-from lambda_core.system.given_parameters import given_parameters, record_parameters
+from lambda_core.system.given_parameters import law_by_name
 from lambda_core.system.ledger import Ledger
 
 if TYPE_CHECKING:
@@ -33,7 +32,7 @@ def resolve_links(
             _end(case, element.first, f"{where}.first", ledger),
             _end(case, element.second, f"{where}.second", ledger),
         )
-        law = _law(element, where, registry, ledger)
+        law = law_by_name(ROLE, element.law, element.parameters, where, registry, ledger)
         if first is None or second is None or law is None:
             continue
         if second[0] is None:
@@ -65,17 +64,3 @@ def _end(case: Case, name: str, where: str, ledger: Ledger) -> End | None:
         ledger.problem(where, "there is no cage: depth.cage is false")
         return None
     return body, place
-
-
-def _law(element: BetweenBodies, where: str, registry: ModelSource, ledger: Ledger) -> ChosenLaw | None:
-    try:
-        chosen = registry.model(ROLE, element.law)
-    except LambdaError as error:
-        ledger.problem(f"{where}.law", str(error))
-        return None
-    own = f"{where}.parameters"
-    parameters = given_parameters(f"{ROLE} {chosen.name}", chosen.parameters, element.parameters, own, ledger)
-    if parameters is None:
-        return None
-    ledger.record(f"{where}.law", chosen.name, "", chosen.distribution or "built-in", "given")
-    return ChosenLaw(chosen, parameters, record_parameters(parameters, element.parameters, own, ledger))

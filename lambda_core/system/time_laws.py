@@ -10,14 +10,13 @@ import numpy as np
 
 from lambda_core.case.signals import ByLaw, Sum, TimeTable
 from lambda_core.domain.elements import BODIES, DOFS
-from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import ROLES
 from lambda_core.laws.calls import plain_call
 from lambda_core.laws.par import flat_kernel, make_par
 from lambda_core.laws.probe import trial_context
 from lambda_core.system.bearing import TIME_PREFIX, ChosenLaw
-from lambda_core.system.given_parameters import given_parameters, record_parameters
+from lambda_core.system.given_parameters import law_by_name
 from lambda_core.system.ledger import Ledger
 
 if TYPE_CHECKING:
@@ -66,7 +65,7 @@ def resolve_time_laws(
     case = case.model_copy(deep=True)
     laws: dict[str, dict[str, ChosenLaw]] = {}
     for path, signal in _by_law(signals_of(case)):
-        law = _law(signal, path, registry, ledger)
+        law = law_by_name(ROLE, signal.law, signal.parameters, path, registry, ledger)
         if law is None:
             continue
         element = f"{TIME_PREFIX}{path}"
@@ -84,20 +83,6 @@ def refuse_laws(signals: Signals, ledger: Ledger) -> None:
     """Refuse courses by laws where nothing takes them: a shaft as a whole."""
     for path, _ in _by_law(signals):
         ledger.problem(f"{path}.law", "the course of a shaft's load or speed is no law yet: write a table of points")
-
-
-def _law(signal: ByLaw[Any], path: str, registry: ModelSource, ledger: Ledger) -> ChosenLaw | None:
-    try:
-        chosen = registry.model(ROLE, signal.law)
-    except LambdaError as error:
-        ledger.problem(f"{path}.law", str(error))
-        return None
-    own = f"{path}.parameters"
-    parameters = given_parameters(f"{ROLE} {chosen.name}", chosen.parameters, signal.parameters, own, ledger)
-    if parameters is None:
-        return None
-    ledger.record(f"{path}.law", chosen.name, "", chosen.distribution or "built-in", "given")
-    return ChosenLaw(chosen, parameters, record_parameters(parameters, signal.parameters, own, ledger))
 
 
 def _look(law: ChosenLaw, until: float) -> tuple[float, float, float]:
