@@ -20,6 +20,7 @@ _NAMED = {
                       usual=("left", "right", "middle", "fourth", "fifth", "sixth")),
     "gears": Named("Gears", "forces from what a mesh transmits", "gear", {}, usual=("gear", "pinion")),
     "discs": Named("Discs", "wheels and rotors: mass, inertia, unbalance", "disc", {}, usual=("wheel", "rotor")),
+    "springs": Named("Springs", "springs and dampers to the ground", "spring", {}, usual=("spring", "damper")),
     "loads": Named("Loads", "forces and moments at a place, over time", "load", {}, usual=("belt", "load")),
 }  # fmt: skip
 _TITLES = {"operation": "Drive", "materials": "Materials", "surface": "Surfaces", "life": "Rating life"}
@@ -29,7 +30,7 @@ _BELOW: dict[Keys, dict[str, str]] = {
     ("lubricant",): {"properties": "Own properties"},
     ("bearings",): {"geometry": "Inner geometry", "fits": "Fits", "temperatures": "Temperatures"},
 }
-_ORDER = ("shaft", "bearings", "gears", "discs", "loads", "operation", "housing", "lubricant")
+_ORDER = ("shaft", "bearings", "gears", "discs", "loads", "springs", "operation", "housing", "lubricant")
 
 
 def shaft_outline(names: Names | None = None) -> list[Node]:

@@ -15,6 +15,7 @@ _TELL = {
     "gears": ("position", "power", "torque"),
     "discs": ("position", "mass"),
     "loads": ("position", "force_z", "force_y", "force_x", "moment_x", "moment_y", "moment_z"),
+    "springs": ("position", "z", "y", "x"),
     "operation": ("speed",),
     "lubricant": ("name", "temperature"),
     "housing": ("temperature", "reduced"),

@@ -109,7 +109,7 @@ class ShaftReport(Record):
     axes: tuple[str, ...] = Field(default=AXES, description="order of rows and columns of the stiffness matrices")
     bearings: list[BearingOnShaft] = Field(description="from left to right")
     gears: dict[str, list[float]] = Field(description="tangential, radial and axial force [N]")
-    springs: dict[str, list[float]] = Field(description="force of each spring on the shaft: x, y, z [N]")
+    springs: dict[str, list[float]] = Field(default={}, description="force of each spring on the shaft: x, y, z [N]")
     system_life_h: float | None = Field(description="of all bearings by their reference rating lives, 90 %")
     friction_torque_Nmm: float | None = Field(description="of all bearings")
     drive_torque_Nm: float = Field(description="of the coupling on the shaft, friction left out")

@@ -22,7 +22,14 @@ from lambda_core import api
 from lambda_core.case.shaft import ShaftCase
 from lambda_core.domain.option_tree import option_paths
 
-NAMES = {"shaft.sections": ("0",), "bearings": ("b",), "gears": ("g",), "discs": ("d",), "loads": ("l",)}
+NAMES = {
+    "shaft.sections": ("0",),
+    "bearings": ("b",),
+    "gears": ("g",),
+    "discs": ("d",),
+    "loads": ("l",),
+    "springs": ("s",),
+}
 
 
 def bearing_on_shaft(name: str, position: float) -> api.BearingOnShaft:
