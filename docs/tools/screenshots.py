@@ -119,16 +119,6 @@ async def law(pilot: Pilot[None]) -> None:
     await pilot.press("down")
 
 
-async def shaft(pilot: Pilot[None]) -> None:
-    await estimated(pilot)
-    await node(pilot, "bearings.left")
-
-
-async def shaft_answer(pilot: Pilot[None]) -> None:
-    await estimated(pilot)
-    await pilot.press("f3")
-
-
 async def solver(pilot: Pilot[None]) -> None:
     await estimated(pilot)
     await node(pilot, "solver")
@@ -297,8 +287,7 @@ SCENES: dict[str, Scene] = {
     "mistakes": Scene(None, mistakes),
     "palette": Scene(_6208, palette),
     "bearings": Scene(_6208, bearings),
-    "shaft": Scene("box.toml", shaft),
-    "shaft-answer": Scene("box.toml", shaft_answer),
+    "shaft": Scene("box.toml", estimated),
     "estimated": Scene(_6208, estimated_row),
     "oils": Scene(_6208, oils),
     "own-row": Scene(_6208, own_row),

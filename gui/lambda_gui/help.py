@@ -70,7 +70,7 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
         "What the shaft does",
         "The equilibrium of the whole: every bearing in a column, the shaft below, then the bend, the bending moment "
         "and the natural frequencies over speed.",
-        (("Space PgDn PgUp", "scroll"), ("Esc or F3", "back"), *_ALL),
+        (("PgUp PgDn", "scroll; Space goes on, too"), ("Esc or F3", "back"), *_ALL),
     ),
     "CatalogueScreen": (
         "The catalogue",

@@ -136,7 +136,7 @@ async def test_an_empty_model_and_what_it_asks(work_folder: Path, size: tuple[in
         await pilot.pause(0.2)
         found += read(pilot, "a required field")
         await pilot.press("ctrl+p", *"radial")
-        await wait_for(pilot, lambda: "bearing.fits.shaft" in screen_text(pilot.app))
+        await wait_for(pilot, lambda: "loads.radial_direction" in screen_text(pilot.app))
         await pilot.pause(0.3)
         found += read(pilot, "palette")
         await pilot.press("escape")
