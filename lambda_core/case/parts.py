@@ -31,7 +31,7 @@ CLEARANCE_PARTS = "LHMP"
 class InlineGeometry(Section):
     """Inner geometry written in the case; beside a designation it replaces single catalogue values."""
 
-    ball_count: int | None = option(None, "number of balls", ge=3, le=60)
+    ball_count: int | None = option(None, "number of balls, of one row", ge=3, le=60)
     ball_diameter: Length | None = option(None, "ball diameter D_w", gt=0.0)
     pitch_diameter: Length | None = option(None, "pitch diameter d_m", gt=0.0)
     groove_radius_inner: Length | None = option(None, "radius of the inner groove r_i", gt=0.0)
@@ -53,9 +53,12 @@ class InlineGeometry(Section):
         lt=0.7854,
         reference="Harris and Kotzalas 2006, ch. 2",
     )
-    series: Literal["60", "62", "63", "64", "618", "619", "70", "72", "73", "QJ2", "QJ3"] | None = option(
+    series: Literal["60", "62", "63", "64", "618", "619", "70", "72", "73", "32", "33", "QJ2", "QJ3"] | None = option(
         None, "dimension series"
     )
+    rows: Literal[1, 2] | None = option(None, "rows of balls; two of angular contact make a double row bearing")
+    row_distance: Length | None = option(None, "distance of the planes of the balls of two rows", gt=0.0)
+    arrangement: Literal["O", "X"] | None = option(None, "of two rows: O back to back, X face to face; absent: O")
     dynamic_rating: Force | None = option(None, "basic dynamic load rating C", gt=0.0)
     static_rating: Force | None = option(None, "basic static load rating C0", gt=0.0)
 
@@ -109,8 +112,8 @@ class Bearing(Section):
     )
     axial_clearance: SmallLength | None = option(
         None,
-        "axial internal clearance, free axial movement of the rings, of four-point contact; absent: that of the class",
-        gt=0.0,
+        "axial internal clearance, free axial movement of the rings: of four-point contact, where it is absent that of "
+        "the class; of two rows, below zero with preload",
     )
     contact_angle: Angle | None = option(
         None,

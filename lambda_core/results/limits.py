@@ -81,7 +81,7 @@ class Grooves:
         if resting > 0.0 and int(geometry.get("rows", 1)) == 1:
             shift = (radius - 0.5 * float(geometry["ball_diameter"])) * math.sin(resting)
             return Grooves(radius, edge, ridge=np.arcsin(shift / radius))
-        return Grooves(radius, edge, float(geometry.get("contact_angle", 0.0)) > 0.0)
+        return Grooves(radius, edge, float(geometry.get("contact_angle", 0.0)) > 0.0 and resting == 0.0)
 
 
 def shoulders(grooves: Grooves, load: FloatArray, angle: FloatArray, semi_axis: FloatArray) -> list[Shoulder]:

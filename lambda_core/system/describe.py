@@ -108,7 +108,7 @@ def headline(model: BearingModel) -> list[str]:
     temperature = f"{from_si(model.oil.temperature, 'temperature'):.4g} degC"
     first = [
         model.title,
-        f"{g.ball_count} x {g.ball_diameter * 1e3:.3f} mm",
+        f"{'2 x ' if g.rows == 2 else ''}{g.ball_count} x {g.ball_diameter * 1e3:.3f} mm",
         f"pitch {g.pitch_diameter * 1e3:.6g} mm",
         _clearance(model),
         f"{model.oil.name} at {temperature}",
@@ -126,7 +126,10 @@ def _clearance(model: BearingModel) -> str:
     """Write the clearance in operation, and where it started from."""
     angle, g = model.geometry.contact_angle, model.geometry
     free = f"contact angle {show(angle, 'angle', 3)}, " if angle else ""
-    if g.four_point:
+    if g.rows == 2:
+        apart = show(g.row_distance, "length", 4)
+        free = f"two rows {g.arrangement}, {apart} apart, {free}"
+    elif g.four_point:
         free = f"four-point {free}shims {show(g.resting_angle, 'angle', 3)}, "
     text = f"{free}clearance {show(model.geometry.clearance, 'small_length', 4)}"
     bought = next((v for v in model.values if v.path == "bearing.clearance"), None)

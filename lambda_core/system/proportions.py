@@ -37,7 +37,7 @@ def proportion_warnings(g: Geometry) -> Iterator[str]:
     for what, size, (least, most) in (
         ("the wall of the inner ring under its groove", inner, WALL),
         ("the wall of the outer ring under its groove", outer, WALL),
-        ("the width", g.width, WIDTH),
+        ("the width", g.width - g.row_distance, WIDTH),
     ):
         if not least * ball <= size <= most * ball:
             yield (

@@ -68,9 +68,9 @@ def ring_inertia(geometry: Geometry, ring: Literal["inner", "outer"], density: f
     else:
         small, large = g.shoulder_diameter_outer, g.outside_diameter
         groove = groove_volume(g.groove_radius_outer, g.race_diameter_outer, g.shoulder_diameter_outer)
-    volume = math.pi / 4.0 * (large**2 - small**2) * g.width - groove
+    volume = math.pi / 4.0 * (large**2 - small**2) * g.width - g.rows * groove
     whole = hollow_cylinder(density * volume, small / 2.0, large / 2.0, g.width)
-    if g.contact_angle == 0.0 or g.four_point:
+    if g.contact_angle == 0.0 or g.resting_angle > 0.0:
         return whole
     if ring == "inner":
         large = g.race_diameter_inner
@@ -126,7 +126,10 @@ def resolve_cage(
                 f"bodies.cage.{name}", f"{shown[0]} is no size of a cage: it must be smaller than {shown[1]}"
             )
             thickness = width = ball
-    mass = material.density * row.fill.value * math.pi * pitch * thickness * width
+    mass = material.density * row.fill.value * math.pi * pitch * thickness * width * geometry.rows
+    width += geometry.row_distance
+    if geometry.rows == 2:
+        ledger.assume("one cage holds both rows, whose balls stand in turn")
     inertia = hollow_cylinder(mass, 0.5 * (pitch - thickness), 0.5 * (pitch + thickness), width)
     if guidance not in ("ball", "inner ring", "outer ring"):
         ledger.problem("bodies.cage.type", f'"{row.name}" has the unknown guidance "{guidance}"')

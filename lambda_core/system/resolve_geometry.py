@@ -13,7 +13,7 @@ from lambda_core.domain.units import show
 from lambda_core.system.bearing import Geometry
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.resolve_clearance import clearance_as_bought, picked
-from lambda_core.system.resolve_resting import has_arcs, resolve_resting
+from lambda_core.system.resolve_resting import has_arcs, has_two_rows, resolve_resting, resolve_two_rows
 from lambda_core.system.resolve_shoulders import FOUR_POINT_SHOULDERS, HIGH_SHOULDERS, shoulder
 
 # Contacts of a deep-groove bearing stay on the groove up to about this free contact angle.
@@ -89,23 +89,27 @@ def resolve_geometry(
     races = _races(picker)
     pitch = _pitch(picker, races, bore, outside)
     grooves = (_groove(picker, "inner", ball), _groove(picker, "outer", ball))
-    resting = 0.0
-    if has_arcs(bearing, row):
-        found = resolve_resting(bearing, row, sum(grooves) - ball, bore, ledger)
+    resting, distance, two = 0.0, sum(grooves) - ball, has_two_rows(bearing)
+    if two or has_arcs(bearing, row):
+        found = (
+            resolve_two_rows(bearing, row, distance, ledger)
+            if two
+            else resolve_resting(bearing, row, distance, bore, ledger)
+        )
         angle, resting = (found.free, found.resting) if found else (math.nan, 0.0)
         bought = Limits(found.clearance, found.clearance) if found else None
     elif bearing.axial_clearance is not None:
-        ledger.problem("bearing.axial_clearance", "is of four-point contact; here write a clearance or a contact_angle")
+        ledger.problem("bearing.axial_clearance", "is of four-point contact and of two rows; here write a clearance")
         return None
     elif (angle := _contact_angle(bearing, row, ledger)) == 0.0:
         bought = clearance_as_bought(bearing, races, ball, bore, catalogue, ledger)
     else:
-        bought = _clearance_of_angle(angle, sum(grooves) - ball, ledger)
+        bought = _clearance_of_angle(angle, distance, ledger)
     _ratings(picker)
     if bought is None or any(math.isnan(x) for x in (bore, outside, width, count, ball, pitch, *grooves)):
         return None
     clearance = picked(bought, bearing.clearance_pick)
-    heights = FOUR_POINT_SHOULDERS if resting else HIGH_SHOULDERS if angle else None
+    heights = FOUR_POINT_SHOULDERS if resting and not two else HIGH_SHOULDERS if angle else None
     shoulders = (shoulder(picker, "inner", ball, pitch, heights), shoulder(picker, "outer", ball, pitch, heights))
     series = inline.series or (row.series if row else "")
     as_bought = Geometry(
@@ -125,6 +129,9 @@ def resolve_geometry(
         series=series,
         contact_angle=angle,
         resting_angle=resting,
+        rows=2 if two else 1,
+        row_distance=(inline.row_distance or 0.0) if two else 0.0,
+        arrangement=(inline.arrangement or "O") if two else "",
     )
     geometry = with_clearance(as_bought, clearance)
     check_geometry(geometry, races, ledger)
@@ -295,7 +302,9 @@ def check_geometry(geometry: Geometry, races: tuple[float | None, float | None],
                 f"{mm(edge)} must lie between raceway and pitch: "
                 + " to ".join(mm(end) for end in sorted((race, pitch))),
             )
-    cut = 2.0 * max(_half_width(g, "inner"), _half_width(g, "outer"))
+    cut = 2.0 * max(_half_width(g, "inner"), _half_width(g, "outer")) + g.row_distance
+    if g.rows == 2 and math.hypot(g.row_distance, pitch * math.sin(0.5 * math.pi / g.ball_count)) < ball:
+        say("bearing.geometry.row_distance", f"{mm(g.row_distance)} lets the balls of both rows run into each other")
     if inner_ok and outer_ok and g.width <= cut:
         say("bearing.geometry.width", f"{mm(g.width)} is narrower than the grooves, which are {mm(cut)} wide")
 

@@ -1,4 +1,4 @@
-"""Bearings with a resting angle: what two of free contact angle, resting angle and clearance leave for the third.
+"""Bearings with a resting angle, of four-point contact and of two rows: from two of what follows the third.
 
 With the distance A of the groove centres, the free contact angle alpha_0 and the resting angle alpha_s (of four-point
 contact the angle of the shims that the arcs are ground with), rings that move against each other until balls touch have
@@ -38,6 +38,43 @@ def has_arcs(bearing: Bearing, row: BearingRow | None) -> bool:
     """Say whether each ring has two arcs: by the catalogue's kind, or by a shim angle."""
     inline = bearing.geometry
     return (row is not None and row.kind == FOUR_POINT) or bool(inline and inline.shim_angle)
+
+
+def has_two_rows(bearing: Bearing) -> bool:
+    """Say whether the case writes a bearing of two rows."""
+    return bool(bearing.geometry and bearing.geometry.rows == 2)
+
+
+def resolve_two_rows(bearing: Bearing, row: BearingRow | None, distance: float, ledger: Ledger) -> Resting | None:
+    """Return angles and clearance of a bearing of two rows; None after a problem.
+
+    The rings go G_a against each other from one row's touch to the other's; below zero the rows press on each other.
+    """
+    inline, axial = bearing.geometry, bearing.axial_clearance
+    if row is not None:
+        ledger.problem("bearing.geometry.rows", f"{row.designation} has one row: write two rows without a designation")
+    if bearing.clearance is not None:
+        ledger.problem(PATH, "is radial: of two rows write contact_angle and axial_clearance")
+    for where, missing in (
+        ("bearing.contact_angle", bearing.contact_angle is None),
+        (_AXIAL, axial is None),
+        ("bearing.geometry.row_distance", inline is None or inline.row_distance is None),
+    ):
+        if missing:
+            ledger.problem(where, "is required of two rows")
+    if row is not None or bearing.contact_angle is None or axial is None or math.isnan(distance):
+        return None
+    free = bearing.contact_angle
+    ledger.given("bearing.contact_angle", free, "angle")
+    ledger.given(_AXIAL, axial, "small_length")
+    sine = math.sin(free) - 0.5 * axial / distance
+    if not 0.0 < sine < 1.0:
+        ledger.problem(_AXIAL, f"{show(axial, 'small_length', 4)} lets the balls leave their grooves")
+        return None
+    resting = math.asin(sine)
+    clearance = 2.0 * distance * (math.cos(resting) - math.cos(free))
+    ledger.record(PATH, clearance, "small_length", "from contact angle and axial clearance", "derived")
+    return Resting(free, resting, clearance)
 
 
 def resolve_resting(
@@ -98,7 +135,7 @@ def _with_shims(
     if bearing.axial_clearance is not None:
         ledger.given(_AXIAL, bearing.axial_clearance, "small_length")
         sine = math.sin(shim) + 0.5 * bearing.axial_clearance / distance
-        if not sine < 1.0:
+        if not math.sin(shim) < sine < 1.0:
             ledger.problem(_AXIAL, f"{show(bearing.axial_clearance, 'small_length', 4)} lets the balls leave the arcs")
             return None
         free = math.asin(sine)

@@ -1,4 +1,4 @@
-"""SKF's friction variables of angular contact ball bearings, of single row and of four-point contact.
+"""SKF's friction variables of angular contact ball bearings, of single and double row and of four-point contact.
 
 Source: SKF, general catalogue 6000, "Friction": tables 2a, 3 and 5, footnote: F_a is the external axial load.
 """
@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 
 # Series -> geometric constant (table 5).
-K_Z = {"70": 4.4, "72": 4.4, "73": 4.4, "QJ2": 3.1, "QJ3": 3.1}
+K_Z = {"70": 4.4, "72": 4.4, "73": 4.4, "32": 3.1, "33": 3.1, "QJ2": 3.1, "QJ3": 3.1}
 SERIES = tuple(K_Z)
 
 
@@ -26,6 +26,7 @@ class AngularConstants:
 
 
 SINGLE_ROW = AngularConstants(5.03e-7, 1.97, 1.90e-12, 1.30e-2, 0.68, 1.91e-12)
+TWO_ROWS = AngularConstants(6.34e-7, 1.41, 7.83e-13, 7.56e-3, 1.21, 7.83e-13)
 FOUR_POINT = AngularConstants(4.78e-7, 2.42, 1.40e-12, 1.20e-2, 0.9, 1.40e-12)
 
 
@@ -45,7 +46,7 @@ def angular_variables(
         Relative speed of the rings [rad/s]: centrifugal force F_g of the balls.
     """
     diameter, rpm = mean_diameter * 1e3, speed * 30.0 / math.pi
-    c = FOUR_POINT if series.startswith("QJ") else SINGLE_ROW
+    c = FOUR_POINT if series.startswith("QJ") else TWO_ROWS if series.startswith("3") else SINGLE_ROW
     pressed = diameter**4 * rpm**2
     rolling = c.r1 * diameter**1.97 * (radial_load + c.r3 * pressed + c.r2 * axial_load) ** 0.54
     loads = (radial_load + c.s3 * pressed) ** (4.0 / 3.0) + c.s2 * axial_load ** (4.0 / 3.0)
