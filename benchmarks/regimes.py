@@ -237,7 +237,7 @@ REGIMES = (
         lambda s: bool(s["asperity_share"].max() > 0.5),
     ),
     Regime("hybrid, balls of Si3N4", ("materials.balls=Si3N4",), 0.01, _balls(9)),
-    Regime("61911 without a cage, 78 1/min", (), 0.01, lambda s: bool(np.all(_speed(s) > 0.0)), SLOW),
+    Regime("61911 without a cage, 78 1/min", (), 0.05, lambda s: bool(np.all(_speed(s) > 0.0)), SLOW),
     Regime("61816, 28 balls of 5.6 mm", (), 0.005, _balls(28), THIN),
     Regime("7 balls", ("bearing.geometry.ball_count=7",), 0.01, _balls(7)),
     Regime("25 balls", (), 0.005, _balls(25), case=THIN_SECTION),

@@ -73,6 +73,7 @@ def run_figures(summary: Any, units: UnitSystem = SI) -> Table:
         ("capacitance of the bearing", rounded(summary.bearing_capacitance_nF), "nF"),
         ("inner ring x, y, z (mean)", position, units.unit("um")),
         ("energy residual", rounded(summary.energy_residual, 2), "of input"),
+        *([("vibrations", summary.vibrations.sentence(), "")] if summary.vibrations else []),
     )
     return Table("averages of the run", ("", "value", "unit"), rows)
 

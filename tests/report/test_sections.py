@@ -64,6 +64,7 @@ def test_one_that_fails_is_named_and_the_page_is_whole(
     text = page(radial_run, section(content))
     assert words in text
     assert "energy residual" in text
+    assert "damping added" in text or "damped by the integration" in text
 
 
 def test_one_that_has_nothing_to_say_is_left_out(radial_run: Result) -> None:
