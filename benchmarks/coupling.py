@@ -1,16 +1,19 @@
-"""``python -m benchmarks.coupling``: a rigid rotor in a host on one bearing, against the same mass inside the bearing.
+"""``python -m benchmarks.coupling [--fmu]``: a rotor in a host on one bearing, against the same mass inside the bearing.
 
 The host knows mass and load of the rotor and leads the inner ring (``couple="motion"``); the bearing answers with its
 reaction. A push begins after about a millisecond and stays. Reference is the bearing that owns the ring, with the same
-mass.
+mass. With ``--fmu`` the bearing that is led is an exported FMU, driven by FMPy; the reference stays the program's.
 """
 
 from __future__ import annotations
 
 import math
 import sys
+import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path as File
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -95,22 +98,90 @@ SCHEMES = {
 }
 
 
-def hosted(scheme: Scheme, step: float, tolerance: float) -> Path:
+class Led(Protocol):
+    """A bearing whose inner ring the host leads."""
+
+    def begin(self) -> FloatArray:
+        """Go to the start; returns where the ring stands [m]."""
+
+    def step(self, until: float, place: FloatArray, speed: FloatArray, slope: FloatArray) -> FloatArray:
+        """Lead the ring until a time [s]; returns the force of the bearing on it [N]."""
+
+
+class FromProgram:
+    """The bearing of ``api.iterate``."""
+
+    def __init__(self, tolerance: float) -> None:
+        self._changes = changes(tolerance)
+
+    def begin(self) -> FloatArray:
+        """Go to the start."""
+        self._bearing = api.iterate(CASE, self._changes, exact=True, couple="motion")
+        dofs = self._bearing.model.inner_ring.dofs
+        return np.array([dofs[axis].motion.terms[0].values[0] for axis in _AXES])
+
+    def step(self, until: float, place: FloatArray, speed: FloatArray, slope: FloatArray) -> FloatArray:
+        """Lead the ring."""
+        for i, axis in enumerate(_AXES):
+            self._bearing.give(f"inner_ring.{axis}", place[i], speed[i], slope[i])
+        found: FloatArray = self._bearing.step_to(until).reactions["inner_ring"][:3]
+        return found
+
+
+class FromUnit:
+    """The bearing of an exported FMU, through FMPy."""
+
+    def __init__(self, tolerance: float, folder: str) -> None:
+        from fmpy import extract, read_model_description
+        from fmpy.fmi2 import FMU2Slave
+
+        file = File(folder) / "led.fmu"
+        api.export_fmu(CASE, changes(tolerance), out=file, couple="motion", processor="native")
+        about = read_model_description(str(file))
+        named = {variable.name: variable.valueReference for variable in about.modelVariables}
+        self._given = [named[f"inner_ring.{axis}{more}"] for more in ("", "_rate", "_acceleration") for axis in _AXES]
+        self._answer = [named[f"inner_ring.reaction_force_{axis}"] for axis in _AXES]
+        self._unit: Any = FMU2Slave(
+            guid=about.guid,
+            unzipDirectory=extract(str(file)),
+            modelIdentifier=about.coSimulation.modelIdentifier,
+            instanceName="led",
+        )
+        self._unit.instantiate()
+
+    def begin(self) -> FloatArray:
+        """Go to the start."""
+        self._time = 0.0
+        self._unit.reset()
+        self._unit.setupExperiment(startTime=0.0)
+        self._unit.enterInitializationMode()
+        self._unit.exitInitializationMode()
+        return np.array(self._unit.getReal(self._given[:3]))
+
+    def step(self, until: float, place: FloatArray, speed: FloatArray, slope: FloatArray) -> FloatArray:
+        """Lead the ring."""
+        self._unit.setReal(self._given, [*place, *speed, *slope])
+        try:
+            self._unit.doStep(self._time, until - self._time)
+        except Exception as error:  # FMPy has one kind for all
+            raise SolverError(str(error)) from None
+        self._time = until
+        return np.array(self._unit.getReal(self._answer))
+
+
+def hosted(scheme: Scheme, step: float, bearing: Led, tolerance: float) -> Path:
     """Return the path of the rotor that a host owns."""
-    bearing = api.iterate(CASE, changes(tolerance), exact=True, couple="motion")
-    ring = bearing.model.inner_ring
+    ring = api.check(CASE, changes(tolerance)).inner_ring
     axial = sum(term.values[0] for term in ring.force[0].terms)  # the load of the case [N]
     rest, mass = np.array([axial, 0.0, 0.0]), ring.mass
-    x = np.array([ring.dofs[axis].motion.terms[0].values[0] for axis in _AXES])
+    x = bearing.begin()
     v, reaction = np.zeros(3), -rest
     places, worked, flow, leak = [x], 0.0, 0.0, 0.0
     for k in range(round(END / step)):
         pushed = rest + load(k * step)
         a = (reaction + pushed) / mass
         led, slope = scheme.lead(v, a, step)
-        for i, axis in enumerate(_AXES):
-            bearing.give(f"inner_ring.{axis}", x[i], led[i], slope[i])
-        before, reaction = reaction, bearing.step_to((k + 1) * step).reactions["inner_ring"][:3]
+        before, reaction = reaction, bearing.step((k + 1) * step, x, led, slope)
         moved = step * (led + 0.5 * step * slope)
         x, v = x + moved, scheme.speed(v, a, (reaction + pushed) / mass, step)
         places.append(x)
@@ -129,25 +200,30 @@ def error(path: Path, reference: Path, step: float, finest: float) -> float:
     return float(np.linalg.norm(path.places[1:] - ahead, axis=1).max() / way)
 
 
-def study(steps: Sequence[float] = STEPS, tolerance: float = 1e-4) -> Iterator[tuple[str, float, float, float]]:
+def study(
+    steps: Sequence[float] = STEPS, tolerance: float = 1e-4, bearing: Led | None = None
+) -> Iterator[tuple[str, float, float, float]]:
     """Yield (scheme, step [s], error, leak) of every step; where the coupling breaks down, infinite."""
-    reference = inside(_COMMON, tolerance)
+    reference, bearing = inside(_COMMON, tolerance), bearing or FromProgram(tolerance)
     for name, scheme in SCHEMES.items():
         for step in steps:
             try:
-                path = hosted(scheme, step, tolerance)
+                path = hosted(scheme, step, bearing, tolerance)
             except SolverError:
                 yield name, step, math.inf, math.inf
                 continue
             yield name, step, error(path, reference, step, _COMMON), path.leak
 
 
-def main() -> int:
+def main(tolerance: float = 1e-4) -> int:
     """Print the study; returns the exit code."""
+    folder = tempfile.TemporaryDirectory(prefix="lambda-bearing-")
+    bearing = FromUnit(tolerance, folder.name) if "--fmu" in sys.argv else FromProgram(tolerance)
     print("| host | communication step [us] | displacement, off by [%] | energy of the coupling, off by |")
     print("|---|---|---|---|")
-    for name, step, off, leak in study():
+    for name, step, off, leak in study(tolerance=tolerance, bearing=bearing):
         print(f"| {name} | {1e6 * step:g} | {100.0 * off:.3g} | {leak:.2g} |", flush=True)
+    folder.cleanup()
     return 0
 
 

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import zipfile
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -141,6 +142,23 @@ def test_states_and_instances(host: Any, exported: Export, tmp_path: Path, fmi: 
     assert first.unpack(b"?" * len(bytes_), begin) == host.ERROR
     assert first.said[-1] == "these bytes are no state of this bearing"
     assert first.do("Reset") == host.OK
+
+
+def test_two_threads_step_their_own_bearings_at_once(host: Any, exported: Export, tmp_path: Path) -> None:
+    """Calls of the library run beside each other: ctypes lets other threads work meanwhile."""
+    unit = unit_of(host, exported, tmp_path)
+    outputs = unit.named("output")
+
+    def run(push: float) -> list[float]:
+        bearing = host.Instance(unit).ready()
+        assert bearing.set(PUSHED, push) == host.OK
+        assert [bearing.step(STEP) for _ in range(40)] == [host.OK] * 40
+        return list(bearing.get(outputs))
+
+    pushes = [-100.0, -300.0]
+    with ThreadPoolExecutor(2) as threads:
+        at_once = list(threads.map(run, pushes))
+    assert at_once == [run(push) for push in pushes]
 
 
 @pytest.mark.parametrize("fmi", [2, 3])

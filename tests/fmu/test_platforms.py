@@ -28,7 +28,7 @@ CASE, CHANGES = "6208-axial-1300", ("solver.duration=0.2 s",)
 def mathematics(c_compiler: tuple[str, ...], tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     """Return the elementary functions as a library of their own."""
     library = tmp_path_factory.mktemp("mathematics") / "own.so"
-    options = ["-O2", "-shared", "-fPIC", "-ffp-contract=off", "-fno-builtin", "-fno-math-errno"]
+    options = ["-O3", "-shared", "-fPIC", "-ffp-contract=off", "-fno-builtin", "-fno-math-errno"]
     command = [*c_compiler, *options, str(SOURCES / "mathematics.c"), "-o", str(library)]
     subprocess.run(command, check=True)
     return ctypes.CDLL(str(library))
