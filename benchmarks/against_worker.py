@@ -12,7 +12,7 @@ import sys
 import time
 from typing import Any
 
-_ENGINES = ("lambda_core.solver.drivers.dynamics", "lambda_core.physics.dynamics")
+_ENGINES = ("lambda_core.solver.drivers.dynamics", "lambda_core.physics.dynamics", "lambda_core.simulate.dynamics")
 
 
 def engine_type() -> Any:
