@@ -107,7 +107,7 @@ def begin(announce: Callable[[str], None] | None = None) -> None:
     if len(absent) < 2:
         return
     if announce is not None:
-        announce(f"compiling {len(absent)} parts of the solver (once, about a quarter of a minute)")
+        announce(f"compiling {len(absent)} parts of the solver (once, a quarter of a minute to some minutes)")
     code = "import sys; from lambda_core.solver.entry import build_group; build_group(sys.argv[1])"
     for group in GROUPS:
         names = ",".join(name for name in group if name in absent)
