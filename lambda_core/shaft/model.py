@@ -91,6 +91,8 @@ class ShaftModel:
         Of the discs; they count in motion.
     speed_over_time : TimeFunction
         Of the shaft [rad/s].
+    springs : tuple of ShaftSpring
+        Between shaft and ground.
     """
 
     name: str

@@ -70,11 +70,26 @@ def test_axes_stand_inside_their_sketch() -> None:
 
 
 def test_every_screen_has_its_own_help() -> None:
-    from lambda_gui import catalogue, choice, dialogs, duty_screen, own_row, results_screen, run_screen, study_screen
+    from lambda_gui import (
+        catalogue,
+        choice,
+        dialogs,
+        duty_screen,
+        own_row,
+        results_screen,
+        run_screen,
+        shaft_answer_screen,
+        shaft_screen,
+        study_screen,
+    )
 
+    modules = (
+        catalogue, choice, dialogs, duty_screen, own_row, results_screen, run_screen, shaft_answer_screen, shaft_screen,
+        study_screen,
+    )  # fmt: skip
     found = {
         name
-        for module in (catalogue, choice, dialogs, duty_screen, own_row, results_screen, run_screen, study_screen)
+        for module in modules
         for name, thing in vars(module).items()
         if isinstance(thing, type) and issubclass(thing, Screen) and thing.__module__ == module.__name__
     }

@@ -133,7 +133,7 @@ def test_older_drag_formula(methods: dict[str, Method]) -> None:
 @pytest.mark.parametrize(
     ("name", "changes", "sentence"),
     [
-        ("skf", {"series": "32"}, "series of the SKF friction table"),
+        ("skf", {"series": "30"}, "series of the SKF friction table"),
         ("skf", {"series": ""}, "series of the SKF friction table"),
         ("skf", {"axial_load": 500.0, "static_rating": None}, "static load rating"),
         ("schaeffler", {"series": "619"}, "series of the Schaeffler friction table"),

@@ -45,7 +45,7 @@ laws = L.Laws(
 )
 kinds = {
     "system": R.SYSTEM, "bodies": R.BODY, "rows": R.ROW, "raceways": R.RACEWAY, "lands": R.LAND, "links": R.LINK,
-    "slots": R.SLOT,
+    "slots": R.SLOT, "waves": R.WAVE,
     "terms": R.TERM, "inputs": R.INPUTS, "scratch": R.SCRATCH, "bodies_now": R.BODY_STATE, "body_rates": R.BODY_STATE,
     "ground": R.BODY_STATE, "body_wrenches": R.WRENCH, "ball_wrenches": R.WRENCH,
 }

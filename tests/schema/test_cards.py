@@ -55,5 +55,19 @@ def test_limits_units_defaults_and_choices() -> None:
     assert card("operation.speed").required
     assert card("gravity.z").default == "-9.80665 m/s2"
     assert "standard gravity" in card("gravity.z").reference
-    assert card("bearing.geometry.series").choices == ["60", "62", "63", "64", "618", "619", "70", "72", "73"]
+    assert card("bearing.geometry.series").choices == [
+        "60",
+        "62",
+        "63",
+        "64",
+        "618",
+        "619",
+        "70",
+        "72",
+        "73",
+        "32",
+        "33",
+        "QJ2",
+        "QJ3",
+    ]
     assert card("depth.cage").default == "true"
