@@ -12,13 +12,10 @@ from benchmarks.__main__ import main
 from benchmarks.timing import Effort
 
 
-def test_a_version_is_as_good_as_itself(monkeypatch: pytest.MonkeyPatch, pytestconfig: pytest.Config) -> None:
+def test_a_version_is_as_good_as_itself(monkeypatch: pytest.MonkeyPatch) -> None:
     """Counts of evaluations and the loss depend on no clock; a case that neither version knows stands in the notes."""
     points = {"axial": ("6208-axial-1300", {}, 1e-4, 1e-4), "unheard of": ("nothing", {}, 1e-4, 1e-4)}
     monkeypatch.setattr(against, "POINTS", points)
-    assert pytestconfig.cache is not None
-    # Both processes take what the tests have compiled: anew it is minutes on a busy machine.
-    monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(pytestconfig.cache.mkdir("lambda-bearing")))
     section = against.measure(Path(sys.prefix), Effort(quick=True))
     (table,) = section.tables
     known, unknown = (dict(zip(table.columns, row, strict=True)) for row in table.rows)
