@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import Annotated, Any, Literal
 
@@ -22,6 +23,8 @@ from lambda_core.domain.units import (
     ThermalExpansion,
     parse,
 )
+
+_STEEPEST = math.pi / 4.0  # contact angles of radial bearings end at 45 degrees (ISO 281) [rad]
 
 CLEARANCE_CLASSES = ("C2", "CN", "C3", "C4", "C5")
 # Behind a class: its lower half, its upper half, its middle, or its upper half with the lower half of the next class.
@@ -50,7 +53,7 @@ class InlineGeometry(Section):
         "four-point contact: contact angle of a ball that rests on both arcs of a ring, by the shims they are ground "
         "with; absent: what contact angle and clearance leave, where the catalogue's bearing is of this kind",
         gt=0.0,
-        lt=0.7854,
+        lt=_STEEPEST,
         reference="Harris and Kotzalas 2006, ch. 2",
     )
     series: Literal["60", "62", "63", "64", "618", "619", "70", "72", "73", "32", "33", "QJ2", "QJ3"] | None = option(
@@ -120,7 +123,7 @@ class Bearing(Section):
         "free contact angle of an angular contact bearing, in place of a clearance: 2 A (1 - cos(alpha_0)) of the "
         "distance A of the groove centres; absent: the catalogue's, where the bearing is one of angular contact",
         gt=0.0,
-        le=0.7854,
+        le=_STEEPEST,
         reference="Harris and Kotzalas 2006, eq. 2.9",
     )
     clearance_pick: Literal["minimum", "middle", "maximum"] = option("middle", "which value of a clearance class")
