@@ -1,6 +1,6 @@
-"""A bearing whose rings another program leads: from Python, or as an FMU of version 2 through FMPy.
+"""A bearing whose inner ring another program leads: from Python, or as an FMU of version 2 through FMPy.
 
-Both have the same two methods, so that a host is written once. Poses are x, y, z [m], tilt_y, tilt_z [rad] of the inner
+Both have the same methods, so that a host is written once. Poses are x, y, z [m], tilt_y, tilt_z [rad] of the inner
 ring, the outer ring stands still.
 """
 
@@ -26,11 +26,27 @@ class FromPython:
         dofs = self._bearing.model.inner_ring.dofs
         self.pose = np.array([dofs[name].motion.terms[0].values[0] for name in POSE])
 
+    @property
+    def time(self) -> float:
+        """Where the bearing stands [s]."""
+        return self._bearing.time_s
+
     def step(self, until: float, pose: Sequence[float], rate: Sequence[float], acceleration: Sequence[float]) -> Any:
         """Lead the ring from a pose on; returns force [N] and moment [N m] of the bearing on it at the end."""
         for i, name in enumerate(POSE):
             self._bearing.give(f"inner_ring.{name}", pose[i], rate[i], acceleration[i])
         return self._bearing.step_to(until).reactions["inner_ring"]
+
+    def save(self) -> Any:
+        """Return the state, to come back to."""
+        return self._bearing.state()
+
+    def back_to(self, state: Any) -> None:
+        """Take back what was done since."""
+        self._bearing.restore(state)
+
+    def forget(self, state: Any) -> None:
+        """Give a state back that is not needed any more."""
 
 
 class FromUnit:
@@ -44,6 +60,7 @@ class FromUnit:
         named = {variable.name: variable.valueReference for variable in about.modelVariables}
         self._lead = [named[f"inner_ring.{name}{more}"] for more in ("", "_rate", "_acceleration") for name in POSE]
         self._answer = [named[name] for name in _REACTION]
+        self._spin, self._energy = named["inner_ring.spin"], named["bearing.energy_in"]
         self.unit = FMU2Slave(
             guid=about.guid,
             unzipDirectory=folder,
@@ -54,24 +71,29 @@ class FromUnit:
         self.unit.setupExperiment(startTime=0.0)
         self.unit.enterInitializationMode()
         self.unit.exitInitializationMode()
-        self.pose, self._time = np.array(self.unit.getReal(self._lead[: len(POSE)])), 0.0
+        self.pose, self.time = np.array(self.unit.getReal(self._lead[: len(POSE)])), 0.0
 
     def step(self, until: float, pose: Sequence[float], rate: Sequence[float], acceleration: Sequence[float]) -> Any:
         """Lead the ring from a pose on; returns force [N] and moment [N m] of the bearing on it at the end."""
         self.unit.setReal(self._lead, [float(value) for value in (*pose, *rate, *acceleration)])
-        self.unit.doStep(self._time, until - self._time)
-        self._time = until
+        self.unit.doStep(self.time, until - self.time)
+        self.time = until
         return np.array(self.unit.getReal(self._answer))
 
-    def again(self, until: float, poses: Iterable[tuple[Any, Any, Any]]) -> Any:
-        """Repeat one step with better motions, each time from the saved state; returns the last answer.
+    def save(self) -> Any:
+        """Return the state, to come back to."""
+        return self.time, self.unit.getFMUState()
 
-        What a host does that solves its interface implicitly: the step is taken back until motion and reaction agree.
-        """
-        begin, state, answer = self._time, self.unit.getFMUState(), None
-        for pose, rate, acceleration in poses:
-            self.unit.setFMUState(state)
-            self._time = begin
-            answer = self.step(until, pose, rate, acceleration)
-        self.unit.freeFMUState(state)
-        return answer
+    def back_to(self, state: Any) -> None:
+        """Take back what was done since."""
+        self.time = state[0]
+        self.unit.setFMUState(state[1])
+
+    def forget(self, state: Any) -> None:
+        """Give a state back that is not needed any more."""
+        self.unit.freeFMUState(state[1])
+
+    def energy(self) -> tuple[float, float]:
+        """Return the energy that has come in [J] and the speed of the ring [rad/s]."""
+        found = self.unit.getReal([self._energy, self._spin])
+        return float(found[0]), float(found[1])
