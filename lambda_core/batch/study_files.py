@@ -11,6 +11,7 @@ from pathlib import Path
 from lambda_core.batch.definition import parse_study
 from lambda_core.case.case_writer import save_text
 from lambda_core.domain.errors import CaseError, UsageError, nearest
+from lambda_core.domain.files import check_new
 
 _USUAL = "friction-map"
 
@@ -82,9 +83,7 @@ def init_study(
         parse_study(text, f'new study "{name}"')
     except CaseError as error:
         raise CaseError(f'new study "{name}"', error.problems) from None
-    if target.exists() and not overwrite:
-        raise UsageError(f'"{target}" exists: choose another name, or --force to overwrite it')
-    save_text(text, target)
+    save_text(text, check_new(target, overwrite))
     return target
 
 

@@ -21,7 +21,7 @@ from lambda_core.case.case_io import load_case, parse_case
 from lambda_core.case.electric import Series
 from lambda_core.case.signals import Table as TimeTableFile
 from lambda_core.domain.errors import CaseError, UsageError
-from lambda_core.domain.files import check_target
+from lambda_core.domain.files import check_new, check_target
 
 _PLAIN = re.compile(r"[\w .+/-]*", re.ASCII)  # texts without anything to escape
 _INLINE_KEYS = frozenset({"kind", "mode", "points"})  # small tables that read best on one line
@@ -133,9 +133,7 @@ def write_new(case: Case, original: str, path: Path, overwrite: bool) -> Path:
     UsageError
         When the file exists and may not be overwritten, or cannot be written.
     """
-    if path.exists() and not overwrite:
-        raise UsageError(f'"{path}" exists: choose another name, or --force to overwrite it')
-    save_case(case, path, original)
+    save_case(case, check_new(path, overwrite), original)
     return path
 
 

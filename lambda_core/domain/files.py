@@ -45,6 +45,24 @@ def check_target(path: Path) -> Path:
     return path
 
 
+def taken(path: Path) -> UsageError:
+    """Return the refusal to write where a file stands, for those who were not asked to overwrite it."""
+    return UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
+
+
+def check_new(path: Path, overwrite: bool) -> Path:
+    """Return a path that is free, or may be overwritten.
+
+    Raises
+    ------
+    UsageError
+        When something stands there.
+    """
+    if path.exists() and not overwrite:
+        raise taken(path)
+    return path
+
+
 def check_folder(folder: Path, target: Path | None = None, *, made: bool = False) -> Path:
     """Return a folder that takes files, tried with one that goes again: before the work whose result it is to hold.
 

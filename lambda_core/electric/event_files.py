@@ -32,9 +32,7 @@ def check_target(
     """
     if path.suffix not in endings:
         raise UsageError(f'"{path}": {what} is written as {" or ".join(endings)}')
-    if path.exists() and not overwrite:
-        raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
-    if not files.check_target(path).exists():
+    if not files.check_target(files.check_new(path, overwrite)).exists():
         files.check_folder(path.absolute().parent, path)
 
 

@@ -91,7 +91,7 @@ def export_fmu(
         With a sentence about the case or its equilibrium.
     """
     from lambda_core.case.case_writer import standalone_toml
-    from lambda_core.domain.files import check_folder
+    from lambda_core.domain.files import check_folder, check_new
     from lambda_core.fmu.varied import varied
     from lambda_core.solver.drivers.given import COUPLINGS
     from lambda_core.system.cases import case
@@ -119,9 +119,7 @@ def export_fmu(
     varied(options, loaded)
     resolve(loaded)
     target = Path(out) if out is not None else Path(f"{_plain(loaded.name)}.fmu")
-    if target.exists() and not force:
-        raise UsageError(f"{target} exists: choose another name with --out, or overwrite it with --force")
-    check_folder(target.parent, target)
+    check_folder(check_new(target, force).parent, target)
     task = {"case": standalone_toml(loaded), "out": str(target.absolute()), "fmi": fmi, "couple": couple}
     task |= {"vary": options, "platforms": wanted}
     if processor == os.environ.get(_CPU, "native"):

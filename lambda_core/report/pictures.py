@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.batch.study_runs import study_status
 from lambda_core.domain.errors import LambdaError, UsageError, unknown_name
-from lambda_core.domain.files import check_folder, check_target
+from lambda_core.domain.files import check_folder, check_new, check_target
 from lambda_core.run.answers import result
 from lambda_core.system.checking import resolve
 
@@ -287,9 +287,7 @@ def _cover(project: str, author: str, appendices: Sequence[str] | None, units: s
 
 def _refuse_existing(path: Path, overwrite: bool) -> None:
     """Say before the work what would stop it at its end."""
-    if path.exists() and not overwrite:
-        raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
-    if not check_target(path).exists():
+    if not check_target(check_new(path, overwrite)).exists():
         check_folder(path.absolute().parent, path)
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import Channel
 from lambda_core.domain.errors import PartialResultError, UsageError
-from lambda_core.domain.files import check_target
+from lambda_core.domain.files import check_target, taken
 from lambda_core.results import file_format as layout
 from lambda_core.results import hdf5
 from lambda_core.results.averages import INTEGRALS, spans
@@ -292,4 +292,4 @@ def _publish(made: Path, path: Path, force: bool) -> None:
             made.unlink()
     except FileExistsError:
         made.unlink()
-        raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force") from None
+        raise taken(path) from None

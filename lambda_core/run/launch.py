@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
-from lambda_core.domain.files import check_folder, check_target
+from lambda_core.domain.files import check_folder, check_new, check_target
 from lambda_core.laws.kernels import sources_key
 from lambda_core.results.opening import ResultError
 from lambda_core.results.provenance import Provenance, differences, model_data
@@ -97,9 +97,7 @@ def destination(model: BearingModel, out: Path | None, force: bool) -> Path:
         path = out
         if path.is_dir():
             raise UsageError(f"{path} is a folder: name a file in it, for example {path / model.name}.h5")
-        check_target(path)
-        if path.exists() and not force:
-            raise UsageError(f"{path} exists: choose another name with --out, or overwrite it with --force")
+        check_new(check_target(path), force)
     check_folder(path.absolute().parent, path)
     return path
 

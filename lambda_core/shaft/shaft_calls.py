@@ -110,15 +110,13 @@ def init_shaft(name: str, path: str | Path | None = None, overwrite: bool = Fals
 
     from lambda_core.case.case_writer import save_text
     from lambda_core.case.shaft_io import validate_shaft
-    from lambda_core.domain.errors import UsageError
+    from lambda_core.domain.files import check_new
     from lambda_core.shaft.fresh_shaft import fresh_shaft
 
     target = Path(path) if path is not None else Path(f"{name}.toml")
     text = fresh_shaft(name)
     validate_shaft(tomllib.loads(text), f'new shaft "{name}"')
-    if target.exists() and not overwrite:
-        raise UsageError(f'"{target}" exists: choose another name, or --force to overwrite it')
-    save_text(text, target)
+    save_text(text, check_new(target, overwrite))
     return target
 
 
