@@ -204,6 +204,22 @@ class Network:
         self._began = False
 
     @property
+    def substeps(self) -> int:
+        """Intervals of constant capacitance between samples."""
+        return self._substeps
+
+    def held(self) -> dict[str, Any]:
+        """Return what the compiled march works on from stretch to stretch, and its laws, by its arguments' names."""
+        names = ["part", "own", "held", "state", "known", "drawn", "break_out", "arc_out", "rows", "stand", "members"]
+        breaks, arcs = self._strength.breakdown, self._strength.discharge
+        return {
+            "break_law": breaks.kernel.pointer, "break_par": breaks.par,
+            "arc_law": arcs.kernel.pointer, "arc_par": arcs.par,
+            "whole": self._whole, "nodes": self._nodes, "place": self._place, "total": self._total,
+            **dict(zip(names, self._workspace, strict=True)),
+        }  # fmt: skip
+
+    @property
     def time(self) -> float:
         """How far the network has come: the end of its last stretch, or of a discharge that went on beyond it [s]."""
         return float(self._total[L.T_TIME])

@@ -12,6 +12,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import BODIES
+from lambda_core.fmu.circuit import Circuit, circuit
 from lambda_core.fmu.curves import Constant, constants
 from lambda_core.fmu.image import Image, host_words
 from lambda_core.fmu.starting import Start, prepare_start
@@ -71,6 +72,7 @@ class Frozen:
         What follows them; their words are places in the image [bytes].
     losses : int
         How many of the running integrals are losses.
+    circuit : Circuit, optional
     """
 
     model: BearingModel
@@ -88,6 +90,7 @@ class Frozen:
     varied: tuple[Varied, ...]
     constants: list[Constant]
     losses: int
+    circuit: Circuit | None
 
     def moves(self, body: str) -> bool:
         """Tell whether a body is there and can move."""
@@ -145,6 +148,7 @@ def freeze(
     memory.control["sample_interval"] = math.inf
     bundle, host = context.bundle, host_words(_HOST_WORDS + len(options))
     host[_HOST_WORDS:] = [option.start for option in options]
+    electric = circuit(model, scratch.contacts.size // scratch.contacts.shape[-1], announce)
     now = memory.control.view(np.float64)[:1]  # the field "time" is the first one
     sections = [
         ("evaluate", evaluate_t, core.evaluate_pointer),
@@ -157,6 +161,7 @@ def freeze(
         ("states", L.array2, memory.y.reshape(1, -1)),
         ("host", L.array1, host),
         *begin.sections(),
+        *(electric.sections() if electric else ()),
     ]
     kinds = observe_sig.args[-len(scratch._fields) :]
     sections += [(name, kind, array) for name, kind, array in zip(scratch._fields, kinds, scratch, strict=True)]
@@ -174,6 +179,7 @@ def freeze(
             (at["times"], at["states"], at["bundle"], at["evaluate"], float(SHORTED), *looks),
         ),
         begin.entry(at),
+        *((electric.entry(image),) if electric else ()),
     )
     fault = bundle.scratch
     wrenches = bundle.body_wrenches.view(np.float64)
@@ -205,6 +211,7 @@ def freeze(
         tuple(options),
         followed,
         losses=scratch.rates.shape[-1] - L.BESIDE_LOSSES,
+        circuit=electric,
     )
 
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from lambda_core.electric import columns as columns_of_march
+from lambda_core.electric.contacts import VACUUM_PERMITTIVITY
+from lambda_core.fmu.circuit import NUMBERS
 from lambda_core.fmu.frozen import Frozen
 from lambda_core.fmu.variables import Variable, control
 from lambda_core.laws.jit.portable import features, known_processor
@@ -68,6 +71,7 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
         "STATUS_STEP_TOO_SMALL": int(Status.STEP_TOO_SMALL),
         "VARIABLES": len(variables),
         **_start_numbers(frozen),
+        **_circuit_numbers(frozen),
     }
     needed = _needed()
     lines = ['#include "token.h"']
@@ -124,6 +128,45 @@ def _start_numbers(frozen: Frozen) -> dict[str, object]:
         "STALE": image.place(frozen.memory.count) + _at(COUNT, "stale"),
         "VALUES": image.place(frozen.host, frozen.host.size - len(frozen.varied)),
         "CONSTANTS": len(frozen.constants),
+    }
+
+
+def _circuit_numbers(frozen: Frozen) -> dict[str, object]:
+    """Return the numbers of the circuit, where there is one."""
+    found, image, contacts = frozen.circuit, frozen.image, frozen.scratch.contacts
+    if found is None:
+        return {"CIRCUIT": 0}
+    names = (
+        "load", "film_central", "film_minimum", "film_parameter", "semi_axis_a", "semi_axis_b", "entrainment",
+        "capacitance_hertz", "capacitance",
+    )  # fmt: skip
+    arguments, film = found.arguments, found.film
+    tables, nodes = arguments["tables"], arguments["nodes"]
+    places = {f"CONTACT_{name.upper()}": image.place(contacts) + _at(R.CONTACT_SAMPLE, name) for name in names}
+    places |= {f"TABLE_{name.upper()}": image.place(getattr(tables, name)) for name in tables._fields}
+    places |= {f"CIRCUIT_{name.upper()}": found.place(image, name) for name in NUMBERS}
+    arrays = {"SOURCE_T": "source_t", "SOURCE_V": "source_v", "TIMES": "t", "TOTAL": "total", "PLACE": "place"}
+    places |= {f"CIRCUIT_{name}": image.place(arguments[key]) for name, key in arrays.items()}
+    places |= {f"CIRCUIT_{name.upper()}": image.place(arguments[name]) for name in ("extremes", "events")}
+    columns = ("T_EVENTS", "T_TRACE", "T_TIME", "T_BEGAN", "T_STATUS", "E_CHARGE", "E_PEAK", "N_EVENT")
+    return {
+        "CIRCUIT": 1,
+        **places,
+        **{f"CIRCUIT_{name}": getattr(columns_of_march, name) for name in columns},
+        "CONTACT_SIZE": R.CONTACT_SAMPLE.itemsize,
+        "CIRCUIT_FIRST": image.place(found.words),
+        "CIRCUIT_INSULATED": image.place(found.words, 1),
+        "CIRCUIT_PATCHES": image.place(found.rate),
+        "CIRCUIT_CHARGE": image.place(nodes.charge),
+        "CIRCUIT_POTENTIAL": image.place(nodes.potential),
+        "CIRCUIT_WINDING": image.place(found.sizes, 2),
+        "CIRCUIT_FULL": columns_of_march.EVENTS_FULL,
+        "CIRCUIT_OK": columns_of_march.OK,
+        "ROUGH": int(film.roughness != "smooth"),
+        "CONDUCTIVITY": repr(film.conductivity),
+        "METAL": repr(film.metal_resistance),
+        "BALL_PERMITTIVITY": repr(film.ball_permittivity or 0.0),
+        "VACUUM_PERMITTIVITY": repr(VACUUM_PERMITTIVITY),
     }
 
 

@@ -12,6 +12,7 @@ from enum import IntEnum
 from typing import Literal
 
 from lambda_core.domain.elements import BODIES, DOFS, SPIN
+from lambda_core.electric.columns import T_ARC, T_DISCHARGES
 from lambda_core.fmu.frozen import Frozen
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
@@ -30,6 +31,7 @@ class Kind(IntEnum):
     TORQUE = 6
     COUNT = 7
     VARIED = 8  # an option that constants follow
+    SOURCE = 9  # an input that moves nothing
 
 
 @dataclass(frozen=True)
@@ -61,7 +63,7 @@ class Variable:
     @property
     def given(self) -> bool:
         """Whether a host sets it."""
-        return self.kind in (Kind.INPUT, Kind.VARIED)
+        return self.kind in (Kind.INPUT, Kind.SOURCE, Kind.VARIED)
 
 
 _STEPS = {"m": 1e-9, "rad": 1e-8, "m/s": 1e-6, "rad/s": 1e-5, "N": 1.0, "N m": 1e-2, "m/s2": 1.0, "rad/s2": 1.0}
@@ -74,7 +76,11 @@ def variables(frozen: Frozen) -> list[Variable]:
     """Return the variables of a bearing in the order of their value references."""
     found = [Variable("time", "time", "s", Kind.TIME, 0), *_inputs(frozen)]
     taken = {each.name for each in found}
-    found += [each for each in (*_places(frozen), *_reactions(frozen), *_bearing(frozen)) if each.name not in taken]
+    found += [
+        each
+        for each in (*_places(frozen), *_reactions(frozen), *_bearing(frozen), *_circuit(frozen))
+        if each.name not in taken
+    ]
     return [*found, *_varied(frozen)]
 
 
@@ -186,6 +192,34 @@ def _bearing(frozen: Frozen) -> Iterator[Variable]:
     yield Variable("bearing.energy_in", text, "J", Kind.VALUE, frozen.integral("input"))
     place = frozen.image.place(frozen.memory.count) + COUNT.fields["steps"][1]  # type: ignore[index]
     yield Variable("solver.steps", "steps of the integrator", "", Kind.COUNT, place)
+
+
+def _circuit(frozen: Frozen) -> Iterator[Variable]:
+    """Yield the source that the host is, and what the circuit of the bearing answers with."""
+    found = frozen.circuit
+    if found is None:
+        return
+    begin = found.place(frozen.image, "since")
+    text = "voltage of the source, behind the capacitance of the winding"
+    for name, unit, place in (("", "V", "given"), ("_rate", "V/s", "rate")):
+        about = text if not name else f"rate of the {text}"
+        at = found.place(frozen.image, place)
+        yield Variable(f"electric.source_voltage{name}", about, unit, Kind.SOURCE, at, scale=1.0, begin=begin)
+    for name, place, unit, text in (
+        ("voltage", "voltage", "V", "voltage of the inner ring against the outer"),
+        ("voltage_lowest", "lowest", "V", "lowest voltage of the inner ring against the outer in the step"),
+        ("voltage_highest", "highest", "V", "highest voltage of the inner ring against the outer in the step"),
+        ("source_current", "current", "A", "current from the source, mean over the step"),
+        ("arc_current", "arc_current", "A", "current of discharges from ring to ball or back, mean over the step"),
+        ("arc_peak", "peak", "A", "largest current of a discharge that began in the step"),
+    ):
+        yield Variable(f"electric.{name}", text, unit, Kind.VALUE, found.place(frozen.image, place))
+    total = found.arguments["total"]
+    for name, column, unit, text in (
+        ("discharges", T_DISCHARGES, "1", "discharges since the start"),
+        ("discharge_energy", T_ARC, "J", "heat of discharges since the start"),
+    ):
+        yield Variable(f"electric.{name}", text, unit, Kind.VALUE, frozen.image.place(total, column))
 
 
 def control(frozen: Frozen, name: str) -> int:

@@ -113,14 +113,6 @@ static int settle(lb_bearing *b) {
   return status;
 }
 
-int lb_leave(lb_bearing *b) {
-  if (HOST(b, PHASE) != LB_INITIALISING)
-    return lb_say(b, LB_ERROR, "initialisation has not begun: it cannot end");
-  if (settle(b) != LB_OK) return LB_ERROR;
-  HOST(b, PHASE) = LB_STEPPING;
-  return LB_OK;
-}
-
 int lb_end(lb_bearing *b) {
   HOST(b, PHASE) = LB_ENDED;
   return LB_OK;
@@ -159,6 +151,18 @@ static int look(lb_bearing *b) {
   return LB_OK;
 }
 
+int lb_leave(lb_bearing *b) {
+  if (HOST(b, PHASE) != LB_INITIALISING)
+    return lb_say(b, LB_ERROR, "initialisation has not begun: it cannot end");
+  if (settle(b) != LB_OK) return LB_ERROR;
+#if LB_CIRCUIT
+  if (look(b) != LB_OK) return LB_ERROR;
+  lb_take(b);
+#endif
+  HOST(b, PHASE) = LB_STEPPING;
+  return LB_OK;
+}
+
 static double torque(lb_bearing *b) {
   double mean = HOST(b, TORQUE), speed = fabs(REAL(b, LB_RELATIVE_SPEED));
   if (isfinite(mean)) return mean;
@@ -173,6 +177,7 @@ static double value(lb_bearing *b, const lb_variable *v) {
     case LB_GREATEST: return extreme(b, v);
     case LB_TORQUE: return torque(b);
     case LB_INPUT:
+    case LB_SOURCE:
     case LB_VARIED: return REAL(b, v->place);
     default: return v->scale * REAL(b, v->place);
   }
@@ -188,7 +193,7 @@ static const lb_variable *variable(lb_bearing *b, unsigned which) {
   return known ? &lb_variables[which] : NULL;
 }
 
-static int given(const lb_variable *v) { return v->kind == LB_INPUT || v->kind == LB_VARIED; }
+static int given(const lb_variable *v) { return v->kind == LB_INPUT || v->kind == LB_SOURCE || v->kind == LB_VARIED; }
 
 int lb_get(lb_bearing *b, const unsigned *which, size_t count, double *values) {
   for (size_t i = 0; i < count; i++) {
@@ -213,10 +218,11 @@ int lb_get_counts(lb_bearing *b, const unsigned *which, size_t count, int64_t *v
 
 /* Inputs say from when on they hold; what options mean is in curves. */
 static void put(lb_bearing *b, const lb_variable *v, double value) {
-  if (HOST(b, PHASE) < LB_STEPPING && value != REAL(b, v->place)) HOST(b, UNSETTLED) = 1.0;
+  int moves = v->kind != LB_SOURCE;
+  if (moves && HOST(b, PHASE) < LB_STEPPING && value != REAL(b, v->place)) HOST(b, UNSETTLED) = 1.0;
   REAL(b, v->place) = value;
-  if (v->kind == LB_INPUT) REAL(b, v->begin) = REAL(b, LB_CONTROL_TIME);
-  b->stale = 1;
+  if (v->kind != LB_VARIED) REAL(b, v->begin) = REAL(b, LB_CONTROL_TIME);
+  if (moves) b->stale = 1;
 }
 
 int lb_set(lb_bearing *b, const unsigned *which, size_t count, const double *values) {
@@ -265,7 +271,11 @@ int lb_step(lb_bearing *b, double now, double step) {
   double angle = turned - HOST(b, TURNED_BEFORE);
   HOST(b, TORQUE) = angle > 0.0 ? (lost - HOST(b, LOST_BEFORE)) / angle : 0.0;
   HOST(b, LOST_BEFORE) = lost, HOST(b, TURNED_BEFORE) = turned;
+#if LB_CIRCUIT
+  return look(b) == LB_OK ? lb_conduct(b) : LB_ERROR;
+#else
   return LB_OK;
+#endif
 }
 
 int lb_save(lb_bearing *b, void **state) {

@@ -13,7 +13,7 @@
 enum { LB_OK, LB_WARNING, LB_DISCARD, LB_ERROR, LB_FATAL }; /* as FMI 2 and 3 number them */
 enum { LB_CREATED, LB_INITIALISING, LB_STEPPING, LB_ENDED };
 /* What a variable is: see variables.py. */
-enum { LB_TIME, LB_INPUT, LB_VALUE, LB_LEAST, LB_GREATEST, LB_SUM, LB_TORQUE, LB_COUNT, LB_VARIED };
+enum { LB_TIME, LB_INPUT, LB_VALUE, LB_LEAST, LB_GREATEST, LB_SUM, LB_TORQUE, LB_COUNT, LB_VARIED, LB_SOURCE };
 
 typedef struct {
   int kind;

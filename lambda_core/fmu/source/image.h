@@ -25,10 +25,15 @@ extern void *const lb_functions[];
 extern int64_t lb_advance(unsigned char *image, double until, int64_t work);
 extern int64_t lb_observe(unsigned char *image);
 extern int64_t lb_static(unsigned char *image, int64_t iterations);
+extern int64_t lb_march(unsigned char *image);
 
 #define REAL(b, place) (*(double *)((b)->image + (place)))
 #define WORD(b, place) (*(int64_t *)((b)->image + (place)))
 
 void lb_follow(lb_bearing *b); /* bring constants to the values of the options */
 int lb_settle(lb_bearing *b);  /* find the equilibrium at the start; an error where there is none */
+#if LB_CIRCUIT
+void lb_take(lb_bearing *b);   /* take the contacts as they were observed last for the end of a step */
+int lb_conduct(lb_bearing *b); /* bring the circuit to the end of a step */
+#endif
 #endif

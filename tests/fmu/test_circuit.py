@@ -1,0 +1,113 @@
+"""The circuit in the library: voltages and discharges of the program, under a source that the host is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lambda_core import api
+from lambda_core.electric.circuit import circuit_of
+from lambda_core.electric.circuit_run import strength_of
+from lambda_core.electric.contacts import CHANNELS, contacts_of_samples, films
+from lambda_core.electric.electrified import of_model
+from lambda_core.electric.film_laws import film_laws
+from lambda_core.electric.march import Network
+
+CASE = "6208-axial-1300"
+CHANGES = ("solver.duration=0.2 s", "electric.seed=3", "electric.grounding.insulation=2 nF")
+STEP = 2e-5  # [s]
+SOURCE = "electric.source_voltage"
+Export = Callable[[int, str], Path]
+ANSWERS = ["electric.voltage", "electric.voltage_lowest", "electric.voltage_highest", "electric.arc_peak"]
+
+
+@pytest.fixture(scope="module")
+def unit(host: Any, exported: Export, tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """Return the FMU of a bearing with a circuit."""
+    return host.Unit(exported(3, "force"), tmp_path_factory.mktemp("circuit"))
+
+
+def slopes(k: int) -> float:
+    """Return the rate of the source in a step [V/s]: up to 600 V and down again."""
+    return 600.0 / (20 * STEP) * (1.0 if k % 40 < 20 else -1.0)
+
+
+def of_the_program(steps: int) -> tuple[list[list[float]], Any]:
+    """Return voltages and largest currents step by step, and the events, of a march through the same samples."""
+    stepping = api.iterate(CASE, CHANGES, exact=True)
+    bearing = of_model(stepping.model)
+    laws = film_laws(bearing.laws, bearing.contexts)
+    around = circuit_of(bearing.options, bearing.geometry)
+    strength = strength_of(laws, bearing.options, bearing.roughness)
+    network = Network(around, strength, stepping.model.geometry.balls, seed=bearing.options.seed)
+    before, rolled, volts = stepping._engine.now(), None, 0.0
+    found, events = [], []
+    for k in range(steps):
+        now = stepping.step_to((k + 1) * STEP).channels
+        pair = {name: np.stack([before[name], now[name]]) for name in CHANNELS}
+        parts = films(contacts_of_samples(pair, bearing.roughness, ""), bearing.options, rolled)
+        after = volts + slopes(k) * (now["time"] - before["time"])
+        march = network.advance(parts, (parts.time, np.array([volts, after])))
+        peak = float(march.events[:, 8].max(initial=0.0))
+        potential = network.held()["nodes"].potential
+        found.append([float(potential[0] - potential[1]), *march.extremes[0].tolist(), peak])
+        before, rolled, volts = now, parts.rolled[-1], after
+        events.append(march.events)
+    return found, np.concatenate(events)
+
+
+def test_voltages_and_discharges_are_those_of_the_program(host: Any, unit: Any) -> None:
+    """Bit for bit, on both slopes of the source; saved, restored and in another instance the same."""
+    steps = 80
+    expected, events = of_the_program(steps)
+    bearing, volts, state = host.Instance(unit).ready(), 0.0, b""
+    found = []
+    for k in range(steps):
+        assert [bearing.set(SOURCE, volts), bearing.set(f"{SOURCE}_rate", slopes(k))] == [host.OK] * 2
+        begin = bearing.get(["time"])[0]
+        assert bearing.step((k + 1) * STEP - bearing.time) == host.OK
+        found.append(bearing.get(ANSWERS))
+        volts += slopes(k) * (bearing.get(["time"])[0] - begin)
+        if k == 30:
+            state, there = bearing.packed(), (bearing.time, volts)
+    assert len(events) > 3
+    assert found == expected
+    count, energy = bearing.get(["electric.discharges", "electric.discharge_energy"])
+    assert count == events[-1, 3] + 1.0
+    assert energy == pytest.approx(events[:, 6].sum(), rel=1e-9)
+    other = host.Instance(unit).ready()
+    assert other.unpack(state, there[0]) == host.OK
+    volts = there[1]
+    for k in range(31, 36):
+        other.set(SOURCE, volts), other.set(f"{SOURCE}_rate", slopes(k))
+        begin = other.get(["time"])[0]
+        other.step((k + 1) * STEP - other.time)
+        assert other.get(ANSWERS) == found[k]
+        volts += slopes(k) * (other.get(["time"])[0] - begin)
+
+
+def test_an_edge_moves_the_rotor_at_once(host: Any, unit: Any) -> None:
+    """A source that jumps by too little for a discharge: the bearing takes its share, the motion takes no notice."""
+    bearing, still = host.Instance(unit).ready(), host.Instance(unit).ready()
+    assert [each.step(STEP) for each in (bearing, still)] == [host.OK] * 2
+    assert bearing.set(SOURCE, 1.0) == host.OK
+    assert [each.step(STEP) for each in (bearing, still)] == [host.OK] * 2
+    (voltage, current, x), (none, _, same) = (
+        each.get(["electric.voltage", "electric.source_current", "inner_ring.x"]) for each in (bearing, still)
+    )
+    assert none == 0.0
+    assert 0.0 < voltage < 0.5
+    assert x == same
+    assert current > 0.0
+    assert bearing.slope("electric.voltage", SOURCE) == 0.0  # what a step has done does not change any more
+
+
+def test_a_case_without_a_circuit_has_no_source(
+    host: Any, exported: Callable[[int, str], Path], tmp_path: Path
+) -> None:
+    unit = host.Unit(exported(2, "force"), tmp_path)
+    assert not [name for name in unit.references if name.startswith("electric.")]
