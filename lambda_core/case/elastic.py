@@ -32,8 +32,33 @@ class BendingRing(Section):
     section_width: Length | None = option(None, "axial width of the section; absent: the bearing's", gt=0.0)
 
 
+class BendingCage(Section):
+    """A cage that bends in its plane as waves round it, pushed by balls and guiding lands."""
+
+    orders: int = option(
+        4, "highest number of waves round the cage that is followed; an ellipse has 2", ge=2, le=MOST_ORDERS
+    )
+    damping_ratio: float = option(
+        0.02,
+        "damping of every wave, over critical",
+        ge=0.0,
+        lt=1.0,
+        reference="an assumption: below half of its yield point welded steel has 2 to 3 %, riveted steel 5 to 7 % "
+        "(Newmark and Hall 1982, Earthquake Spectra and Design)",
+    )
+    section_height: Length | None = option(
+        None, "radial height of the cage's section; absent: the cage's radial thickness", gt=0.0
+    )
+    section_width: Length | None = option(
+        None,
+        "axial width of the section that bends; absent: the width of a ring without pockets that has the cage's mass",
+        gt=0.0,
+    )
+
+
 class Elastic(Section):
     """Which parts of the bearing are elastic; absent ones are rigid."""
 
     inner_ring: BendingRing | None = option(None, "the inner ring bends; absent: it is rigid")
     outer_ring: BendingRing | None = option(None, "the outer ring bends; absent: it is rigid")
+    cage: BendingCage | None = option(None, "the cage bends; absent: it is rigid")

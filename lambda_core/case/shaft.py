@@ -10,6 +10,7 @@ from typing import Any, Literal
 from pydantic import PrivateAttr, field_validator, model_validator
 
 from lambda_core.case.case import NAME_PATTERN
+from lambda_core.case.elastic import Elastic
 from lambda_core.case.modelling import Models, Parameters
 from lambda_core.case.motion import CageShape, Gravity
 from lambda_core.case.option import Section, option
@@ -127,6 +128,7 @@ class ShaftBearing(Bearing):
     preload_force: Force | None = option(None, "force of a spring on the outer ring, which slides in its seat", gt=0.0)
     support: Support = option({}, "how the housing holds the outer ring")
     cage: CageShape = option({}, "cage, as bodies.cage in the case of one bearing")
+    elastic: Elastic = option({}, "parts of the bearing that bend, as elastic in the case of one bearing")
 
     @model_validator(mode="after")
     def _sits(self) -> ShaftBearing:
@@ -289,5 +291,6 @@ def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
         "bearing": {key: value for key, value in given.items() if key in Bearing.model_fields},
         "operation": {} if speed is None else {"speed": speed},
         **bodies,
+        **({"elastic": given["elastic"]} if "elastic" in given else {}),
         **{table: tables[table] for table in SHARED if table in tables},
     }

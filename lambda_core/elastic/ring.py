@@ -1,4 +1,4 @@
-"""A ring that bends in its own plane without stretching: Fourier modes n >= 2, in a bedding or free. SI in and out.
+"""A ring, or a cage, that bends in its plane without stretching: Fourier modes n >= 2, in a bedding or free. SI.
 
 Radial displacement w = sum of c_n cos(n th) + s_n sin(n th), and a tangential one that keeps the length,
 v = -integral of w dth (Love 1927, Theory of Elasticity, art. 293; Timoshenko, Vibration Problems in Engineering).
@@ -13,6 +13,7 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 
+_PLACES = 180  # on half a ring, at which its diameters are compared
 MOST_ORDERS = 12  # waves round a ring that anybody needs: beyond, a ring of a bearing is no thin one any more
 
 
@@ -117,9 +118,23 @@ def shape(amplitudes: FloatArray, azimuths: FloatArray) -> FloatArray:
     return np.asarray(amplitudes[:, 0] @ np.cos(angles) + amplitudes[:, 1] @ np.sin(angles), dtype=float)
 
 
+def ovality(amplitudes: FloatArray) -> FloatArray:
+    """Return the largest less the smallest diameter [m]; odd numbers of waves leave diameters as they are.
+
+    Parameters
+    ----------
+    amplitudes : float64[..., :, :], shape (..., orders, 2)
+        Of cosine and sine of 2, 3, ... waves [m].
+    """
+    counts = np.arange(2, 2 + amplitudes.shape[-2], 2)
+    angles = counts[:, None] * np.linspace(0.0, np.pi, _PLACES, endpoint=False)
+    even = amplitudes[..., ::2, :]
+    return np.asarray(2.0 * np.ptp(even[..., 0] @ np.cos(angles) + even[..., 1] @ np.sin(angles), axis=-1))
+
+
 @dataclass(frozen=True)
 class RingWaves:
-    """The waves of an elastic ring that a bearing's model follows: orders 2 to `orders`, with modal damping.
+    """The waves of an elastic ring or cage that a bearing's model follows: orders 2 to `orders`, with modal damping.
 
     Attributes
     ----------

@@ -135,6 +135,8 @@ def _ring_shapes(found: Equilibrium) -> list[RingShape]:
     context, azimuths = found.context, np.linspace(0.0, 2.0 * np.pi, _PLACES, endpoint=False)
     shapes = []
     for body, amplitudes in waves_at(context.bundle, context.model, context.shared_part(found.state)).items():
+        if body == "cage":
+            continue  # nothing pushes it in the equilibrium
         bent = shape(amplitudes, azimuths)
         shapes.append(
             RingShape(

@@ -113,6 +113,7 @@ def _bearings(
             for problem in error.problems:
                 where = problem.where.replace("bodies.cage", f"bearings.{name}.cage")
                 where = f"bearings.{name}{where[7:]}" if where.split(".")[0] == "bearing" else where
+                where = f"bearings.{name}.{where}" if where.split(".")[0] == "elastic" else where
                 if where != "name" and not any(_related(where, known.where) for known in found):
                     found.append(Problem(where, problem.message))
     return models

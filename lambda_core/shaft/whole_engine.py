@@ -46,6 +46,7 @@ _COUNTERS = (
     "steps", "rejected", "failed", "newton_iterations", "rhs_calls", "jacobians", "ball_jacobians", "factorisations",
 )  # fmt: skip
 _SHARED = ("pocket", "land", "drag")  # losses that only samples part by bearing
+_WAVES = "support"  # of a bearing of a whole: what damps the waves of its elastic parts, known by samples alone
 
 
 class WholeEngine:
@@ -96,7 +97,7 @@ class WholeEngine:
         )  # fmt: skip
         self._changes = any(term.kind != "constant" for term in model.speed_over_time.terms)
         self._drained: list[WholeSamples] = []
-        self._sampled = np.zeros((len(self.parts), len(_SHARED) + 4))  # integrals of what only samples say
+        self._sampled = np.zeros((len(self.parts), len(_SHARED) + 5))  # integrals of what only samples say
         self._last: list[FloatArray] = []  # their rates at the last sample
         self._last_time = 0.0
         self._start_angles = self._angles()
@@ -109,13 +110,14 @@ class WholeEngine:
         for part in self.parts:
             alone = part.alone
             n = L.NB * part.balls
-            whole = state_scales(alone.model, np.arange(3 * L.NS))
+            size = L.NS * len(part.bodies)
+            whole = state_scales(alone.model, np.arange(size))
             balls.append(whole[:n])
-            kept.append(whole[n + 3 * L.NS :])
-            bodies = whole[n : n + 3 * L.NS].reshape(3, L.NS)
+            kept.append(whole[n + size :])
+            bodies = whole[n : n + size].reshape(-1, L.NS)
             lumps += bodies[INNER] / len(self.parts)
-            for b in (OUTER, CAGE):
-                shared[L.NS * part.bodies[b] :][: L.NS] = bodies[b]
+            for body, own in zip(part.bodies[OUTER:], bodies[OUTER:], strict=True):
+                shared[L.NS * body :][: L.NS] = own
         for body in (*lump_bodies(self.shaft), *led_bodies(self.model, self.shaft)):
             shared[L.NS * body :][: L.NS] = lumps
         return np.concatenate([*balls, shared[self._bundle.active], *kept])
@@ -248,7 +250,7 @@ class WholeEngine:
 
     def _add_up(self, i: int, channels: Mapping[str, FloatArray]) -> None:
         """Go on with the integrals of what only samples say, by the trapezium rule."""
-        columns = [channels["loss"][:, LOSSES.index(name)] for name in _SHARED]
+        columns = [channels["loss"][:, LOSSES.index(name)] for name in (*_SHARED, _WAVES)]
         speed = channels["body_spin"][:, INNER]
         rates = np.column_stack([*columns, channels["input_torque"] * speed, channels["body_position"][:, INNER]])
         if len(self._last) <= i:
@@ -296,18 +298,20 @@ class WholeEngine:
             own |= {name: float(so_far[name]) * float(shares[i, k]) for k, name in enumerate(_SHARED)}
             losses.append(own)
         every = sum(sum(own.values()) for own in losses) + float(so_far["support"])  # dampers of the shaft, too
+        for i, own in enumerate(losses):
+            own[_WAVES] = float(self._sampled[i, len(_SHARED)])
         turned = (self._angles() - self._start_angles).tolist()
         return [
             {
                 **{f"loss.{name}": value for name, value in own.items()},
                 "input": float(so_far["input"]) - (every - sum(own.values())),
                 "input_abs": float(so_far["input_abs"]),
-                "drive": float(self._sampled[i, len(_SHARED)]),
+                "drive": float(self._sampled[i, len(_SHARED) + 1]),
                 "stored": self._stored() - self._start_energy,
                 "relative_angle": float(so_far["relative_speed"]),
                 "cage_angle": turned[i],
                 "inner_angle": turned[count + i],
-                **dict(zip("xyz", self._sampled[i, len(_SHARED) + 1 :].tolist(), strict=True)),
+                **dict(zip("xyz", self._sampled[i, len(_SHARED) + 2 :].tolist(), strict=True)),
             }
             for i, own in enumerate(losses)
         ]

@@ -26,7 +26,7 @@ from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium
-from lambda_core.solver.drivers.tables import CAGE, OUTER
+from lambda_core.solver.drivers.tables import CAGE, INNER, OUTER
 from lambda_core.solver.drivers.time_tables import add_terms
 from lambda_core.system.bearing import TimeFunction
 from lambda_core.system.time_functions import initial, scaled
@@ -65,6 +65,9 @@ def load_terms(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -
         for dof, (stiffness, shift) in enumerate(zip(seating.stiffness, seating.shift, strict=True)):
             if math.isinf(stiffness) and model.housing is None:
                 add_terms(motion_signal(outer, dof), TimeFunction.constant(shift), rows, table)
+        for body, wave in zip(part.bodies[CAGE + 1 :], part.alone.bundle.bodies[CAGE + 1 :], strict=True):
+            for signal, gravity in zip(load_signals(body)[:3], model.gravity, strict=True):  # bends no ring
+                add_terms(signal, TimeFunction.constant(-float(wave["mass"]) * gravity), rows, table)
     return np.concatenate(rows), np.array(table or [0.0])
 
 
@@ -82,7 +85,7 @@ def start_state(
     equilibria: list[Equilibrium],
 ) -> FloatArray:
     """Return the state that the motion begins with: equilibrium, every ball at its cage's speed."""
-    last = max(shaft.positions.size + 2 * len(parts) - 1, int(led_bodies(model, shaft).max()))
+    last = max(int(led_bodies(model, shaft).max()), *(max(part.bodies) for part in parts))
     bodies = np.zeros(last + 1, R.BODY_STATE)
     flat = bodies.view(np.float64)
     moved = np.array([state.displacement[model.body.rows(float(x))] for x in shaft.positions])
@@ -101,6 +104,12 @@ def start_state(
         cage = own[CAGE]
         cage["position"] += outer[:3]
         bodies[part.bodies[CAGE]] = cage
+        for body, wave, row in zip(part.bodies[CAGE + 1 :], own[CAGE + 1 :], alone.bundle.waves, strict=True):
+            # waves stand in the material of their ring, which a lump's unbalance has turned
+            turned = float(row["order"] * bodies["angle"][part.bodies[INNER]]) if row["ring"] == INNER else 0.0
+            c, s = math.cos(turned), math.sin(turned)
+            _, cosine, sine = wave["position"]
+            bodies["position"][body, 1:] = cosine * c + sine * s, sine * c - cosine * s
         balls.append(_carried(y[:n].view(R.BALL).copy(), outer).view(np.float64))
         kept.append(y[y.size - alone.bundle.states.size :])
     return np.concatenate([*balls, flat[active], *kept])

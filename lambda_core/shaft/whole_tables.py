@@ -3,7 +3,7 @@
 Bodies stand in the order: first lump, outer ring of the first bearing, the other lumps, then the other outer rings and
 cages bearing by bearing. A bearing's inner ring is the lump at its place; every bearing has its own origin at its place
 along the shaft, so that all positions are displacements. Where the shaft twists and the coupling turns it beside all
-lumps, a body without mass comes last, whose angle leads.
+lumps, a body without mass comes then, whose angle leads; last the waves of elastic rings and cages, bearing by bearing.
 """
 
 from __future__ import annotations
@@ -46,18 +46,19 @@ class Part:
     bearing : MountedBearing
     alone : SolverContext
         Of the bearing alone, rings and cage free in every direction: what its results are read by.
-    bodies : tuple of 3 ints
-        Lump that carries the inner ring, outer ring, cage.
-    first_ball, first_raceway, first_state, first_slot : int
+    bodies : tuple of ints
+        Lump that carries the inner ring, outer ring, cage; then the waves of elastic ones.
+    first_ball, first_raceway, first_state, first_slot, first_wave : int
     """
 
     bearing: MountedBearing
     alone: SolverContext
-    bodies: tuple[int, int, int]
+    bodies: tuple[int, ...]
     first_ball: int
     first_raceway: int
     first_state: int
     first_slot: int
+    first_wave: int
 
     @property
     def balls(self) -> int:
@@ -77,17 +78,21 @@ def all_free(found: SolverContext) -> SolverContext:
 def make_parts(model: ShaftModel, shaft: LumpedShaft, contexts: list[SolverContext]) -> tuple[Part, ...]:
     """Give every bearing its places."""
     found: list[Part] = []
-    balls, raceways, states, slots = 0, 0, 0, 0
+    balls, raceways, states, slots, waves = 0, 0, 0, 0, 0
+    behind = max(shaft.positions.size + 2 * len(model.bearings), int(led_bodies(model, shaft).max()) + 1)
     for i, (bearing, context) in enumerate(zip(model.bearings, contexts, strict=True)):
         lump = shaft.at(bearing.position)
         inner = lump + 1 if lump else 0
         outer = 1 if i == 0 else shaft.positions.size + 2 * i
         cage = shaft.positions.size + 2 * i + 1
-        found.append(Part(bearing, context, (inner, outer, cage), balls, raceways, states, slots))
+        count = context.bundle.waves.size
+        bodies = (inner, outer, cage, *range(behind + waves, behind + waves + count))
+        found.append(Part(bearing, context, bodies, balls, raceways, states, slots, waves))
         balls += found[-1].balls
         raceways += context.bundle.raceways.size
         states += context.bundle.states.size
         slots += context.bundle.slots.size
+        waves += count
     return tuple(found)
 
 
@@ -112,7 +117,7 @@ def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...])
     raceways = np.concatenate([_raceways(part, i, int(spans[i])) for i, part in enumerate(parts)])
     system = first.system.copy()
     system["balls"] = sum(part.balls for part in parts)
-    system["surfaces"] = int(raceways["surface_on"].any())
+    system["surfaces"] = max(int(b.system["surfaces"][0]) for b in bundles)
     tied, stiffness, rest = _ties(model, shaft, parts)
     inputs, now, rates = (np.zeros(bodies.size, kind) for kind in (R.INPUTS, R.BODY_STATE, R.BODY_STATE))
     states = np.concatenate([b.states for b in bundles])
@@ -120,7 +125,8 @@ def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...])
     laws = (np.ascontiguousarray(np.concatenate(tables)) for tables in zip(*(b.laws for b in bundles), strict=True))
     return first._replace(
         system=system, bodies=bodies, rows=np.concatenate([_row(p, i, int(spans[i])) for i, p in enumerate(parts)]),
-        raceways=raceways, lands=np.concatenate([_lands(p, i, int(spans[i])) for i, p in enumerate(parts)]),
+        raceways=raceways, waves=np.concatenate([_waves(p) for p in parts]),
+        lands=np.concatenate([_lands(p, i, int(spans[i])) for i, p in enumerate(parts)]),
         slots=np.concatenate([_slots(p, int(spans[i])) for i, p in enumerate(parts)]), tied=tied,
         tie_stiffness=stiffness, tie_rest=rest, state_steps=np.concatenate([b.state_steps for b in bundles]),
         laws=L.Laws(*laws), par=np.concatenate([b.par for b in bundles]), terms=np.zeros(0, R.TERM),
@@ -134,7 +140,7 @@ def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...])
 
 def _bodies(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> Any:
     led = led_bodies(model, shaft)
-    bodies = np.zeros(max(shaft.positions.size + 2 * len(parts), int(led.max()) + 1), R.BODY)
+    bodies = np.zeros(max(int(led.max()), *(max(part.bodies) for part in parts)) + 1, R.BODY)
     bodies["moves"], bodies["mode"] = 1, R.LOCKED
     lumps = bodies[lump_bodies(shaft)]
     lumps["mass"], lumps["polar_inertia"] = shaft.mass, shaft.polar_inertia
@@ -147,13 +153,14 @@ def _bodies(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> A
         bodies["stiffness"][body, : STATES.size] += spring.stiffness
         bodies["damping"][body, : STATES.size] += spring.damping
     for i, part in enumerate(parts):
-        inner, outer, cage = part.bodies
+        inner, outer, cage = part.bodies[: CAGE + 1]
         alone = part.alone.bundle.bodies
         for name in ("mass", "transverse_inertia", "polar_inertia"):  # the ring turns with its lump
             bodies[name][inner] += alone[name][INNER]
         bodies[outer], bodies[cage] = alone[OUTER], alone[CAGE]
         bodies["mode"][outer] = [*_outer_modes(model, i), R.LOCKED]
         bodies["mode"][cage] = R.FREE
+        bodies[list(part.bodies[CAGE + 1 :])] = alone[CAGE + 1 :]
     return bodies
 
 
@@ -193,6 +200,7 @@ def _raceways(part: Part, i: int, begin: int) -> Any:
         raceway["laws"] += count * i
         raceway["first_state"] += part.first_state - part.first_ball * int(raceway["states"])
         raceway["slots"] += part.first_slot
+        raceway["waves"] += part.first_wave
         for role in R.RACEWAY_ROLES:
             raceway["parameters"][role] += begin
     return raceways
@@ -201,7 +209,7 @@ def _raceways(part: Part, i: int, begin: int) -> Any:
 def _row(part: Part, i: int, begin: int) -> Any:
     row = part.alone.bundle.rows.copy()
     row["number"], row["first_ball"], row["first_raceway"] = i, part.first_ball, part.first_raceway
-    row["cage"] = part.bodies[CAGE]
+    row["cage"], row["waves"] = part.bodies[CAGE], row["waves"] + part.first_wave
     for name, each in _OFFSETS.items():
         row[name] += each * i
     row["pocket"] += begin
@@ -214,8 +222,16 @@ def _lands(part: Part, i: int, begin: int) -> Any:
     for land in lands:
         land["cage"], land["ring"] = part.bodies[int(land["cage"])], part.bodies[int(land["ring"])]
     lands["law"] += _OFFSETS["guide_law"] * i
+    lands["waves"] += part.first_wave
     lands["parameters"] += begin
     return lands
+
+
+def _waves(part: Part) -> Any:
+    waves = part.alone.bundle.waves.copy()
+    for wave in waves:
+        wave["ring"], wave["body"] = part.bodies[int(wave["ring"])], part.bodies[int(wave["body"])]
+    return waves
 
 
 def _slots(part: Part, begin: int) -> Any:

@@ -133,6 +133,10 @@ GUIDE = record(
     ("radial", f8, (3,)),
     ("tangential", f8, (3,)),
     ("origin", f8, (3,)),  # from the centre of the guiding body, inertial [m]
+    ("wave_cosine", f8),  # of the contact's azimuth in the material of an elastic cage
+    ("wave_sine", f8),
+    ("facing_radial", f8),  # direction there away from the cage's axis, in the frame
+    ("facing_tangential", f8),
 )
 
 # ---- Constants.
@@ -185,6 +189,7 @@ ROW = record(
     ("drag_law", i8),  # row of Laws.drag
     ("pocket", i8, (2,)),  # where the parameters of its laws begin and end
     ("drag", i8, (2,)),
+    ("waves", i8, (2,)),  # of its cage, in the table of waves: begin, end
 )
 RACEWAY_ROLES = tuple(name for name, role in ROLES.items() if role.elements == RACEWAYS)  # of a raceway contact
 RACEWAY = record(
@@ -209,7 +214,7 @@ RACEWAY = record(
     ("slots", i8, (2,)),  # where its laws read them: begin, end
     ("waves", i8, (2,)),  # of its ring, in the table of waves: begin, end
 )
-WAVE = record(  # a pattern of waves round an elastic ring, whose orders rise from 2
+WAVE = record(  # a pattern of waves round an elastic ring or cage, whose orders rise from 2
     ("ring", i8),  # body
     ("body", i8),  # whose y and z are its amplitudes: of the cosine, of the sine [m]
     ("order", i8),  # number of waves
@@ -227,6 +232,8 @@ LAND = record(
     ("offset", f8),  # of the station from both bodies' centres, along the axis [m]
     ("viscosity", f8),  # of the oil [Pa s]
     ("parameters", i8, (2,)),
+    ("side", f8),  # +1 where the cage lies inside the land (outer ring), -1 where round it [-]
+    ("waves", i8, (2,)),  # of the cage, in the table of waves: begin, end
 )
 LINK = record(
     ("number", i8),  # its row in the table of links

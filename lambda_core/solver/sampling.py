@@ -91,7 +91,7 @@ def _pocket_forces(balls, row, bundle, pockets):
     g, out = scratch.guide, scratch.out[:]
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
     for j in range(row.first_ball, row.first_ball + row.balls):
-        pocket_state(balls[j], cage, j, row, g)
+        pocket_state(balls[j], cage, j, row, bundle, g)
         if guide_force(law, par, g, row.oil.viscosity, out, scratch.fault, -1) != 1:
             return 0
         on_ball = bundle.ball_wrenches[j]
@@ -109,7 +109,7 @@ def _land_forces(bundle, forces):
     for i in range(bundle.lands.size):
         land = bundle.lands[i]
         law, par = guide_law(bundle.laws.guides, land.law), part(bundle.par, land.parameters)
-        land_state(bundle.bodies_now[land.cage], bundle.bodies_now[land.ring], land.offset, g)
+        land_state(bundle.bodies_now[land.cage], bundle.bodies_now[land.ring], land, bundle, g)
         if guide_force(law, par, g, land.viscosity, out, scratch.fault, land.number) != 1:
             return 0
         force = forces[land.number]

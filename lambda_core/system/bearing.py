@@ -268,7 +268,7 @@ class BearingModel:
     links : mapping of str to Link
         Force elements between bodies beside those of the bearing, by name.
     elastic : mapping of str to RingWaves
-        Rings that bend, "inner_ring" before "outer_ring".
+        Rings and cage that bend, in the order of BODIES.
     values : tuple of ResolvedValue
         Every frozen number with its origin.
     """

@@ -121,7 +121,7 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
     oil_level = resolve_oil_level(case.lubricant, lubricant, geometry.ball_diameter, ledger)
     cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, materials["cage"], ledger)
     inertias = _inertias(case, geometry, materials, cage_estimate, ledger)
-    elastic = resolve_elastic(case, geometry, materials, ledger)
+    elastic = resolve_elastic(case, geometry, (cage, inertias["cage"].mass), materials, ledger)
     _check_spins(case, geometry, ledger)
     solver = resolve_solver(case, geometry, laws, ledger, is_static=is_static)
     names = (designation, oil.name, *(material.name for material in materials.values()), cage_row.name)

@@ -32,17 +32,19 @@ def arc_channels(model: BearingModel) -> tuple[Channel, ...]:
 
 
 def wave_channels(model: BearingModel) -> tuple[Channel, ...]:
-    """Return one channel for each number of waves of each elastic ring."""
-    return tuple(
-        Channel(
-            f"{body}_waves_{order}",
-            ("wave",),
-            "m",
-            f"amplitudes of {order} waves round the {BODIES[body].split(' with')[0]}, outwards, in the ring's frame",
-        )
-        for body, waves in model.elastic.items()
-        for order in waves.counts
-    )
+    """Return one channel for each number of waves of each elastic body, then how oval it is."""
+    found = []
+    for body, waves in model.elastic.items():
+        name = BODIES[body].split(" with")[0]
+        found += [
+            Channel(
+                f"{body}_waves_{order}", ("wave",), "m", f"amplitudes of {order} waves round the {name}, outwards, "
+                "in its frame",
+            )
+            for order in waves.counts
+        ]  # fmt: skip
+        found.append(Channel(f"{body}_ovality", (), "m", f"largest less smallest diameter of the bent {name}"))
+    return tuple(found)
 
 
 def result_channels(model: BearingModel) -> tuple[Channel, ...]:

@@ -66,8 +66,12 @@ np.savez(sys.argv[2], dydt=rows, rates=powers)
 
 
 @pytest.mark.parametrize(
-    "name", ["every body free", "no cage", "ring-guided cage", "other laws", "cells", "wavy raceways", "force elements"]
-)
+    "name",
+    [
+        "every body free", "no cage", "ring-guided cage", "elastic ring-guided cage", "other laws", "cells",
+        "wavy raceways", "force elements",
+    ],
+)  # fmt: skip
 def test_right_hand_side(name: str, tmp_path: Path) -> None:
     """Rounding only: sums over cells are taken in another order when they are compiled."""
     m, time = machine(*MODELS[name]), 2e-3

@@ -44,6 +44,7 @@ ELASTIC = (
     "elastic.outer_ring.housing_stiffness=100 N/um", "elastic.outer_ring.orders=4",
     "elastic.inner_ring.housing_stiffness=300 N/um", "elastic.inner_ring.orders=3",
 )  # fmt: skip
+CAGE = ("elastic.cage.orders=4", "elastic.cage.section_height=3 mm", "elastic.cage.section_width=5 mm")
 MODELS: dict[str, tuple[str, ...]] = {
     "force elements": (TIGHT, *ALL_FREE, *LINKS),
     "default": (TIGHT,),
@@ -63,6 +64,14 @@ MODELS: dict[str, tuple[str, ...]] = {
         "bodies.outer_ring.spin.damping=0.02 N m s/rad",
     ),
     "elastic rings": (TIGHT, *ALL_FREE, *ELASTIC),
+    "elastic cage": (TIGHT, *ALL_FREE, *CAGE),
+    "elastic ring-guided cage": (
+        TIGHT, *CAGE, "bodies.cage.guidance=outer ring", "bodies.cage.land_clearance=2 um",
+        "elastic.outer_ring.housing_stiffness=100 N/um", "elastic.outer_ring.orders=3",
+    ),
+    "elastic cage on the inner ring": (
+        TIGHT, *CAGE, "bodies.cage.guidance=inner ring", "bodies.cage.land_clearance=2 um",
+    ),
     "ring-guided cage": (TIGHT, "bodies.cage.guidance=outer ring", "bodies.cage.land_clearance=2 um"),
     "exact Hertz, no friction": (
         TIGHT, "models.normal_contact=hertz-exact", "models.traction=newtonian", "models.rolling_resistance=none",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lambda_core.solver.cage.cage_waves import guide_pushes
 from lambda_core.solver.cage.guides import (
     first_arm,
     guide_force,
@@ -12,7 +13,8 @@ from lambda_core.solver.cage.guides import (
     pocket_apply,
     pocket_state,
 )
-from lambda_core.solver.layout import NB, NS, guide_law, helper, part
+from lambda_core.solver.contact.ring_waves import add_push_slope
+from lambda_core.solver.layout import NB, NS, SVY, SVZ, SY, SZ, guide_law, helper, part
 from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
 from lambda_core.solver.records import BALL, BODY_STATE
 from lambda_core.solver.vec import clear, clear_each
@@ -30,13 +32,14 @@ def pocket_columns(ball, j, row, bundle, bl):
     cage, g, out, fault = bundle.bodies_now[row.cage], scratch.guide, scratch.out[:], scratch.fault
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
     near_ball, near_cage = bl.ball.view(BALL), bl.body.view(BODY_STATE)
-    pocket_state(ball, cage, j, row, g)
+    pocket_state(ball, cage, j, row, bundle, g)
     if guide_force(law, par, g, viscosity, out, fault, -1) != 1:
         return 0
     if _no_force(out):
         return 1
     clear_each(fm)
     pocket_apply(ball, cage, g, out, fm[0], fm[1])
+    guide_pushes(row.waves[0], row.waves[1], g, out, -1.0, bl.pushes[0])
     for k in range(NB + NS):
         near_ball[0] = ball
         near_cage[0] = cage
@@ -46,7 +49,7 @@ def pocket_columns(ball, j, row, bundle, bl):
         else:
             step = body_step(k - NB, True)
             bl.body[k - NB] += step
-        pocket_state(near_ball[0], near_cage[0], j, row, g)
+        pocket_state(near_ball[0], near_cage[0], j, row, bundle, g)
         if guide_force(law, par, g, viscosity, out, fault, -1) != 1:
             return 0
         clear_each(fm[2:])
@@ -54,10 +57,44 @@ def pocket_columns(ball, j, row, bundle, bl):
         if k < NB:
             add_slope(bl.own, k, fm[2], fm[0], step)
             add_slope(bl.from_ball[p], k, fm[3], fm[1], step)
+            _pocket_pushes(row, bundle, bl.from_ball, k, step, bl)
         else:
             column = NS * p + k - NB
             add_slope(bl.to_shared, column, fm[2], fm[0], step)
             add_slope(bl.parts[j, p], column, fm[3], fm[1], step)
+            _pocket_pushes(row, bundle, bl.parts[j], column, step, bl)
+    return _pocket_waves(ball, cage, j, row, law, par, bundle, bl)
+
+
+@helper
+def _pocket_pushes(row, bundle, slopes, column, step, bl):
+    """Add the change of a pocket's push on the waves of its cage, over a step, to one column of their force slopes."""
+    guide_pushes(row.waves[0], row.waves[1], bundle.scratch[0].guide, bundle.scratch[0].out[:], -1.0, bl.pushes[1])
+    for i in range(row.waves[1] - row.waves[0]):
+        p = bl.reach.place[row.number, bundle.waves[row.waves[0] + i].body]
+        add_push_slope(slopes[p], i, column, step, bl.pushes)
+
+
+@helper
+def _pocket_waves(ball, cage, j, row, law, par, bundle, bl):
+    """Add what the waves of an elastic cage change of the pocket of ball j."""
+    scratch, fm, p = bundle.scratch[0], bl.wrenches, bl.reach.place[row.number, row.cage]
+    g, out = scratch.guide, scratch.out[:]
+    for i in range(row.waves[0], row.waves[1]):
+        body = bundle.waves[i].body
+        first = NS * bl.reach.place[row.number, body]
+        for c in (SY, SZ, SVY, SVZ):
+            kept, step = bundle.shared[NS * body + c], body_step(c, True)
+            bundle.shared[NS * body + c] = kept + step
+            pocket_state(ball, cage, j, row, bundle, g)
+            bundle.shared[NS * body + c] = kept
+            if guide_force(law, par, g, row.oil.viscosity, out, scratch.fault, -1) != 1:
+                return 0
+            clear_each(fm[2:])
+            pocket_apply(ball, cage, g, out, fm[2], fm[3])
+            add_slope(bl.to_shared, first + c, fm[2], fm[0], step)
+            add_slope(bl.parts[j, p], first + c, fm[3], fm[1], step)
+            _pocket_pushes(row, bundle, bl.parts[j], first + c, step, bl)
     return 1
 
 
@@ -96,7 +133,7 @@ def _land_columns(land, bundle, bl):
     g, out, fault = scratch.guide, scratch.out[:], scratch.fault
     law, par = guide_law(bundle.laws.guides, land.law), part(bundle.par, land.parameters)
     near_cage, near_ring = bl.body.view(BODY_STATE), bl.body2.view(BODY_STATE)
-    land_state(cage, ring, land.offset, g)
+    land_state(cage, ring, land, bundle, g)
     if guide_force(law, par, g, viscosity, out, fault, land.number) != 1:
         return 0
     if _no_force(out):
@@ -104,6 +141,7 @@ def _land_columns(land, bundle, bl):
     clear(fm[0])
     clear(fm[1])
     land_apply(cage, ring, g, out, fm[0], fm[1])
+    guide_pushes(land.waves[0], land.waves[1], g, out, 1.0, bl.pushes[0])
     for k in range(2 * NS):
         c = k % NS
         column = NS * land.cage + c if k < NS else NS * land.ring + c
@@ -116,14 +154,45 @@ def _land_columns(land, bundle, bl):
             bl.body[c] += step
         else:
             bl.body2[c] += step
-        land_state(near_cage[0], near_ring[0], land.offset, g)
+        land_state(near_cage[0], near_ring[0], land, bundle, g)
         if guide_force(law, par, g, viscosity, out, fault, land.number) != 1:
             return 0
         clear(fm[2])
         clear(fm[3])
         land_apply(near_cage[0], near_ring[0], g, out, fm[2], fm[3])
-        add_slope(bl.shared[land.cage], column, fm[2], fm[0], step)
-        add_slope(bl.shared[land.ring], column, fm[3], fm[1], step)
+        _land_slopes(land, bundle, column, step, bl)
+    return _land_waves(land, cage, ring, law, par, bundle, bl)
+
+
+@helper
+def _land_slopes(land, bundle, column, step, bl):
+    """Add the change of a land's forces on cage, ring and the cage's waves, over a step, to one column."""
+    fm = bl.wrenches
+    add_slope(bl.shared[land.cage], column, fm[2], fm[0], step)
+    add_slope(bl.shared[land.ring], column, fm[3], fm[1], step)
+    guide_pushes(land.waves[0], land.waves[1], bundle.scratch[0].guide, bundle.scratch[0].out[:], 1.0, bl.pushes[1])
+    for i in range(land.waves[1] - land.waves[0]):
+        add_push_slope(bl.shared[bundle.waves[land.waves[0] + i].body], i, column, step, bl.pushes)
+
+
+@helper
+def _land_waves(land, cage, ring, law, par, bundle, bl):
+    """Add what the waves of an elastic cage change of a land."""
+    scratch, fm = bundle.scratch[0], bl.wrenches
+    g, out = scratch.guide, scratch.out[:]
+    for i in range(land.waves[0], land.waves[1]):
+        body = bundle.waves[i].body
+        for c in (SY, SZ, SVY, SVZ):
+            kept, step = bundle.shared[NS * body + c], body_step(c, True)
+            bundle.shared[NS * body + c] = kept + step
+            land_state(cage, ring, land, bundle, g)
+            bundle.shared[NS * body + c] = kept
+            if guide_force(law, par, g, land.viscosity, out, scratch.fault, land.number) != 1:
+                return 0
+            clear(fm[2])
+            clear(fm[3])
+            land_apply(cage, ring, g, out, fm[2], fm[3])
+            _land_slopes(land, bundle, NS * body + c, step, bl)
     return 1
 
 

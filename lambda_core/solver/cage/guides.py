@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from lambda_core.solver.cage.cage_waves import carry_land, carry_pocket
 from lambda_core.solver.contact.contact_kinematics import axis_x
 from lambda_core.solver.faults import CAGE_CONTACT, report
 from lambda_core.solver.layout import helper
@@ -62,7 +63,7 @@ def _project(v, g):
 
 
 @helper
-def pocket_state(ball, cage, j, row, g):
+def pocket_state(ball, cage, j, row, bundle, g):
     """Write position and velocity of the row's ball j relative to its pocket, in the pocket's frame."""
     axis, omega = turning_body(cage)
     write_frame(axis, cage.angle + row.pocket_phase + 2.0 * math.pi * (j - row.first_ball) / row.balls, g)
@@ -74,11 +75,14 @@ def pocket_state(ball, cage, j, row, g):
     v = subtract(subtract(inertial(ball.velocity, c, s), cage.velocity), cross(omega, d))
     store(g.velocity, _project(v, g))
     store(g.rotation, _project(subtract(inertial(ball.spin, c, s), omega), g))
+    if row.waves[1] > row.waves[0]:
+        carry_pocket(row.pocket_phase + 2.0 * math.pi * (j - row.first_ball) / row.balls, row, bundle, g)
 
 
 @helper
-def land_state(cage, ring, offset, g):
+def land_state(cage, ring, land, bundle, g):
     """Write the position of a station of the cage's axis relative to the ring's, and its velocity."""
+    offset = land.offset
     axis, omega = turning_body(cage)
     ring_axis, ring_omega = turning_body(ring)
     write_frame(ring_axis, 0.0, g)
@@ -89,6 +93,8 @@ def land_state(cage, ring, offset, g):
     v = subtract(subtract(add(cage.velocity, cross(omega, station)), ring.velocity), cross(ring_omega, e))
     store(g.velocity, _project(v, g))
     store(g.rotation, _project(subtract(omega, ring_omega), g))
+    if land.waves[1] > land.waves[0]:
+        carry_land(land, cage, bundle, g)
 
 
 @helper

@@ -6,7 +6,7 @@ import numpy as np
 
 from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, surface_lift
 from lambda_core.solver.contact.contact_states import hand_states
-from lambda_core.solver.contact.ring_waves import wave_pushes
+from lambda_core.solver.contact.ring_waves import add_push_slope, wave_pushes
 from lambda_core.solver.contact.tangent import wrench_at
 from lambda_core.solver.layout import NB, NS, STHETA, SVY, SVZ, SY, SZ, helper, raceway_laws
 from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
@@ -79,12 +79,11 @@ def _push_slopes(raceway, r, bundle, slopes, column, step, bl):
 
     The push where it was stands in bl.pushes[0]; scratch holds what is near it.
     """
-    scratch, near = bundle.scratch[0], bl.pushes[1]
-    wave_pushes(raceway, scratch.kinematics[1], scratch.wrench[1], near)
+    scratch = bundle.scratch[0]
+    wave_pushes(raceway, scratch.kinematics[1], scratch.wrench[1], bl.pushes[1])
     for i in range(raceway.waves[1] - raceway.waves[0]):
         p = bl.reach.place[r, bundle.waves[raceway.waves[0] + i].body]
-        slopes[p, 1, column] += (near[2 * i] - bl.pushes[0, 2 * i]) / step
-        slopes[p, 2, column] += (near[2 * i + 1] - bl.pushes[0, 2 * i + 1]) / step
+        add_push_slope(slopes[p], i, column, step, bl.pushes)
 
 
 @helper

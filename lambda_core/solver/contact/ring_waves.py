@@ -1,5 +1,7 @@
 """Elastic rings under contacts: how far their waves carry a raceway outwards, and what contacts do to the waves.
 
+Those of an elastic cage are moved likewise; what its guides do is in cage.cage_waves.
+
 A pattern of n waves stands in the table of bodies like a body on supports: its y and z are the amplitudes of cos(n a)
 and sin(n a), a the azimuth in the ring's material; modal mass, stiffness and damping are those of the body, its kinetic
 and elastic energy and its loss count as those of any other. The radial displacement w = sum of c_n cos(n a) + s_n
@@ -48,10 +50,26 @@ def push_waves(raceway, bundle):
     scratch = bundle.scratch[0]
     pushes = scratch.out[:]
     wave_pushes(raceway, scratch.kinematics[0], scratch.wrench[0], pushes)
-    for i in range(raceway.waves[1] - raceway.waves[0]):
-        force = bundle.body_wrenches[bundle.waves[raceway.waves[0] + i].body].force
+    add_pushes(raceway.waves[0], raceway.waves[1], pushes, bundle)
+
+
+@helper
+def add_pushes(first, last, pushes, bundle):
+    """Add generalised forces to those on the waves first..last."""
+    for i in range(last - first):
+        force = bundle.body_wrenches[bundle.waves[first + i].body].force
         force[1] += pushes[2 * i]
         force[2] += pushes[2 * i + 1]
+
+
+@helper
+def add_push_slope(slopes, i, column, step, pushes):
+    """Add the change of the push on wave i over a step to one column of the slopes of its force, (6, n).
+
+    The push where it was stands in pushes[0], what is near it in pushes[1].
+    """
+    slopes[1, column] += (pushes[1, 2 * i] - pushes[0, 2 * i]) / step
+    slopes[2, column] += (pushes[1, 2 * i + 1] - pushes[0, 2 * i + 1]) / step
 
 
 @helper

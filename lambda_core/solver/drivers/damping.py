@@ -13,7 +13,7 @@ from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
-from lambda_core.solver.drivers.tables import INNER
+from lambda_core.solver.drivers.tables import CAGE, INNER
 from lambda_core.solver.entry import core
 from lambda_core.system.bearing import DofState
 
@@ -24,7 +24,8 @@ _FREED = ("x", "y", "z", "tilt_y", "tilt_z", "spin")
 _STATES = (L.SX, L.SY, L.SZ, L.STHETA, L.SAZ, L.SAY)
 _SIGNS = np.array([1.0, 1.0, 1.0, 0.0, -1.0, 1.0])
 _RATES = (L.SVX, L.SVY, L.SVZ, L.SSIGMA, L.SWY, L.SWZ)
-_MOVING = [L.BX, L.BR, L.BVX, L.BVR, L.BVT, L.BWX, L.BWR, L.BWT]  # of a ball: its azimuth stands still
+_WAVE = (L.SY, L.SZ, L.SVY, L.SVZ)  # of a wave of an elastic ring
+_MOVING = np.array([L.BX, L.BR, L.BVX, L.BVR, L.BVT, L.BWX, L.BWR, L.BWT])  # of a ball: its azimuth stands still
 _LEAST_SHAKE = 1.0  # [rad/s] slowest vibration; slower than balls creep there is nothing that could be called damping
 
 
@@ -32,7 +33,8 @@ def damping_matrix(equilibrium: Equilibrium, frequency: float) -> FloatArray:
     """Return what opposes a vibration of the inner ring against the outer one, in step with its velocity.
 
     The ring is shaken at an angular frequency w; every ball follows by its own linearised motion b' = A b + B u with
-    friction, films, contact damping and inertia, azimuths at rest, the cage left out. The force on the ring is
+    friction, films, contact damping and inertia, azimuths at rest, the cage left out; so do the waves of elastic rings,
+    once the balls are eliminated. The force on the ring is
     -(K + i w C) u; C = Im(-F_u - i w F_u' - F_b (i w - A)^-1 (B_u + i w B_u'))/w.
 
     Parameters
@@ -96,14 +98,36 @@ def _response(context: SolverContext, shake: float) -> NDArray[np.complex128]:
     blocks, body = context.blocks, context.model.inner_ring
     rows = [L.NS * INNER + k for k in _STATES], [L.NS * INNER + k for k in _RATES]
     inertia = np.array([body.mass] * 3 + [body.polar_inertia] + [body.transverse_inertia] * 2)
-    direct = blocks.shared[INNER]
-    total = direct[:, rows[0]] * _SIGNS + 1j * shake * direct[:, rows[1]]
-    own = blocks.reach.index[0]  # the inner ring is the first body that a ball touches, too
+    direct, own = blocks.shared[INNER], blocks.reach.index[0]  # the inner ring is the first body that a ball touches
     states, rates = own[list(_STATES)], own[list(_RATES)]
+    bent, places = _wave_states(context)
+    total = direct[:, rows[0]] * _SIGNS + 1j * shake * direct[:, rows[1]]
+    by_waves = direct[:, bent].astype(complex)
+    slopes, among = blocks.d[blocks.index[bent]], blocks.index
+    on_waves = slopes[:, among[rows[0]]] * _SIGNS + 1j * shake * slopes[:, among[rows[1]]]
+    waves = slopes[:, among[bent]].astype(complex)
     for ball, on_ball, on_ring in zip(blocks.a, blocks.b, blocks.c, strict=True):
         feel = on_ball[np.ix_(_MOVING, states)] * _SIGNS + 1j * shake * on_ball[np.ix_(_MOVING, rates)]
+        feel = np.hstack([feel, on_ball[np.ix_(_MOVING, places)]])
         if not np.any(feel):
-            continue  # the inner ring does not touch this ball
+            continue  # neither the inner ring nor waves touch this ball
         follow = 1j * shake * np.eye(len(_MOVING)) - ball[np.ix_(_MOVING, _MOVING)]
-        total += inertia[:, None] * (on_ring[np.ix_(rates, _MOVING)] @ np.linalg.solve(follow, feel))
+        moves = np.linalg.solve(follow, feel)
+        push = inertia[:, None] * (on_ring[np.ix_(rates, _MOVING)] @ moves)
+        bend = on_ring[np.ix_(places, _MOVING)] @ moves
+        total += push[:, : len(_STATES)]
+        by_waves += push[:, len(_STATES) :]
+        on_waves += bend[:, : len(_STATES)]
+        waves += bend[:, len(_STATES) :]
+    if places.size:
+        total += by_waves @ np.linalg.solve(1j * shake * np.eye(places.size) - waves, on_waves)
     return np.asarray(total)
+
+
+def _wave_states(context: SolverContext) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the states of the waves of elastic rings: among all shared ones, and among those that a ball touches."""
+    rows, reach = context.bundle.waves, context.blocks.reach
+    bodies = rows["body"][rows["ring"] != CAGE]
+    bent = np.array([L.NS * int(body) + k for body in bodies for k in _WAVE], dtype=np.int64)
+    places = [reach.index[0, L.NS * int(reach.place[0, body]) + k] for body in bodies for k in _WAVE]
+    return bent, np.array(places, dtype=np.int64)

@@ -17,7 +17,7 @@ from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.tables import running
-from lambda_core.solver.drivers.wave_tables import wave_amplitudes
+from lambda_core.solver.drivers.wave_tables import wave_values
 from lambda_core.solver.entry import Core
 from lambda_core.solver.sampling import CONTACT_CHANNELS
 from lambda_core.system.state_channels import arc_channels
@@ -109,4 +109,4 @@ def channels_of(
         i = CONTACT_CHANNELS.index(channel.name.removeprefix("arc_"))
         channels[channel.name] = contacts[:, :, :, i].copy()
     tails = states[:n, context.size - context.bundle.states.size :]
-    return channels | channels_of_states(context.model, tails) | wave_amplitudes(everything, context.model)
+    return channels | channels_of_states(context.model, tails) | wave_values(everything, context.model)

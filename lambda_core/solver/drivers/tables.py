@@ -76,15 +76,16 @@ def ball_mass(model: BearingModel) -> float:
 
 
 def build_tables(model: BearingModel, frame: ContactFrame, oils: Oils, terms: NDArray[np.void]) -> Tables:
-    """Return the tables of one bearing: three bodies and those of elastic rings, its rows of balls and its raceways.
+    """Return the tables of one bearing: three bodies and those of elastic ones, its rows of balls and its raceways.
 
     Into `terms`, records.TERM, goes where the laws among them have their parameters.
     """
     parameters = _Parameters(model, frame, oils)
     raceways = _raceways(model, frame, oils, parameters)
     waves = wave_rows(model)
-    give_waves(raceways, waves)
     rows, lands = _rows(model, oils[0], parameters), _lands(model, oils[0], parameters)
+    for table, body in ((raceways, "body"), (rows, "cage"), (lands, "cage")):
+        give_waves(table, body, waves)
     rows["drag"] = parameters.add("fluid_drag", "fluid_drag")
     between = _links(model, parameters)
     for i, element in enumerate(times(model)):
@@ -93,7 +94,7 @@ def build_tables(model: BearingModel, frame: ContactFrame, oils: Oils, terms: ND
     s = system[0]
     s["balls"], s["gravity"] = model.geometry.balls, model.gravity
     s["roll_floor"], s["slip_floor"] = ROLL_FLOOR, SLIP_FLOOR
-    s["surfaces"] = int(raceways["surface_on"].any() or waves.size > 0)
+    s["surfaces"] = int(raceways["surface_on"].any() or np.ptp(raceways["waves"], axis=1).any())
     s["friction_on"], s["guides_on"] = 1, 1
     slots = _keep_states(model, raceways)
     bodies = np.concatenate([_bodies(model), wave_bodies(model)])
@@ -188,7 +189,8 @@ def _lands(model: BearingModel, oil: Oil, parameters: _Parameters) -> Any:
             continue
         for side in (-1, 1):
             offset = side * (0.5 * model.cage.width)
-            stations.append((CAGE, (INNER, OUTER)[number], number, 1 + number, offset, oil.viscosity, span))
+            ring, facing = (INNER, OUTER)[number], (-1.0, 1.0)[number]
+            stations.append((CAGE, ring, number, 1 + number, offset, oil.viscosity, span, facing, (0, 0)))
     return np.array(stations, R.LAND)
 
 

@@ -1,6 +1,6 @@
-"""Waves of elastic rings as rows of the tables of compiled code, and as channels of a result.
+"""Waves of elastic rings and cages as rows of the tables of compiled code, and as channels of a result.
 
-Behind the bodies of a bearing stands one for each number of waves of each elastic ring: its y and z are the amplitudes
+Behind the bodies of a bearing stands one for each number of waves of each elastic body: its y and z are the amplitudes
 of cosine and sine, on supports as stiff and damped as the wave, and no weight.
 """
 
@@ -13,18 +13,18 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, BodyName
-from lambda_core.elastic.ring import RingWaves
+from lambda_core.elastic.ring import RingWaves, ovality
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.system.bearing import BearingModel
-from lambda_core.system.state_channels import wave_channels
 
 _AMPLITUDES = (L.SY, L.SZ)
 _RATES = (L.SVY, L.SVZ)
+_CAGE = list(BODIES).index("cage")
 
 
 def waves_of(model: BearingModel) -> list[tuple[int, int, RingWaves]]:
-    """Return ring (number of its body), order and ring of every wave, in the order of their bodies."""
+    """Return ring or cage (number of its body), order and waves of every wave, in the order of their bodies."""
     bodies = list(BODIES)
     return [(bodies.index(body), n, waves) for body, waves in model.elastic.items() for n in waves.counts]
 
@@ -42,7 +42,8 @@ def wave_bodies(model: BearingModel) -> Any:
     """Return the bodies of the waves, records.BODY."""
     found = waves_of(model)
     rows = np.zeros(len(found), R.BODY)
-    for row, (_, order, waves) in zip(rows, found, strict=True):
+    for row, (ring, order, waves) in zip(rows, found, strict=True):
+        row["is_cage"] = ring == _CAGE
         row["mass"], row["transverse_inertia"], row["polar_inertia"] = waves.ring.mass(order), 1.0, 1.0
         row["mode"], row["moves"] = R.LOCKED, 1
         for axis in _AMPLITUDES:
@@ -51,11 +52,11 @@ def wave_bodies(model: BearingModel) -> Any:
     return rows
 
 
-def give_waves(raceways: Any, waves: Any) -> None:
-    """Write where the waves of its ring stand into every raceway."""
-    for raceway in raceways:
-        own = np.flatnonzero(waves["ring"] == raceway["body"])
-        raceway["waves"] = (own[0], own[-1] + 1) if own.size else (0, 0)
+def give_waves(table: Any, body: str, waves: Any) -> None:
+    """Write into every row of a table where the waves of its elastic body stand, which is named in a field."""
+    for row in table:
+        own = np.flatnonzero(waves["ring"] == row[body])
+        row["waves"] = (own[0], own[-1] + 1) if own.size else (0, 0)
 
 
 def wave_states(model: BearingModel) -> list[int]:
@@ -77,17 +78,26 @@ def weightless(model: BearingModel, per_body: int, force: int) -> NDArray[np.voi
 
 
 def waves_at(bundle: L.Bundle, model: BearingModel, free: FloatArray) -> dict[BodyName, FloatArray]:
-    """Return the amplitudes of every elastic ring, shape (orders, 2) [m], from the free entries of the shared state."""
-    bodies = np.zeros(bundle.bodies.size, R.BODY_STATE)
-    bodies.view(np.float64)[bundle.active] = free
+    """Return the amplitudes of every elastic body, shape (orders, 2) [m], from free entries of the shared state."""
+    bodies = np.zeros((1, bundle.bodies.size), R.BODY_STATE)
+    bodies[0].view(np.float64)[bundle.active] = free
+    return {body: amplitudes[0] for body, amplitudes in _amplitudes(bodies, model).items()}
+
+
+def _amplitudes(bodies: Any, model: BearingModel) -> dict[BodyName, FloatArray]:
+    """Return the amplitudes of every elastic body, shape (n, orders, 2) [m], from states, shape (n, bodies)."""
     first, found = len(BODIES), {}
     for body, waves in model.elastic.items():
-        found[body] = bodies["position"][first : first + len(waves.counts), 1:].copy()
+        found[body] = bodies["position"][:, first : first + len(waves.counts), 1:].copy()
         first += len(waves.counts)
     return found
 
 
-def wave_amplitudes(bodies: Any, model: BearingModel) -> dict[str, FloatArray]:
-    """Return the channels of waves from states of bodies, records.BODY_STATE of shape (n, bodies)."""
-    first = len(BODIES)
-    return {channel.name: bodies["position"][:, first + i, 1:].copy() for i, channel in enumerate(wave_channels(model))}
+def wave_values(bodies: Any, model: BearingModel) -> dict[str, FloatArray]:
+    """Return the channels of elastic bodies from states of bodies, records.BODY_STATE of shape (n, bodies)."""
+    found: dict[str, FloatArray] = {}
+    for body, amplitudes in _amplitudes(bodies, model).items():
+        for i, order in enumerate(model.elastic[body].counts):
+            found[f"{body}_waves_{order}"] = amplitudes[:, i].copy()
+        found[f"{body}_ovality"] = ovality(amplitudes)
+    return found

@@ -1,6 +1,6 @@
 """Which bodies, and so which columns of the Jacobian, the balls of each row reach.
 
-A ball touches the raceways of its row, the waves of their rings and its cage and nothing else, so its blocks hold the
+A ball touches the raceways of its row and its cage, the waves of all of them and nothing else, so its blocks hold the
 columns of those bodies alone: the *own* bodies of its row. Numbers among them are places; a row with fewer than the
 widest leaves the rest unused.
 """
@@ -37,7 +37,10 @@ def _own_bodies(bundle: Any, row: Any) -> list[int]:
     raceways = bundle.raceways[begin : begin + int(row["raceways"])]
     touched = {int(body) for body in raceways["body"]}
     touched |= {int(body) for first, last in raceways["waves"] for body in bundle.waves["body"][first:last]}
-    return sorted(touched | ({int(row["cage"])} if row["caged"] else set()))
+    if row["caged"]:
+        first, last = row["waves"]
+        touched |= {int(row["cage"]), *bundle.waves["body"][first:last].tolist()}
+    return sorted(touched)
 
 
 def make_reach(bundle: Any) -> Reach:

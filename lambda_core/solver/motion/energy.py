@@ -62,7 +62,7 @@ def _guide_energy(balls, j, row, bundle):
     scratch, ball, start = bundle.scratch[0], balls[j], 0.0
     g = scratch.guide
     if row.caged == 1:
-        pocket_state(ball, bundle.bodies_now[row.cage], j, row, g)
+        pocket_state(ball, bundle.bodies_now[row.cage], j, row, bundle, g)
     else:
         neighbour_state(ball, balls[row.first_ball + (j - row.first_ball + 1) % row.balls], g)
         start = max(1.0, 2.0 * row.ball_radius / length(g.place))
@@ -90,7 +90,7 @@ def _land_energy(land, bundle):
     """Return the elastic energy of one station of a land [J]."""
     scratch = bundle.scratch[0]
     law, par = guide_law(bundle.laws.guides, land.law), part(bundle.par, land.parameters)
-    land_state(bundle.bodies_now[land.cage], bundle.bodies_now[land.ring], land.offset, scratch.guide)
+    land_state(bundle.bodies_now[land.cage], bundle.bodies_now[land.ring], land, bundle, scratch.guide)
     return guide_energy(law, par, scratch.guide, land.viscosity, scratch.out[:], scratch.at_rest, 0.0)
 
 

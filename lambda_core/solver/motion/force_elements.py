@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from lambda_core.solver.cage.cage_waves import push_cage
 from lambda_core.solver.cage.guides import (
     first_arm,
     guide_force,
@@ -120,7 +121,7 @@ def cage_forces(balls, row, bundle, running, want):
         j, k = row.first_ball + i, row.first_ball + (i + 1) % row.balls
         ball, other = balls[j], balls[k]
         if row.caged == 1:
-            pocket_state(ball, cage, j, row, g)
+            pocket_state(ball, cage, j, row, bundle, g)
         else:
             neighbour_state(ball, other, g)
         if guide_force(law, par, g, viscosity, out, fault, -1) != 1:
@@ -130,6 +131,8 @@ def cage_forces(balls, row, bundle, running, want):
         if row.caged == 1:
             running.pocket += lost
             pocket_apply(ball, cage, g, out, bundle.ball_wrenches[j], on_cage)
+            if row.waves[1] > row.waves[0]:
+                push_cage(row.waves[0], row.waves[1], -1.0, bundle)
         else:
             running.land += lost
             neighbour_apply(ball.azimuth, first_arm(g, out), out, 1.0, bundle.ball_wrenches[j])
@@ -146,10 +149,12 @@ def land_forces(bundle, running, want):
         land = bundle.lands[i]
         cage, ring = bundle.bodies_now[land.cage], bundle.bodies_now[land.ring]
         law, par = guide_law(bundle.laws.guides, land.law), part(bundle.par, land.parameters)
-        land_state(cage, ring, land.offset, g)
+        land_state(cage, ring, land, bundle, g)
         if guide_force(law, par, g, land.viscosity, out, fault, land.number) != 1:
             return 0
         if want == 1:
             running.land += guide_loss(law, par, g, land.viscosity, out, scratch.at_rest)
         land_apply(cage, ring, g, out, bundle.body_wrenches[land.cage], bundle.body_wrenches[land.ring])
+        if land.waves[1] > land.waves[0]:
+            push_cage(land.waves[0], land.waves[1], 1.0, bundle)
     return 1

@@ -1,0 +1,133 @@
+"""Elastic rings and cages of the bearings of a shaft: one bearing in a whole against the same alone, run, balance."""
+
+from __future__ import annotations
+
+import copy
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lambda_core import api
+from lambda_core.domain.errors import CaseError
+from lambda_core.results.quasistatic import QuasiStatic
+from lambda_core.shaft.resolving import check_shaft
+from lambda_core.shaft.shaft_equilibrium import solve_shaft
+from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.entry import core
+
+SOFT = {"housing_stiffness": "100 N/um", "orders": 4}
+CAGE = {"orders": 3, "section_height": "3 mm", "section_width": "8 mm"}
+COMMON: dict[str, Any] = {
+    "operation": {"speed": "3000 rpm"},
+    "lubricant": {"name": "FVA3", "temperature": "70 degC"},
+    "gravity": {"z": "0 m/s2"},
+}
+BEARING = {"designation": "SKF 6319", "clearance": "CN"}
+ONE: dict[str, Any] = {
+    **COMMON,
+    "name": "one",
+    "shaft": {"sections": [{"length": "40 mm", "diameter": "95 mm"}], "drive": "20 mm"},
+    "bearings": {"only": {**BEARING, "position": "20 mm", "elastic": {"outer_ring": SOFT, "cage": CAGE}}},
+    "loads": {"pull": {"position": "20 mm", "force_z": "-16 kN"}},
+}
+
+
+def alone(**elastic: Any) -> api.BearingModel:
+    """Return the bearing of that shaft in a case of its own, with the shaft's mass."""
+    body = check_shaft(ONE).body
+    return api.check({
+        **COMMON, "name": "alone", "bearing": BEARING, "elastic": elastic, "loads": {"radial": "16 kN"},
+        "bodies": {"inner_ring": {"shaft_mass": f"{body.total_mass:.12g} kg"}},
+    })  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def whole() -> WholeEngine:
+    """Return the shaft in its one bearing at the beginning of its motion."""
+    return WholeEngine(check_shaft(ONE))
+
+
+def test_equilibrium_of_one_bearing(whole: WholeEngine) -> None:
+    """Pose as in a case of that bearing alone, whose balls' friction moves it by 6e-5, elastic or rigid: 1e-4."""
+    found: QuasiStatic = api.quasistatic(alone(outer_ring=SOFT))
+    pose = whole.start.pose(whole.model, 0)
+    assert 1e6 * pose[2] == pytest.approx(found.inner_ring_displacement_um[2], rel=1e-4)
+    rigid = copy.deepcopy(ONE)
+    del rigid["bearings"]["only"]["elastic"]
+    stiff = solve_shaft(check_shaft(rigid))
+    assert stiff.pose(check_shaft(rigid), 0)[2] > 1.05 * pose[2]  # down; the soft one goes further
+    assert whole.start.stiffness[0][2, 2] < 0.8 * stiff.stiffness[0][2, 2]
+
+
+def test_motion_of_one_bearing(whole: WholeEngine) -> None:
+    """After 2 ms ring, balls and waves are where those of the bearing alone are, 1 % of the largest, as far as the equilibria differ."""
+    one = BearingEngine(alone(outer_ring=SOFT, cage=CAGE))
+    engine = WholeEngine(whole.model)
+    assert one.advance(2e-3).ok
+    assert engine.advance(2e-3).ok
+    samples, other = engine.samples(), one.samples()
+    assert samples is not None
+    (both,) = samples.each
+    for name in ("outer_ring_waves_2", "outer_ring_waves_3", "outer_ring_ovality", "load", "ball_azimuth"):
+        times, values = both["time"], both[name].reshape(both["time"].size, -1)
+        reference = other[name].reshape(other["time"].size, -1)
+        at = np.stack([np.interp(times, other["time"], column) for column in reference.T], axis=1)
+        assert np.abs(values - at).max() < 1e-2 * np.abs(reference).max(), name
+
+
+def test_a_bearing_of_the_whole_moves_as_it_does_alone(whole: WholeEngine) -> None:
+    """Balls and waves of both rings and the cage feel the same bits as in a model of that bearing alone."""
+    changed = copy.deepcopy(ONE)
+    parts = {"inner_ring": SOFT, "outer_ring": SOFT, "cage": CAGE}
+    changed["shaft"] = {"sections": [{"length": "300 mm", "diameter": "95 mm"}]}
+    changed["bearings"] = {
+        name: {**BEARING, "position": place, "elastic": parts} for name, place in (("a", "40 mm"), ("b", "260 mm"))
+    }
+    changed["bearings"]["b"]["support"] = {"x": "free"}
+    changed["loads"] = {"pull": {"position": "120 mm", "force_z": "-25 kN"}}
+    changed["discs"] = {
+        "wheel": {"position": "150 mm", "mass": "5 kg", "unbalance": "1 kg mm", "unbalance_angle": "50 deg"}
+    }
+    engine = WholeEngine(check_shaft(changed))
+    y, bundle = engine._memory.y, engine._bundle
+    dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))
+    assert core().evaluate(0.0, y, bundle, dydt, rates, 1) == 1
+    bodies = engine._bodies(y.reshape(1, -1), np.zeros(1)).reshape(-1, L.NS)
+    slopes = np.array(bundle.shared_rates).reshape(-1, L.NS)
+    for part in engine.parts:
+        one = part.alone
+        balls = slice(L.NB * part.first_ball, L.NB * (part.first_ball + part.balls))
+        own = np.concatenate([y[balls], bodies[list(part.bodies)].ravel()[one.bundle.active], one.bundle.states])
+        slope, powers = np.zeros(own.size), np.zeros(L.power_count(one.bundle))
+        assert core().evaluate(0.0, own, one.bundle, slope, powers, 1) == 1
+        assert np.array_equal(slope[: L.NB * part.balls], dydt[balls])
+        waves = np.array(one.bundle.shared_rates).reshape(-1, L.NS)[3:]
+        assert np.array_equal(waves, slopes[list(part.bodies[3:])])
+    # the start: waves of the outer rings rest, but for those of the equilibrium whose balls' friction was left out
+    outer = [body for part in engine.parts for body in part.bodies[6 : 6 + 3]]
+    assert np.abs(bodies[outer][:, [L.SY, L.SZ]]).max() > 1e-6
+
+
+def test_balance_of_a_run() -> None:
+    """What is put in is dissipated or stored to 1e-3; the waves' dampers count to their bearing."""
+    engine = WholeEngine(check_shaft(ONE))
+    assert engine.advance(6e-3).ok
+    (row,) = engine.integrals()
+    losses = {name: value for name, value in row.items() if name.startswith("loss")}
+    assert abs(row["input"] - sum(losses.values()) - row["stored"]) < 1e-3 * row["input_abs"]
+    assert losses["loss.support"] > 0.0
+    assert math.isfinite(row["stored"])
+
+
+def test_a_mistake_is_named_where_it_stands() -> None:
+    changed = copy.deepcopy(ONE)
+    changed["bearings"]["only"]["elastic"]["outer_ring"] = {"orders": 3}
+    with pytest.raises(CaseError, match=r"bearings\.only\.elastic\.outer_ring\.housing_stiffness"):
+        check_shaft(changed)
+    changed["bearings"]["only"]["elastic"] = {"cage": {"section_height": "400 mm"}}
+    with pytest.raises(CaseError, match=r"bearings\.only\.elastic\.cage\.section_height"):
+        check_shaft(changed)
