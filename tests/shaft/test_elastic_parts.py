@@ -64,7 +64,7 @@ def test_equilibrium_of_one_bearing(whole: WholeEngine) -> None:
 
 
 def test_motion_of_one_bearing(whole: WholeEngine) -> None:
-    """After 2 ms ring, balls and waves are where those of the bearing alone are, 1 % of the largest, as far as the equilibria differ."""
+    """For 2 ms balls and waves are where those of the bearing alone are, 1 % of the largest: their starts differ."""
     one = BearingEngine(alone(outer_ring=SOFT, cage=CAGE))
     engine = WholeEngine(whole.model)
     assert one.advance(2e-3).ok
