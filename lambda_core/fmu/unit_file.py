@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import zipfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -69,7 +70,7 @@ def export_fmu(
     platforms : iterable of str
         Systems that the FMU has a library for: "linux", "windows", "linux-arm", "mac-arm", "mac-intel". All but Linux
         are built by the compiler of the extra ``fmu``; with one of them functions of mathematics are the program's
-        own, which give equal bits on every system on x86-64.
+        own, and every operation is rounded for itself: all have the same bits.
     processor : str
         The least processor of x86-64 that runs it: "x86-64-v3" (default), "x86-64-v2", "x86-64-v4", or "native".
     force : bool
@@ -178,8 +179,12 @@ def write(task: Mapping[str, Any], announce: Callable[[str], None] | None = None
     )
     with tempfile.TemporaryDirectory(prefix="lambda-bearing-") as made:
         files = {"modelDescription.xml": description(about, seen, fmi), "resources/case.toml": text.encode()}
-        for platform in task["platforms"]:
-            library = build(parts, f"fmi{fmi}", Path(made), about.identifier, platform)
+        names = task["platforms"]
+        with ThreadPoolExecutor() as compilers:
+            built = list(
+                compilers.map(lambda each: build(parts, f"fmi{fmi}", Path(made), about.identifier, each), names)
+            )
+        for platform, library in zip(names, built, strict=True):
             files[f"binaries/{PLATFORMS[platform].folders[fmi]}/{library.name}"] = library.read_bytes()
     _zip(files, Path(task["out"]))
 

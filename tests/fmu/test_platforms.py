@@ -128,8 +128,9 @@ def ran(command: list[str], unit: Any, library: Path, environment: dict[str, str
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(1500)
 def test_other_systems_run_it(host: Any, tmp_path: Path) -> None:
-    """Windows under Wine with the bits of Linux; ARM under QEMU, which fuses other products: the last digits differ."""
+    """Windows under Wine and ARM under QEMU have the bits of Linux; libraries for macOS are built and not run."""
     pytest.importorskip("ziglang", reason="the extra fmu is not installed")
     chosen = ["linux", "windows", "linux-arm", "mac-arm", "mac-intel"]
     file = api.export_fmu(CASE, CHANGES, out=tmp_path / "all.fmu", platforms=chosen, processor="native")
@@ -158,7 +159,7 @@ def test_other_systems_run_it(host: Any, tmp_path: Path) -> None:
         built = tmp_path / "host_arm"
         subprocess.run([*zig, "-target", PLATFORMS["linux-arm"].zig, source, "-o", str(built), "-ldl"], check=True)
         there = ran([emulator, "-L", str(libraries), str(built)], unit, library("linux-arm"), {})
-        assert np.array(there) == pytest.approx(np.array(here), rel=1e-3)
+        assert there == here
         tried += 1
     if not tried:
         pytest.skip("neither Wine nor QEMU with the C library of ARM is installed")

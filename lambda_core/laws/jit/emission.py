@@ -11,6 +11,10 @@ from numba.core.registry import cpu_target
 
 # How references are counted down on one kind of processor, in a form that all have.
 _COUNT_DOWN = re.compile(r"^declare i8 @llvm\.x86\.atomic\.sub\.cc\.i64\(.*$", re.MULTILINE)
+# Leave to round products and sums as one, or sums in another order: each kind of processor takes it otherwise.
+_LEAVES = re.compile(
+    r"\b(f(?:add|sub|mul|div|rem|neg|cmp)|call|select|phi)((?: (?:reassoc|nnan|ninf|nsz|arcp|contract|afn|fast))+) "
+)
 _COUNTED_DOWN = """define internal i8 @lb_count_down(ptr %at, i64 %by, i32 %flag) {
   %before = atomicrmw sub ptr %at, i64 %by seq_cst
   %last = icmp eq i64 %before, %by
@@ -54,6 +58,11 @@ def machine_code(whole: Any, target: Target) -> bytes:
         whole = llvm.parse_assembly(text if target.is_x86 else _without_x86(text))
     made: bytes = machine.emit_object(whole)
     return made
+
+
+def exact(whole: Any) -> Any:
+    """Return a module whose arithmetic is that of IEEE 754 as it is written, so that every processor has its bits."""
+    return llvm.parse_assembly(_LEAVES.sub(r"\1 ", str(whole)))
 
 
 def _without_x86(text: str) -> str:

@@ -25,7 +25,7 @@ from numba.core import types
 from numba.core.registry import cpu_target
 
 from lambda_core.domain.errors import SolverError, UsageError
-from lambda_core.laws.jit.emission import Target, machine_code
+from lambda_core.laws.jit.emission import Target, exact, machine_code
 from lambda_core.laws.jit.machine_code import Pointer, environment_key
 from lambda_core.laws.jit.plain import is_plain
 
@@ -105,7 +105,7 @@ def object_codes(
     cache : Path
         Folder of compiled code: what was made once of the same functions is kept there.
     alike : bool
-        Whether functions that systems compute differently are refused.
+        Whether the code is to have the same bits on every system: functions that they compute differently are refused.
 
     Raises
     ------
@@ -120,9 +120,7 @@ def object_codes(
         with suppress(OSError):
             made.append(kept.read_bytes())
             continue
-        whole = whole or _linked(entries, table, pointers)
-        if alike:
-            _refuse_unlike(whole)
+        whole = whole or _linked(entries, table, pointers, alike=alike)
         made.append(machine_code(whole, target))
         with suppress(OSError):  # a cache that cannot be written costs time only
             folder.mkdir(parents=True, exist_ok=True)
@@ -132,7 +130,7 @@ def object_codes(
     return made
 
 
-def _linked(entries: Sequence[Entry], table: Sequence[Pointer], pointers: Sequence[Pointer]) -> Any:
+def _linked(entries: Sequence[Entry], table: Sequence[Pointer], pointers: Sequence[Pointer], *, alike: bool) -> Any:
     """Return everything in one module, without Python."""
     codegen = cpu_target.target_context.codegen()
     whole = llvm.parse_assembly(_head(codegen))
@@ -145,7 +143,10 @@ def _linked(entries: Sequence[Entry], table: Sequence[Pointer], pointers: Sequen
     for name in ("lb_functions", *(entry.name for entry in entries)):
         _within(whole, name)
     whole.verify()
-    return whole
+    if not alike:
+        return whole
+    _refuse_unlike(whole)
+    return exact(whole)
 
 
 def _refuse_unlike(whole: Any) -> None:
@@ -178,7 +179,8 @@ def _head(codegen: Any) -> str:
 
 def _content(entries: Sequence[Entry], pointers: Iterable[Pointer]) -> str:
     """Return a hash of all that goes into the object file."""
-    digest = hashlib.sha256(environment_key().encode() + Path(__file__).read_bytes())
+    made_by = b"".join(file.read_bytes() for file in (Path(__file__), Path(__file__).with_name("emission.py")))
+    digest = hashlib.sha256(environment_key().encode() + made_by)
     digest.update(repr([(entry.name, entry.arguments) for entry in entries]).encode())
     for pointer in pointers:
         digest.update(_compiled(pointer).library._get_module_for_linking().as_bitcode())
