@@ -75,10 +75,12 @@ def _bearing(row: Row) -> Iterator[Finding]:
         return
     uprating = UPRATED if is_uprated(row["rating_type"]) else 1.0
     size, angle = (count, ball * 1e-3, pitch * 1e-3), math.radians(row["contact_angle_deg"] or 0.0)
-    rows = rated_rows(row)
+    rows, aligning = rated_rows(row), row["kind"] == "self-aligning"
     computed = {
-        "dynamic_rating": dynamic_rating(*size, contact_angle=angle, rows=rows) * uprating,
-        "static_rating": static_rating(*size, contact_angle=angle, outer_conformity=0.52, rows=rows),
+        "dynamic_rating": dynamic_rating(*size, contact_angle=angle, rows=rows, self_aligning=aligning) * uprating,
+        "static_rating": static_rating(
+            *size, contact_angle=angle, outer_conformity=0.52, rows=rows, self_aligning=aligning
+        ),
     }
     for name, expected in computed.items():
         printed = row[f"{name}_kN"]

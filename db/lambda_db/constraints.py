@@ -6,7 +6,16 @@ from sqlalchemy import CheckConstraint
 
 GRADES = ("A", "A-", "B", "B-", "C", "D")
 STATUSES = ("published", "derived", "assumed")
-KINDS = ("angular contact", "four-point")  # of bearings; a row that names none is a deep groove ball bearing
+# Groups of columns of a bearing that have a grade, and those that have a status.
+_RATED = ("dynamic_rating", "static_rating")
+_GRADED = ("dimensions", *_RATED, "catalogue", "geometry", "groove", "shoulder", "angle", "row_distance")
+_WITH_STATUS = (*_RATED, "geometry", "groove", "row_distance")
+KINDS = (
+    "angular contact",
+    "four-point",
+    "double row",
+    "self-aligning",
+)  # of bearings; a row that names none is a deep groove ball bearing
 
 
 def check(name: str, condition: str, sentence: str) -> CheckConstraint:
@@ -16,6 +25,16 @@ def check(name: str, condition: str, sentence: str) -> CheckConstraint:
 def one_of(column: str, choices: tuple[str, ...]) -> CheckConstraint:
     listed = ", ".join(f"'{choice}'" for choice in choices)
     return check(f"{column}_known", f"{column} IN ({listed})", f"{column} must be one of {', '.join(choices)}")
+
+
+def grade() -> CheckConstraint:
+    """Require a known grade of a row."""
+    return one_of("grade", GRADES)
+
+
+def status() -> CheckConstraint:
+    """Require a known status of a row."""
+    return one_of("status", STATUSES)
 
 
 def named(*columns: str) -> list[CheckConstraint]:
@@ -44,9 +63,21 @@ def kinds() -> list[CheckConstraint]:
         check(
             "angle_of_kind",
             "(kind IS NULL) = (contact_angle_deg IS NULL) AND coalesce(contact_angle_deg, 45) BETWEEN 1 AND 45",
-            'contact_angle_deg, 1 to 45, belongs to the kinds "angular contact" and "four-point", which need it',
+            "contact_angle_deg, 1 to 45, belongs to every kind but deep groove, and each needs it",
+        ),
+        together("row_distance", ("row_distance_mm",)),
+        check(
+            "row_distance_of_kind",
+            "(row_distance_mm IS NULL) = (coalesce(kind, '') <> 'double row') AND coalesce(row_distance_mm, 1) > 0",
+            'row_distance_mm, above 0, belongs to the kind "double row", which needs it',
         ),
     ]
+
+
+def graded() -> list[CheckConstraint]:
+    """Require known grades and statuses of a bearing's values."""
+    grades = [one_of(f"{group}_grade", GRADES) for group in _GRADED]
+    return grades + [one_of(f"{group}_status", STATUSES) for group in _WITH_STATUS]
 
 
 # Constraint's name -> pattern of the property or parameter names that it rules.

@@ -9,11 +9,14 @@ A candidate (Z, D_w) on the pitch circle is scored by squared residuals over the
   maker's uprated one after division by 1.05;
 - Conrad assembly: the balls are filled into the sickle between eccentric rings, so that they span
   2 (Z - 1) asin(D_w/D_pw) = 188 +- 5 deg, never more than 200 deg; angular contact bearings are filled over a low
-  shoulder, and hold as many balls as leave room for the cage: 283 +- 18 deg, never more than 330 deg;
+  shoulder, and hold as many balls as leave room for the cage: 283 +- 18 deg, never more than 330 deg; the rings of
+  self-aligning ones are swivelled out for it: 278 +- 18 deg, never more than 335 deg; double row ones without
+  filling slots are filled like deep groove ones;
 - shoulder diameters, where printed and equal on both sides: D_1 - d_1 = 1.21 D_w within 6 %.
 
 The contact angle alpha stands in both ratings: gamma = D_w cos(alpha)/D_pw, C_0 times cos(alpha), C times
-(cos alpha)^0.7. Four-point contact, whose inner ring is split, is filled without end, and rated as two rows.
+(cos alpha)^0.7. Four-point contact, whose inner ring is split, is filled without end, and rated as two rows. Of
+self-aligning bearings f_0 and f_c are those of the spherical outer raceway.
 
 Only ratings of the same maker enter: another maker's balls differ. Weights are exp(-score/2) over the ranked
 candidates. Lengths in mm, ratings in N inside this module.
@@ -26,7 +29,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lambda_core.domain.ratings import dynamic_factor
+from lambda_core.domain.ratings import dynamic_factor, self_aligning_factor, static_factor
 from lambda_db.standards import iso76_f0, standard_balls
 
 FILLING_ANGLE = (188.0, 5.0)  # mean and standard deviation [deg]
@@ -35,6 +38,8 @@ FILLING_LIMIT = 200.0  # [deg]
 COUNTERBORED_ANGLE, COUNTERBORED_LIMIT = (283.0, 18.0), 330.0
 # Of four-point contact: the same of the designs that fit SKF's ratings of QJ 2 and QJ 3 (46 bearings).
 SPLIT_ANGLE, SPLIT_LIMIT = (302.0, 24.0), 345.0
+# Of self-aligning bearings: the same of those that fit SKF's ratings of 12, 13, 22 and 23 (86 bearings).
+SWIVELLED_ANGLE, SWIVELLED_LIMIT = (278.0, 18.0), 335.0
 SHOULDER_RATIO = (1.21, 0.06)  # (D_1 - d_1)/D_w, mean and relative standard deviation
 STATIC_DEVIATION = 0.01
 DYNAMIC_DEVIATION = {"iso": 0.02, "uprated": 0.03}
@@ -64,10 +69,15 @@ class Printed:
     known_pitch: float | None = None
     contact_angle: float = 0.0  # [rad]
     rows: int = 1  # by which it is rated: two of four-point contact
+    kind: str = ""  # as in the table of bearings
 
     @property
     def filling(self) -> tuple[float, float, float]:
         """Mean, standard deviation and limit of the filling angle [deg]."""
+        if self.kind == "self-aligning":
+            return (*SWIVELLED_ANGLE, SWIVELLED_LIMIT)
+        if self.kind == "double row":
+            return (*FILLING_ANGLE, FILLING_LIMIT)
         if self.rows == 2:
             return (*SPLIT_ANGLE, SPLIT_LIMIT)
         return (*COUNTERBORED_ANGLE, COUNTERBORED_LIMIT) if self.contact_angle else (*FILLING_ANGLE, FILLING_LIMIT)
@@ -108,35 +118,56 @@ def filling_angle(ball_count: int | Array, ball_diameter: float | Array, pitch_d
 
 
 def static_rating_of(
-    ball_count: Array, ball_diameter: Array, pitch_diameter: float, contact_angle: float = 0.0, rows: int = 1
+    ball_count: Array,
+    ball_diameter: Array,
+    pitch_diameter: float,
+    contact_angle: float = 0.0,
+    rows: int = 1,
+    *,
+    self_aligning: bool = False,
 ) -> Array:
-    """C_0 = f_0 i Z D_w^2 cos(alpha) [N], f_0 interpolated for conformities 0.52/0.52."""
+    """C_0 = f_0 i Z D_w^2 cos(alpha) [N], f_0 interpolated for conformities 0.52/0.52, or of the sphere."""
     cosine = np.cos(contact_angle)
-    factor = np.interp(ball_diameter * cosine / pitch_diameter, *iso76_f0(both_052=True))
+    gamma = ball_diameter * cosine / pitch_diameter
+    if self_aligning:
+        values, index = np.unique(gamma, return_inverse=True)
+        factor = np.array([static_factor(float(value), self_aligning=True) for value in values])[index]
+    else:
+        factor = np.interp(gamma, *iso76_f0(both_052=True))
     return np.asarray(rows * factor * ball_count * ball_diameter**2 * cosine)
 
 
 def dynamic_rating_of(
-    ball_count: Array, ball_diameter: Array, pitch_diameter: float, contact_angle: float = 0.0, rows: int = 1
+    ball_count: Array,
+    ball_diameter: Array,
+    pitch_diameter: float,
+    contact_angle: float = 0.0,
+    rows: int = 1,
+    *,
+    self_aligning: bool = False,
 ) -> Array:
     """C = b_m f_c (i cos alpha)^0.7 Z^(2/3) D_w^1.8 (3.647 D_w^1.4 above 25.4 mm) [N], b_m = 1.3 (ISO 281)."""
     balls, index = np.unique(ball_diameter, return_inverse=True)
     cosine = float(np.cos(contact_angle))
-    factors = np.array([dynamic_factor(float(ball) * cosine / pitch_diameter) for ball in balls])[index]
+    factor_of = self_aligning_factor if self_aligning else dynamic_factor
+    factors = np.array([factor_of(float(ball) * cosine / pitch_diameter) for ball in balls])[index]
     size = np.where(ball_diameter <= 25.4, ball_diameter**1.8, 3.647 * ball_diameter**1.4)
     return np.asarray(rows**0.7 * 1.3 * factors * cosine**0.7 * ball_count ** (2.0 / 3.0) * size)
 
 
 def _score(printed: Printed, count: Array, ball: Array, pitch: float) -> Array:
-    (mean, deviation, _), angle, rows = printed.filling, printed.contact_angle, printed.rows
+    (mean, deviation, _), angle = printed.filling, printed.contact_angle
+    kind, aligning = (angle, printed.rows), printed.kind == "self-aligning"
     score = ((filling_angle(count, ball, pitch) - mean) / deviation) ** 2
     if printed.static_rating is not None:
         scatter = max(STATIC_DEVIATION, printed.static_rounding)
-        score += (np.log(static_rating_of(count, ball, pitch, angle, rows) / printed.static_rating) / scatter) ** 2
+        static = static_rating_of(count, ball, pitch, *kind, self_aligning=aligning)
+        score += (np.log(static / printed.static_rating) / scatter) ** 2
     if printed.dynamic_rating is not None:
         scatter = max(DYNAMIC_DEVIATION["uprated" if printed.uprated else "iso"], printed.dynamic_rounding)
         rating = printed.dynamic_rating / (UPRATED if printed.uprated else 1.0)
-        score += (np.log(dynamic_rating_of(count, ball, pitch, angle, rows) / rating) / scatter) ** 2
+        dynamic = dynamic_rating_of(count, ball, pitch, *kind, self_aligning=aligning)
+        score += (np.log(dynamic / rating) / scatter) ** 2
     if printed.shoulder_diameter_inner is not None and printed.shoulder_diameter_outer is not None and not angle:
         ratio = (printed.shoulder_diameter_outer - printed.shoulder_diameter_inner) / ball
         score += ((ratio / SHOULDER_RATIO[0] - 1.0) / SHOULDER_RATIO[1]) ** 2
@@ -201,7 +232,7 @@ def grade_of(printed: Printed, ranked: list[RankedDesign], design: RankedDesign)
     good = design.score <= GOOD_FIT and weight >= CLEAR_WEIGHT
     if printed.dynamic_rating is not None and not printed.uprated:
         count, ball = np.array([float(design.ball_count)]), np.array([design.ball_diameter])
-        angle, rows = printed.contact_angle, printed.rows
-        rating = float(dynamic_rating_of(count, ball, design.pitch_diameter, angle, rows)[0])
+        kind, aligning = (printed.contact_angle, printed.rows), printed.kind == "self-aligning"
+        rating = float(dynamic_rating_of(count, ball, design.pitch_diameter, *kind, self_aligning=aligning)[0])
         good = good and abs(rating / printed.dynamic_rating - 1.0) <= max(GOOD_RATING, printed.dynamic_rounding)
     return "B" if good else "C"

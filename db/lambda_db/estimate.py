@@ -11,6 +11,8 @@ from lambda_db.derive import Printed, RankedDesign, candidates, grade_of, relati
 # 0.52 and 0.53, between the printed pairs 0.5125/0.525 (6319) and 0.52/0.53 (6208) of Syla et al. 2026.
 INNER_CONFORMITY, OUTER_CONFORMITY = 0.515, 0.525
 DERIVED, ASSUMED_GROOVES = "derived", "conformity-assumed"  # keys of the built-in sources
+# The inner grooves that both standards rate self-aligning bearings with; their outer raceway is a sphere.
+ALIGNING_CONFORMITY, ASSUMED_ALIGNING = 0.53, "conformity-self-aligning"
 Row = dict[str, Any]
 
 
@@ -21,7 +23,7 @@ def is_uprated(rating_type: str) -> bool:
 
 def rated_rows(row: Row) -> int:
     """Return by how many rows the standards rate a bearing."""
-    return 2 if row["kind"] == "four-point" else 1
+    return 2 if row["kind"] in ("four-point", "double row", "self-aligning") else 1
 
 
 def printed_of(row: Row) -> Printed:
@@ -41,6 +43,7 @@ def printed_of(row: Row) -> Printed:
         known_pitch=row["pitch_diameter_mm"],
         contact_angle=math.radians(row["contact_angle_deg"] or 0.0),
         rows=rated_rows(row),
+        kind=row["kind"] or "",
     )
 
 
@@ -73,18 +76,29 @@ def candidate_rows(row: Row) -> list[Row]:
 
 
 def with_design(row: Row, design: RankedDesign, grade: str) -> Row:
-    """Return the row with an estimated design, zero-clearance raceways and assumed grooves."""
+    """Return the row with an estimated design, zero-clearance raceways and assumed grooves.
+
+    The sphere of a self-aligning bearing follows from pitch, contact angle and clearance: such a row has no raceways.
+    """
     ball, pitch = design.ball_diameter, design.pitch_diameter
+    aligning = row["kind"] == "self-aligning"
     completed = row | {
         "ball_count": design.ball_count,
         "ball_diameter_mm": ball,
         "pitch_diameter_mm": pitch,
-        "race_diameter_inner_mm": round(pitch - ball, 4),
-        "race_diameter_outer_mm": round(pitch + ball, 4),
+        "race_diameter_inner_mm": None if aligning else round(pitch - ball, 4),
+        "race_diameter_outer_mm": None if aligning else round(pitch + ball, 4),
         "geometry_source": DERIVED,
         "geometry_grade": grade,
         "geometry_status": "derived",
     }
+    if aligning:
+        return completed | {
+            "groove_radius_inner_mm": round(ALIGNING_CONFORMITY * ball, 4),
+            "groove_source": ASSUMED_ALIGNING,
+            "groove_grade": "C",
+            "groove_status": "assumed",
+        }
     if row["groove_radius_inner_mm"] is None or row["groove_radius_outer_mm"] is None:
         completed |= {
             "groove_radius_inner_mm": round(INNER_CONFORMITY * ball, 4),

@@ -13,7 +13,7 @@ from sqlalchemy import Float, Integer, Text
 from sqlalchemy.dialects.sqlite import REAL
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
 
-from lambda_db.constraints import GRADES, STATUSES, check, kinds, named, one_of, positive, positive_names, together
+from lambda_db.constraints import check, grade, graded, kinds, named, one_of, positive, positive_names, status, together
 
 Key = Annotated[str, mapped_column(Text(collation="NOCASE"), primary_key=True)]
 Rank = Annotated[int, mapped_column(Integer, primary_key=True)]
@@ -119,9 +119,7 @@ class Bearing(Base):
             " AND shoulder_diameter_inner_mm < shoulder_diameter_outer_mm",
             "shoulder diameters must satisfy bore < inner shoulder < outer shoulder < outside diameter",
         ),
-        *(one_of(f"{g}_grade", GRADES) for g in ("dimensions", "dynamic_rating", "static_rating", "catalogue")),
-        *(one_of(f"{g}_grade", GRADES) for g in ("geometry", "groove", "shoulder", "angle")),
-        *(one_of(f"{g}_status", STATUSES) for g in ("dynamic_rating", "static_rating", "geometry", "groove")),
+        *graded(),
         _STRICT,
     )
 
@@ -170,6 +168,10 @@ class Bearing(Base):
     contact_angle_deg: Mapped[float | None]
     angle_source: Mapped[str | None]
     angle_grade: Mapped[str | None]
+    row_distance_mm: Mapped[float | None]
+    row_distance_source: Mapped[str | None]
+    row_distance_grade: Mapped[str | None]
+    row_distance_status: Mapped[str | None]
     layer: Mapped[str] = mapped_column(server_default="core")
 
 
@@ -202,7 +204,7 @@ class Clearance(Base):
             "0 <= minimum_um AND minimum_um < maximum_um",
             "clearance limits must satisfy 0 <= minimum_um < maximum_um",
         ),
-        one_of("grade", GRADES),
+        grade(),
         _STRICT,
     )
 
@@ -226,7 +228,7 @@ class Material(Base):
         *named("name", "source"),
         *positive(*_SOLID, "permittivity"),
         check("poisson_range", "poisson_ratio > 0 AND poisson_ratio < 0.5", "poisson_ratio must lie between 0 and 0.5"),
-        one_of("grade", GRADES),
+        grade(),
         _STRICT,
     )
 
@@ -257,8 +259,8 @@ class Cage(Base):
             "(guidance = 'ball') = (land_clearance_ratio IS NULL)",
             "land_clearance_ratio belongs to ring guidance, and ring guidance needs it",
         ),
-        one_of("grade", GRADES),
-        one_of("status", STATUSES),
+        grade(),
+        status(),
         together("temperature", ("maximum_temperature_degC",)),
         _STRICT,
     )
@@ -319,8 +321,8 @@ class LubricantProperty(Base):
     __tablename__ = "lubricant_property"
     __table_args__ = (
         *named("lubricant", "name", "source"),
-        one_of("grade", GRADES),
-        one_of("status", STATUSES),
+        grade(),
+        status(),
         *positive_names(),
         check("permittivity_range", "name <> 'permittivity' OR value >= 1", "permittivity must be at least 1"),
         _STRICT,
@@ -341,7 +343,7 @@ class LubricantParameter(Base):
     __tablename__ = "lubricant_parameter"
     __table_args__ = (
         *named("lubricant", "role", "model", "name", "source"),
-        one_of("grade", GRADES),
+        grade(),
         *positive_names(),
         check("eps_r_range", "name <> 'eps_r' OR value >= 1", "eps_r must be at least 1"),
         _STRICT,

@@ -33,6 +33,7 @@ _SHOWN: dict[str, tuple[str, str]] = {
             "groove_radius_outer",
             "shoulder_diameter_inner",
             "shoulder_diameter_outer",
+            "row_distance",
         ),
         ("length", "mm"),
     ),
@@ -234,7 +235,7 @@ def found_some(catalogue: SqlCatalogue, kind: Literal["bearing", "lubricant"], t
     hint = f"; nearest: {', '.join(close)}" if close else ""
     if kind == "bearing":
         makers = ", ".join(sorted({row.maker for row in catalogue.bearings("", 1_000_000)}))
-        kinds = "deep groove, angular contact and four-point contact"
+        kinds = "deep groove, angular contact, four-point contact, double row and self-aligning"
         holds = f"{kinds} ball bearings of {makers}; oils and greases: --lubricants"
     else:
         greases = sum("nlgi" in row.properties for row in catalogue.lubricants("", 1_000_000))

@@ -54,6 +54,7 @@ BEARING_GROUPS: dict[str, tuple[str, ...]] = {
     "groove": ("groove_radius_inner_mm", "groove_radius_outer_mm"),
     "shoulder": ("shoulder_diameter_inner_mm", "shoulder_diameter_outer_mm"),
     "angle": ("contact_angle_deg",),
+    "row_distance": ("row_distance_mm",),
 }
 
 

@@ -18,7 +18,12 @@ from lambda_db.seed_tables import VIEWED
 _DIGEST = 16  # [byte]
 _NAMED = 3  # rows that a sentence names
 # Columns younger than the seal: a row that has nothing in them keeps the digest that it had before.
-_ADDED = {"bearing": ("kind", "contact_angle_deg", "angle_source", "angle_grade")}
+_ADDED = {
+    "bearing": (
+        *("kind", "contact_angle_deg", "angle_source", "angle_grade"),
+        *("row_distance_mm", "row_distance_source", "row_distance_grade", "row_distance_status"),
+    )
+}
 ACCEPT = "lambda-bearing db accept"
 
 

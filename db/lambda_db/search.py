@@ -91,4 +91,5 @@ def bearing_query(text: str, limit: int) -> Select[Any]:
     query = select(Bearing).where(and_(True, *conditions))
     if order:
         query = query.order_by(sum(order[1:], start=order[0]))
-    return query.order_by(Bearing.bore_diameter_mm, Bearing.designation, Bearing.maker).limit(limit)
+    deep_groove_first = Bearing.kind.is_not(None)
+    return query.order_by(Bearing.bore_diameter_mm, deep_groove_first, Bearing.designation, Bearing.maker).limit(limit)

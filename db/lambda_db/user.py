@@ -42,8 +42,9 @@ MIGRATIONS: dict[int, Callable[[Connection], None]] = {
     1: lambda connection: Base.metadata.tables["suffix"].create(connection),
     2: _with_seal,
     3: _renew_bearings,
+    4: _renew_bearings,
 }
-SCHEMA_VERSION = 4
+SCHEMA_VERSION = 5
 
 
 @contextmanager

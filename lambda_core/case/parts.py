@@ -56,12 +56,23 @@ class InlineGeometry(Section):
         lt=_STEEPEST,
         reference="Harris and Kotzalas 2006, ch. 2",
     )
-    series: Literal["60", "62", "63", "64", "618", "619", "70", "72", "73", "32", "33", "QJ2", "QJ3"] | None = option(
-        None, "dimension series"
-    )
+    series: (
+        Literal[
+            "60", "62", "63", "64", "618", "619", "70", "72", "73", "32", "33", "QJ2", "QJ3", "12", "13", "22", "23"
+        ]
+        | None
+    ) = option(None, "dimension series")
     rows: Literal[1, 2] | None = option(None, "rows of balls; two of angular contact make a double row bearing")
-    row_distance: Length | None = option(None, "distance of the planes of the balls of two rows", gt=0.0)
-    arrangement: Literal["O", "X"] | None = option(None, "of two rows: O back to back, X face to face; absent: O")
+    row_distance: Length | None = option(
+        None,
+        "distance of the planes of the balls of two rows; of a self-aligning bearing it follows from the contact angle",
+        gt=0.0,
+    )
+    arrangement: Literal["O", "X", "spherical"] | None = option(
+        None,
+        "of two rows: O back to back, X face to face, spherical on one sphere of the outer ring (self-aligning); "
+        "absent: O",
+    )
     dynamic_rating: Force | None = option(None, "basic dynamic load rating C", gt=0.0)
     static_rating: Force | None = option(None, "basic static load rating C0", gt=0.0)
 
@@ -116,7 +127,7 @@ class Bearing(Section):
     axial_clearance: SmallLength | None = option(
         None,
         "axial internal clearance, free axial movement of the rings: of four-point contact, where it is absent that of "
-        "the class; of two rows, below zero with preload",
+        "the class; of two rows, below zero with preload, where it is absent that of the class of the catalogue's",
     )
     contact_angle: Angle | None = option(
         None,

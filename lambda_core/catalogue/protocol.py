@@ -68,7 +68,7 @@ class BearingRow(Frozen):
     static_rating: Value | None = None  # C0 [N]
     fatigue_limit: Value | None = None  # Cu [N]
     rating_type: str = ""
-    kind: str = "deep groove"  # or "angular contact"
+    kind: str = "deep groove"  # "angular contact", "four-point", "double row", "self-aligning"
     reference_speed: Value | None = None  # [rad/s]
     limiting_speed: Value | None = None  # [rad/s]
     mass: Value | None = None  # [kg]
@@ -81,7 +81,8 @@ class BearingRow(Frozen):
     groove_radius_outer: Value | None = None
     shoulder_diameter_inner: Value | None = None
     shoulder_diameter_outer: Value | None = None
-    contact_angle: Value | None = None  # free one, of angular contact [rad]
+    contact_angle: Value | None = None  # free one, of every kind but deep groove [rad]
+    row_distance: Value | None = None  # between the planes of the balls of double row angular contact [m]
     candidates: tuple[Design, ...] = ()
     layer: Literal["core", "plugin", "user"] = "core"
 

@@ -46,6 +46,11 @@ _TWO_ROWS = (
     (45.0, 0.47, 0.54, 0.81),
 )
 
+# ISO 281:2007, table 3, self-aligning: e over tan(alpha), Y up to e and above over cot(alpha), X above e; ISO 76: Y_0
+# over cot(alpha), X_0 = 1.
+_SELF_ALIGNING_LIMIT, _SELF_ALIGNING_BELOW, _SELF_ALIGNING_ABOVE, _SELF_ALIGNING_RADIAL = 1.5, 0.42, 0.65, 0.65
+_SELF_ALIGNING_STATIC = 0.44
+
 # ISO 281:2007, table 13: contamination level -> (low, high) of e_C for D_pw < 100 mm and for D_pw >= 100 mm.
 CONTAMINATION_LEVELS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
     "extreme cleanliness": ((1.0, 1.0), (1.0, 1.0)),
@@ -86,6 +91,8 @@ def dynamic_equivalent_load(
     static_factor: float,
     contact_angle: float = 0.0,
     rows: int = 1,
+    *,
+    self_aligning: bool = False,
 ) -> EquivalentLoad:
     """Dynamic equivalent radial load P (ISO 281:2007, 5.3 and table 3).
 
@@ -99,11 +106,18 @@ def dynamic_equivalent_load(
         Nominal one [rad], at most 45 degrees.
     rows : int
         That carry, 1 or 2; four-point contact counts as two, of which either takes one direction of thrust.
+    self_aligning : bool
+        Its factors follow from the angle alone: e = 1.5 tan(alpha), Y = 0.42 cot(alpha), then X = 0.65 and
+        Y = 0.65 cot(alpha).
     """
     angle = math.degrees(contact_angle)
     limit, radial_factor, axial_factor = _factors(static_factor * axial_load / static_rating, angle)
     below = 0.0
-    if rows == 2:
+    if self_aligning:
+        slope = math.tan(contact_angle)
+        limit, radial_factor = _SELF_ALIGNING_LIMIT * slope, _SELF_ALIGNING_RADIAL
+        below, axial_factor = _SELF_ALIGNING_BELOW / slope, _SELF_ALIGNING_ABOVE / slope
+    elif rows == 2:
         below, radial_factor, axial_factor = _two_rows(limit, radial_factor, axial_factor, angle)
     if axial_load <= limit * radial_load:
         return EquivalentLoad(radial_load + below * axial_load, 1.0, below, limit)
@@ -137,12 +151,16 @@ def _two_rows(limit: float, radial_factor: float, axial_factor: float, angle: fl
     return below, x, y
 
 
-def static_equivalent_load(radial_load: float, axial_load: float, contact_angle: float = 0.0, rows: int = 1) -> float:
+def static_equivalent_load(
+    radial_load: float, axial_load: float, contact_angle: float = 0.0, rows: int = 1, *, self_aligning: bool = False
+) -> float:
     """Static equivalent radial load P_0 = max(X_0 F_r + Y_0 F_a, F_r) [N] (ISO 76:2006, table 2).
 
     0.6 and 0.5 for radial contact; X_0 = 0.5 and Y_0 by the angle from 15 degrees on, where smaller angles count as 15;
-    of two rows X_0 = 1 and twice that Y_0.
+    of two rows X_0 = 1 and twice that Y_0; of self-aligning bearings F_r + 0.44 cot(alpha) F_a.
     """
+    if self_aligning:
+        return radial_load + _SELF_ALIGNING_STATIC / math.tan(contact_angle) * axial_load
     if contact_angle == 0.0:
         return max(0.6 * radial_load + 0.5 * axial_load, radial_load)
     angles, factors = zip(*_STATIC_AXIAL, strict=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -26,6 +27,7 @@ def parameter(
     source: str = "",
     status: Literal["published", "unconfirmed", "assumed", "numerical", "lubricant"] | None = None,
     published_range: tuple[Bound, Bound] | None = None,
+    by_kind: Mapping[str, Bound] | None = None,
     **constraints: Any,
 ) -> Any:
     """Declare one parameter.
@@ -45,6 +47,8 @@ def parameter(
         catalogue row brings.
     published_range : tuple of float or str, optional
         Range found in the literature, written as in a case file; studies sample it.
+    by_kind : mapping of str to float or str, optional
+        Default of kinds of bearings that have another one, by `Geometry.kind` ("angular contact", "self-aligning").
     **constraints
         Bounds as pydantic knows them (``gt``, ``ge``, ``lt``, ``le``), in SI.
 
@@ -59,7 +63,20 @@ def parameter(
         extra["source"] = source
     if published_range is not None:
         extra["published_range"] = list(published_range)
+    if by_kind:
+        extra["by_kind"] = dict(by_kind)
     return Field(default, validate_default=True, description=description, json_schema_extra=extra, **constraints)
+
+
+def kind_defaults(parameters: type[BaseModel], kind: str) -> dict[str, Bound]:
+    """Return the defaults of a law's parameters that a kind of bearings has instead of the declared ones."""
+    found = {}
+    for name, info in parameters.model_fields.items():
+        extra = info.json_schema_extra
+        others = extra.get("by_kind") if isinstance(extra, dict) else None
+        if isinstance(others, dict) and kind in others:
+            found[name] = others[kind]
+    return found  # type: ignore[return-value]
 
 
 def default_fault(parameters: type[BaseModel]) -> str:

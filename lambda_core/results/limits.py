@@ -14,6 +14,7 @@ from pydantic import Field
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.loading import CARRYING, Ring
 from lambda_core.results.record import Record
+from lambda_core.system.bearing import kind_of
 from lambda_core.system.operating_limits import tilt_warning
 
 # Static contact pressure of ball bearings that leaves 1e-4 of the ball diameter behind (ISO 76).
@@ -65,6 +66,7 @@ class Grooves:
     edge: FloatArray  # (2,) [rad]
     one_sided: bool = False  # angular contact: the groove ends at its bottom on the side without load
     ridge: FloatArray | None = None  # (2,) four-point contact: angle at which the two arcs of a ring meet [rad]
+    kind: str = "deep groove"
 
     @staticmethod
     def of(geometry: Mapping[str, Any]) -> Grooves:
@@ -77,11 +79,11 @@ class Grooves:
             ]
         )
         edge = np.arccos(np.clip(1.0 - height / radius, -1.0, 1.0))
-        resting = float(geometry.get("resting_angle", 0.0))
-        if resting > 0.0 and int(geometry.get("rows", 1)) == 1:
+        resting, kind = float(geometry.get("resting_angle", 0.0)), kind_of(geometry)
+        if kind == "four-point":
             shift = (radius - 0.5 * float(geometry["ball_diameter"])) * math.sin(resting)
-            return Grooves(radius, edge, ridge=np.arcsin(shift / radius))
-        return Grooves(radius, edge, float(geometry.get("contact_angle", 0.0)) > 0.0 and resting == 0.0)
+            return Grooves(radius, edge, ridge=np.arcsin(shift / radius), kind=kind)
+        return Grooves(radius, edge, kind == "angular contact", kind=kind)
 
 
 def shoulders(grooves: Grooves, load: FloatArray, angle: FloatArray, semi_axis: FloatArray) -> list[Shoulder]:
@@ -94,7 +96,9 @@ def shoulders(grooves: Grooves, load: FloatArray, angle: FloatArray, semi_axis: 
     """
     half = semi_axis / grooves.radius
     end = np.abs(angle) + half
-    found = _nearest(load > 0.0, angle, end, grooves.edge, grooves.radius)
+    # A ball of the row that a thrust unloads leans far to the side under its weight alone.
+    least = CARRYING * load.max(initial=0.0) if grooves.kind in ("double row", "self-aligning") else 0.0
+    found = _nearest(load > least, angle, end, grooves.edge, grooves.radius)
     if grooves.one_sided and load.max(initial=0.0) > 0.0:
         side = -np.sign(float((load * angle).sum()))  # of the low shoulder
         carrying = load > CARRYING * load.max()
@@ -151,7 +155,7 @@ def tolerance_warning(tolerance: float) -> list[str]:
     ]
 
 
-def warnings(pressure: float, edges: list[Shoulder], tilt: float) -> list[str]:
+def warnings(pressure: float, edges: list[Shoulder], tilt: float, kind: str = "deep groove") -> list[str]:
     """Return a sentence for everything in a solution that lies beyond what the laws are made for.
 
     Parameters
@@ -160,6 +164,8 @@ def warnings(pressure: float, edges: list[Shoulder], tilt: float) -> list[str]:
         Largest Hertzian pressure [Pa]; NaN when nothing touches.
     tilt : float
         Largest angle between the axes of the rings [rad].
+    kind : str
+        Of the bearing, `Geometry.kind`.
     """
     found = [sentence for edge in edges for sentence in edge.warning()]
     if pressure > HIGHEST_PRESSURE:
@@ -167,4 +173,4 @@ def warnings(pressure: float, edges: list[Shoulder], tilt: float) -> list[str]:
             f"the contact pressure of {1e-9 * pressure:.3g} GPa is beyond {1e-9 * HIGHEST_PRESSURE:g} GPa, where steel "
             "yields (ISO 76): the contact laws are elastic"
         )
-    return found + tilt_warning(tilt)
+    return found + tilt_warning(tilt, kind)

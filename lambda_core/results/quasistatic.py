@@ -123,7 +123,7 @@ def quasistatic_of(found: Equilibrium) -> QuasiStatic:
         shoulders=edges,
         warnings=[
             *operating_warnings(model),
-            *warnings(float(channels["max_pressure"].max()), edges, math.hypot(tilt_y, tilt_z)),
+            *warnings(float(channels["max_pressure"].max()), edges, math.hypot(tilt_y, tilt_z), model.geometry.kind),
         ],
         iterations=found.iterations,
         assumptions=list(model.assumptions),

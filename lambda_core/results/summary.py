@@ -25,7 +25,7 @@ from lambda_core.results.limits import Grooves, Shoulder, shoulders, tolerance_w
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.watched import events_seen, observed_numbers
-from lambda_core.system.bearing import Solver
+from lambda_core.system.bearing import Solver, kind_of
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
@@ -178,7 +178,7 @@ def summarise(result: Result) -> Summary:
         warnings=[
             *result.case_warnings,
             *tolerance_warning(settings.tolerance),
-            *warnings(_highest_pressure(result), edges, extremes.largest_tilt),
+            *warnings(_highest_pressure(result), edges, extremes.largest_tilt, kind_of(result.model["geometry"])),
         ],
         energy_residual=finite(residual),
         revolutions_discarded=chosen.discarded,

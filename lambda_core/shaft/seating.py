@@ -81,10 +81,10 @@ def _ratings(name: str, angle: float, model: BearingModel, ledger: Ledger) -> tu
     )
     size = (g.ball_count, g.ball_diameter, g.pitch_diameter)
     if dynamic is None:
-        dynamic = dynamic_rating(*size, contact_angle=angle, rows=g.rated_rows)
+        dynamic = dynamic_rating(*size, contact_angle=angle, rows=g.rated_rows, self_aligning=g.self_aligning)
         ledger.assume(f"{name}: C = {dynamic * 1e-3:.1f} kN from the inner geometry (ISO 281)")
     if static is None:
-        static = static_rating(*size, contact_angle=angle, rows=g.rated_rows)
+        static = static_rating(*size, contact_angle=angle, rows=g.rated_rows, self_aligning=g.self_aligning)
         ledger.assume(f"{name}: C_0 = {static * 1e-3:.1f} kN from the inner geometry (ISO 76)")
     if fatigue is None:
         fatigue = fatigue_load_limit(static, g.pitch_diameter)

@@ -49,7 +49,8 @@ def bearing_life(
     """
     g, angle, speed = bearing.model.geometry, bearing.nominal_angle, found.relative_speed
     gamma = g.ball_diameter * math.cos(angle) / g.pitch_diameter
-    load = dynamic_equivalent_load(radial, axial, bearing.static_rating, static_factor(gamma), angle, g.rated_rows).load
+    factor, kind, aligning = static_factor(gamma, self_aligning=g.self_aligning), (angle, g.rated_rows), g.self_aligning
+    load = dynamic_equivalent_load(radial, axial, bearing.static_rating, factor, *kind, self_aligning=aligning).load
     reference = reference_rating_life(
         *found.loads_by_row(),
         dynamic_rating=bearing.dynamic_rating,
@@ -66,7 +67,7 @@ def bearing_life(
         if contamination is not None and ratio >= _LEAST_RATIO:
             factor = life_modification_factor(ratio, contamination, bearing.fatigue_limit, reference.equivalent_load)
             modified = life_hours(factor * reference.life, speed)
-    static_load = static_equivalent_load(radial, axial, angle, g.rated_rows)
+    static_load = static_equivalent_load(radial, axial, *kind, self_aligning=aligning)
     return BearingLife(
         load,
         life_hours(basic_rating_life(bearing.dynamic_rating, load), speed),

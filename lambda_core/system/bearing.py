@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import BaseModel
 
@@ -56,6 +56,7 @@ class TimeFunction:
 
 
 ZERO = TimeFunction()
+SPHERICAL = "spherical"  # arrangement of two rows on one sphere
 
 
 @dataclass(frozen=True)
@@ -82,9 +83,9 @@ class Geometry:
     resting_angle: float = 0.0
     rows: int = 1  # of balls; ball_count is that of one row
     row_distance: float = 0.0  # between the planes of the balls' centres [m]
-    arrangement: str = (
-        ""  # of two rows: "O" back to back, "X" face to face, "spherical" on one sphere of the outer ring
-    )
+    # Of two rows: "O" back to back, "X" face to face, "spherical" on one sphere of the outer ring, whose raceway
+    # diameter is the sphere's
+    arrangement: str = ""
 
     @property
     def balls(self) -> int:
@@ -97,9 +98,28 @@ class Geometry:
         return 2 if self.four_point else self.rows
 
     @property
+    def self_aligning(self) -> bool:
+        """Whether both rows run on one sphere of the outer ring about the bearing's centre."""
+        return self.arrangement == SPHERICAL
+
+    @property
+    def kind(self) -> str:
+        """What the bearing is called, as rows of the catalogue are."""
+        return kind_of(vars(self))
+
+    @property
     def four_point(self) -> bool:
         """Whether each ring has two arcs for one row of balls."""
         return self.rows == 1 and self.resting_angle > 0.0
+
+
+def kind_of(geometry: Mapping[str, Any]) -> str:
+    """Return what a bearing is called, from the fields of its :class:`Geometry`; results of old have fewer of them."""
+    if int(geometry.get("rows", 1)) == 2:
+        return "self-aligning" if geometry.get("arrangement") == SPHERICAL else "double row"
+    if float(geometry.get("resting_angle", 0.0)) > 0.0:
+        return "four-point"
+    return "angular contact" if float(geometry.get("contact_angle", 0.0)) > 0.0 else "deep groove"
 
 
 @dataclass(frozen=True)

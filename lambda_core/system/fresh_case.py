@@ -42,7 +42,10 @@ _KINDS = {
     "deep groove": "Deep-groove ball bearing",
     "angular contact": "Angular contact ball bearing",
     "four-point": "Four-point contact ball bearing",
+    "double row": "Double row angular contact ball bearing",
+    "self-aligning": "Self-aligning ball bearing",
 }
+_AXIAL = {"four-point": "100 um", "double row": "20 um"}  # kinds that have an axial clearance, and one of theirs
 # Thrust over radial load times tan(alpha) at which half the circumference is loaded (NSK, CAT. No. E728, 5.1);
 # with less fewer balls carry, and an angular contact bearing alone comes apart.
 _HALF_LOADED = 1.216
@@ -78,8 +81,9 @@ def fresh_case(name: str, bearing: BearingRow, read: Designation, machine: Machi
 def _clearance(machine: Machine, bearing: BearingRow, read: Designation) -> str:
     """Return the lines that say the clearance, or the contact angle that it follows from."""
     classes = [written for written, suffix in read.suffixes if suffix.kind == "clearance"]
-    if bearing.kind == "four-point" and not classes:
-        return _told('clearance = "CN"', 'class of the axial clearance, or axial_clearance = "100 um"') + _PICK
+    if bearing.kind in _AXIAL and not classes:
+        other = f'or axial_clearance = "{_AXIAL[bearing.kind]}"'
+        return _told('clearance = "CN"', f"class of the axial clearance, {other}") + _PICK
     if bearing.kind == "angular contact" and bearing.contact_angle is not None:
         angle = f"{math.degrees(bearing.contact_angle.value):.3g} deg"
         return _told(f'# contact_angle = "{angle}"', "of the catalogue: the clearance follows from it")
@@ -93,7 +97,8 @@ def _thrust(machine: Machine, bearing: BearingRow) -> tuple[float, str]:
     """Return axial over radial load, and the comment on it; angular contact needs enough to be held together."""
     if bearing.kind == "four-point":
         return max(machine.thrust, ONE_SIDE), f"along the shaft: {ONE_SIDE:g} of the radial load at least, SKF"
-    least = _HALF_LOADED * math.tan(bearing.contact_angle.value) if bearing.contact_angle is not None else 0.0
+    alone = bearing.kind == "angular contact" and bearing.contact_angle is not None
+    least = _HALF_LOADED * math.tan(bearing.contact_angle.value) if alone and bearing.contact_angle else 0.0
     if least > machine.thrust:
         return 1.1 * least, "along the shaft; less opens an angular contact bearing that stands alone"
     return machine.thrust, f"{machine.thrust:.2g} of it, along the shaft" if machine.thrust else "along the shaft"

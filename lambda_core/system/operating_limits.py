@@ -24,6 +24,31 @@ OIL_TEMPERATURES = (-40.0, 200.0)  # [degC]
 _ZERO_CELSIUS = 273.15
 # "2 to 10 minutes of arc" for single deep-groove ball bearings: SKF, Rolling bearings, PUB BU/P1 17000 EN (2018).
 PERMISSIBLE_TILT = math.radians(10.0 / 60.0)  # [rad]
+# Double row deep groove ball bearings: "two minutes of arc"; of double row angular contact SKF says that only forces
+# between balls and raceways take a misalignment, without a number (general catalogue 6000, Russian, pages 391 and 438).
+TWO_ROW_TILT = math.radians(2.0 / 60.0)  # [rad]
+# Self-aligning ball bearings: 2.5 degrees of series 12 and 22, 3 of 13 and 23 (the same, page 476, table 4).
+ALIGNING_TILT = math.radians(2.5)  # [rad]
+# What is said of each kind; SKF gives no number for angular and four-point contact.
+_TILTS = {
+    "deep groove": (PERMISSIBLE_TILT, "deep-groove ball bearings take up to 2.9 mrad (10 minutes of arc)"),
+    "angular contact": (
+        PERMISSIBLE_TILT,
+        "of single row angular contact the maker gives no number, deep groove ball bearings take up to 2.9 mrad (10 "
+        "minutes of arc)",
+    ),
+    "four-point": (
+        PERMISSIBLE_TILT,
+        "of four-point contact the maker gives no number, deep groove ball bearings take up to 2.9 mrad (10 minutes of "
+        "arc)",
+    ),
+    "double row": (
+        TWO_ROW_TILT,
+        "two rigid rows take it only by forces between balls and raceways; double row deep groove ball bearings take "
+        "up to 0.58 mrad (2 minutes of arc)",
+    ),
+    "self-aligning": (ALIGNING_TILT, "self-aligning ball bearings take up to 44 mrad (2.5 deg; series 13 and 23: 3)"),
+}
 # "minimum loads corresponding to 0,01 C should be imposed on ball bearings": SKF, the same, requisite minimum load.
 MINIMUM_LOAD = 0.01  # over the dynamic rating
 # Axial over radial load from which on the balls of four-point contact run on one side: SKF, general catalogue 6000.
@@ -62,14 +87,14 @@ def operating_warnings(model: BearingModel) -> list[str]:
     ]
 
 
-def tilt_warning(tilt: float, what: str = "the inner ring tilts by") -> list[str]:
-    """Return a sentence where the angle between the rings [rad] is above what deep-groove ball bearings take."""
-    if tilt <= PERMISSIBLE_TILT:
+def tilt_warning(tilt: float, kind: str, what: str = "the inner ring tilts by") -> list[str]:
+    """Return a sentence where the angle between the rings [rad] is above what bearings of a kind take."""
+    most, said = _TILTS[kind]
+    if tilt <= most:
         return []
-    limit = f"{1e3 * PERMISSIBLE_TILT:.2g} mrad (10 minutes of arc)"
     return [
-        f"{what} {1e3 * tilt:.2g} mrad: deep-groove ball bearings take up to {limit}; a shaft on two bearings hardly "
-        "tilts like this (bodies.inner_ring.tilt_y and tilt_z: free, locked, or with a stiffness)"
+        f"{what} {1e3 * tilt:.2g} mrad: {said}; a shaft on two bearings hardly tilts like this "
+        "(bodies.inner_ring.tilt_y and tilt_z: free, locked, or with a stiffness)"
     ]
 
 
@@ -112,8 +137,8 @@ def _ratings(model: BearingModel) -> tuple[float, float]:
     size, angle = (g.ball_count, g.ball_diameter, g.pitch_diameter), g.contact_angle
     dynamic, static = _known(model, "bearing.dynamic_rating"), _known(model, "bearing.static_rating")
     return (
-        dynamic or dynamic_rating(*size, contact_angle=angle, rows=g.rated_rows),
-        static or static_rating(*size, contact_angle=angle, rows=g.rated_rows),
+        dynamic or dynamic_rating(*size, contact_angle=angle, rows=g.rated_rows, self_aligning=g.self_aligning),
+        static or static_rating(*size, contact_angle=angle, rows=g.rated_rows, self_aligning=g.self_aligning),
     )
 
 
@@ -124,9 +149,10 @@ def _load(model: BearingModel) -> Iterator[str]:
     radial, axial = loads
     dynamic, static = _ratings(model)
     g = model.geometry
-    factor = static_factor(g.ball_diameter * math.cos(g.contact_angle) / g.pitch_diameter)
-    equivalent = dynamic_equivalent_load(radial, axial, static, factor, g.contact_angle, g.rated_rows).load
-    resting = static_equivalent_load(radial, axial, g.contact_angle, g.rated_rows)
+    gamma, kind = g.ball_diameter * math.cos(g.contact_angle) / g.pitch_diameter, (g.contact_angle, g.rated_rows)
+    factor = static_factor(gamma, self_aligning=g.self_aligning)
+    equivalent = dynamic_equivalent_load(radial, axial, static, factor, *kind, self_aligning=g.self_aligning).load
+    resting = static_equivalent_load(radial, axial, *kind, self_aligning=g.self_aligning)
     turns = _relative_speed(model) > 0.0
     if g.four_point and axial < ONE_SIDE * radial:
         yield (
@@ -156,7 +182,8 @@ def _tilt(model: BearingModel) -> list[str]:
     states = [body.dofs[dof] for body in (model.inner_ring, model.outer_ring) for dof in ("tilt_y", "tilt_z")]
     prescribed = [peak(state.motion) if state.mode == "prescribed" else 0.0 for state in states]
     about_y, about_z = prescribed[0] + prescribed[2], prescribed[1] + prescribed[3]
-    return tilt_warning(math.hypot(about_y, about_z), "the case tilts the rings against each other by")
+    tilt = math.hypot(about_y, about_z)
+    return tilt_warning(tilt, model.geometry.kind, "the case tilts the rings against each other by")
 
 
 def _oil(model: BearingModel) -> Iterator[str]:

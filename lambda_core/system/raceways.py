@@ -5,6 +5,9 @@ alpha_s the resting angle, at which a ball touches without clearance while the r
 along the axis by (r - D/2) sin(alpha_s) away from where it is touched, and lies (r - D/2)(1 - cos(alpha_s)) nearer to
 the pitch circle than that of a groove that is touched at its bottom. Of four-point contact alpha_s is the angle of the
 shims that its arcs are ground with (Harris and Kotzalas 2006, ch. 2: P_d = S_d + 2 A (1 - cos(alpha_s))).
+
+The outer raceway of a self-aligning bearing is a sphere about the bearing's centre: one groove with its centres in a
+point, for both rows, so that a ring that tilts about that point changes nothing.
 """
 
 from __future__ import annotations
@@ -67,6 +70,8 @@ def _thrusts(geometry: Geometry, row: int) -> tuple[int, ...]:
 def _raceway(g: Geometry, row: int, place: float, ring: int, thrust: int) -> Raceway:
     radius = (g.groove_radius_inner, g.groove_radius_outer)[ring]
     element = tuple(RACEWAYS)[ring]
+    if ring == OUTER and g.self_aligning:
+        return Raceway(ring, element, row, thrust, radius, 0.0, 0.0)
     beyond = radius - 0.5 * g.ball_diameter  # of the groove's centre over the ball's
     nearer = beyond * (1.0 - math.cos(g.resting_angle))
     if ring == INNER:

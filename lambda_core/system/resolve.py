@@ -32,6 +32,7 @@ from lambda_core.system.bearing import (
     Marker,
     Output,
 )
+from lambda_core.system.geometry_checks import check_clearance
 from lambda_core.system.law_packages import with_packages
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.resolve_bodies import (
@@ -47,10 +48,11 @@ from lambda_core.system.resolve_clearance import clearance_in_operation, resolve
 from lambda_core.system.resolve_designation import resolve_designation
 from lambda_core.system.resolve_elastic import resolve_elastic
 from lambda_core.system.resolve_electric import resolve_electric
-from lambda_core.system.resolve_geometry import check_clearance, resolve_geometry, with_clearance
+from lambda_core.system.resolve_geometry import resolve_geometry, with_clearance
 from lambda_core.system.resolve_laws import LawResolver, ModelSource
 from lambda_core.system.resolve_links import resolve_links
 from lambda_core.system.resolve_materials import resolve_lubricant, resolve_material, resolve_oil_level
+from lambda_core.system.resolve_rows import hold_tilts
 from lambda_core.system.resolve_solver import resolve_solver
 from lambda_core.system.resolve_states import check_states
 from lambda_core.system.resolve_thermal import check_thermal
@@ -97,12 +99,14 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
     parts["cage"] = resolve_material("cage", case, catalogue, ledger, cage_row.material if cage_row else None)
     materials = {part: known.material for part, known in parts.items()}
     lubricant, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
+    case = hold_tilts(case, bare[0], ledger) if bare else case
     case, courses = resolve_time_laws(case, registry, ledger)
     check_bodies(case, ledger)
     check_thermal(case, ledger)
     _settings(case, ledger)
+    kind = bare[0].kind if bare else "deep groove"
     guidance = case.bodies.cage.guidance or (cage_row.guidance if cage_row else "ball")
-    laws = LawResolver(case, registry, lubricant, guidance, ledger).resolve() if lubricant else {}
+    laws = LawResolver(case, registry, lubricant, guidance, ledger, kind).resolve() if lubricant else {}
     between, more = resolve_links(case, registry, ledger)
     more |= courses
     electric = resolve_electric(case.electric.inlined(), registry, ledger) if case.electric else None

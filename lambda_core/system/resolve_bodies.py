@@ -59,7 +59,8 @@ def ring_inertia(geometry: Geometry, ring: Literal["inner", "outer"], density: f
     """Estimate a ring as a hollow cylinder from its seat to its shoulders, less the groove.
 
     On one side of an angular contact ring the shoulder is gone, down to the raceway: with that on both rings, these,
-    the balls and the cage have the mass that a catalogue prints (tests/literature/test_kinds.py).
+    the balls and the cage have the mass that a catalogue prints (tests/literature/test_kinds.py). So it is of double
+    row ones, on one side of each groove; the outer ring of a self-aligning bearing is hollowed out by its sphere.
     """
     g = geometry
     if ring == "inner":
@@ -68,9 +69,11 @@ def ring_inertia(geometry: Geometry, ring: Literal["inner", "outer"], density: f
     else:
         small, large = g.shoulder_diameter_outer, g.outside_diameter
         groove = groove_volume(g.groove_radius_outer, g.race_diameter_outer, g.shoulder_diameter_outer)
+    if g.self_aligning and ring == "outer":
+        return _sphered_ring(g, density)
     volume = math.pi / 4.0 * (large**2 - small**2) * g.width - g.rows * groove
     whole = hollow_cylinder(density * volume, small / 2.0, large / 2.0, g.width)
-    if g.contact_angle == 0.0 or g.resting_angle > 0.0:
+    if g.kind not in ("angular contact", "double row"):
         return whole
     if ring == "inner":
         large = g.race_diameter_inner
@@ -79,6 +82,14 @@ def ring_inertia(geometry: Geometry, ring: Literal["inner", "outer"], density: f
     low = math.pi / 4.0 * (large**2 - small**2) * g.width
     # half of each: the halves of a cylinder have half of its inertia about its middle
     return whole.half() + hollow_cylinder(density * low, small / 2.0, large / 2.0, g.width).half()
+
+
+def _sphered_ring(g: Geometry, density: float) -> Inertia:
+    """Return the outer ring of a self-aligning bearing: a bar less the layer of a sphere between its faces."""
+    sphere = g.groove_radius_outer
+    volume = math.pi * ((0.25 * g.outside_diameter**2 - sphere**2) * g.width + g.width**3 / 12.0)
+    mean = math.sqrt(0.25 * g.outside_diameter**2 - volume / (math.pi * g.width))  # hole of a cylinder of that volume
+    return hollow_cylinder(density * volume, mean, 0.5 * g.outside_diameter, g.width)
 
 
 def resolve_cage(

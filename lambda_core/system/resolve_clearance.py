@@ -19,6 +19,7 @@ from lambda_core.domain.fits import (
     operating_clearance,
     shaft_interference,
 )
+from lambda_core.domain.kind_clearance import KindClearance
 from lambda_core.domain.tolerances import Limits
 from lambda_core.domain.units import parse, show
 from lambda_core.system.bearing import Geometry
@@ -77,6 +78,33 @@ def _from_class(bearing: Bearing, name: str, bore: float, catalogue: Catalogue, 
     stated = "" if bearing.clearance else "class not stated, "
     span = f"{limits.minimum * 1e6:.4g} to {limits.maximum * 1e6:.4g} um"
     ledger.assume(f"clearance {show(clearance, 'small_length', 4)}: {stated}{pick} of {name} ({span})")
+    return limits
+
+
+def class_of_kind(table: KindClearance, bearing: Bearing, bore: float, where: str, ledger: Ledger) -> Limits | None:
+    """Return the limits of the clearance class of a kind that has its own [m], CN where none is named; None: a problem.
+
+    Parameters
+    ----------
+    bore : float
+        [m]
+    where : str
+        Path of the clearance that the table is of, radial or axial.
+    """
+    name = bearing.clearance or "CN"
+    if math.isnan(bore):
+        return None
+    try:
+        limits = table.limits(bore, name)
+    except ValueError as error:
+        ledger.problem(PATH, str(error))
+        return None
+    value = picked(limits, bearing.clearance_pick)
+    ledger.record(where, value, "small_length", f"{bearing.clearance_pick} of {name}: {table.source}", "assumed", "A-")
+    stated = "" if bearing.clearance else "class not stated, "
+    span = f"{limits.minimum * 1e6:.4g} to {limits.maximum * 1e6:.4g} um"
+    what = "axial clearance" if table.direction == "axial" else "clearance"
+    ledger.assume(f"{what} {show(value, 'small_length', 4)}: {stated}{bearing.clearance_pick} of {name} ({span})")
     return limits
 
 

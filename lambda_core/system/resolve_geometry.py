@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from lambda_core.case.parts import CLEARANCE_CLASSES, Bearing, InlineGeometry
@@ -11,16 +10,18 @@ from lambda_core.catalogue.protocol import BearingRow, Catalogue
 from lambda_core.domain.tolerances import Limits
 from lambda_core.domain.units import show
 from lambda_core.system.bearing import Geometry
+from lambda_core.system.geometry_checks import check_geometry, mm
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.resolve_clearance import clearance_as_bought, picked
-from lambda_core.system.resolve_resting import has_arcs, has_two_rows, resolve_resting, resolve_two_rows
-from lambda_core.system.resolve_shoulders import FOUR_POINT_SHOULDERS, HIGH_SHOULDERS, shoulder
+from lambda_core.system.resolve_resting import has_arcs, resolve_resting
+from lambda_core.system.resolve_rows import has_two_rows, is_self_aligning, on_sphere, resolve_rows, sphere_edge
+from lambda_core.system.resolve_shoulders import (
+    ALIGNING_SHOULDERS,
+    FOUR_POINT_SHOULDERS,
+    HIGH_SHOULDERS,
+    shoulder,
+)
 
-# Contacts of a deep-groove bearing stay on the groove up to about this free contact angle.
-LARGEST_FREE_ANGLE = math.radians(45.0)
-# An interference of this share of the ball diameter alone presses every ball with about 4 GPa, the static
-# limit of ISO 76 (Palmgren's 0.436e-6 Q^(2/3)/D_w^(1/3) scaled from a 6319: 2.05 GPa at 0.0019 D_w).
-LARGEST_INTERFERENCE = 0.007
 # ISO 76 and ISO 281 rate grooves up to 0.52 and 0.53; what is made lies below, as in the catalogue's estimates.
 CONFORMITY_INNER, CONFORMITY_OUTER = 0.515, 0.525
 # From a thousandth of the smallest bearing made to ten times the largest: beyond, a unit is wrong.
@@ -88,16 +89,19 @@ def resolve_geometry(
     count, ball = picker.need("ball_count"), picker.need("ball_diameter")
     races = _races(picker)
     pitch = _pitch(picker, races, bore, outside)
-    grooves = (_groove(picker, "inner", ball), _groove(picker, "outer", ball))
-    resting, distance, two = 0.0, sum(grooves) - ball, has_two_rows(bearing)
-    if two or has_arcs(bearing, row):
-        found = (
-            resolve_two_rows(bearing, row, distance, ledger)
-            if two
-            else resolve_resting(bearing, row, distance, bore, ledger)
-        )
-        angle, resting = (found.free, found.resting) if found else (math.nan, 0.0)
-        bought = Limits(found.clearance, found.clearance) if found else None
+    spherical, two = is_self_aligning(bearing, row), has_two_rows(bearing, row)
+    grooves = (_groove(picker, "inner", ball), math.nan if spherical else _groove(picker, "outer", ball))
+    resting, apart, arrangement, distance = 0.0, 0.0, "", sum(grooves) - ball
+    bought: Limits | None = None
+    if two:
+        rows = resolve_rows(bearing, row, distance, bore, ledger)
+        angle = math.nan
+        if rows is not None:
+            angle, resting, bought, arrangement, apart = rows
+    elif has_arcs(bearing, row):
+        arcs = resolve_resting(bearing, row, distance, bore, ledger)
+        angle, resting = (arcs.free, arcs.resting) if arcs else (math.nan, 0.0)
+        bought = Limits(arcs.clearance, arcs.clearance) if arcs else None
     elif bearing.axial_clearance is not None:
         ledger.problem("bearing.axial_clearance", "is of four-point contact and of two rows; here write a clearance")
         return None
@@ -106,12 +110,9 @@ def resolve_geometry(
     else:
         bought = _clearance_of_angle(angle, distance, ledger)
     _ratings(picker)
-    if bought is None or any(math.isnan(x) for x in (bore, outside, width, count, ball, pitch, *grooves)):
+    if bought is None or any(math.isnan(x) for x in (bore, outside, width, count, ball, pitch, grooves[0])):
         return None
     clearance = picked(bought, bearing.clearance_pick)
-    heights = FOUR_POINT_SHOULDERS if resting and not two else HIGH_SHOULDERS if angle else None
-    shoulders = (shoulder(picker, "inner", ball, pitch, heights), shoulder(picker, "outer", ball, pitch, heights))
-    series = inline.series or (row.series if row else "")
     as_bought = Geometry(
         ball_count=round(count),
         ball_diameter=ball,
@@ -120,22 +121,37 @@ def resolve_geometry(
         race_diameter_outer=math.nan,
         groove_radius_inner=grooves[0],
         groove_radius_outer=grooves[1],
-        shoulder_diameter_inner=shoulders[0],
-        shoulder_diameter_outer=shoulders[1],
+        shoulder_diameter_inner=math.nan,
+        shoulder_diameter_outer=math.nan,
         clearance=clearance,
         bore_diameter=bore,
         outside_diameter=outside,
         width=width,
-        series=series,
+        series=inline.series or (row.series if row else ""),
         contact_angle=angle,
         resting_angle=resting,
         rows=2 if two else 1,
-        row_distance=(inline.row_distance or 0.0) if two else 0.0,
-        arrangement=(inline.arrangement or "O") if two else "",
+        row_distance=apart,
+        arrangement=arrangement,
     )
-    geometry = with_clearance(as_bought, clearance)
+    geometry = _with_shoulders(with_clearance(as_bought, clearance), picker)
     check_geometry(geometry, races, ledger)
     return geometry, bought
+
+
+def _with_shoulders(geometry: Geometry, picker: Picker) -> Geometry:
+    """Return the geometry with its shoulders; a sphere ends at the faces of its ring."""
+    size = geometry.ball_diameter, geometry.pitch_diameter
+    heights = {"four-point": FOUR_POINT_SHOULDERS, "deep groove": None, "self-aligning": ALIGNING_SHOULDERS}.get(
+        geometry.kind, HIGH_SHOULDERS
+    )
+    inner = shoulder(picker, "inner", *size, heights)
+    if not geometry.self_aligning:
+        outer = shoulder(picker, "outer", *size, heights)
+    elif (outer := picker.take("shoulder_diameter_outer") or 0.0) == 0.0:
+        outer = sphere_edge(geometry)
+        picker.ledger.record("bearing.shoulder_diameter_outer", outer, "length", "the sphere at the faces", "derived")
+    return replace(geometry, shoulder_diameter_inner=inner, shoulder_diameter_outer=outer)
 
 
 def _contact_angle(bearing: Bearing, row: BearingRow | None, ledger: Ledger) -> float:
@@ -198,8 +214,10 @@ def with_clearance(geometry: Geometry, clearance: float) -> Geometry:
     """Return the geometry with both raceways set so that the clearance is `clearance` [m].
 
     Pitch and ball diameters stay; each raceway takes half: d_i = d_m - D_w - G/2,
-    d_o = d_m + D_w + G/2, so that d_o - d_i - 2 D_w = G.
+    d_o = d_m + D_w + G/2, so that d_o - d_i - 2 D_w = G. Of a self-aligning bearing the sphere goes with it.
     """
+    if geometry.self_aligning:
+        return on_sphere(geometry, clearance)
     half = geometry.ball_diameter + clearance / 2.0
     return replace(
         geometry,
@@ -249,102 +267,3 @@ def _groove(picker: Picker, ring: str, ball: float) -> float:
         picker.ledger.record(path, radius, "length", f"usual conformity {usual:g} D_w", "assumed")
         picker.ledger.assume(f"{ring} groove radius {usual:g} D_w: usual conformity")
     return radius
-
-
-def mm(length: float) -> str:
-    """Write a length for people."""
-    return f"{length * 1e3:.6g} mm"
-
-
-def check_geometry(geometry: Geometry, races: tuple[float | None, float | None], ledger: Ledger) -> None:
-    """Note everything that makes a geometry impossible."""
-    g = geometry
-    ball, pitch = g.ball_diameter, g.pitch_diameter
-    say = ledger.problem
-
-    if not abs(g.clearance) < ball:
-        say("bearing.clearance", f"{mm(g.clearance)} is no clearance of balls of {mm(ball)}")
-        return
-    if not g.bore_diameter < pitch < g.outside_diameter:
-        say(
-            "bearing.geometry.pitch_diameter",
-            f"{mm(pitch)} does not lie between the bore of {mm(g.bore_diameter)} and {mm(g.outside_diameter)} outside",
-        )
-        return
-    if ball > pitch * math.sin(math.pi / g.ball_count):
-        fits = math.floor(math.pi / math.asin(min(ball / pitch, 1.0)))
-        say(
-            "bearing.geometry.ball_count",
-            f"{g.ball_count} balls of {mm(ball)} do not fit on a pitch diameter of {mm(pitch)}: at most {fits}",
-        )
-    for ring, radius in (("inner", g.groove_radius_inner), ("outer", g.groove_radius_outer)):
-        if radius <= 0.5 * ball:
-            say(
-                f"bearing.geometry.groove_radius_{ring}",
-                f"{mm(radius)} is a conformity of {radius / ball:.4g}: it must be larger than half the ball diameter",
-            )
-    if not g.bore_diameter < g.race_diameter_inner or not g.race_diameter_outer < g.outside_diameter:
-        say(
-            "bearing.geometry.ball_diameter",
-            f"{mm(ball)} leaves no ring between raceway and bore or outside diameter",
-        )
-    if races[0] is not None and races[1] is not None:
-        _check_races(g, races[0], races[1], say)
-    inner_ok = g.race_diameter_inner < g.shoulder_diameter_inner < pitch
-    outer_ok = pitch < g.shoulder_diameter_outer < g.race_diameter_outer
-    for ring, fine, edge, race in (
-        ("inner", inner_ok, g.shoulder_diameter_inner, g.race_diameter_inner),
-        ("outer", outer_ok, g.shoulder_diameter_outer, g.race_diameter_outer),
-    ):
-        if not fine:
-            say(
-                f"bearing.geometry.shoulder_diameter_{ring}",
-                f"{mm(edge)} must lie between raceway and pitch: "
-                + " to ".join(mm(end) for end in sorted((race, pitch))),
-            )
-    cut = 2.0 * max(_half_width(g, "inner"), _half_width(g, "outer")) + g.row_distance
-    if g.rows == 2 and math.hypot(g.row_distance, pitch * math.sin(0.5 * math.pi / g.ball_count)) < ball:
-        say("bearing.geometry.row_distance", f"{mm(g.row_distance)} lets the balls of both rows run into each other")
-    if inner_ok and outer_ok and g.width <= cut:
-        say("bearing.geometry.width", f"{mm(g.width)} is narrower than the grooves, which are {mm(cut)} wide")
-
-
-def _half_width(g: Geometry, ring: str) -> float:
-    """Return half the chord of a groove at its shoulders [m]; h (2 r - h) is its square."""
-    radius = getattr(g, f"groove_radius_{ring}")
-    height = 0.5 * abs(getattr(g, f"shoulder_diameter_{ring}") - getattr(g, f"race_diameter_{ring}"))
-    return math.sqrt(max(height * (2.0 * radius - height), 0.0))
-
-
-def _check_races(g: Geometry, inner: float, outer: float, say: Callable[[str, str], None]) -> None:
-    if not inner < g.pitch_diameter < outer:
-        say(
-            "bearing.geometry.race_diameter_inner",
-            f"raceways of {mm(inner)} and {mm(outer)} do not enclose the pitch",
-        )
-    elif abs(0.5 * (inner + outer) - g.pitch_diameter) > 0.02 * g.ball_diameter:
-        say(
-            "bearing.geometry.pitch_diameter",
-            f"{mm(g.pitch_diameter)} contradicts the raceway diameters, whose mean is {mm(0.5 * (inner + outer))}",
-        )
-    elif abs(outer - inner - 2.0 * g.ball_diameter) > 0.05 * g.ball_diameter:
-        say(
-            "bearing.geometry.ball_diameter",
-            f"{mm(g.ball_diameter)} contradicts the raceway diameters, which leave {mm(0.5 * (outer - inner))}",
-        )
-
-
-def check_clearance(g: Geometry, ledger: Ledger) -> None:
-    """Refuse a clearance with which the free contact angle, or the preload, is that of no real bearing."""
-    if not math.isfinite(g.clearance):
-        ledger.problem("bearing.clearance", "is not finite with these dimensions and temperatures")
-        return
-    curvature = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter
-    shown = f"{g.clearance * 1e6:.4g} um"
-    if curvature > 0.0 and g.clearance > 2.0 * curvature * (math.cos(g.resting_angle) - math.cos(LARGEST_FREE_ANGLE)):
-        ledger.problem(
-            "bearing.clearance", f"{shown} lets the contacts leave the grooves (free contact angle over 45 deg)"
-        )
-    if g.clearance < -LARGEST_INTERFERENCE * g.ball_diameter:
-        limit = f"{-LARGEST_INTERFERENCE * g.ball_diameter * 1e6:.3g} um"
-        ledger.problem("bearing.clearance", f"{shown} is more interference than a bearing survives (limit {limit})")

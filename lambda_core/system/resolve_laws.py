@@ -18,6 +18,7 @@ from lambda_core.domain.installed import OWN
 from lambda_core.domain.plugin_errors import describe
 from lambda_core.domain.roles import CAGE, DEFAULT_MODELS, MOTION_ROLES
 from lambda_core.laws.law import Law
+from lambda_core.laws.parameter import kind_defaults
 from lambda_core.system.bearing import ChosenLaw
 from lambda_core.system.law_defaults import default_sentences, short
 from lambda_core.system.law_packages import law_called
@@ -51,6 +52,7 @@ class LawResolver:
     lubricant: LubricantRow | None
     guidance: str
     ledger: Ledger
+    kind: str = "deep groove"  # of the bearing
     _used: dict[str, set[str]] = field(default_factory=dict)  # role -> parameters some model took
 
     def resolve(self) -> dict[str, dict[str, ChosenLaw]]:
@@ -105,7 +107,8 @@ class LawResolver:
         case_texts = self._case_texts(element, role, chosen)
         if role == "supply" and self.case.lubricant.starvation < 1.0 and not self._prescribes(chosen, case_texts):
             return None
-        texts: dict[str, Any] = {key: row.text() for key, row in rows.items()}
+        texts: dict[str, Any] = kind_defaults(chosen.parameters, self.kind)
+        texts |= {key: row.text() for key, row in rows.items()}
         texts.update({key: text for key, (text, _) in case_texts.items()})
         foreign = [key for key in texts if key not in chosen.parameters.model_fields]
         for key in foreign:

@@ -1,7 +1,7 @@
-"""Bearings with a resting angle, of four-point contact and of two rows: from two of what follows the third.
+"""Bearings of four-point contact: from two of what follows the third.
 
-With the distance A of the groove centres, the free contact angle alpha_0 and the resting angle alpha_s (of four-point
-contact the angle of the shims that the arcs are ground with), rings that move against each other until balls touch have
+With the distance A of the groove centres, the free contact angle alpha_0 and the resting angle alpha_s, that of the
+shims which the arcs are ground with, rings that move against each other until balls touch have
 
     axial clearance   G_a = 2 A (sin(alpha_0) - sin(alpha_s)),
     radial clearance  G_r = 2 A (cos(alpha_s) - cos(alpha_0))
@@ -16,10 +16,10 @@ from typing import NamedTuple
 
 from lambda_core.case.parts import CLEARANCE_CLASSES, Bearing
 from lambda_core.catalogue.protocol import BearingRow
-from lambda_core.domain.axial_clearance import SOURCE, four_point_clearance
+from lambda_core.domain.kind_clearance import FOUR_POINT as CLEARANCES
 from lambda_core.domain.units import parse, show
 from lambda_core.system.ledger import Ledger
-from lambda_core.system.resolve_clearance import PATH, picked
+from lambda_core.system.resolve_clearance import PATH, class_of_kind, picked
 
 FOUR_POINT = "four-point"  # kind of a row of the catalogue
 _SHIM = "bearing.geometry.shim_angle"
@@ -38,43 +38,6 @@ def has_arcs(bearing: Bearing, row: BearingRow | None) -> bool:
     """Say whether each ring has two arcs: by the catalogue's kind, or by a shim angle."""
     inline = bearing.geometry
     return (row is not None and row.kind == FOUR_POINT) or bool(inline and inline.shim_angle)
-
-
-def has_two_rows(bearing: Bearing) -> bool:
-    """Say whether the case writes a bearing of two rows."""
-    return bool(bearing.geometry and bearing.geometry.rows == 2)
-
-
-def resolve_two_rows(bearing: Bearing, row: BearingRow | None, distance: float, ledger: Ledger) -> Resting | None:
-    """Return angles and clearance of a bearing of two rows; None after a problem.
-
-    The rings go G_a against each other from one row's touch to the other's; below zero the rows press on each other.
-    """
-    inline, axial = bearing.geometry, bearing.axial_clearance
-    if row is not None:
-        ledger.problem("bearing.geometry.rows", f"{row.designation} has one row: write two rows without a designation")
-    if bearing.clearance is not None:
-        ledger.problem(PATH, "is radial: of two rows write contact_angle and axial_clearance")
-    for where, missing in (
-        ("bearing.contact_angle", bearing.contact_angle is None),
-        (_AXIAL, axial is None),
-        ("bearing.geometry.row_distance", inline is None or inline.row_distance is None),
-    ):
-        if missing:
-            ledger.problem(where, "is required of two rows")
-    if row is not None or bearing.contact_angle is None or axial is None or math.isnan(distance):
-        return None
-    free = bearing.contact_angle
-    ledger.given("bearing.contact_angle", free, "angle")
-    ledger.given(_AXIAL, axial, "small_length")
-    sine = math.sin(free) - 0.5 * axial / distance
-    if not 0.0 < sine < 1.0:
-        ledger.problem(_AXIAL, f"{show(axial, 'small_length', 4)} lets the balls leave their grooves")
-        return None
-    resting = math.asin(sine)
-    clearance = 2.0 * distance * (math.cos(resting) - math.cos(free))
-    ledger.record(PATH, clearance, "small_length", "from contact angle and axial clearance", "derived")
-    return Resting(free, resting, clearance)
 
 
 def resolve_resting(
@@ -171,10 +134,10 @@ def _without_shims(
     if axial is not None:
         ledger.given(_AXIAL, axial, "small_length")
     else:
-        found = _class_of(bearing, bore, ledger)
-        if found is None:
+        limits = class_of_kind(CLEARANCES, bearing, bore, _AXIAL, ledger)
+        if limits is None:
             return None
-        axial = found
+        axial = picked(limits, bearing.clearance_pick)
     sine = math.sin(free) - 0.5 * axial / distance
     if not 0.0 < sine < math.sin(free):
         largest = show(2.0 * distance * math.sin(free), "small_length", 4)
@@ -183,25 +146,6 @@ def _without_shims(
         )
         return None
     return _derived(free, math.asin(sine), distance, ledger)
-
-
-def _class_of(bearing: Bearing, bore: float, ledger: Ledger) -> float | None:
-    name = bearing.clearance or "CN"
-    if math.isnan(bore):
-        return None
-    try:
-        limits = four_point_clearance(bore, name)
-    except ValueError as error:
-        ledger.problem(PATH, str(error))
-        return None
-    axial = picked(limits, bearing.clearance_pick)
-    ledger.record(_AXIAL, axial, "small_length", f"{bearing.clearance_pick} of {name}: {SOURCE}", "assumed", "A-")
-    stated = "" if bearing.clearance else "class not stated, "
-    span = f"{limits.minimum * 1e6:.4g} to {limits.maximum * 1e6:.4g} um"
-    ledger.assume(
-        f"axial clearance {show(axial, 'small_length', 4)}: {stated}{bearing.clearance_pick} of {name} ({span})"
-    )
-    return axial
 
 
 def _derived(free: float, shim: float, distance: float, ledger: Ledger) -> Resting:

@@ -16,6 +16,13 @@ SHOULDER_SPREAD = 1.21
 HIGH_SHOULDERS = {"inner": 0.316, "outer": 0.309}
 # The same of SKF's QJ: inner rings of those without a recess in their shoulders, outer rings of all; likewise tested.
 FOUR_POINT_SHOULDERS = {"inner": 0.247, "outer": 0.240}
+# The same of SKF's self-aligning bearings: inner rings, whose printed shoulder is the one on the loaded side.
+ALIGNING_SHOULDERS = {"inner": 0.13}
+_WHOSE = {
+    id(FOUR_POINT_SHOULDERS): ("shoulders", "the mean of SKF's QJ"),
+    id(HIGH_SHOULDERS): ("high shoulder", "the mean of SKF's 72 and 73 BE; the low one is not in the model"),
+    id(ALIGNING_SHOULDERS): ("shoulder", "the mean of SKF's self-aligning ball bearings"),
+}
 
 
 def shoulder(picker: Picker, ring: str, ball: float, pitch: float, heights: Mapping[str, float] | None) -> float:
@@ -29,9 +36,8 @@ def shoulder(picker: Picker, ring: str, ball: float, pitch: float, heights: Mapp
     if diameter is None and heights is not None:
         height = heights[ring]
         diameter = pitch + sign * (1.0 - 2.0 * height) * ball
-        four = heights is FOUR_POINT_SHOULDERS
-        text = f"{'shoulders' if four else 'high shoulder'} {height:g} D_w over the raceway"
-        whose = "the mean of SKF's QJ" if four else "the mean of SKF's 72 and 73 BE; the low one is not in the model"
+        what, whose = _WHOSE[id(heights)]
+        text = f"{what} {height:g} D_w over the raceway"
         picker.ledger.record(f"bearing.{name}", diameter, "length", text, "assumed")
         picker.ledger.assume(f"{ring} ring: {text}, {whose}")
     elif diameter is None:

@@ -16,6 +16,7 @@ from pydantic import BeforeValidator
 from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, law, parameter
 from lambda_plugins.immersion import OilBath, immersion, kinematic_speeds, mean_immersion, oil_geometry
 from lambda_plugins.methods.skf_chart import UNCERTAINTY, drag_loss_factor
+from lambda_plugins.methods.skf_drag import K_Z_OF_KINDS
 from lambda_plugins.shapes import at_least
 
 _RPM = math.pi / 30.0
@@ -60,7 +61,13 @@ class Skf(SharedLoss):
         source=f"SKF; 2018 with V_M from SKF's chart, +-{UNCERTAINTY:.0%}; not confirmed from its original",
         status="unconfirmed",
     )
-    k_z: float = parameter(3.1, "geometry constant K_Z", source="SKF: deep groove ball bearings 3.1", gt=0.0)
+    k_z: float = parameter(
+        3.1,
+        "geometry constant K_Z; of single row angular contact 4.4, of self-aligning bearings 4.8",
+        source="SKF: ball bearings 3.1, single row angular contact 4.4, self-aligning 4.8",
+        by_kind=K_Z_OF_KINDS,
+        gt=0.0,
+    )
 
 
 def mean_diameter(context: Context) -> float:

@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 from lambda_core.plugins import OK, Context, FloatArray, Parameters, law, parameter
+from lambda_plugins.methods.skf_drag import K_Z_OF_KINDS
 from lambda_plugins.shapes import at_least, at_most
 from lambda_plugins.starved_inlet import INLET, ROLLING, meniscus, starved_rolling
 
@@ -127,7 +128,13 @@ class Replenishment(FilmFactor):
         published_range=(3e-8, 6e-8),
         ge=0.0,
     )
-    k_z: float = parameter(3.1, "geometry constant K_Z", source="SKF: deep groove ball bearings 3.1", gt=0.0)
+    k_z: float = parameter(
+        3.1,
+        "geometry constant K_Z; of single row angular contact 4.4, of self-aligning bearings 4.8",
+        source="SKF: ball bearings 3.1, single row angular contact 4.4, self-aligning 4.8",
+        by_kind=K_Z_OF_KINDS,
+        gt=0.0,
+    )
 
 
 class Decay(NamedTuple):

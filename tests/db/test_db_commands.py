@@ -171,15 +171,15 @@ def test_export_and_import(capsys: pytest.CaptureFixture[str], tmp_path: Path) -
     mine = tmp_path / "mine.toml"
     assert data(capsys, "db", "export", str(mine), "--mine")["rows"]["bearing"] == 1
     bearings = tmp_path / "bearing.csv"
-    assert data(capsys, "db", "export", str(bearings))["rows"] == {"bearing": 624}
-    bearings.write_text(bearings.read_text(encoding="utf-8") + "x" + "," * 44 + "\n", encoding="utf-8")
+    assert data(capsys, "db", "export", str(bearings))["rows"] == {"bearing": 752}
+    bearings.write_text(bearings.read_text(encoding="utf-8") + "x" + "," * 48 + "\n", encoding="utf-8")
     code, _, err = run(capsys, "db", "import", str(bearings), "--replace")
     assert code == 3
-    assert "nothing was written; --keep-good takes the 624 good rows" in err
+    assert "nothing was written; --keep-good takes the 752 good rows" in err
     code, out, err = run(capsys, "db", "import", str(bearings), "--replace", "--keep-good")
     assert code == 3
-    assert "added 623 bearing rows" in out
-    assert "refused bearing.csv line 626" in err
+    assert "added 751 bearing rows" in out
+    assert "refused bearing.csv line 754" in err
 
 
 def test_check(capsys: pytest.CaptureFixture[str]) -> None:

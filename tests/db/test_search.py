@@ -41,7 +41,7 @@ def test_what_matches(catalogue: SqlCatalogue, text: str, expected: list[str]) -
 
 
 def test_nothing_typed_lists_all(catalogue: SqlCatalogue) -> None:
-    assert len(catalogue.bearings("", 1000)) == 623
+    assert len(catalogue.bearings("", 1000)) == 751
     assert len(catalogue.bearings("")) == 50
 
 

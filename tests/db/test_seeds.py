@@ -106,7 +106,7 @@ def test_6220_for_the_stability_map(catalogue: SqlCatalogue) -> None:
 
 def test_every_value_has_a_source_and_a_grade(catalogue: SqlCatalogue) -> None:
     rows = catalogue.bearings(limit=10_000)
-    assert len(rows) == 623
+    assert len(rows) == 751
     values: list[Value] = []
     for row in [
         *rows,
@@ -158,7 +158,7 @@ def test_derived_rows_are_what_the_derivation_supports(catalogue: SqlCatalogue) 
         )
         supported = grade_of(printed, ranked, design)
         assert row["geometry_grade"] in {"B": ("B", "C"), "C": ("C",)}[supported], row["designation"]
-    assert derived == 591
+    assert derived == 719
 
 
 def test_estimates_carry_their_candidates(catalogue: SqlCatalogue) -> None:

@@ -16,8 +16,8 @@ from lambda_plugins.methods.skf_angular import angular_variables
 from scipy.optimize import root
 
 from lambda_core import api
-from lambda_core.domain.axial_clearance import four_point_clearance
 from lambda_core.domain.hertz import ball_raceway_radii, stiffness_constant
+from lambda_core.domain.kind_clearance import FOUR_POINT
 from lambda_core.domain.life import ball_capacities, dynamic_equivalent_load, reference_rating_life
 from lambda_core.domain.life import static_equivalent_load as static_load
 from lambda_core.domain.ratings import dynamic_rating, static_rating
@@ -182,7 +182,7 @@ def test_without_a_shim_the_arcs_are_one_groove() -> None:
 def test_play_of_a_row_of_the_catalogue() -> None:
     """QJ208: rings that are moved until balls touch have the axial clearance of the class and 35 degrees, 0.5 %."""
     for name, least, largest in (("C2", 26, 66), ("CN", 56, 106), ("C3", 96, 146)):
-        limits = four_point_clearance(0.04, name)
+        limits = FOUR_POINT.limits(0.04, name)
         assert (1e6 * limits.minimum, 1e6 * limits.maximum) == pytest.approx((least, largest))
         g = model_of("QJ208", clearance=name).geometry
         distance = g.groove_radius_inner + g.groove_radius_outer - g.ball_diameter

@@ -37,8 +37,8 @@ def test_what_is_impossible_is_refused(change: str) -> None:
 
 
 def test_the_ranges_are_those_of_the_catalogue() -> None:
-    filling: dict[str, list[float]] = {"deep groove": [], "angular contact": [], "four-point": []}
-    wall, width = [], []
+    filling: dict[str, list[float]] = {kind: [] for kind in proportions.FILLINGS}
+    wall, width, aligning_wall, aligning_width = [], [], [], []
     for row in api.catalogue().bearings(limit=10_000):
         if row.ball_count is None or row.ball_diameter is None:
             continue
@@ -46,17 +46,30 @@ def test_the_ranges_are_those_of_the_catalogue() -> None:
         bore, outside, broad = row.bore_diameter.value, row.outside_diameter.value, row.width.value
         pitch = row.pitch_diameter.value if row.pitch_diameter else 0.5 * (bore + outside)
         filling[row.kind].append(2.0 * (row.ball_count.value - 1) * math.degrees(math.asin(ball / pitch)))
+        if row.kind == "self-aligning":
+            assert row.contact_angle is not None
+            angle = row.contact_angle.value
+            sphere = ball + pitch / math.cos(angle)  # diameter of the outer raceway
+            aligning_wall += [0.5 * (pitch - ball - bore) / ball, 0.5 * (outside - sphere) / ball]
+            aligning_width.append((broad - pitch * math.tan(angle)) / ball)
+            continue
         wall += [0.5 * (pitch - ball - bore) / ball, 0.5 * (outside - pitch - ball) / ball]
-        width.append(broad / ball)
+        width.append((broad - (row.row_distance.value if row.row_distance else 0.0)) / ball)
     assert {kind: len(found) for kind, found in filling.items()} == {
         "deep groove": 349,
         "angular contact": 201,
         "four-point": 46,
+        "double row": 42,
+        "self-aligning": 86,
     }
     for found, (least, most), step in (
         (filling["deep groove"], proportions.FILLING, 1.0),
         (filling["angular contact"], proportions.ANGULAR_FILLING, 1.0),
         (filling["four-point"], proportions.FOUR_POINT_FILLING, 1.0),
+        (filling["double row"], proportions.DOUBLE_ROW_FILLING, 1.0),
+        (filling["self-aligning"], proportions.ALIGNING_FILLING, 1.0),
+        (aligning_wall, proportions.ALIGNING_WALL, 0.01),
+        (aligning_width, proportions.ALIGNING_WIDTH, 0.01),
         (wall, proportions.WALL, 0.01),
         (width, proportions.WIDTH, 0.01),
     ):

@@ -304,7 +304,8 @@ class BearingEngine:
 def initial_state(equilibrium: Equilibrium) -> FloatArray:
     """Return the state that the dynamics start from: equilibrium with every ball at the cage's speed.
 
-    The cage stands centred on the balls and turns with them; its pockets are where the balls are.
+    The cage stands centred on the balls and turns with them; its pockets are where the balls are. That of a
+    self-aligning bearing leans with the inner ring, as the rows do.
     """
     context = equilibrium.context
     model = context.model
@@ -319,5 +320,8 @@ def initial_state(equilibrium: Equilibrium) -> FloatArray:
         cage.view(np.float64)[:] = 0.0
         cage["position"][0, 0] = float(np.mean(balls["x"]))
         cage["angle"], cage["spin"] = balls["azimuth"][0], equilibrium.orbit
+        if model.geometry.self_aligning:
+            *_, about_y, about_z = equilibrium.displacement
+            cage["tilt"][0] = about_z, -about_y
         context.shared_part(y)[:] = shared[context.bundle.active]
     return y

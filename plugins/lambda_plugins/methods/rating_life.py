@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from lambda_core.domain.life import (
     basic_rating_life,
@@ -20,13 +21,18 @@ from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable, No
 
 def _ratings(inputs: MethodInputs, assumptions: list[str]) -> tuple[float, float, float]:
     """C, C_0 and C_u: the catalogue's where it has them, else from the geometry, said in `assumptions`."""
+    of_kind: dict[str, Any] = {
+        "contact_angle": inputs.contact_angle,
+        "rows": inputs.rated_rows,
+        "self_aligning": inputs.self_aligning,
+    }
     geometry = (inputs.ball_count, inputs.ball_diameter, inputs.pitch_diameter)
     dynamic, static, fatigue = inputs.dynamic_rating, inputs.static_rating, inputs.fatigue_limit
     if dynamic is None:
-        dynamic = dynamic_rating(*geometry, contact_angle=inputs.contact_angle, rows=inputs.rated_rows)
+        dynamic = dynamic_rating(*geometry, **of_kind)
         assumptions.append(f"C = {dynamic * 1e-3:.1f} kN from the inner geometry (ISO 281)")
     if static is None:
-        static = static_rating(*geometry, contact_angle=inputs.contact_angle, rows=inputs.rated_rows)
+        static = static_rating(*geometry, **of_kind)
         assumptions.append(f"C_0 = {static * 1e-3:.1f} kN from the inner geometry (ISO 76)")
     if fatigue is None:
         fatigue = fatigue_load_limit(static, inputs.pitch_diameter)
@@ -49,14 +55,16 @@ def evaluate_iso281(inputs: MethodInputs) -> MethodTable:
     """Basic and modified rating life and static safety from radial and axial load."""
     assumptions: list[str] = []
     dynamic, static, fatigue = _ratings(inputs, assumptions)
-    loads, angle = (inputs.radial_load, inputs.axial_load), inputs.contact_angle
-    equivalent = dynamic_equivalent_load(*loads, static, static_factor(_gamma(inputs)), angle, inputs.rated_rows)
+    loads, kind = (inputs.radial_load, inputs.axial_load), (inputs.contact_angle, inputs.rated_rows)
+    aligning = inputs.self_aligning
+    factor = static_factor(_gamma(inputs), self_aligning=aligning)
+    equivalent = dynamic_equivalent_load(*loads, static, factor, *kind, self_aligning=aligning)
     basic = basic_rating_life(dynamic, equivalent.load)
     rows = _life_rows("basic rating life", basic, inputs, "L_10")
     meaning = f"P = {equivalent.radial_factor:.3g} F_r + {equivalent.axial_factor:.3g} F_a"
     rows.append(MethodRow("life", "equivalent load", equivalent.load, "N", meaning))
     rows += _modified_rows("", basic, equivalent.load, fatigue, inputs, assumptions)
-    static_load = static_equivalent_load(*loads, angle, inputs.rated_rows)
+    static_load = static_equivalent_load(*loads, *kind, self_aligning=aligning)
     rows.append(MethodRow("rating", "static equivalent load", static_load, "N", "P_0"))
     if static_load > 0.0:
         rows.append(MethodRow("rating", "static safety", static / static_load, "-", "C_0/P_0 (ISO 76)"))

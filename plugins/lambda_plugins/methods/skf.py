@@ -286,6 +286,7 @@ SKF = Method(
     title="SKF catalogue friction model",
     reference="SKF, Rolling bearings, catalogue 17000 EN (2018), chapter Friction; seals after 6000 (2008), table 4",
     evaluate=evaluate,
-    validity="series 60, 62, 63, 64, 618, 619; seals RZ, RSL, RSH, RS1; steady running; normal clearance",
+    validity="series 60, 62, 63, 64, 618, 619, 70, 72, 73, 32, 33, QJ2, QJ3, 12, 13, 22, 23; seals RZ, RSL, RSH, RS1; "
+    "steady running; normal clearance",
     method_api=1,
 )

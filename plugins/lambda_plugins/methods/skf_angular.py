@@ -1,6 +1,7 @@
-"""SKF's friction variables of angular contact ball bearings, of single and double row and of four-point contact.
+"""SKF's friction variables of the kinds that are no deep groove ball bearings.
 
-Source: SKF, general catalogue 6000, "Friction": tables 2a, 3 and 5, footnote: F_a is the external axial load.
+Angular contact of one and two rows, four-point contact, self-aligning. Source: SKF, general catalogue 6000, "Friction":
+tables 2a, 3, 3b and 5, footnote: F_a is the external axial load.
 """
 
 from __future__ import annotations
@@ -8,8 +9,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-# Series -> geometric constant (table 5).
-K_Z = {"70": 4.4, "72": 4.4, "73": 4.4, "32": 3.1, "33": 3.1, "QJ2": 3.1, "QJ3": 3.1}
+from lambda_plugins.methods.skf_drag import K_Z as DEEP_GROOVE
+from lambda_plugins.methods.skf_drag import K_Z_OF_KINDS
+
+_ANGULAR, _ALIGNING = K_Z_OF_KINDS["angular contact"], K_Z_OF_KINDS["self-aligning"]
+# Series -> geometric constant.
+K_Z = dict.fromkeys(("70", "72", "73"), _ANGULAR) | dict.fromkeys(("32", "33", "QJ2", "QJ3"), DEEP_GROOVE)
+K_Z |= dict.fromkeys(("12", "13", "22", "23"), _ALIGNING)
 SERIES = tuple(K_Z)
 
 
@@ -28,6 +34,14 @@ class AngularConstants:
 SINGLE_ROW = AngularConstants(5.03e-7, 1.97, 1.90e-12, 1.30e-2, 0.68, 1.91e-12)
 TWO_ROWS = AngularConstants(6.34e-7, 1.41, 7.83e-13, 7.56e-3, 1.21, 7.83e-13)
 FOUR_POINT = AngularConstants(4.78e-7, 2.42, 1.40e-12, 1.20e-2, 0.9, 1.40e-12)
+SELF_ALIGNING = {
+    "12": AngularConstants(3.25e-7, 6.51, 2.43e-12, 4.36e-3, 9.33, 2.43e-12),
+    "13": AngularConstants(3.11e-7, 5.76, 3.52e-12, 5.76e-3, 8.03, 3.52e-12),
+    "22": AngularConstants(3.13e-7, 5.54, 3.12e-12, 5.84e-3, 6.60, 3.12e-12),
+    "23": AngularConstants(3.11e-7, 3.87, 5.41e-12, 0.01, 4.35, 5.41e-12),
+}
+# Exponents of d_m in G_rr, G_sl and F_g.
+_POWERS, _POWERS_ALIGNING = (1.97, 0.26, 4.0), (2.0, -0.12, 3.5)
 
 
 def angular_variables(
@@ -36,7 +50,7 @@ def angular_variables(
     """Load and geometry variables (G_rr, G_sl) in the catalogue's units (torque in N mm).
 
     G_rr = R1 d_m^1.97 (F_r + F_g + R2 F_a)^0.54 with F_g = R3 d_m^4 n^2; G_sl = S1 d_m^0.26 ((F_r + F_g)^(4/3) +
-    S2 F_a^(4/3)) with F_g = S3 d_m^4 n^2 (mm, N, 1/min).
+    S2 F_a^(4/3)) with F_g = S3 d_m^4 n^2 (mm, N, 1/min); of self-aligning bearings d_m has the powers 2, -0.12, 3.5.
 
     Parameters
     ----------
@@ -47,7 +61,9 @@ def angular_variables(
     """
     diameter, rpm = mean_diameter * 1e3, speed * 30.0 / math.pi
     c = FOUR_POINT if series.startswith("QJ") else TWO_ROWS if series.startswith("3") else SINGLE_ROW
-    pressed = diameter**4 * rpm**2
-    rolling = c.r1 * diameter**1.97 * (radial_load + c.r3 * pressed + c.r2 * axial_load) ** 0.54
+    c = SELF_ALIGNING.get(series, c)
+    to_roll, to_slide, to_press = _POWERS_ALIGNING if series in SELF_ALIGNING else _POWERS
+    pressed = diameter**to_press * rpm**2
+    rolling = c.r1 * diameter**to_roll * (radial_load + c.r3 * pressed + c.r2 * axial_load) ** 0.54
     loads = (radial_load + c.s3 * pressed) ** (4.0 / 3.0) + c.s2 * axial_load ** (4.0 / 3.0)
-    return rolling, c.s1 * diameter**0.26 * loads
+    return rolling, c.s1 * diameter**to_slide * loads

@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import math
 
-K_Z = 3.1  # geometric constant of single-row deep-groove ball bearings
+# Geometric constant of ball bearings, and of the kinds that have another one (SKF, general catalogue 6000, "Friction",
+# table 5): deep groove, double row and four-point contact 3.1.
+K_Z = 3.1
+K_Z_OF_KINDS = {"angular contact": 4.4, "self-aligning": 4.8}
 
 
 def drag_torque(
