@@ -36,8 +36,8 @@ def init(
         typer.Option(
             "--machine",
             metavar="MACHINE",
-            help="Start from what is usual in an electric-motor, gearbox-shaft, spindle, pump or wheel; with --bearing "
-            "for a bearing of yours.",
+            help="Start from what is usual in an electric-motor, gearbox-shaft, spindle, pump, wheel or thin-housing; "
+            "with --bearing for a bearing of yours.",
         ),
     ] = None,
     shaft: Annotated[

@@ -90,8 +90,7 @@ def _bodies() -> Node:
         own = [name for name in plain_fields(Case, ("bodies", body)) if name not in DOFS]
         groups = [Group("", ("bodies", body), tuple(own)), Group("Material", ("materials",), (parts[body],))]
         node = Node(f"bodies.{body}", title, about(Case, ("bodies", body)), groups)
-        if body != "cage":
-            node.children = [_form(f"elastic.{body}", "Elastic", ("elastic", body))]
+        node.children = [_form(f"elastic.{body}", "Elastic", ("elastic", body))]
         nodes.append(node)
     balls = Node("bodies.balls", "Balls", "number and size are the bearing's", [Group("", ("materials",), ("balls",))])
     nodes.insert(2, balls)

@@ -17,6 +17,7 @@ from lambda_core.domain.kinematics import epicyclic_ratio
 from lambda_core.domain.loading import CARRYING, Ring, carries, largest_contact, loaded_balls
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.averages import Interval, finite
+from lambda_core.results.bent import Bent, bent_parts
 from lambda_core.results.convergence import shortfalls, window
 from lambda_core.results.currents import Currents, currents_of
 from lambda_core.results.event_rows import EventSeen, ObserverNumber
@@ -87,6 +88,7 @@ class Summary(Record):
     contacts: list[Contact] = Field(description="every ball - raceway contact at the end state")
     inner_ring_displacement_um: list[float | None] = Field(description="mean position x, y, z")
     inner_ring_tilt_mrad: list[float | None] = Field(description="mean tilt about y and z")
+    bent: list[Bent] = Field(description="elastic rings and cage; empty where all are rigid", default=[])
     max_pressure_GPa: float | None = Field(description="largest Hertzian pressure of the averaging window")
     min_film_um: float | None = Field(description="smallest minimum film under load in the averaging window")
     film_um: list[float] = Field(description="smallest and largest central film under load at the end state")
@@ -162,6 +164,7 @@ def summarise(result: Result) -> Summary:
         contacts=contact_list(end),
         inner_ring_displacement_um=[finite(1e6 * value) for value in chosen.interval.position()],
         inner_ring_tilt_mrad=[finite(1e3 * angle) for angle in extremes.tilt],
+        bent=bent_parts(result, float(chosen.interval.first[0])),
         max_pressure_GPa=finite(1e-9 * extremes.pressure),
         min_film_um=finite(1e6 * extremes.film),
         film_um=span(1e6 * end["film_central"][carrying]),

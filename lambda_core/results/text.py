@@ -12,6 +12,7 @@ from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.domain.wrapping import HEAD, wrapped
 
 if TYPE_CHECKING:
+    from lambda_core.results.bent import Bent
     from lambda_core.results.currents import Currents
     from lambda_core.results.limits import Shoulder
     from lambda_core.results.quasistatic import QuasiStatic, RingShape
@@ -53,6 +54,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         line("input torque", units.text(summary.input_torque_Nmm, "N mm")),
         line("cage speed", f"{number(summary.cage_speed_ratio, 4)} of inner ring", _slip(summary)),
         line("inner ring", f"{_place(summary.inner_ring_displacement_um, units)} (mean)", _tilt(summary)),
+        *(line("" if i else "ovality", _oval(bent, units)) for i, bent in enumerate(summary.bent)),
         line("pressure", f"p_max {units.text(summary.max_pressure_GPa, 'GPa', 2)}"),
         line(
             "capacitance",
@@ -126,6 +128,12 @@ def rating_lines(rating: Rating | None, units: UnitSystem = SI) -> list[str]:
 def _digits(value: float | None) -> int:
     """Return the decimals that leave a number three digits."""
     return 1 if not value else min(3, max(0, 2 - math.floor(math.log10(abs(value)))))
+
+
+def _oval(found: Bent, units: UnitSystem) -> str:
+    """Say how oval an elastic part was."""
+    mean, most = (units.text(value, "um", 2) for value in (found.mean_ovality_um, found.largest_ovality_um))
+    return f"{found.part} {mean} on average, {most} at most"
 
 
 def _bent(found: RingShape, units: UnitSystem) -> tuple[str, str]:

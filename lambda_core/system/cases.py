@@ -100,7 +100,7 @@ def init_case(
         Instead of `start`: a bearing of the catalogue, "6319", "SKF 6208" or "SKF 6208-2RS1/C3".
     machine : str, optional
         Instead of `start`: a machine with what is usual there, ``electric-motor``, ``gearbox-shaft``, ``spindle``,
-        ``pump`` or ``wheel``; with its own bearing where none is given.
+        ``pump``, ``wheel`` or ``thin-housing``; with its own bearing where none is given.
 
     Returns
     -------

@@ -26,6 +26,14 @@ _HUB = """
 [bodies.outer_ring]
 spin = { mode = "prescribed", motion = "800 rpm" }  # the hub turns, the axle stands still
 """
+_ELASTIC = """
+[elastic.outer_ring]            # bends in its seat, as waves round it
+housing_stiffness = "300 N/um"  # force over displacement of a rigid ring pushed into its seat: it decides, find yours
+
+[elastic.cage]                  # bends as a ring of its mass; its section where bars and rims are known:
+# section_height = "3 mm"
+# section_width = "4 mm"
+"""
 
 
 @dataclass(frozen=True)
@@ -96,5 +104,10 @@ MACHINES: dict[str, Machine] = {
         "wheel or roller on a standing axle, grease", "SKF 6206", "arcanol-load150", 40, 0.12, 0.1, 0.0, "CN",
         _TILT + _HUB,
         ("a grease", "share of the vehicle's weight", "the axle stands still; see the outer ring"),
+    ),
+    "thin-housing": Machine(
+        "fast shaft in a thin light-metal housing, ring and cage bend", "SKF 6208", "mineral-vg46", 70, 0.08, 0.2,
+        6000.0, "C3", _TILT + _ELASTIC,
+        ("gear oil, thin", "from the teeth", "electric drive"),
     ),
 }  # fmt: skip

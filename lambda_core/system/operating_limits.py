@@ -53,6 +53,8 @@ _TILTS = {
 MINIMUM_LOAD = 0.01  # over the dynamic rating
 # Axial over radial load from which on the balls of four-point contact run on one side: SKF, general catalogue 6000.
 ONE_SIDE = 1.27
+# Loads above 0.1 C are heavy or very heavy in the tables of seats: SKF, the same, magnitude of the load.
+HEAVY_LOAD = 0.1  # over the dynamic rating
 # ISO 281:2007, 5.1: the life equations hold up to P = 0.5 C.
 LARGEST_LIFE_LOAD = 0.5  # over the dynamic rating
 # Raceways and balls are ground and honed to 0.01 to 0.1 um, worn ones reach a few tenths (Harris and Kotzalas, Advanced
@@ -142,6 +144,17 @@ def _ratings(model: BearingModel) -> tuple[float, float]:
     )
 
 
+def _unbacked(model: BearingModel, load: float, rating: float) -> Iterator[str]:
+    """Say where a ring that nothing backs carries a heavy load."""
+    for body, waves in model.elastic.items():
+        if body != "cage" and waves.ring.bedding == 0.0:
+            yield (
+                f"nothing backs the {body.replace('_', ' ')} (elastic.{body}.housing_stiffness = 0 N/m) under "
+                f"P = {_force(load)}, {load / rating:.2g} C: its housing carries nothing, and stretching, seat and "
+                "yielding of the ring are left out"
+            )
+
+
 def _load(model: BearingModel) -> Iterator[str]:
     loads = applied_load(model)
     if loads is None:
@@ -159,6 +172,8 @@ def _load(model: BearingModel) -> Iterator[str]:
             f"the axial load of {_force(axial)} is below {ONE_SIDE:g} of the radial one: balls of four-point contact "
             "run on both sides there, and slide (SKF)"
         )
+    if equivalent > HEAVY_LOAD * dynamic:
+        yield from _unbacked(model, equivalent, dynamic)
     if turns and equivalent < MINIMUM_LOAD * dynamic:
         yield (
             f"the load P = {_force(equivalent)} is below the minimum load of ball bearings, {MINIMUM_LOAD:g} C = "

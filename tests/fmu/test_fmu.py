@@ -114,6 +114,26 @@ def test_a_led_ring_has_the_bits_of_the_program(host: Any, exported: Export, tmp
     assert led.get(["bearing.friction_torque"])[0] == pytest.approx(1e-3 * expected.friction_torque_Nmm, rel=1e-12)
 
 
+@pytest.mark.slow
+def test_elastic_parts_have_the_bits_of_the_program(host: Any, c_compiler: tuple[str, ...], tmp_path: Path) -> None:
+    """A ring and a cage that bend, with a push on the way."""
+    changes = (
+        *CHANGES, "elastic.outer_ring.housing_stiffness=100 N/um", "elastic.outer_ring.orders=3",
+        "elastic.cage.section_height=2 mm",
+    )  # fmt: skip
+    out = tmp_path / "elastic.fmu"
+    api.export_fmu(CASE, changes, out=out, processor="native")
+    unit = host.Unit(out, tmp_path / "elastic")
+    instance, bearing = host.Instance(unit).ready(), api.iterate(CASE, changes, exact=True)
+    for k in range(60):
+        if k == 20:
+            bearing.push((0.0, 0.0, -250.0))
+            assert instance.set(PUSHED, -250.0) == host.OK
+        expected = seen(bearing.step_to(instance.time + STEP))
+        assert instance.step(STEP) == host.OK
+        assert dict(zip(expected, instance.get(list(expected)), strict=True)) == expected, f"step {k}"
+
+
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_states_and_instances(host: Any, exported: Export, tmp_path: Path, fmi: int) -> None:
     """Save, step, restore, step; the same by bytes and in another instance; ten side by side do not mix."""

@@ -1,4 +1,4 @@
-"""The shape of elastic rings of one run: bent round the shaft at the end, and its waves over time."""
+"""The shape of elastic rings and cage of one run: bent round the shaft at the end, and its waves over time."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 from lambda_core.plugins import Axis, NotApplicable, Options, Panel, RunData, View, ViewData
 from lambda_plugins.views.common import BODY, averaging, source, trace
 
-_NAME = re.compile(r"(inner|outer)_ring_waves_(\d+)")
+_NAME = re.compile(r"(inner|outer|cage)(?:_ring)?_waves_(\d+)")
 _PLACES = 361  # round a ring
 _DRAWN = 0.25  # of the ring's radius: how far the largest displacement is drawn
 Orders = dict[int, NDArray[np.float64]]
 
 
 def ring_shape(run: RunData, options: Options) -> ViewData:
-    """Rings at the end of the run, their displacements drawn larger, and the size of every wave over time."""
+    """Rings and cage at the end of the run, displacements drawn larger, and the size of every wave over time."""
     found = _waves(run)
     if not found:
-        raise NotApplicable("no ring of this run is elastic: [elastic.outer_ring] in the case makes one so")
+        raise NotApplicable("no part of this run is elastic: [elastic.outer_ring] in the case makes one so")
     around = np.linspace(0.0, 2.0 * np.pi, _PLACES)
     ends = {ring: _shape({n: a[-1] for n, a in orders.items()}, around) for ring, orders in found.items()}
     panels = [_bent(run, ring, shape, around) for ring, shape in ends.items()]
@@ -29,16 +29,16 @@ def ring_shape(run: RunData, options: Options) -> ViewData:
     time = 1e3 * run["time"][rows]
     for ring, orders in found.items():
         lines = [trace(f"{n} waves", time, 1e6 * np.hypot(*amplitudes[rows].T)) for n, amplitudes in orders.items()]
-        panels.append(Panel(f"waves of the {ring} ring", Axis("time", "ms"), Axis("amplitude", "um"), tuple(lines)))
+        panels.append(Panel(f"waves of the {_part(ring)}", Axis("time", "ms"), Axis("amplitude", "um"), tuple(lines)))
     notes = (
         "shape at the end of the run, seen along the shaft: y to the right, z up; displacements drawn larger, outwards",
         f"waves over {span.words}",
     )
-    return ViewData("ring-shape", "Shape of the elastic rings", source(run), tuple(panels), 2, notes)
+    return ViewData("ring-shape", "Shape of the elastic parts", source(run), tuple(panels), 2, notes)
 
 
 def _waves(run: RunData) -> dict[str, Orders]:
-    """Return the amplitudes of every ring by the number of waves, shape (n, 2) [m]."""
+    """Return the amplitudes of every part by the number of waves, shape (n, 2) [m]."""
     found: dict[str, Orders] = {}
     for channel in run.channels:
         if match := _NAME.fullmatch(channel.name):
@@ -46,8 +46,13 @@ def _waves(run: RunData) -> dict[str, Orders]:
     return found
 
 
+def _part(name: str) -> str:
+    """Return a ring or the cage in words."""
+    return name if name == "cage" else f"{name} ring"
+
+
 def _shape(orders: Orders, azimuths: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the displacement outwards of a ring at azimuths in its own frame [m]."""
+    """Return the displacement outwards of a part at azimuths in its own frame [m]."""
     total = np.zeros(azimuths.size)
     for n, (cosine, sine) in orders.items():
         total += cosine * np.cos(n * azimuths) + sine * np.sin(n * azimuths)
@@ -55,14 +60,14 @@ def _shape(orders: Orders, azimuths: NDArray[np.float64]) -> NDArray[np.float64]
 
 
 def _bent(run: RunData, ring: str, shape: NDArray[np.float64], around: NDArray[np.float64]) -> Panel:
-    """Return a ring, round and bent; its largest displacement is a quarter of its radius."""
+    """Return a part, round and bent; its largest displacement is a quarter of its radius."""
     geometry = run.model["geometry"]
-    radius = 0.5e3 * float(geometry[f"race_diameter_{ring}"])
+    radius = 0.5e3 * float(geometry["pitch_diameter" if ring == "cage" else f"race_diameter_{ring}"])
     largest = float(np.abs(shape).max())
     bent = radius * (1.0 + _DRAWN * shape / (largest or 1.0))
     turned = around + float(run["body_spin_angle"][-1, BODY[ring]])
     return Panel(
-        f"{ring} ring: {1e6 * shape.max():.3g} um outwards, {-1e6 * shape.min():.3g} um inwards",
+        f"{_part(ring)}: {1e6 * shape.max():.3g} um outwards, {-1e6 * shape.min():.3g} um inwards",
         Axis("y", "mm"),
         Axis("z", "mm"),
         (
@@ -74,13 +79,13 @@ def _bent(run: RunData, ring: str, shape: NDArray[np.float64], around: NDArray[n
 
 
 def _is_elastic(run: RunData) -> bool:
-    """Tell whether a run has an elastic ring."""
+    """Tell whether a run has an elastic part."""
     return any(_NAME.fullmatch(channel.name) for channel in run.channels)
 
 
 VIEWS = (
     View(
-        "ring-shape", "how elastic rings bend, and their waves over time", "result", ring_shape,
+        "ring-shape", "how elastic rings and cage bend, and their waves over time", "result", ring_shape,
         offered=_is_elastic, view_api=1,
     ),
 )  # fmt: skip
