@@ -43,7 +43,7 @@ def _waves(run: RunData) -> dict[str, Orders]:
     for channel in run.channels:
         if match := _NAME.fullmatch(channel.name):
             found.setdefault(match[1], {})[int(match[2])] = run[channel.name]
-    return found
+    return {part: found[part] for part in BODY if part in found}
 
 
 def _part(name: str) -> str:
