@@ -107,7 +107,7 @@ class _Scale:
 def drawn_shaft(
     model: ShaftModel, report: ShaftReport | None, width: int, height: int, colours: Mapping[str, str]
 ) -> Text:
-    """Draw sections, bearings, gears, discs and loads to scale, names around them, and the bend below.
+    """Draw sections, bearings, bodies, gears, discs and loads to scale, names around them, and the bend below.
 
     Parameters
     ----------
@@ -129,6 +129,7 @@ def drawn_shaft(
     axis = 2.0 * (1 + lines) if is_half else 2.0 + lines
     scale = _Scale(round(0.5 * (width - length / unit)), axis, unit)
     sides = (False,) if is_half else (False, True)
+    _bodies(canvas, model, scale, sides, colours)
     _rotor(canvas, model, scale, sides, colours)
     for bearing in model.bearings:
         _bearing(canvas, bearing, scale, sides, colours)
@@ -145,8 +146,23 @@ def drawn_shaft(
 def _largest(model: ShaftModel) -> float:
     """Return the largest radius of what is drawn [m]."""
     shaft = 0.5 * max(diameter for _, _, diameter, _ in model.outline)
-    found = [shaft * (1.0 + _DISC * bool(model.discs)), *(0.5 * diameter for *_, diameter in model.wheels)]
+    found = [0.5 * max(body.extent[1:]) for body in model.bodies]
+    found += [shaft * (1.0 + _DISC * bool(model.discs)), *(0.5 * diameter for *_, diameter in model.wheels)]
     return max(*found, *(0.5 * bearing.model.geometry.outside_diameter for bearing in model.bearings))
+
+
+def _bodies(
+    canvas: Canvas, model: ShaftModel, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]
+) -> None:
+    """Draw the bodies beside the shaft that have a shape, from the outer rings in them outwards."""
+    for number, body in enumerate(model.bodies, start=1):
+        length, *across = body.extent
+        rings = [0.5 * b.model.geometry.outside_diameter for b in model.bearings if b.carrier == number]
+        inner, outer = max(rings, default=0.0), 0.5 * max(across)
+        if length and outer > inner:
+            for below in sides:
+                left, right = (scale.x(body.centre[0] + sign * 0.5 * length) for sign in (-1.0, 1.0))
+                canvas.box(left, right, *scale.rows(inner, outer, below=below), colours["surface"])
 
 
 def _rotor(
@@ -187,12 +203,13 @@ def _bearing(
 
 
 def _names_above(canvas: Canvas, model: ShaftModel, scale: _Scale, colours: Mapping[str, str]) -> None:
-    """Name gears, discs and loads over the drawing, a load with the way it pushes."""
-    for name, place in (*model.load_places, *model.discs):
-        rows = model.body.rows(place)
-        force = model.loads[rows.start : rows.start + 3]
-        is_load = any(name == one for one, _ in model.load_places)
-        label = f"{name} {_way(*force)}".rstrip() if is_load else name
+    """Name gears, discs, loads and bodies over the drawing, a load with the way it pushes."""
+    bodies = [(f"[{body.name}]", body.centre[0]) for body in model.bodies]
+    for name, place in (*model.load_places, *model.discs, *bodies):
+        is_load, label = any(name == one for one, _ in model.load_places), name
+        if is_load:
+            rows = model.body.rows(place)
+            label = f"{name} {_way(*model.loads[rows.start : rows.start + 3])}".rstrip()
         column = min(max(0, round(scale.x(place) - 0.5 * len(label))), max(0, canvas.width - len(label)))
         if canvas.is_free(0, column, len(label)):
             canvas.words(0, column, label, colours["primary" if is_load else "success"])
@@ -201,7 +218,7 @@ def _names_above(canvas: Canvas, model: ShaftModel, scale: _Scale, colours: Mapp
 def _names_below(
     canvas: Canvas, model: ShaftModel, report: ShaftReport | None, scale: _Scale, line: int, colours: Mapping[str, str]
 ) -> None:
-    """Name bearings with what holds them along x, and the way in which they push the shaft."""
+    """Name bearings with what holds them along x and the way in which they push the shaft, and springs."""
     forces = {bearing.name: bearing.force_N for bearing in report.bearings} if report is not None else {}
     for bearing in model.bearings:
         label = f"{_held(bearing)} {_way(*forces.get(bearing.name, (0.0, 0.0, 0.0)))}".rstrip()
@@ -210,6 +227,12 @@ def _names_below(
         while not canvas.is_free(line, column, len(label)) and column + len(label) < canvas.width:
             column += 1
         canvas.words(line, column, label, colours["accent"])
+    for spring in model.springs:
+        label = f"⌇{spring.name}"
+        column = round(scale.x(spring.place.point[0]) - 0.5 * len(label))
+        column = min(max(0, column), max(0, canvas.width - len(label)))
+        if canvas.is_free(line, column, len(label)):
+            canvas.words(line, column, label, colours["warning"])
 
 
 def _held(bearing: MountedBearing) -> str:

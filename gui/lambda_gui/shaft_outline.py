@@ -20,17 +20,38 @@ _NAMED = {
                       usual=("left", "right", "middle", "fourth", "fifth", "sixth")),
     "gears": Named("Gears", "forces from what a mesh transmits", "gear", {}, usual=("gear", "pinion")),
     "discs": Named("Discs", "wheels and rotors: mass, inertia, unbalance", "disc", {}, usual=("wheel", "rotor")),
-    "springs": Named("Springs", "springs and dampers to the ground", "spring", {}, usual=("spring", "damper")),
+    "bodies": Named("Bodies", "housings that give way: mass, inertia, what holds them", "body", {},
+                    usual=("housing", "cover")),
+    "markers": Named("Markers", "named places on shaft, bodies and ground", "marker", {}, usual=("foot", "seat")),
+    "springs": Named("Springs", "springs, dampers and bushings between shaft, bodies and ground", "spring", {},
+                     usual=("spring", "damper", "mount")),
     "loads": Named("Loads", "forces and moments at a place, over time", "load", {}, usual=("belt", "load")),
 }  # fmt: skip
 _TITLES = {"operation": "Drive", "materials": "Materials", "surface": "Surfaces", "life": "Rating life"}
 # What comes first on the form of a table: what each of them needs
-_FIRST: dict[str, tuple[str, ...]] = {"bearings": ("designation", "position", "takes", "preload", "preload_force")}
+_FIRST: dict[str, tuple[str, ...]] = {
+    "bearings": ("designation", "position", "marker", "outer", "takes", "preload", "preload_force"),
+    "markers": ("body", "x", "y", "z"),
+    "bodies": ("x", "y", "z", "mass", "polar_inertia", "transverse_inertia"),
+    "springs": ("position", "marker", "to"),
+}
 _BELOW: dict[Keys, dict[str, str]] = {
     ("lubricant",): {"properties": "Own properties"},
     ("bearings",): {"geometry": "Inner geometry", "fits": "Fits", "temperatures": "Temperatures"},
 }
-_ORDER = ("shaft", "bearings", "gears", "discs", "loads", "springs", "operation", "housing", "lubricant")
+_ORDER = (
+    "shaft",
+    "bearings",
+    "gears",
+    "discs",
+    "loads",
+    "bodies",
+    "markers",
+    "springs",
+    "operation",
+    "housing",
+    "lubricant",
+)
 
 
 def shaft_outline(names: Names | None = None) -> list[Node]:

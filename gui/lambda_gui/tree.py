@@ -25,7 +25,20 @@ if TYPE_CHECKING:
 _ROOMY = 44  # width of the tree from which on roles have their full names
 _NARROW = 38
 _COLUMN, _COLUMN_ROOMY = 17, 25  # where what is set stands, as far as there is room
-_OPEN = ("bearing", "bodies", "motion", "lubricant", "markers", "shaft", "bearings", "gears", "discs", "loads")
+_OPEN = (
+    "bearing",
+    "bodies",
+    "motion",
+    "lubricant",
+    "markers",
+    "shaft",
+    "bearings",
+    "gears",
+    "discs",
+    "loads",
+    "bodies",
+    "springs",
+)
 
 
 class ModelTree(Tree[Node]):

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import PrivateAttr, field_validator, model_validator
+from pydantic import PrivateAttr, ValidationInfo, field_validator, model_validator
 
 from lambda_core.case.case import NAME_PATTERN
 from lambda_core.case.elastic import Elastic
@@ -15,26 +15,28 @@ from lambda_core.case.modelling import Models, Parameters
 from lambda_core.case.motion import CageShape, Gravity
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, Surface
-from lambda_core.case.signals import ForceSignal, MomentSignal, SpeedSignal
+from lambda_core.case.shaft_parts import (
+    Gear,
+    Placed,
+    PointLoad,
+    ShaftBody,
+    ShaftDisc,
+    ShaftMarker,
+    ShaftSpring,
+    held,
+)
+from lambda_core.case.signals import SpeedSignal
 from lambda_core.domain.units import (
-    Angle,
     AngularDamping,
-    AngularStiffness,
     Damping,
     Force,
-    Inertia,
     Length,
-    Mass,
-    Moment,
-    Power,
     SmallLength,
-    Stiffness,
     Temperature,
-    Unbalance,
-    parse,
 )
 
 SHARED = ("lubricant", "materials", "surface", "models", "parameters", "gravity")  # tables of the case of every bearing
+NAMED = ("bearings", "markers", "bodies", "discs", "loads", "gears", "springs")  # tables of named parts
 _NAME = re.compile(NAME_PATTERN)
 
 
@@ -53,9 +55,15 @@ class ShaftSection(Section):
 
 
 class Shaft(Section):
-    """The shaft: pieces of one diameter each, from its left end at x = 0."""
+    """The shaft: pieces of one diameter each, from its left end at x = 0, or a reduced model from outside."""
 
-    sections: list[ShaftSection] = option(description="pieces from left to right", min_length=1)
+    reduced: str | None = option(
+        None,
+        "in place of the pieces: file with mass, stiffness and nodes of a finite-element program's reduced model; "
+        "everything on the shaft stands at one of its nodes, by position or by the node's name as the marker",
+        min_length=1,
+    )
+    sections: list[ShaftSection] = option([], "pieces from left to right")
     material: MaterialChoice = option("100Cr6", "catalogue name or a table of properties")
     temperature: Temperature = option("20 degC", "mean temperature, for its growth in length")
     drive: Length | None = option(
@@ -65,6 +73,16 @@ class Shaft(Section):
     twists: bool = option(
         False, "in motion: whether the shaft twists; otherwise torques go to the coupling without delay"
     )
+
+    @field_validator("sections")
+    @classmethod
+    def _is_made_of_something(cls, sections: list[ShaftSection], info: ValidationInfo) -> list[ShaftSection]:
+        reduced = info.data.get("reduced", "unknown" if not sections else None)
+        if not sections and reduced is None:
+            raise ValueError("are required: at least one piece; or reduced, a file")
+        if sections and reduced is not None:
+            raise ValueError("and reduced exclude each other: one of them")
+        return sections
 
 
 class Housing(Section):
@@ -88,35 +106,29 @@ class Support(Section):
     z: str = option("locked", "vertical, likewise")
     tilt_y: str = option("locked", 'rotation about y: "locked", "free" (self-aligning) or a stiffness ("50 N m/mrad")')
     tilt_z: str = option("locked", "rotation about z, likewise")
+    damping_x: Damping = option("0 N s/m", "damping of the seat where the ring can move, in motion", ge=0.0)
+    damping_y: Damping = option("0 N s/m", "horizontal, likewise", ge=0.0)
+    damping_z: Damping = option("0 N s/m", "vertical, likewise", ge=0.0)
+    damping_tilt_y: AngularDamping = option("0 N m s/rad", "of rotation about y, likewise", ge=0.0)
+    damping_tilt_z: AngularDamping = option("0 N m s/rad", "of rotation about z, likewise", ge=0.0)
 
     @field_validator("x", "y", "z")
     @classmethod
     def _translation(cls, text: str) -> str:
-        return _held(text, "stiffness")
+        return held(text, "stiffness")
 
     @field_validator("tilt_y", "tilt_z")
     @classmethod
     def _rotation(cls, text: str) -> str:
-        return _held(text, "angular_stiffness")
+        return held(text, "angular_stiffness")
 
 
-def _held(text: str, quantity: str) -> str:
-    folded = text.strip()
-    if folded in ("locked", "free"):
-        return folded
-    try:
-        value = parse(folded, quantity)
-    except ValueError as error:
-        raise ValueError(f'{error}; or write "locked" or "free"') from None
-    if value <= 0.0:
-        raise ValueError(f'"{text}": a stiffness must be greater than 0; or write "free"')
-    return folded
-
-
-class ShaftBearing(Bearing):
+class ShaftBearing(Bearing, Placed):
     """A bearing on the shaft: which one it is, as in the case of one bearing, and how it sits."""
 
-    position: Length = option(description="of its centre along the shaft, from the left end")
+    outer: str = option(
+        "ground", "what carries its outer ring: ground, one of [bodies], or a marker there", min_length=1
+    )
     takes: Literal["+x", "-x"] | None = option(
         None,
         "axial force on the shaft that it can take: needed for angular contact and for a preload; +x left "
@@ -144,83 +156,6 @@ class ShaftBearing(Bearing):
         return self
 
 
-class ShaftDisc(Section):
-    """A rigid wheel, rotor or coupling on the shaft: its mass and inertia, or its shape."""
-
-    position: Length = option(description="of its centre along the shaft")
-    mass: Mass | None = option(None, "mass; absent: that of the shape", gt=0.0)
-    polar_inertia: Inertia | None = option(None, "about the axis; absent: 0, or that of the shape", ge=0.0)
-    transverse_inertia: Inertia | None = option(
-        None, "about a diameter; absent: half the polar one, or that of the shape", ge=0.0
-    )
-    diameter: Length | None = option(None, "in place of the mass: a cylinder of this outside diameter", gt=0.0)
-    width: Length | None = option(None, "width of the cylinder", gt=0.0)
-    bore: Length = option("0 mm", "bore of the cylinder", ge=0.0)
-    material: MaterialChoice = option("100Cr6", "of the cylinder: catalogue name or a table of properties")
-    unbalance: Unbalance = option("0 g mm", "mass times eccentricity; counts in motion (shaft --run)", ge=0.0)
-    unbalance_angle: Angle = option("0 deg", "azimuth of the unbalance at t = 0, from +y to +z")
-
-    @model_validator(mode="after")
-    def _has_a_mass(self) -> ShaftDisc:
-        if (self.mass is None) == (self.diameter is None):
-            raise ValueError("give the mass, or diameter and width of a cylinder, one of them")
-        if (self.diameter is None) != (self.width is None):
-            raise ValueError("a cylinder needs diameter and width")
-        if self.diameter is not None and self.bore >= self.diameter:
-            raise ValueError("the bore must be smaller than the diameter")
-        return self
-
-
-class ShaftSpring(Section):
-    """Spring and damper between a place of the shaft and the ground, without force where the shaft is drawn."""
-
-    position: Length = option(description="where it holds the shaft")
-    x: Stiffness = option("0 N/m", "stiffness along the shaft", ge=0.0)
-    y: Stiffness = option("0 N/m", "horizontal", ge=0.0)
-    z: Stiffness = option("0 N/m", "vertical", ge=0.0)
-    tilt_y: AngularStiffness = option("0 N m/rad", "against rotation about y", ge=0.0)
-    tilt_z: AngularStiffness = option("0 N m/rad", "against rotation about z", ge=0.0)
-    damping_x: Damping = option("0 N s/m", "damping along the shaft", ge=0.0)
-    damping_y: Damping = option("0 N s/m", "horizontal", ge=0.0)
-    damping_z: Damping = option("0 N s/m", "vertical", ge=0.0)
-    damping_tilt_y: AngularDamping = option("0 N m s/rad", "of rotation about y", ge=0.0)
-    damping_tilt_z: AngularDamping = option("0 N m s/rad", "of rotation about z", ge=0.0)
-
-
-class PointLoad(Section):
-    """Force and moment on the shaft at one place, over time; the equilibrium is that of t = 0."""
-
-    position: Length = option(description="where it acts")
-    force_x: ForceSignal = option("0 N", "force along the shaft")
-    force_y: ForceSignal = option("0 N", "horizontal force")
-    force_z: ForceSignal = option("0 N", "vertical force, upwards")
-    moment_x: Moment = option("0 N m", "torque about x")
-    moment_y: MomentSignal = option("0 N m", "moment about y")
-    moment_z: MomentSignal = option("0 N m", "moment about z")
-
-
-class Gear(Section):
-    """A spur or helical gear on the shaft: forces from what it transmits."""
-
-    position: Length = option(description="middle of the face width along the shaft")
-    pitch_diameter: Length = option(description="working pitch diameter", gt=0.0)
-    power: Power | None = option(None, "power through the mesh", gt=0.0)
-    torque: Moment | None = option(None, "in place of the power: torque about the shaft", gt=0.0)
-    role: Literal["driving", "driven"] = option(description="whether it drives its mate or is driven by it")
-    mesh: Angle = option(description="azimuth of the mesh, from +y to +z")
-    pressure_angle: Angle = option("20 deg", "normal pressure angle", gt=0.0, lt=1.0)
-    helix_angle: Angle = option("0 deg", "helix angle at the pitch diameter", ge=0.0, lt=1.4)
-    hand: Literal["right", "left"] | None = option(None, "hand of the helix")
-
-    @model_validator(mode="after")
-    def _transmits(self) -> Gear:
-        if (self.power is None) == (self.torque is None):
-            raise ValueError("give the power or the torque, one of them")
-        if self.helix_angle > 0.0 and self.hand is None:
-            raise ValueError('a helical gear needs hand = "right" or "left"')
-        return self
-
-
 class ShaftOperation(Section):
     """What turns the shaft."""
 
@@ -241,10 +176,14 @@ class ShaftCase(Section):
     assumptions: list[str] = option([], "what the author of the case assumed, repeated with every result")
     shaft: Shaft = option(description="the shaft")
     bearings: dict[str, ShaftBearing] = option(description="its bearings, by name", min_length=1)
+    markers: dict[str, ShaftMarker] = option({}, "named places on the shaft, on bodies and on the ground, by name")
+    bodies: dict[str, ShaftBody] = option({}, "rigid bodies beside the shaft: housings that give way, by name")
     discs: dict[str, ShaftDisc] = option({}, "rigid bodies on the shaft, by name")
-    loads: dict[str, PointLoad] = option({}, "forces and moments on the shaft, by name")
+    loads: dict[str, PointLoad] = option({}, "forces and moments on the shaft and on bodies, by name")
     gears: dict[str, Gear] = option({}, "gears on the shaft, by name")
-    springs: dict[str, ShaftSpring] = option({}, "springs and dampers between shaft and ground, by name")
+    springs: dict[str, ShaftSpring] = option(
+        {}, "springs, dampers and bushings between shaft, bodies and ground, by name"
+    )
     housing: Housing = option({}, "the housing")
     operation: ShaftOperation = option(description="what turns the shaft")
     lubricant: Lubricant = option(description="the oil")
@@ -259,21 +198,18 @@ class ShaftCase(Section):
     @model_validator(mode="after")
     def _names(self, info: Any) -> ShaftCase:
         self._folder = (info.context or {}).get("folder")
-        for table in ("bearings", "discs", "loads", "gears", "springs"):
+        for table in NAMED:
             for name in getattr(self, table):
                 if not _NAME.match(name):
                     raise ValueError(f'{table}: "{name}": use letters, digits, dot, dash and underscore in names')
+                if table in ("markers", "bodies") and name in ("shaft", "ground"):
+                    raise ValueError(f'{table}: "{name}" is there already: choose another name')
         return self
 
     @property
     def folder(self) -> Path | None:
         """Folder that file names in the case are relative to; None is the working directory."""
         return self._folder
-
-    @property
-    def length(self) -> float:
-        """Of the shaft [m]."""
-        return sum(section.length for section in self.shaft.sections)
 
     def written(self) -> dict[str, Any]:
         """Return what stands in the case's file: plain tables with unit strings, no defaults."""

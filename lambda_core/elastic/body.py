@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -46,13 +46,19 @@ class ElasticBody:
     gyroscopic: FloatArray
     elements: tuple[RoundSection, ...] = ()  # of a shaft, each over four nodes, the last one the next one's first
     discs: tuple[Disc, ...] = ()  # of a shaft, counted in the matrices
+    names: tuple[str, ...] = ()  # of the nodes, where they have some
+    lumps: tuple[int, ...] = ()  # nodes that carry the mass in motion, of a reduced model that says so
+    damping: FloatArray | None = None  # where a reduced model has it [N s/m, N s, N m s]
 
     def node(self, position: float) -> int:
         """Return the number of the node at a place [m]; ValueError where there is none."""
-        found = int(np.argmin(np.abs(self.positions - position)))
-        if abs(self.positions[found] - position) > 10.0 * _SAME:
+        if not self.has_node(position):
             raise ValueError(f"there is no node at {position:g} m")
-        return found
+        return int(np.argmin(np.abs(self.positions - position)))
+
+    def has_node(self, position: float) -> bool:
+        """Tell whether there is a node at a place [m]."""
+        return bool(np.abs(self.positions - position).min() <= 10.0 * _SAME)
 
     def rows(self, position: float) -> slice:
         """Return the six rows of the node at a place [m]."""
@@ -131,16 +137,25 @@ def shaft_body(
         stiffness[rows, rows] += one.stiffness
         mass[rows, rows] += one.mass
         gyroscopic[rows, rows] += one.gyroscopic
-    body = ElasticBody(nodes, stiffness, mass, gyroscopic, tuple(elements), tuple(discs))
+    return with_discs(ElasticBody(nodes, stiffness, mass, gyroscopic, tuple(elements)), discs)
+
+
+def with_discs(body: ElasticBody, discs: Sequence[Disc]) -> ElasticBody:
+    """Return a body with rigid discs at some of its nodes."""
+    mass, gyroscopic = body.mass.copy(), body.gyroscopic.copy()
     for disc in discs:
-        first = body.rows(disc.position).start
-        for i, inertia in enumerate(
-            (disc.mass, disc.mass, disc.mass, disc.polar_inertia, disc.transverse_inertia, disc.transverse_inertia)
-        ):
-            mass[first + i, first + i] += inertia
-        gyroscopic[first + 4, first + 5] += disc.polar_inertia
-        gyroscopic[first + 5, first + 4] -= disc.polar_inertia
-    return body
+        rows = body.rows(disc.position)
+        mass[rows, rows] += disc_mass(disc)
+        gyroscopic[rows.start + 4, rows.start + 5] += disc.polar_inertia
+        gyroscopic[rows.start + 5, rows.start + 4] -= disc.polar_inertia
+    return replace(body, mass=mass, gyroscopic=gyroscopic, discs=(*body.discs, *discs))
+
+
+def disc_mass(disc: Disc) -> FloatArray:
+    """Return what a disc adds to the mass matrix at its node, shape (6, 6)."""
+    transverse = disc.transverse_inertia
+    found: FloatArray = np.diag([disc.mass] * 3 + [disc.polar_inertia, transverse, transverse])
+    return found
 
 
 def internal_forces(
@@ -151,7 +166,8 @@ def internal_forces(
     Parameters
     ----------
     body : ElasticBody
-        A shaft, with its elements.
+        A shaft, with its elements; one from outside has none, and the forces between its nodes are those of the nodes
+        left of them.
     displacement : float64[:], shape (6 n,)
         Of its nodes [m, rad].
     gravity : sequence of float
@@ -164,6 +180,8 @@ def internal_forces(
     float64[:, :], shape (2 k, 6)
         Normal and shear forces [N], torque and bending moments about y and z [N m].
     """
+    if not body.elements:
+        return _forces_between_nodes(body, displacement)
     places, forces = [], []
     for i, section in enumerate(body.elements):
         first = (NODES - 1) * i
@@ -174,4 +192,21 @@ def internal_forces(
         wrench = one.stiffness @ displacement[NODE * first : NODE * (first + NODES)] - one.mass @ pull
         places += ends.tolist()
         forces += [-wrench[:NODE], wrench[-NODE:]]
+    return np.array(places), np.array(forces)
+
+
+def _forces_between_nodes(body: ElasticBody, displacement: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the same from the balance of the nodes on the left, each with its share of the weight."""
+    count = NODE * body.positions.size
+    at = (body.stiffness @ displacement)[:count].reshape(-1, NODE)
+    places, forces = [], []
+    for k, ends in enumerate(itertools.pairwise(body.positions)):
+        left = -at[: k + 1].sum(axis=0)
+        arms = body.positions[: k + 1, None]
+        for end in ends:
+            cut = left.copy()  # a force F_y at x turns about z by F_y (x - end)
+            cut[4] -= ((end - arms[:, 0]) * at[: k + 1, 2]).sum()
+            cut[5] += ((end - arms[:, 0]) * at[: k + 1, 1]).sum()
+            places.append(float(end))
+            forces.append(cut)
     return np.array(places), np.array(forces)

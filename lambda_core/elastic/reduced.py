@@ -1,83 +1,206 @@
-"""Reduced models from outside: mass, stiffness and nodes of any finite-element program, in one file of JSON."""
+"""Reduced models from outside: mass, stiffness and nodes of any finite-element program, in one file.
+
+What a file says stands in docs/shaft.md. Formats: JSON, NumPy's .npz, HDF5, and TOML that names a CSV file for every
+matrix. Units are SI, or millimetres, tonnes and newtons.
+"""
 
 from __future__ import annotations
 
+import csv
 import json
+import tomllib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.errors import CaseError, Problem
+from lambda_core.domain.errors import CaseError, Problem, unknown_name
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import ElasticBody
 
 FORMAT = "lambda-bearing reduced body 1"
+UNITS = {"m kg N": 1.0, "mm t N": 1e-3}  # metres in the file's unit of length
+_MATRICES = ("stiffness", "mass", "gyroscopic", "damping")
+_KEYS = ("format", "units", "nodes", "names", "lumps", *_MATRICES)
 _SYMMETRY = 1e-6  # of the largest entry
 
 
 def write_reduced(body: ElasticBody, path: str | Path) -> None:
-    """Write a body as `read_reduced` reads it."""
-    text = json.dumps(
-        {
-            "format": FORMAT,
-            "nodes": body.positions.tolist(),
-            "stiffness": body.stiffness.tolist(),
-            "mass": body.mass.tolist(),
-            "gyroscopic": body.gyroscopic.tolist(),
-        }
-    )
-    Path(path).write_text(text + "\n", encoding="utf-8")
+    """Write a body as `read_reduced` reads it, as .json or .npz by the name of the file; UsageError otherwise."""
+    target = Path(path)
+    data: dict[str, Any] = {"format": FORMAT, "nodes": body.positions, "stiffness": body.stiffness, "mass": body.mass}
+    data |= {"gyroscopic": body.gyroscopic}
+    data |= {"names": list(body.names)} if body.names else {}
+    data |= {"lumps": list(body.lumps)} if body.lumps else {}
+    data |= {"damping": body.damping} if body.damping is not None else {}
+    if target.suffix == ".npz":
+        np.savez(target, **data)
+        return
+    plain = {key: value.tolist() if isinstance(value, np.ndarray) else value for key, value in data.items()}
+    target.write_text(json.dumps(plain) + "\n", encoding="utf-8")
 
 
 def read_reduced(path: str | Path) -> ElasticBody:
     """Read a reduced body.
 
-    The file is an object with ``format``, ``nodes`` (places along x [m]), ``stiffness`` and ``mass`` (lists of rows,
-    SI; six rows per node, x, y, z and tilts about x, y, z, then those of further coordinates, as a Craig-Bampton
-    reduction has them), and perhaps ``gyroscopic`` (times the spin).
+    It says ``nodes`` (places along x, or rows of x, y, z), ``stiffness`` and ``mass`` (square; six rows per node, x, y,
+    z and tilts about x, y, z, then those of further coordinates, as a Craig-Bampton reduction has them), and perhaps
+    ``gyroscopic`` (times the spin), ``damping``, ``names`` (of the nodes), ``lumps`` (numbers of the nodes that carry
+    the mass in motion), ``units`` ("m kg N" or "mm t N"), ``format``.
 
     Raises
     ------
     CaseError
         With everything that is wrong with the file.
     """
-    source = Path(path).name
-    try:
-        data = json.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise CaseError(source, [Problem("", f"cannot be read: {error.strerror}")]) from None
-    except (ValueError, RecursionError):
-        raise CaseError(source, [Problem("", "is not JSON")]) from None
-    found: list[Problem] = []
-    if not isinstance(data, dict) or data.get("format") != FORMAT:
-        raise CaseError(source, [Problem("format", f'must be "{FORMAT}"')])
-    nodes = _numbers(data, "nodes", 1, found)
-    matrices = {name: _numbers(data, name, 2, found) for name in ("stiffness", "mass")}
-    matrices["gyroscopic"] = (
-        _numbers(data, "gyroscopic", 2, found) if "gyroscopic" in data else np.zeros_like(matrices["mass"])
-    )
+    source = Path(path)
+    data, found = _contents(source), list[Problem]()
+    if data.get("format", FORMAT) != FORMAT or ("format" not in data and source.suffix.lower() == ".json"):
+        raise CaseError(source.name, [Problem("format", f'must be "{FORMAT}"')])
+    for key in data:
+        if key not in _KEYS:
+            found.append(Problem(str(key), unknown_name("entry of a reduced body", str(key), _KEYS)))
+    units = str(data.get("units", "m kg N"))
+    if units not in UNITS:
+        found.append(Problem("units", 'must be "m kg N" (the default) or "mm t N"'))
+    nodes = _nodes(data, found)
+    matrices = {
+        name: _numbers(data, name, (2,), found) for name in _MATRICES if name in data or name in ("stiffness", "mass")
+    }
     if not found:
         _check(nodes, matrices, found)
+    names = tuple(map(str, np.ravel(np.asarray(data.get("names", []), dtype=object))))
+    lumps = _lumps(data, names, nodes.size, found)
+    if names and (len(names) != nodes.size or len(set(names)) != len(names)):
+        found.append(Problem("names", f"must be one for each of the {nodes.size} nodes, all different"))
     if found:
-        raise CaseError(source, found)
-    return ElasticBody(nodes, matrices["stiffness"], matrices["mass"], matrices["gyroscopic"])
+        raise CaseError(source.name, found)
+    length, rows = UNITS[units], matrices["mass"].shape[0]
+    # Forces are newtons in both systems: energies scale as lengths do, translations as lengths, all else has no unit.
+    scale = np.ones(rows)
+    scale[: NODE * nodes.size].reshape(-1, NODE)[:, :3] = 1.0 / length
+    matrices = {name: length * matrix * np.outer(scale, scale) for name, matrix in matrices.items()}
+    return ElasticBody(
+        length * nodes, matrices["stiffness"], matrices["mass"], matrices.get("gyroscopic", np.zeros((rows, rows))),
+        names=names, lumps=lumps, damping=matrices.get("damping"),
+    )  # fmt: skip
 
 
-def _numbers(data: dict[str, Any], name: str, dimensions: int, found: list[Problem]) -> FloatArray:
+def _contents(path: Path) -> dict[str, Any]:
+    """Return what stands in a file, by name."""
+    readers: dict[str, tuple[str, Callable[[Path], Any]]] = {
+        ".json": ("JSON", lambda file: json.loads(file.read_text(encoding="utf-8"))),
+        ".npz": ("a file of np.savez", _of_npz),
+        ".h5": ("HDF5", _of_hdf5),
+        ".hdf5": ("HDF5", _of_hdf5),
+        ".toml": ("TOML", _of_toml),
+    }
+    if path.suffix.lower() not in readers:
+        raise CaseError(path.name, [Problem("", f"its name must end in {', '.join(readers)}")])
+    kind, read = readers[path.suffix.lower()]
+    try:
+        if not path.is_file():
+            raise FileNotFoundError(2, "no such file")
+        data = read(path)
+    except CaseError:
+        raise
+    except FileNotFoundError as error:
+        raise CaseError(
+            path.name, [Problem("", f"cannot be read: {(error.strerror or 'no such file').lower()}")]
+        ) from None
+    except PermissionError:
+        raise CaseError(path.name, [Problem("", "cannot be read: permission denied")]) from None
+    except (ValueError, OSError, RecursionError, KeyError, EOFError):
+        raise CaseError(path.name, [Problem("", f"is not {kind}")]) from None
+    if not isinstance(data, dict):
+        raise CaseError(path.name, [Problem("", "must be one object with nodes, stiffness and mass")])
+    return data
+
+
+def _of_npz(path: Path) -> dict[str, Any]:
+    with np.load(path, allow_pickle=False) as file:
+        return {name: file[name].item() if file[name].ndim == 0 else file[name] for name in file.files}
+
+
+def _of_hdf5(path: Path) -> dict[str, Any]:
+    import h5py
+
+    found: dict[str, Any] = {}
+    with h5py.File(path, "r") as file:
+        for name, data in (*file.items(), *file.attrs.items()):
+            value = data[()] if isinstance(data, h5py.Dataset) else data
+            if isinstance(value, h5py.Group):
+                continue
+            plain = np.asarray(value)
+            if plain.dtype.kind in "SO":
+                plain = np.array([one.decode() if isinstance(one, bytes) else str(one) for one in plain.ravel()])
+                value = plain if np.ndim(value) else str(plain[0])
+            found[str(name)] = value
+    return found
+
+
+def _of_toml(path: Path) -> dict[str, Any]:
+    """Return the tables of a TOML file; a name in place of a matrix is that of a CSV file beside it."""
+    found = tomllib.loads(path.read_text(encoding="utf-8"))
+    for name in ("nodes", *_MATRICES):
+        if isinstance(found.get(name), str):
+            file = path.parent / found[name]
+            try:
+                with file.open(encoding="utf-8", newline="") as stream:
+                    found[name] = [[float(cell) for cell in row] for row in csv.reader(stream) if row]
+            except OSError:
+                raise CaseError(path.name, [Problem(name, f'"{found[name]}" cannot be read')]) from None
+            except ValueError as error:
+                raise CaseError(path.name, [Problem(name, f'"{found[name]}": {error}')]) from None
+            if name == "nodes" and all(len(row) == 1 for row in found[name]):
+                found[name] = [row[0] for row in found[name]]
+    return found
+
+
+def _numbers(data: dict[str, Any], name: str, dimensions: tuple[int, ...], found: list[Problem]) -> FloatArray:
     """Return an array of numbers; an empty one and a problem where there is none."""
     try:
         values = np.array(data[name], dtype=float)
     except KeyError:
         found.append(Problem(name, "is required"))
     except (TypeError, ValueError):
-        found.append(Problem(name, f"is not a list of {'numbers' if dimensions == 1 else 'rows of numbers'}"))
+        found.append(Problem(name, f"is not a list of {'rows of ' * (dimensions == (2,))}numbers"))
     else:
-        if values.ndim == dimensions and values.size and np.all(np.isfinite(values)):
+        if values.ndim in dimensions and values.size and np.all(np.isfinite(values)):
             return values
-        found.append(Problem(name, f"must be {dimensions}-dimensional, finite and not empty"))
-    return np.zeros((0,) * dimensions)
+        wanted = " or ".join(map(str, dimensions))
+        found.append(Problem(name, f"must be {wanted}-dimensional, finite and not empty"))
+    return np.zeros((0,) * dimensions[0])
+
+
+def _nodes(data: dict[str, Any], found: list[Problem]) -> FloatArray:
+    """Return the places of the nodes along x."""
+    nodes = _numbers(data, "nodes", (1, 2), found)
+    if nodes.ndim == 2:
+        if nodes.shape[1] != 3:
+            found.append(Problem("nodes", f"has rows of {nodes.shape[1]}: write x, or x, y, z of every node"))
+        elif np.abs(nodes[:, 1:]).max() > _SYMMETRY * max(float(np.ptp(nodes)), 1e-12):
+            found.append(
+                Problem(
+                    "nodes", "stand beside the axis (y, z): join each bore to a node on the axis before the reduction"
+                )
+            )
+        nodes = np.ascontiguousarray(nodes[:, 0])
+    if nodes.size > 1 and np.diff(nodes).min() <= 0.0:
+        found.append(Problem("nodes", "must rise along x, no two at one place; sort the rows of the matrices likewise"))
+    return nodes
+
+
+def _lumps(data: dict[str, Any], names: tuple[str, ...], count: int, found: list[Problem]) -> tuple[int, ...]:
+    """Return the numbers of the nodes that carry the mass in motion, given by number from 0 on, or by name."""
+    given = np.ravel(np.asarray(data.get("lumps", []), dtype=object)).tolist()
+    numbers = [names.index(str(one)) if str(one) in names else one for one in given]
+    if all(isinstance(n, int | np.integer) and 0 <= n < count for n in numbers):
+        return tuple(int(n) for n in numbers)
+    found.append(Problem("lumps", f"must be names of nodes, or numbers from 0 to {count - 1}"))
+    return ()
 
 
 def _check(nodes: FloatArray, matrices: dict[str, FloatArray], found: list[Problem]) -> None:

@@ -41,8 +41,8 @@ _CAPACITY = 4  # samples: nobody takes them, but the integrator keeps room for t
 _HOST_WORDS = 8  # behind them stand the values of the options that vary
 # Of the bundle, what the set-up of a model works out, and of the integrator's control.
 _TABLES = (
-    "system", "bodies", "rows", "raceways", "waves", "lands", "links", "tie_stiffness", "tie_rest", "state_steps",
-    "par", "terms", "table",
+    "system", "bodies", "rows", "raceways", "waves", "lands", "links", "tie_stiffness", "tie_damping", "tie_rest",
+    "state_steps", "par", "terms", "table",
 )  # fmt: skip
 _CONTROL = ("longest_step", "leak_floor")
 

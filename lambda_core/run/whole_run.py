@@ -70,12 +70,12 @@ def launch_whole(
     texts = {"case": model.name, "case_toml": model.case_toml, "code": _code(engine)}
     whole = WholeWriter.create(
         folder / WHOLE,
-        {**texts, "speed": model.speed, "drive_torque": engine.start.drive_torque},  # type: ignore[dict-item]
+        {**texts, "speed": model.speed, "drive_torque": engine.drive_torque},  # type: ignore[dict-item]
         {
             "lump_positions": engine.shaft.positions,
             "bearing_positions": [part.bearing.position for part in engine.parts],
         },
-        [part.bearing.name for part in engine.parts],
+        model.names,
     )
     session = _Session(engine, whole, writers, ends, report)
     session.begin()

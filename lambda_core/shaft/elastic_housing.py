@@ -10,15 +10,17 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.reduced import read_reduced
-from lambda_core.shaft.model import PLACES, MountedBearing
+from lambda_core.shaft.model import GROUND, PLACES, MountedBearing
 from lambda_core.system.ledger import Ledger
 
 _WHERE = "housing.reduced"
 _LOOSE = 1e-9  # of the largest eigenvalue: below, the housing moves without force
 
 
-def housing_stiffness(path: Path, bearings: Sequence[MountedBearing], ledger: Ledger) -> FloatArray | None:
-    """Return the stiffness between the outer rings, shape (5 bearings, 5 bearings); None after a problem.
+def elastic_housing(
+    path: Path, bearings: Sequence[MountedBearing], ledger: Ledger
+) -> tuple[FloatArray, FloatArray] | None:
+    """Return stiffness and damping between the outer rings, shape (5 bearings, 5 bearings); None after a problem.
 
     What the rings do not hold, further nodes and modes, follows without force: K_kk - K_ko K_oo^-1 K_ok.
 
@@ -33,6 +35,8 @@ def housing_stiffness(path: Path, bearings: Sequence[MountedBearing], ledger: Le
     rows: list[int] = []
     own: list[int] = []
     for i, bearing in enumerate(bearings):
+        if bearing.carrier != GROUND:
+            continue
         try:
             first = body.rows(bearing.position).start
         except ValueError as error:
@@ -42,6 +46,8 @@ def housing_stiffness(path: Path, bearings: Sequence[MountedBearing], ledger: Le
         held = [d for d, k in enumerate(bearing.seating.stiffness) if math.isinf(k)]
         rows += [first + PLACES[d] for d in held]
         own += [len(PLACES) * i + d for d in held]
+    if not rows:
+        ledger.problem(_WHERE, "it holds no outer ring: all are free, or sit on springs or in bodies")
     if ledger.problems:
         return None
     kept, places = np.array(rows), np.array(own)
@@ -58,6 +64,11 @@ def housing_stiffness(path: Path, bearings: Sequence[MountedBearing], ledger: Le
     if stretch[0] < _LOOSE * stretch[-1]:
         ledger.problem(_WHERE, "the housing is held by nothing: fix it to the ground before it is reduced")
         return None
-    whole = np.zeros((len(PLACES) * len(bearings),) * 2)
+    whole, damping = np.zeros((2, *(len(PLACES) * len(bearings),) * 2))
     whole[np.ix_(places, places)] = 0.5 * (condensed + condensed.T)
-    return whole
+    if body.damping is not None:
+        moves = np.zeros((k.shape[0], kept.size))
+        moves[kept, np.arange(kept.size)] = 1.0
+        moves[others] = -follows
+        damping[np.ix_(places, places)] = moves.T @ body.damping @ moves
+    return whole, damping

@@ -20,6 +20,7 @@ temperature = "70 degC"
 
 # The shaft, piece by piece from the left. Hollow pieces have a bore.
 [shaft]
+# reduced = "shaft.npz"        # in place of the pieces: a finite-element program's reduced model
 # temperature = "80 degC"      # mean; with [housing] temperature for growth in length
 # drive = "0 mm"               # where the coupling holds it against turning; default: the left end
 
@@ -45,6 +46,7 @@ clearance = "CN"
 designation = "SKF 6206"
 position = "148 mm"
 support.x = "free"             # floats in its seat; also y, z, tilt_y, tilt_z; or a stiffness: "200 N/um"
+# outer = "box"                # sits in a body, not in the ground
 
 # An angular contact bearing has a contact angle, the direction of the force on the shaft that it takes ("+x", "-x"),
 # and perhaps a preload: preload = "5 um" (rigid) or preload_force = "300 N" (spring).
@@ -62,13 +64,28 @@ hand = "right"
 # Further forces and moments.
 # [loads.belt]
 # position = "5 mm"
-# force_z = "-800 N"
+# force_z = "-800 N"             # also a table over time, as moment_x for a torque
 
-# Springs and dampers between shaft and ground.
+# Springs, dampers and bushings, to the ground or between bodies.
 # [springs.seal]
 # position = "160 mm"
-# z = "1 N/um"                   # also x, y, tilt_y, tilt_z
+# z = "1 N/um"                   # also x, y, tilt_x, tilt_y, tilt_z
 # damping_z = "200 N s/m"
+
+# A housing that gives way: a rigid body on springs. Markers are named places on the shaft, on bodies, on the ground.
+# [bodies.box]
+# x = "85 mm"                    # its centre of mass
+# z = "-40 mm"
+# length = "160 mm"              # or mass, polar_inertia, transverse_inertia
+# width = "120 mm"
+# height = "80 mm"
+# [markers.foot]
+# body = "box"
+# x = "10 mm"
+# z = "-80 mm"
+# [springs.foot]
+# marker = "foot"                # of bearings, loads, gears and discs, too, in place of a position
+# z = "40 N/um"
 
 # Wheels and rotors that are not part of the sections: mass and inertia, or diameter, width and bore of a cylinder.
 [discs.wheel]

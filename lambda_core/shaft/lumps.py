@@ -18,15 +18,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.elastic.beam import NODE, NODES
-from lambda_core.elastic.body import ElasticBody
+from lambda_core.elastic.beam import NODE
+from lambda_core.elastic.body import ElasticBody, disc_mass
 from lambda_core.shaft.model import ShaftModel
 
 _SAME = 1e-6  # [m] places nearer than this are one
 _LONG_OVERHANG = 1.0  # diameters, from which on the end of the shaft has a lump of its own
 _LONG_PIECE = 4.0  # diameters of the longest piece with one lump in its middle
 _SHORT_PIECE = 0.5  # diameters of the longest piece without one
-_GAUSS = np.polynomial.legendre.leggauss(3)  # exact for parabola times constant
 _MIDDLE = 0.36  # share of a piece from which on a lump counts as in its middle: all weights are positive
 _LEAST = 0.05  # of the mass that a lump of equal lumps has, that each of them has to have
 
@@ -62,15 +61,8 @@ class LumpedShaft:
 def lump(model: ShaftModel) -> LumpedShaft:
     """Cut the shaft into lumps."""
     body = model.body
-    held = [*(b.position for b in model.bearings), *(spring.position for spring in model.springs)]
-    mains = _distinct([*held, *(place for _, place in model.discs)])
-    places = _between(model, _with_ends(model, mains, _LONG_OVERHANG))
-    masses = _masses(body, places)
-    if masses.min() < _LEAST * masses.sum() / masses.size:  # an overhang that its neighbours cannot carry
-        places = _between(model, _with_ends(model, mains, 0.0))
-        masses = _masses(body, places)
-    polar = _hats(body, places)
-    transverse = 0.5 * polar + _beyond(body, places)
+    places = _places(model)
+    masses, polar, transverse = _inertias(body, places)
     for disc in body.discs:
         i = int(np.argmin(np.abs(places - disc.position)))
         masses[i] += disc.mass
@@ -81,6 +73,21 @@ def lump(model: ShaftModel) -> LumpedShaft:
     driven = int(near[0]) if near.size else places.size
     follow, stiffness = _condensed(body, places, None if near.size else model.drive)
     return LumpedShaft(places, masses, transverse, polar, stiffness, follow, driven)
+
+
+def _places(model: ShaftModel) -> FloatArray:
+    """Return where lumps stand [m]: of a shaft from outside at the nodes that it names, by default at all."""
+    body = model.body
+    held = [*(b.position for b in model.bearings), *model.spring_places]
+    mains = _distinct([*held, *(place for _, place in model.discs)])
+    if not body.elements:
+        named = body.lumps or range(body.positions.size)
+        return _distinct([*mains, *(float(body.positions[n]) for n in named)])
+    places = _between(model, _with_ends(model, mains, _LONG_OVERHANG))
+    masses = _inertias(body, places)[0]
+    if masses.min() < _LEAST * masses.sum() / masses.size:  # an overhang that its neighbours cannot carry
+        places = _between(model, _with_ends(model, mains, 0.0))
+    return places
 
 
 def unbalance_of_lumps(model: ShaftModel, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
@@ -123,68 +130,73 @@ def _between(model: ShaftModel, mains: FloatArray) -> FloatArray:
     return _distinct(found)
 
 
-def _pieces(places: FloatArray, marks: FloatArray) -> list[tuple[int, int, float, float]]:
-    """Return first and last lump of every piece, and what of the beam belongs to it [m].
+def _pieces(places: FloatArray) -> list[tuple[int, int]]:
+    """Return first and last lump of every piece.
 
-    Where the middle one of three stands too near to one of the others, the piece ends there. What is beyond the first
-    and the last lump goes to these and their neighbours.
+    Where the middle one of three stands too near to one of the others, the piece ends there.
     """
     edges = [0]
     while edges[-1] < places.size - 1:
         three = places[edges[-1] : edges[-1] + 3]
         share = (three[1] - three[0]) / np.ptp(three) if three.size == 3 else 0.0
         edges.append(edges[-1] + (2 if _MIDDLE <= share <= 1.0 - _MIDDLE else 1))
-    found = [(i, k, float(places[i]), float(places[k])) for i, k in itertools.pairwise(edges)]
-    last = places.size - 1
-    return [*found, (0, 1, float(marks[0]), float(places[0])), (last - 1, last, float(places[-1]), float(marks[-1]))]
+    return list(itertools.pairwise(edges))
 
 
-def _cells(body: ElasticBody, begin: float, end: float) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
-    """Return points [m], masses [kg] and polar inertias [kg m2] of quadrature over a part of the beam."""
-    marks, found = body.positions[:: NODES - 1], []
-    for section, (left, right) in zip(body.elements, itertools.pairwise(marks), strict=True):
-        low, high = max(left, begin), min(right, end)
-        if high > low:
-            x, w = 0.5 * (low + high) + 0.5 * (high - low) * _GAUSS[0], 0.5 * (high - low) * _GAUSS[1]
-            density = section.material.density
-            found.append((x, density * section.area * w, 2.0 * density * section.second_moment * w))
-    return found
+def _parabolas(places: FloatArray, marks: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return what every lump counts at marks along the shaft, and the slopes of that, shape (marks, lumps).
 
-
-def _masses(body: ElasticBody, places: FloatArray) -> FloatArray:
-    """Return the mass of the beam at every lump [kg]."""
-    total = np.zeros(places.size)
-    for first, last, begin, end in _pieces(places, body.positions):
-        own = places[first : last + 1]
-        for x, mass, _ in _cells(body, begin, end):
-            for i, place in enumerate(own):
-                others = np.delete(own, i)
-                total[first + i] += mass @ np.prod((x[:, None] - others) / (place - others), axis=1)
-    return total
-
-
-def _beyond(body: ElasticBody, places: FloatArray) -> FloatArray:
-    """Return what the ends beyond the outermost lumps add to the moments of inertia of these [kg m2].
-
-    A mass at a distance d beyond a lump, the next one h away, is carried as m (1 + d/h) and -m d/h; that keeps mass and
-    centre and lacks m d (d + h) of the moment of inertia.
+    Beyond the first and the last lump the line through these and their neighbours goes on; where two pieces meet the
+    slope is the mean of theirs.
     """
-    found: FloatArray = np.zeros(places.size)
-    for end, near, far in ((0, places[0], places[1]), (-1, places[-1], places[-2])):
-        outer = float(body.positions[end])
-        for x, mass, _ in _cells(body, min(outer, near), max(outer, near)):
-            d = np.abs(x - near)
-            found[end] += mass @ (d * (d + abs(far - near)))
+    values, slopes = np.zeros((marks.size, places.size)), np.zeros((marks.size, places.size))
+    counts = np.zeros(marks.size)
+    last, far = places.size - 1, math.inf
+    spans = [(i, k, float(places[i]), float(places[k])) for i, k in _pieces(places)]
+    for i, k, begin, end in [(0, 1, -far, float(places[0])), *spans, (last - 1, last, float(places[-1]), far)]:
+        inside, own = np.flatnonzero((marks >= begin) & (marks <= end)), places[i : k + 1]
+        counts[inside] += 1.0
+        for n, place in enumerate(own):
+            shape = np.polynomial.Polynomial.fromroots(np.delete(own, n))
+            shape = shape / shape(place)
+            values[inside, i + n] += shape(marks[inside])
+            slopes[inside, i + n] += shape.deriv()(marks[inside])
+    return values / counts[:, None], slopes / counts[:, None]
+
+
+def _field(body: ElasticBody, values: FloatArray, slopes: FloatArray) -> FloatArray:
+    """Return motions in the plane of y and the tilt about z, shape (rows, n), that bend all sections along."""
+    found: FloatArray = np.zeros((body.mass.shape[0], values.shape[1]))
+    found[1 : NODE * body.positions.size : NODE] = values
+    found[5 : NODE * body.positions.size : NODE] = slopes
     return found
 
 
-def _hats(body: ElasticBody, places: FloatArray) -> FloatArray:
-    """Return the polar inertia of the beam at every lump [kg m2], shared in a straight line between neighbours."""
-    total: FloatArray = np.zeros(places.size)
-    for x, _, polar in _cells(body, float(body.positions[0]), float(body.positions[-1])):
-        for i in range(places.size):
-            total[i] += polar @ np.interp(x, places, np.eye(places.size)[i])
-    return total
+def _inertias(body: ElasticBody, places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return mass [kg], polar and transverse inertia [kg m2] of every lump, discs left out.
+
+    Of the mass matrix: masses by the parabolas, polar inertia in a straight line between neighbours. What ends beyond
+    the outermost lumps lack of the moment of inertia these get - a mass at a distance d beyond a lump, the next one h
+    away, is carried as m (1 + d/h) and -m d/h, which lacks m d (d + h) - and what the whole then lacks, the turning of
+    its sections, goes to all by their polar inertia.
+    """
+    mass, marks = body.mass.copy(), body.positions
+    for disc in body.discs:
+        rows = body.rows(disc.position)
+        mass[rows, rows] -= disc_mass(disc)
+    ones, at = np.ones((marks.size, 1)), marks[:, None]
+    shift, turn = _field(body, ones, 0.0 * ones), _field(body, at, ones)
+    each = (shift.T @ mass @ _field(body, *_parabolas(places, marks))).ravel()
+    about = np.zeros((mass.shape[0], places.size))
+    about[3 : NODE * marks.size : NODE] = np.array([np.interp(marks, places, row) for row in np.eye(places.size)]).T
+    polar = (about.sum(axis=1) @ mass @ about).ravel()
+    beyond = np.zeros(places.size)
+    for end, side, near, far in ((0, -1.0, places[0], places[1]), (-1, 1.0, places[-1], places[-2])):
+        d = np.maximum(side * (at - near), 0.0)
+        lacking = _field(body, d * (d + abs(far - near)), side * (2.0 * d + abs(far - near)) * (d > 0.0))
+        beyond[end] += float((shift.T @ mass @ lacking)[0, 0])
+    lacks = float((turn.T @ mass @ turn)[0, 0]) - each @ places**2 - beyond.sum()
+    return each, polar, beyond + lacks * polar / polar.sum()
 
 
 def _condensed(body: ElasticBody, places: FloatArray, coupling: int | None) -> tuple[FloatArray, FloatArray]:

@@ -10,6 +10,7 @@ from lambda_core.elastic.body import ElasticBody
 from lambda_core.system.bearing import ZERO, BearingModel, TimeFunction
 
 PLACES = (0, 1, 2, 4, 5)  # of a pose (solver.drivers.held_ring) among the six rows of a node
+GROUND, SHAFT = -1, 0  # numbers of bodies; the others follow
 
 
 @dataclass(frozen=True)
@@ -24,11 +25,14 @@ class Seating:
         Where the ring stands before any load against its drawn place [m, rad].
     force : float
         Of a spring on the outer ring along x [N].
+    damping : tuple of 5 floats
+        Of the seat [N s/m, N m s/rad].
     """
 
     stiffness: tuple[float, ...]
     shift: tuple[float, ...]
     force: float = 0.0
+    damping: tuple[float, ...] = (0.0,) * 5
 
 
 @dataclass(frozen=True)
@@ -44,6 +48,7 @@ class MountedBearing:
     dynamic_rating: float  # C [N]
     static_rating: float  # C_0 [N]
     fatigue_limit: float  # C_u [N]
+    carrier: int = GROUND  # body that the outer ring sits in
 
 
 @dataclass(frozen=True)
@@ -56,13 +61,36 @@ class Unbalance:
 
 
 @dataclass(frozen=True)
+class Place:
+    """A point of a body, and axes there."""
+
+    body: int
+    point: tuple[float, float, float]  # where it is drawn, from the left end of the shaft's axis [m]
+    axes: FloatArray  # as columns, shape (3, 3)
+
+
+@dataclass(frozen=True)
 class ShaftSpring:
-    """Spring and damper between shaft and ground."""
+    """Spring and damper between two bodies, or a body and the ground, at one point."""
 
     name: str
-    position: float  # [m]
-    stiffness: tuple[float, ...]  # over PLACES [N/m, N m/rad]
-    damping: tuple[float, ...]  # likewise [N s/m, N m s/rad]
+    place: Place  # of the one body
+    to: int  # the other one
+    stiffness: FloatArray  # against the motions and turns of one against the other there, shape (6, 6)
+    damping: FloatArray
+
+
+@dataclass(frozen=True)
+class RigidBody:
+    """A body beside the shaft, SI."""
+
+    name: str
+    centre: tuple[float, float, float]  # of mass, from the left end of the shaft's axis [m]
+    mass: float  # [kg]
+    polar_inertia: float  # about x [kg m2]
+    transverse_inertia: float  # about y and about z [kg m2]
+    hold: tuple[float, ...]  # stiffness of what holds the centre, six; inf where locked, 0 where free [N/m, N m/rad]
+    extent: tuple[float, float, float]  # length, width, height of its shape, zeros where there is none [m]
 
 
 @dataclass(frozen=True)
@@ -75,14 +103,15 @@ class ShaftModel:
         The shaft with its discs.
     bearings : tuple of MountedBearing
         From left to right.
-    loads : float64[:], shape (6 n,)
-        Nodal forces of loads and gears [N, N m].
-    weight : float64[:], shape (6 n,)
-        Of shaft and discs [N, N m].
-    growth : float64[:], shape (6 n,)
+    loads : float64[:], shape (rows of the shaft + 6 bodies,)
+        Nodal forces of loads and gears, then forces and moments on the bodies about their centres [N, N m].
+    weight : float64[:], likewise
+        Of shaft with discs, and bodies [N, N m].
+    growth : float64[:], likewise
         Forces that stretch the shaft as much as its temperature does [N].
     housing : float64[:, :], shape (5 bearings, 5 bearings), or None
         Stiffness between all outer rings in an elastic housing, zeros where a ring is free; None: rigid seats.
+    housing_damping : float64[:, :], likewise
     drive : int
         Row of the turning of the node that the coupling holds.
     outline, discs, load_places, wheels
@@ -92,7 +121,11 @@ class ShaftModel:
     speed_over_time : TimeFunction
         Of the shaft [rad/s].
     springs : tuple of ShaftSpring
-        Between shaft and ground.
+        Between shaft, bodies and ground.
+    bodies : tuple of RigidBody
+        Beside the shaft.
+    markers : tuple of (str, Place)
+        Named places.
     """
 
     name: str
@@ -114,7 +147,29 @@ class ShaftModel:
     wheels: tuple[tuple[str, float, float], ...] = ()  # of gears: name, position, pitch diameter [m]
     unbalances: tuple[Unbalance, ...] = ()
     speed_over_time: TimeFunction = ZERO
-    varying: tuple[tuple[int, TimeFunction], ...] = ()  # row of a node and its load over time, in place of `loads`
+    varying: tuple[tuple[int, TimeFunction], ...] = ()  # row of `loads` and its value over time
     twists: bool = False  # in motion
     springs: tuple[ShaftSpring, ...] = ()
+    bodies: tuple[RigidBody, ...] = ()
+    markers: tuple[tuple[str, Place], ...] = ()
+    housing_damping: FloatArray | None = None
     case_toml: str = ""  # the case, complete: it runs again as it stands
+
+    @property
+    def spring_places(self) -> tuple[float, ...]:
+        """Where springs hold the shaft [m]."""
+        return tuple(s.place.point[0] for s in self.springs if SHAFT in (s.place.body, s.to))
+
+    @property
+    def has_changing_torque(self) -> bool:
+        """Whether torques on the shaft change over time."""
+        return any(row < 6 * self.body.positions.size and row % 6 == 3 for row, _ in self.varying)
+
+    @property
+    def names(self) -> dict[str, list[str]]:
+        """Of bearings, bodies and markers."""
+        return {
+            "bearings": [bearing.name for bearing in self.bearings],
+            "bodies": [body.name for body in self.bodies],
+            "markers": [name for name, _ in self.markers],
+        }

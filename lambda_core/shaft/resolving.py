@@ -13,7 +13,6 @@ import numpy as np
 
 from lambda_core.case.case_io import overridden
 from lambda_core.case.case_writer import tables_toml
-from lambda_core.case.parts import InlineMaterial
 from lambda_core.case.shaft import ShaftCase, bearing_tables
 from lambda_core.case.shaft_io import shaft_tables, validate_shaft
 from lambda_core.catalogue.protocol import Catalogue
@@ -22,19 +21,22 @@ from lambda_core.domain.errors import CaseError, Problem
 from lambda_core.domain.fits import REFERENCE_TEMPERATURE
 from lambda_core.domain.gear_forces import GearForces, gear_forces
 from lambda_core.domain.units import show
-from lambda_core.elastic.body import Disc, ElasticBody, shaft_body
+from lambda_core.elastic.beam import NODE
+from lambda_core.elastic.body import Disc, ElasticBody, shaft_body, with_discs
 from lambda_core.elastic.sections import BodyMaterial, RoundSection
-from lambda_core.shaft.elastic_housing import housing_stiffness
-from lambda_core.shaft.model import ShaftModel, ShaftSpring, Unbalance
+from lambda_core.shaft.beside import COMPONENTS, all_loads, connections, refuse_idle_dampers, rigid_bodies
+from lambda_core.shaft.body_material import body_material
+from lambda_core.shaft.elastic_housing import elastic_housing
+from lambda_core.shaft.model import SHAFT, MountedBearing, ShaftModel, Unbalance
+from lambda_core.shaft.places import Places, places
+from lambda_core.shaft.reduced_shaft import reduced_shaft
 from lambda_core.shaft.seating import mounted
-from lambda_core.solver.drivers.held_ring import POSE
-from lambda_core.system.bearing import BearingModel, TimeFunction
+from lambda_core.system.bearing import BearingModel
 from lambda_core.system.checking import check
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.time_functions import initial, planned_speed, time_function
 from lambda_core.system.time_laws import refuse_laws
 
-_COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
 Source = str | Path | Mapping[str, Any] | ShaftCase
 
 
@@ -94,10 +96,12 @@ def check_shaft(
 
 def _anywhere(tables: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:
     """Return tables whose files are found from any folder."""
-    housing = tables.get("housing")
-    if not isinstance(housing, Mapping) or "reduced" not in housing:
-        return dict(tables)
-    return {**tables, "housing": {**housing, "reduced": str(((folder or Path()) / housing["reduced"]).absolute())}}
+    found = dict(tables)
+    for name in ("shaft", "housing"):
+        table = tables.get(name)
+        if isinstance(table, Mapping) and "reduced" in table:
+            found[name] = {**table, "reduced": str(((folder or Path()) / table["reduced"]).absolute())}
+    return found
 
 
 def _bearings(
@@ -127,32 +131,45 @@ def _shaft(
     case: ShaftCase, models: Mapping[str, BearingModel], catalogue: Catalogue, ledger: Ledger
 ) -> ShaftModel | None:
     """Return the whole; None where a bearing is missing, whose problems are known."""
-    _places(case, ledger)
+    outside = None
+    if case.shaft.reduced is not None:
+        outside = reduced_shaft((case.folder or Path()) / case.shaft.reduced, ledger)
+        if outside is None:
+            return None
+    stand = places(case, outside, ledger)
+    if ledger.problems:
+        return None
+    case = _in_place(case, stand)
+    _check_places(case, stand, outside, ledger)
     changing = [("operation.speed", case.operation.speed)]
     changing += [
-        (f"loads.{key}.{name}", getattr(load, name)) for key, load in case.loads.items() for name in _COMPONENTS
+        (f"loads.{key}.{name}", getattr(load, name)) for key, load in case.loads.items() for name in COMPONENTS
     ]
     refuse_laws(changing, ledger)
-    material = _material(case.shaft.material, "shaft.material", catalogue, ledger)
-    around = _material(case.housing.material, "housing.material", catalogue, ledger)
+    material = body_material(case.shaft.material, "shaft.material", catalogue, ledger)
+    around = body_material(case.housing.material, "housing.material", catalogue, ledger)
     gears = _gears(case, ledger)
     discs = _discs(case, catalogue, ledger)
+    bodies = rigid_bodies(case, catalogue, ledger)
+    springs = connections(case, stand, ledger)
     if material is None or around is None or ledger.problems or len(models) < len(case.bearings):
         return None
-    body = _body(case, material, discs)
+    body = _body(case, stand, material, discs) if outside is None else with_discs(outside, discs)
     growth = around.thermal_expansion * (case.housing.temperature - REFERENCE_TEMPERATURE)
     bearings = sorted(
         (
-            mounted(name, case.bearings[name], model, growth * case.bearings[name].position, ledger)
-            for name, model in models.items()
+            mounted(name, given, models[name], stand.carrier(given.outer), growth * given.place, ledger)
+            for name, given in case.bearings.items()
         ),
         key=lambda one: one.position,
     )
-    housing = None
+    housing, housing_damping = None, None
     if case.housing.reduced is not None:
-        housing = housing_stiffness((case.folder or Path()) / case.housing.reduced, bearings, ledger)
-        if housing is None:
+        found = elastic_housing((case.folder or Path()) / case.housing.reduced, bearings, ledger)
+        if found is None:
             return None
+        housing, housing_damping = found
+    refuse_idle_dampers(bearings, housing, ledger)
     shared: dict[str, list[str]] = {}
     for name, model in models.items():
         for sentence in model.assumptions:
@@ -160,73 +177,77 @@ def _shaft(
     for sentence, names in shared.items():
         ledger.assume(f"{', '.join(names)}: {sentence}")
     ledger.assume("the friction of the bearings does not count in the balance of the shaft")
-    drive = case.shaft.drive if case.shaft.drive is not None else 0.0
-    places = [(name, part.position) for table in (case.loads, case.gears) for name, part in table.items()]
+    gravity = (case.gravity.x, case.gravity.y, case.gravity.z)
+    drive = case.shaft.drive if case.shaft.drive is not None else float(body.positions[0])
+    acting = [(name, load.place) for name, load in case.loads.items() if stand.on_shaft("loads", name)]
+    acting += [(name, gear.place) for name, gear in case.gears.items()]
+    pulled = np.concatenate([body.weight(gravity), *(one.mass * np.array([*gravity, 0.0, 0.0, 0.0]) for one in bodies)])
+    loads, varying = all_loads(case, stand, body, bodies, gears)
     return ShaftModel(
         name=case.name,
         body=body,
         bearings=tuple(bearings),
         housing=housing,
-        loads=_loads(case, body, gears),
-        growth=_growth(case, body, material),
-        weight=body.weight((case.gravity.x, case.gravity.y, case.gravity.z)),
-        gravity=(case.gravity.x, case.gravity.y, case.gravity.z),
+        housing_damping=housing_damping,
+        loads=loads,
+        growth=np.concatenate([_growth(case, body, material), np.zeros(NODE * len(bodies))]),
+        weight=pulled,
+        gravity=gravity,
         drive=body.rows(drive).start + 3,
         speed=initial(time_function(case.operation.speed)),
         speed_over_time=time_function(case.operation.speed),
-        varying=_varying(case, body),
+        varying=varying,
         twists=case.shaft.twists,
-        springs=tuple(
-            ShaftSpring(
-                name,
-                spring.position,
-                tuple(getattr(spring, dof) for dof in POSE),
-                tuple(getattr(spring, f"damping_{dof}") for dof in POSE),
-            )
-            for name, spring in case.springs.items()
-        ),
+        springs=springs,
+        bodies=bodies,
+        markers=tuple(stand.markers.items()),
         contamination=case.life.contamination,
         gears=gears,
         assumptions=tuple(ledger.assumptions),
-        outline=_outline(case),
-        discs=tuple((name, disc.position) for name, disc in case.discs.items()),
-        load_places=tuple(places),
-        wheels=tuple((name, gear.position, gear.pitch_diameter) for name, gear in case.gears.items()),
+        outline=_outline(case) if outside is None else _drawn(body, bearings),
+        discs=tuple((name, disc.place) for name, disc in case.discs.items()),
+        load_places=tuple(acting),
+        wheels=tuple((name, gear.place, gear.pitch_diameter) for name, gear in case.gears.items()),
         unbalances=tuple(
-            Unbalance(disc.position, disc.unbalance, disc.unbalance_angle)
+            Unbalance(disc.place, disc.unbalance, disc.unbalance_angle)
             for disc in case.discs.values()
             if disc.unbalance
         ),
     )
 
 
-def _places(case: ShaftCase, ledger: Ledger) -> None:
+def _in_place(case: ShaftCase, stand: Places) -> ShaftCase:
+    """Return the case with positions in place of markers."""
+    tables = {}
+    for table in ("bearings", "discs", "gears", "loads", "springs"):
+        parts = getattr(case, table)
+        at = {name: stand.of[f"{table}.{name}"].point[0] for name in parts}
+        tables[table] = {name: part.model_copy(update={"position": at[name]}) for name, part in parts.items()}
+    return case.model_copy(update=tables)
+
+
+def _check_places(case: ShaftCase, stand: Places, outside: ElasticBody | None, ledger: Ledger) -> None:
     """Note everything that stands beside the shaft, and bearings in one place."""
-    parts = {f"{table}.{name}": part.position for table in ("bearings", "discs", "loads", "gears", "springs")
-             for name, part in getattr(case, table).items()}  # fmt: skip
+    parts = {f"{path}.position": place.point[0] for path, place in stand.of.items() if place.body == SHAFT}
+    parts |= {f"markers.{name}.x": marker.x for name, marker in case.markers.items() if marker.body == "shaft"}
+    for name, spring in case.springs.items():
+        if stand.carrier(spring.to) == SHAFT:
+            parts[f"springs.{name}.to"] = spring.place
     if case.shaft.drive is not None:
         parts["shaft.drive"] = case.shaft.drive
-    for path, position in parts.items():
-        if not 0.0 <= position <= case.length * (1.0 + 1e-12):
-            where = path if path == "shaft.drive" else f"{path}.position"
-            ledger.problem(
-                where, f"{show(position, 'length', 6)} is not on the shaft: 0 mm to {show(case.length, 'length', 6)}"
-            )
+    length = sum(section.length for section in case.shaft.sections)
+    for where, position in parts.items():
+        at = show(position, "length", 6)
+        if outside is None and not 0.0 <= position <= length * (1.0 + 1e-12):
+            ledger.problem(where, f"{at} is not on the shaft: 0 mm to {show(length, 'length', 6)}")
+        elif outside is not None and not outside.has_node(position):
+            nodes = ", ".join(f"{1e3 * x:.6g}" for x in outside.positions)
+            ledger.problem(where, f"there is no node at {at}; nodes of the shaft stand at {nodes} mm")
     seen: dict[float, str] = {}
     for name, bearing in case.bearings.items():
-        other = seen.setdefault(round(bearing.position, 7), name)
+        other = seen.setdefault(round(bearing.place, 7), name)
         if other != name:
             ledger.problem(f"bearings.{name}.position", f'is that of "{other}" too: bearings stand beside each other')
-
-
-def _material(choice: str | InlineMaterial, where: str, catalogue: Catalogue, ledger: Ledger) -> BodyMaterial | None:
-    if isinstance(choice, InlineMaterial):
-        return BodyMaterial(choice.youngs_modulus, choice.poisson_ratio, choice.density, choice.thermal_expansion)
-    row = ledger.ask(where, lambda: catalogue.material(choice))
-    if row is None:
-        return None
-    names = ("youngs_modulus", "poisson_ratio", "density", "thermal_expansion")
-    return BodyMaterial(*(getattr(row, name).value for name in names))
 
 
 def _gears(case: ShaftCase, ledger: Ledger) -> dict[str, GearForces]:
@@ -260,7 +281,7 @@ def _discs(case: ShaftCase, catalogue: Catalogue, ledger: Ledger) -> list[Disc]:
     for name, given in case.discs.items():
         mass, polar, transverse = given.mass or 0.0, 0.0, 0.0
         if given.diameter is not None and given.width is not None:
-            material = _material(given.material, f"discs.{name}.material", catalogue, ledger)
+            material = body_material(given.material, f"discs.{name}.material", catalogue, ledger)
             outer, inner = given.diameter**2, given.bore**2
             mass = 0.25 * math.pi * (outer - inner) * given.width * (material.density if material else 0.0)
             polar = mass * (outer + inner) / 8.0
@@ -269,47 +290,29 @@ def _discs(case: ShaftCase, catalogue: Catalogue, ledger: Ledger) -> list[Disc]:
             polar, transverse = given.polar_inertia, 0.5 * given.polar_inertia
         if given.transverse_inertia is not None:
             transverse = given.transverse_inertia
-        found.append(Disc(given.position, mass, transverse, polar))
+        found.append(Disc(given.place, mass, transverse, polar))
     return found
 
 
-def _body(case: ShaftCase, material: BodyMaterial, discs: list[Disc]) -> ElasticBody:
+def _drawn(body: ElasticBody, bearings: Iterable[MountedBearing]) -> tuple[tuple[float, float, float, float], ...]:
+    """Return one piece to draw in place of a shaft from outside: as thick as its smallest bearing's bore."""
+    bore = min(bearing.model.geometry.bore_diameter for bearing in bearings)
+    return ((float(body.positions[0]), float(body.positions[-1]), bore, 0.0),)
+
+
+def _body(case: ShaftCase, stand: Places, material: BodyMaterial, discs: list[Disc]) -> ElasticBody:
     sections = [(s.length, RoundSection(s.diameter, s.bore, material)) for s in case.shaft.sections]
-    places = [bearing.position for bearing in case.bearings.values()]
-    places += [load.position for load in case.loads.values()]
-    places += [gear.position for gear in case.gears.values()]
-    places += [spring.position for spring in case.springs.values()]
+    held = [place.point[0] for place in stand.of.values() if place.body == SHAFT]
+    held += [place.point[0] for place in stand.markers.values() if place.body == SHAFT]
+    held += [spring.place for spring in case.springs.values() if stand.carrier(spring.to) == SHAFT]
     drive = [] if case.shaft.drive is None else [case.shaft.drive]
-    return shaft_body(sections, places=[*places, *drive], discs=discs)
-
-
-def _loads(case: ShaftCase, body: ElasticBody, gears: Mapping[str, GearForces]) -> FloatArray:
-    """Return the nodal forces of loads and gears, shape (6 n,)."""
-    found: FloatArray = np.zeros(body.mass.shape[0])
-    for load in case.loads.values():
-        found[body.rows(load.position)] += [initial(time_function(getattr(load, name))) for name in _COMPONENTS]
-    for name, forces in gears.items():
-        found[body.rows(case.gears[name].position)] += [*forces.force, *forces.moment]
-    return found
-
-
-def _varying(case: ShaftCase, body: ElasticBody) -> tuple[tuple[int, TimeFunction], ...]:
-    """Return the rows of loads that change, with their values over time."""
-    found = []
-    for load in case.loads.values():
-        for i, name in enumerate(_COMPONENTS):
-            function = time_function(getattr(load, name))
-            if any(term.kind != "constant" for term in function.terms):
-                found.append((body.rows(load.position).start + i, function))
-    return tuple(found)
+    return shaft_body(sections, places=[*held, *drive], discs=discs)
 
 
 def _growth(case: ShaftCase, body: ElasticBody, material: BodyMaterial) -> FloatArray:
-    """Return the nodal forces that stretch the shaft as its temperature does, shape (6 n,)."""
-    found: FloatArray = np.zeros(body.mass.shape[0])
+    """Return the nodal forces that stretch the shaft as its temperature does: those that would hold it stretched."""
     strain = material.thermal_expansion * (case.shaft.temperature - REFERENCE_TEMPERATURE)
-    for begin, end, diameter, bore in _outline(case):
-        push = RoundSection(diameter, bore, material).axial_stiffness * strain
-        found[body.rows(begin).start] -= push
-        found[body.rows(end).start] += push
+    stretched = np.zeros(body.mass.shape[0])
+    stretched[0 : NODE * body.positions.size : NODE] = strain * body.positions
+    found: FloatArray = body.stiffness @ stretched
     return found

@@ -14,7 +14,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
 from lambda_core.elastic.beam import NODE, NODES
 from lambda_core.elastic.body import ElasticBody
-from lambda_core.shaft.model import ShaftModel
+from lambda_core.shaft.model import GROUND, SHAFT, ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.shaft.vibration import bearing_damping, housed_damping, housed_stiffness
 from lambda_core.solver.drivers.compiled_laws import Announce
@@ -43,12 +43,16 @@ def ross_rotor(model: ShaftModel, state: ShaftState | None = None, announce: Ann
     Raises
     ------
     UsageError
-        When ROSS is not installed.
+        When ROSS is not installed, or the shaft has what ROSS has no word for.
     """
     try:
         import ross
     except ImportError:
         raise UsageError("the package ross-rotordynamics is not installed: pip install ross-rotordynamics") from None
+    if not model.body.elements:
+        raise UsageError("a shaft from outside has no pieces that elements of ROSS could be made of")
+    if any(SHAFT in (s.place.body, s.to) and GROUND not in (s.place.body, s.to) for s in model.springs):
+        raise UsageError("springs between shaft and other bodies have no place in a rotor of ROSS")
     found = state if state is not None else solve_shaft(model, announce)
     body = model.body
     shaft = [_piece(ross, body, node) for node in range(body.positions.size - 1)]
@@ -66,10 +70,10 @@ def ross_rotor(model: ShaftModel, state: ShaftState | None = None, announce: Ann
         block = np.ix_(*2 * [np.arange(NODE * node, NODE * (node + 1))])
         rotor.K0[block] += _rest(k)
         rotor.C0[block] += _rest(c)
-    for spring in model.springs:
+    for spring in (s for s in model.springs if SHAFT in (s.place.body, s.to)):
+        rows = np.arange(NODE) + NODE * body.node(spring.place.point[0])
         for matrix, values in ((rotor.K0, spring.stiffness), (rotor.C0, spring.damping)):
-            rows = NODE * body.node(spring.position) + np.array(_THEIRS)
-            matrix[rows, rows] += np.array(values)
+            matrix[np.ix_(rows, rows)] += values[np.ix_(_OURS, _OURS)]
     return rotor
 
 

@@ -7,20 +7,27 @@ import math
 from lambda_core.case.shaft import ShaftBearing
 from lambda_core.domain.ratings import dynamic_rating, fatigue_load_limit, static_rating
 from lambda_core.domain.units import parse
-from lambda_core.shaft.model import MountedBearing, Seating
+from lambda_core.shaft.model import GROUND, MountedBearing, Seating
 from lambda_core.solver.drivers.held_ring import POSE
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.resolve_clearance import picked
 
 _SIGN = {"+x": 1, "-x": -1, None: 0}
+# [N/m] of a seat that is locked in a body that moves: a hundred to a thousand times as stiff as a bearing; tilts: the
+# same at the ring's outside radius.
+_LOCKED = 1e11
 
 
-def mounted(name: str, given: ShaftBearing, model: BearingModel, growth: float, ledger: Ledger) -> MountedBearing:
+def mounted(
+    name: str, given: ShaftBearing, model: BearingModel, carrier: int, growth: float, ledger: Ledger
+) -> MountedBearing:
     """Return a bearing at its place, its outer ring where preload and the housing's growth put it.
 
     Parameters
     ----------
+    carrier : int
+        Body that the outer ring sits in.
     growth : float
         How far the warm housing carries the outer ring along x [m].
     """
@@ -34,12 +41,14 @@ def mounted(name: str, given: ShaftBearing, model: BearingModel, growth: float, 
     dynamic, static, fatigue = _ratings(name, angle, model, ledger)
     return MountedBearing(
         name=name,
-        position=given.position,
+        position=given.place,
         model=model,
+        carrier=carrier,
         seating=Seating(
-            stiffness=tuple(_stiffness(given, dof) for dof in POSE),
+            stiffness=_seat(name, given, model, carrier, ledger),
             shift=(shift, 0.0, 0.0, 0.0, 0.0),
             force=-takes * (given.preload_force or 0.0),
+            damping=tuple(getattr(given.support, f"damping_{dof}") for dof in POSE),
         ),
         takes=takes,
         nominal_angle=angle,
@@ -60,6 +69,19 @@ def axial_play(given: ShaftBearing, model: BearingModel) -> float:
     bought = g.clearance if model.mounting is None else picked(model.mounting.bought, given.clearance_pick)
     cosine = 1.0 - 0.5 * max(bought, 0.0) / distance
     return distance * math.sqrt(max(0.0, 1.0 - cosine**2))
+
+
+def _seat(name: str, given: ShaftBearing, model: BearingModel, carrier: int, ledger: Ledger) -> tuple[float, ...]:
+    """Return the stiffness of the seat; one that is locked in a body that moves is very stiff."""
+    found = [_stiffness(given, dof) for dof in POSE]
+    if carrier == GROUND or not any(map(math.isinf, found)):
+        return tuple(found)
+    radius = 0.5 * model.geometry.outside_diameter
+    ledger.assume(f"{name}: its seat, locked in a body that moves, gives way by 1 um under {_LOCKED * 1e-9:.0f} kN")
+    return tuple(
+        k if math.isfinite(k) else _LOCKED * (radius**2 if dof.startswith("tilt") else 1.0)
+        for dof, k in zip(POSE, found, strict=True)
+    )
 
 
 def _stiffness(given: ShaftBearing, dof: str) -> float:

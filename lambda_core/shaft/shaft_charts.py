@@ -9,7 +9,7 @@ from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.shaft_report import ShaftReport
 from lambda_core.views.chart import Arrows, Axis, Mark, Panel, Series, ViewData
 
-_ROLES = {"bending": "inner", "axial": "reference", "torsion": "cage"}
+_ROLES = {"bending": "inner", "axial": "reference", "torsion": "cage", "body": "outer"}
 
 
 def pictures(model: ShaftModel, report: ShaftReport) -> list[ViewData]:

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.elastic.beam import NODE
-from lambda_core.shaft.model import PLACES, MountedBearing, ShaftModel
+from lambda_core.shaft.model import GROUND, PLACES, MountedBearing, ShaftModel
+from lambda_core.shaft.structure import static_rows, structure
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
 from lambda_core.solver.drivers.first_state import free_contact_angle
 from lambda_core.solver.drivers.held_ring import POSE, HeldRing
@@ -28,6 +29,7 @@ _CONVERGED, _ROUNDING = 1e-9, 1e-6  # residual over the loads: wanted; where the
 _DAMPING, _LEAST_DAMPING = 1e-3, 1e-10  # of _GUESS
 _SLOPE, _NARROW = 0.5, 1e-3  # of the first slope, of the step: where a search along a step ends
 _ARMS = np.array([1.0, 1.0, 1.0, 0.03, 0.03])  # [m] at which tilts are lengths
+_AXES = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
 _LONGEST = 2e-4  # [m] largest move of a ring per step; tilts count at the pitch radius
 
 
@@ -41,6 +43,8 @@ class ShaftState:
         Of the shaft's nodes [m, rad].
     outer : float64[:, :], shape (bearings, 5)
         Of the outer rings in the order of POSE.
+    bodies : float64[:, :], shape (bodies, 6)
+        Of the bodies beside the shaft [m, rad].
     reactions : float64[:, :], shape (bearings, 5)
         Force and moment of each bearing on the shaft [N, N m].
     stiffness : float64[:, :, :], shape (bearings, 5, 5)
@@ -55,12 +59,18 @@ class ShaftState:
 
     displacement: FloatArray
     outer: FloatArray
+    bodies: FloatArray
     reactions: FloatArray
     stiffness: FloatArray
     rings: list[HeldRing]
     drive_torque: float
     residual: float
     iterations: int
+
+    @property
+    def motions(self) -> FloatArray:
+        """Of shaft, outer rings and bodies, in the rows of structure.static_rows."""
+        return np.concatenate([self.displacement, self.outer.ravel(), self.bodies.ravel()])
 
     def pose(self, model: ShaftModel, index: int) -> FloatArray:
         """Return the pose of a bearing's inner ring against its outer one, shape (5,)."""
@@ -69,7 +79,7 @@ class ShaftState:
 
 
 class _Whole:
-    """The unknowns of shaft and outer rings in one vector, and the forces on them.
+    """The unknowns of shaft, outer rings and other bodies in one vector, and the forces on them.
 
     The shaft's are the pose of the node that the coupling holds and, of all others, what they move beside a rigid
     shaft with that pose. Elastic forces then are those of deflections alone: however stiff the shaft is, its motion as
@@ -78,49 +88,45 @@ class _Whole:
 
     def __init__(self, model: ShaftModel, rings: list[HeldRing]) -> None:
         self.model, self.rings = model, rings
-        self.size = model.body.stiffness.shape[0]
-        count = self.size + len(POSE) * len(rings)
-        self.outer = np.arange(self.size, count).reshape(len(rings), len(POSE))
+        rows = static_rows(model)
+        self.size, count = rows.rings, rows.size
+        self.outer = np.arange(rows.rings, rows.bodies).reshape(len(rings), len(POSE))
         frame = np.arange(NODE) + NODE * (model.drive // NODE)
-        self.moves = _carried(model, frame)
+        self.moves = np.eye(count)  # of shaft, rings and bodies with the unknowns
+        self.moves[: self.size, : self.size] = _carried(model, frame)
         deflects = np.setdiff1d(np.arange(self.size), frame)
-        self.linear = np.zeros((count, count))
+        self.linear: FloatArray = np.zeros((count, count))
         self.linear[np.ix_(deflects, deflects)] = model.body.stiffness[np.ix_(deflects, deflects)]
-        for spring in model.springs:
-            held_by = self.moves[model.body.rows(spring.position).start + np.array(PLACES)]
-            self.linear[: self.size, : self.size] += held_by.T @ np.diag(spring.stiffness) @ held_by
-        self.given = np.zeros(count)
-        self.given[: self.size] = self.moves.T @ (model.loads + model.weight + model.growth)
-        held = [model.drive]
+        held = [model.drive, *(rows.bodies + np.flatnonzero(np.isinf(_holds(model)))).tolist()]
         self.start = np.zeros(count)
-        for rows, bearing in zip(self.outer, model.bearings, strict=True):
-            seating = bearing.seating
-            for row, k, shift in zip(rows, seating.stiffness, seating.shift, strict=True):
-                self.start[row] = shift
-                if math.isinf(k):
-                    if model.housing is None:
-                        held.append(int(row))
-                else:
-                    self.linear[row, row] = k
-                    self.given[row] += k * shift
-            self.given[rows[0]] += seating.force
+        ties = structure(model, rows)[0]
+        given = np.zeros(count)
+        acting = model.loads + model.weight + model.growth
+        given[: self.size], given[rows.bodies :] = acting[: self.size], acting[self.size :]
+        for own, bearing in zip(self.outer, model.bearings, strict=True):
+            self.start[own] = bearing.seating.shift
+            given[own[0]] += bearing.seating.force
+            is_held = np.isinf(bearing.seating.stiffness) & (model.housing is None or bearing.carrier != GROUND)
+            held += own[is_held].tolist()
         if model.housing is not None:
-            rows = self.outer.ravel()
-            self.linear[np.ix_(rows, rows)] += model.housing
-            self.given[rows] += model.housing @ self.start[rows]
+            own = self.outer.ravel()
+            ties[np.ix_(own, own)] += model.housing
+        self.linear += self.moves.T @ ties @ self.moves
+        self.given = self.moves.T @ (given + ties @ self.start)
         self.free = np.setdiff1d(np.arange(count), held)
         # of every bearing, how its inner ring moves against its outer one, shape (bearings, 5, unknowns)
         self.reach = np.zeros((len(rings), len(POSE), count))
         for reach, outer, bearing in zip(self.reach, self.outer, model.bearings, strict=True):
-            reach[:, : self.size] = self.moves[model.body.rows(bearing.position).start + np.array(PLACES)]
+            reach[:] = self.moves[model.body.rows(bearing.position).start + np.array(PLACES)]
             reach[range(len(POSE)), outer] = -1.0
         # lengths that make moments forces: residuals of one kind
         arms = np.ones(count)
         length = float(np.ptp(model.body.positions))
-        arms[: self.size].reshape(-1, NODE)[:, 3:] = length
+        arms[: NODE * model.body.positions.size].reshape(-1, NODE)[:, 3:] = length
         arms[self.outer[:, 3:]] = length
+        arms[rows.bodies :].reshape(-1, NODE)[:, 3:] = length
         self.arms = arms
-        loads = np.abs(model.loads + model.weight) / arms[: self.size]
+        loads = np.abs(model.loads + model.weight) / np.concatenate([arms[: self.size], arms[rows.bodies :]])
         preloads = [abs(b.seating.force) for b in model.bearings]
         self.scale = max(float(loads.max()), *preloads, 1.0)
         self.carried = 0.0  # largest reaction of a bearing at the last state [N]
@@ -169,6 +175,11 @@ def _carried(model: ShaftModel, frame: NDArray[np.int64]) -> FloatArray:
     return found
 
 
+def _holds(model: ShaftModel) -> FloatArray:
+    """Return the stiffness of what holds the bodies beside the shaft, six of each; inf where locked."""
+    return np.array([k for body in model.bodies for k in body.hold])
+
+
 class SharedKernels:
     """Compiled laws by their choice: bearings on one shaft mostly have the same, and laws are tried out once."""
 
@@ -209,16 +220,24 @@ def solve_shaft(model: ShaftModel, announce: Announce = None, kernels: SharedKer
     for _ in range(_FRAMES):
         q, used = _newton(whole, q)
         iterations += used
-        moved = [ring.refresh() for ring in rings]
-        if not any(moved):
+        changed = [ring.refresh() for ring in rings]
+        if not any(changed):
             break
     unbalanced, reactions = whole.residual(q)
     _check_sides(model, reactions)
     torque = -float(unbalanced[model.drive])
+    moved = whole.moves @ q
     return ShaftState(
-        whole.moves @ q[: whole.size], q[whole.outer], reactions, np.array([ring.stiffness() for ring in rings]), rings,
-        torque, whole.merit(unbalanced), iterations,
-    )  # fmt: skip
+        displacement=moved[: whole.size],
+        outer=q[whole.outer],
+        bodies=moved[whole.outer.max() + 1 :].reshape(-1, NODE),
+        reactions=reactions,
+        stiffness=np.array([ring.stiffness() for ring in rings]),
+        rings=rings,
+        drive_torque=torque,
+        residual=whole.merit(unbalanced),
+        iterations=iterations,
+    )
 
 
 def _first_angle(bearing: MountedBearing) -> float:
@@ -300,12 +319,18 @@ def _along(whole: _Whole, q: FloatArray, move: FloatArray, unbalanced: FloatArra
 
 def _no_balance(whole: _Whole, unbalanced: FloatArray, merit: float) -> str:
     sizes = np.abs(unbalanced / whole.arms)
-    worst = int(max((row for row in whole.free if row < whole.size), key=lambda row: sizes[row]))
-    axis = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")[worst % NODE]
-    place = 1e3 * whole.model.body.positions[worst // NODE]
+    of_rings = set(whole.outer.ravel().tolist())
+    worst = int(max((row for row in whole.free if row not in of_rings), key=lambda row: sizes[row]))
+    number, bodies = NODE * whole.model.body.positions.size, worst - whole.size - len(of_rings)
+    if bodies >= 0:
+        what, axis = f"of {whole.model.bodies[bodies // NODE].name}", _AXES[bodies % NODE]
+    elif worst < number:
+        what, axis = f"at {1e3 * whole.model.body.positions[worst // NODE]:.4g} mm", _AXES[worst % NODE]
+    else:
+        what, axis = "of the shaft's own modes", "one"
     return (
         f"{whole.model.name}: no equilibrium of the shaft: {merit:.1e} of the loads stay unbalanced, most along {axis} "
-        f"at {place:.4g} mm: is the shaft held in every direction, and does each bearing take what comes to it?"
+        f"{what}: is the shaft held in every direction, and does each bearing take what comes to it?"
     )
 
 

@@ -17,9 +17,10 @@ from lambda_core.results.averages import finite
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Contact
-from lambda_core.shaft.model import MountedBearing, ShaftModel
+from lambda_core.shaft.model import MountedBearing, Place, ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState
 from lambda_core.shaft.shaft_lives import bearing_life
+from lambda_core.shaft.structure import point_on, static_rows, stretch
 from lambda_core.shaft.vibration import (
     Mode,
     bearing_damping,
@@ -100,6 +101,13 @@ class CriticalSpeed(Record):
     direction: float
 
 
+class BodyMoved(Record):
+    """How a body or a place moves from where it is drawn."""
+
+    displacement_um: list[float] = Field(description="x, y, z")
+    tilt_mrad: list[float] = Field(description="about x, y and z")
+
+
 class ShaftReport(Record):
     """Equilibrium of a shaft in its bearings, lives, and critical speeds at its stiffness."""
 
@@ -109,7 +117,11 @@ class ShaftReport(Record):
     axes: tuple[str, ...] = Field(default=AXES, description="order of rows and columns of the stiffness matrices")
     bearings: list[BearingOnShaft] = Field(description="from left to right")
     gears: dict[str, list[float]] = Field(description="tangential, radial and axial force [N]")
-    springs: dict[str, list[float]] = Field(default={}, description="force of each spring on the shaft: x, y, z [N]")
+    springs: dict[str, list[float]] = Field(
+        default={}, description="force of each spring on the body of its place: x, y, z [N]"
+    )
+    bodies: dict[str, BodyMoved] = Field(default={}, description="bodies beside the shaft")
+    markers: dict[str, BodyMoved] = Field(default={}, description="named places")
     system_life_h: float | None = Field(description="of all bearings by their reference rating lives, 90 %")
     friction_torque_Nmm: float | None = Field(description="of all bearings")
     drive_torque_Nm: float = Field(description="of the coupling on the shaft, friction left out")
@@ -143,22 +155,21 @@ def report_of(model: ShaftModel, state: ShaftState) -> ShaftReport:
     bearings = [
         _bearing(model, state, i, found, each) for i, (found, each) in enumerate(zip(equilibria, matrices, strict=True))
     ]
-    moved = state.displacement.reshape(-1, NODE)
+    moved = state.displacement[: NODE * model.body.positions.size].reshape(-1, NODE)
     cuts, forces = internal_forces(model.body, state.displacement, model.gravity)
     stiffness = supported(model, state)
     critical = criticals(model, stiffness)[:_SHOWN]
     lives = [b.reference_rating_life_h for b in bearings if b.reference_rating_life_h is not None]
     torques = [b.friction_torque_Nmm for b in bearings]
-    rpm = 30.0 / math.pi * model.speed
+    rpm, rows = 30.0 / math.pi * model.speed, static_rows(model)
     return ShaftReport(
         case=model.name,
         speed_rpm=rpm,
         bearings=bearings,
         gears={name: [g.tangential, g.radial, g.axial] for name, g in model.gears.items()},
-        springs={
-            s.name: _listed(-np.array(s.stiffness[:3]) * state.displacement[model.body.rows(s.position)][:3])
-            for s in model.springs
-        },
+        springs={s.name: _listed(-(s.stiffness @ stretch(model, rows, s) @ state.motions)[:3]) for s in model.springs},
+        bodies={body.name: _moved(moves) for body, moves in zip(model.bodies, state.bodies, strict=True)},
+        markers={name: _moved(_at(model, state, place)) for name, place in model.markers},
         system_life_h=finite(system_life(lives)) if lives else None,
         friction_torque_Nmm=None if None in torques else sum(t for t in torques if t is not None),
         drive_torque_Nm=state.drive_torque,
@@ -185,6 +196,16 @@ def report_of(model: ShaftModel, state: ShaftState) -> ShaftReport:
             "critical speeds, natural frequencies over speed: undamped, bearings as stiff as at this operating point",
         ],
     )
+
+
+def _moved(motion: FloatArray) -> BodyMoved:
+    return BodyMoved(displacement_um=_listed(1e6 * motion[:3]), tilt_mrad=_listed(1e3 * motion[3:]))
+
+
+def _at(model: ShaftModel, state: ShaftState, place: Place) -> FloatArray:
+    """Return how a place moves and turns, zeros on the ground and off the nodes of the shaft."""
+    own, moves = point_on(model, static_rows(model), place.body, place.point)
+    return np.asarray(moves @ state.motions[own])
 
 
 def _fastest(model: ShaftModel, critical: list[Mode]) -> float:

@@ -102,6 +102,9 @@ def _shaft_lines(report: ShaftReport) -> list[str]:
         lines.append(f"{'gear ' + name:<{HEAD}}F_t {tangential:.4g} N   F_r {radial:.4g} N   F_a {axial:.4g} N")
     for name, (x, y, z) in report.springs.items():
         lines.append(f"{'spring ' + name:<{HEAD}}force x {_digits(x)} N   y {_digits(y)} N   z {_digits(z)} N")
+    for name, moved in (*report.bodies.items(), *report.markers.items()):
+        each = zip("xyz", moved.displacement_um, strict=True)
+        lines.append(f"{name:<{HEAD}}moves " + "   ".join(f"{axis} {_digits(um, 3)} um" for axis, um in each))
     speeds = [f"{one.speed_rpm:.5g} {_way(one.direction)}" for one in report.critical_speeds[:4]]
     lines.append(f"{'critical speeds':<{HEAD}}{', '.join(speeds) or NONE} 1/min")
     bending = [mode for mode in report.modes if mode.kind == "bending"][:4]
@@ -137,6 +140,8 @@ def model_text(model: ShaftModel) -> str:
             f"{1e6 * bearing.model.geometry.clearance:.4g} um, C {1e-3 * bearing.dynamic_rating:.4g} kN, "
             f"C_0 {1e-3 * bearing.static_rating:.4g} kN{side}"
         )
+    for body in model.bodies:
+        lines.append(f"{body.name:<{HEAD}}body of {body.mass:.4g} kg at {1e3 * body.centre[0]:.6g} mm")
     for name, forces in model.gears.items():
         x, y, z = forces.force
         lines.append(f"{'gear ' + name:<{HEAD}}force x {x:.4g} N, y {y:.4g} N, z {z:.4g} N")

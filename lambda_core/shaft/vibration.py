@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,8 +13,9 @@ from scipy.linalg import block_diag
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.whirl import Whirl, critical_speeds, whirls
-from lambda_core.shaft.model import PLACES, ShaftModel
+from lambda_core.shaft.model import GROUND, PLACES, SHAFT, ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState
+from lambda_core.shaft.structure import Rows, static_rows, structure
 from lambda_core.solver.drivers.damping import damping_matrix
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 
@@ -75,76 +77,142 @@ def _of_each(whole: FloatArray) -> FloatArray:
 def _damping_in_series(model: ShaftModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
     """Return the damping that the shaft feels at all bearings together, shape (5 bearings, 5 bearings)."""
     speed = abs(model.speed) or 1.0
-    inner = dampings[:, PLACES][:, :, PLACES]
-    found: FloatArray = _in_series(model, state.stiffness + 1j * speed * inner).imag / speed
+    whole = _joined(model, state.stiffness, springs=False) + 1j * speed * _resisting(model, dampings, springs=False)
+    return np.asarray(_seen_by_shaft(model, whole).imag / speed)
+
+
+def _in_series(model: ShaftModel, each: FloatArray) -> FloatArray:
+    """Return the stiffness that the shaft feels at all bearings together, shape (5 bearings, 5 bearings).
+
+    Rings and bodies behind the bearings follow without inertia.
+    """
+    return np.asarray(_seen_by_shaft(model, _joined(model, each, springs=False)))
+
+
+def _joined(model: ShaftModel, each: FloatArray, *, springs: bool = True) -> FloatArray:
+    """Return the stiffness of what joins shaft, outer rings and bodies: bearings, seats, housing, holds, springs."""
+    rows = static_rows(model)
+    found = structure(model if springs else _without_springs_of_the_shaft(model), rows)[0]
+    if model.housing is not None:
+        own = slice(rows.rings, rows.bodies)
+        found[own, own] += model.housing
+    for i, k in enumerate(each):
+        reach = _inner_against_outer(model, rows, i)
+        found += reach.T @ k @ reach
     return found
 
 
-def _in_series(model: ShaftModel, each: Any) -> Any:
-    """Return the stiffness that the shaft feels at all bearings together, shape (5 bearings, 5 bearings).
+def _without_springs_of_the_shaft(model: ShaftModel) -> ShaftModel:
+    return replace(model, springs=tuple(s for s in model.springs if SHAFT not in (s.place.body, s.to)))
 
-    In series: K - K (K + H)^-1 K over the degrees of freedom in which outer rings move, H of the housing. A dynamic
-    stiffness K + i w C likewise.
-    """
-    k = np.asarray(block_diag(*each))
-    springs = np.concatenate([bearing.seating.stiffness for bearing in model.bearings])
-    housing = np.diag(np.where(np.isfinite(springs), springs, 0.0))
-    if model.housing is not None:
-        housing, springs = housing + model.housing, np.zeros_like(springs)
-    moves = np.flatnonzero(np.isfinite(springs))
-    if not moves.size:
-        return k
-    inner = (k + housing)[np.ix_(moves, moves)]
-    return np.asarray(k - k[:, moves] @ np.linalg.solve(inner, k[moves]))
+
+def _resisting(model: ShaftModel, dampings: FloatArray, *, springs: bool = True) -> FloatArray:
+    """Return the damping likewise."""
+    rows = static_rows(model)
+    found = structure(model if springs else _without_springs_of_the_shaft(model), rows)[1]
+    if model.housing_damping is not None:
+        own = slice(rows.rings, rows.bodies)
+        found[own, own] += model.housing_damping
+    for i, c in enumerate(dampings):
+        reach = _inner_against_outer(model, rows, i)
+        found += reach.T @ c[np.ix_(PLACES, PLACES)] @ reach
+    return found
+
+
+def _inner_against_outer(model: ShaftModel, rows: Rows, index: int) -> FloatArray:
+    """Return how an inner ring moves against its outer one, shape (5, rows)."""
+    size = len(PLACES)
+    found: FloatArray = np.zeros((size, rows.size))
+    found[range(size), rows.node(model.bearings[index].position) + np.array(PLACES)] = 1.0
+    found[range(size), rows.rings + size * index + np.arange(size)] = -1.0
+    return found
+
+
+def _moving(model: ShaftModel, rows: Rows) -> tuple[list[int], list[int]]:
+    """Return the rows of outer rings and of bodies that can move."""
+    rings: list[int] = []
+    for i, bearing in enumerate(model.bearings):
+        is_tied = model.housing is not None and bearing.carrier == GROUND
+        own = rows.rings + len(PLACES) * i
+        rings += [own + d for d, k in enumerate(bearing.seating.stiffness) if math.isfinite(k) or is_tied]
+    holds = [k for body in model.bodies for k in body.hold]
+    return rings, [rows.bodies + i for i, k in enumerate(holds) if math.isfinite(k)]
+
+
+def _seen(whole: Any, kept: Any, others: list[int]) -> Any:
+    """Return what is felt at the rows `kept` of a stiffness, the others following: K_kk - K_ko K_oo^-1 K_ok."""
+    found = np.array(whole[np.ix_(kept, kept)])
+    others = [row for row in others if abs(whole[row, row]) > 0.0]
+    if others:  # a motion that nothing holds moves nothing: the shortest solution leaves it out
+        inner = whole[np.ix_(others, others)]
+        found -= whole[np.ix_(kept, others)] @ np.linalg.lstsq(inner, whole[np.ix_(others, kept)], rcond=1e-13)[0]
+    return found
 
 
 def supported(model: ShaftModel, state: ShaftState) -> FloatArray:
-    """Return the stiffness of the shaft on its bearings, shape (6 n, 6 n)."""
-    whole = model.body.stiffness.copy()
-    k, rows = _in_series(model, state.stiffness), _rows(model)
-    whole[np.ix_(rows, rows)] += 0.5 * (k + k.T)
-    for spring in model.springs:
-        own = model.body.rows(spring.position).start + np.array(PLACES)
-        whole[own, own] += spring.stiffness
-    return whole
+    """Return the stiffness of the shaft on its bearings, and of the bodies beside it as they can move.
+
+    Shape (rows of the shaft + free motions of bodies) squared; outer rings follow without inertia.
+    """
+    found = _seen_by_masses(model, _joined(model, state.stiffness))
+    size = model.body.stiffness.shape[0]
+    found[:size, :size] += model.body.stiffness
+    return np.asarray(0.5 * (found + found.T))
+
+
+def _seen_by_masses(model: ShaftModel, whole: Any) -> Any:
+    """Return what is felt by the shaft and by the free motions of bodies, outer rings following."""
+    rings, bodies = _moving(model, static_rows(model))
+    return _seen(whole, [*range(model.body.mass.shape[0]), *bodies], rings)
+
+
+def _seen_by_shaft(model: ShaftModel, whole: Any) -> Any:
+    """Return what the shaft feels at its bearings, outer rings and bodies following."""
+    rings, bodies = _moving(model, static_rows(model))
+    kept = np.concatenate([model.body.rows(b.position).start + np.array(PLACES) for b in model.bearings])
+    return _seen(whole, kept, [*rings, *bodies])
 
 
 def damped(model: ShaftModel, state: ShaftState, dampings: FloatArray) -> FloatArray:
-    """Return the damping of the shaft by its bearings, shape (6 n, 6 n)."""
-    found, rows = np.zeros_like(model.body.stiffness), _rows(model)
-    found[np.ix_(rows, rows)] = _damping_in_series(model, state, dampings)
+    """Return the damping of the shaft by its bearings, and of springs and seats, in the rows of :func:`supported`."""
+    speed = abs(model.speed) or 1.0
+    whole = _joined(model, state.stiffness) + 1j * speed * _resisting(model, dampings)
+    found: FloatArray = _seen_by_masses(model, whole).imag / speed
     for bearing, own in zip(model.bearings, dampings, strict=True):
         turning = model.body.rows(bearing.position).start + _ABOUT_X
-        found[turning, turning] = own[_ABOUT_X, _ABOUT_X]
-    for spring in model.springs:
-        places = model.body.rows(spring.position).start + np.array(PLACES)
-        found[places, places] += spring.damping
+        found[turning, turning] += own[_ABOUT_X, _ABOUT_X]
     return found
 
 
-def _rows(model: ShaftModel) -> Any:
-    """Return the rows of the shaft that bearings hold."""
-    return np.concatenate([model.body.rows(b.position).start + np.array(PLACES) for b in model.bearings])
+def masses(model: ShaftModel) -> tuple[FloatArray, FloatArray]:
+    """Return mass and gyroscopic matrix in the rows of :func:`supported`."""
+    rows = static_rows(model)
+    own = [m for body in model.bodies for m in (*[body.mass] * 3, body.polar_inertia, *[body.transverse_inertia] * 2)]
+    beside = np.diag([own[row - rows.bodies] for row in _moving(model, rows)[1]])
+    return block_diag(model.body.mass, beside), block_diag(model.body.gyroscopic, np.zeros_like(beside))
 
 
 def modes_at(model: ShaftModel, stiffness: FloatArray, spin: float, damping: FloatArray | None = None) -> list[Mode]:
     """Return the lowest modes at a speed [rad/s], bearings as stiff as `stiffness` has them, damped as `damping`."""
-    body = model.body
-    found = whirls(
-        stiffness, body.mass, body.gyroscopic, spin, damping=damping, nodes=body.positions.size, count=_COUNT
-    )
-    return [_mode(one) for one in found]
+    mass, gyroscopic = masses(model)
+    nodes = model.body.positions.size
+    found = whirls(stiffness, mass, gyroscopic, spin, damping=damping, nodes=nodes, count=_COUNT)
+    return [_mode(model, one, mass) for one in found]
 
 
 def criticals(model: ShaftModel, stiffness: FloatArray) -> list[Mode]:
     """Return the critical speeds of bending, rising."""
-    body = model.body
-    found = critical_speeds(stiffness, body.mass, body.gyroscopic, nodes=body.positions.size, count=_COUNT)
-    return [mode for mode in map(_mode, found) if mode.kind == "bending"]
+    mass, gyroscopic = masses(model)
+    found = critical_speeds(stiffness, mass, gyroscopic, nodes=model.body.positions.size, count=_COUNT)
+    return [mode for mode in (_mode(model, one, mass) for one in found) if mode.kind == "bending"]
 
 
-def _mode(one: Whirl) -> Mode:
-    square = np.abs(one.shape.reshape(-1, NODE)) ** 2
+def _mode(model: ShaftModel, one: Whirl, mass: FloatArray) -> Mode:
+    size = model.body.mass.shape[0]
+    energy = np.real(np.conj(one.shape) * (mass @ one.shape))
+    if energy[size:].sum() > 0.5 * energy.sum():
+        return Mode(one.frequency, one.direction, "body", one.damping)
+    square = np.abs(one.shape[: NODE * model.body.positions.size].reshape(-1, NODE)) ** 2
     lateral, axial = square[:, 1:3].sum(), square[:, 0].sum()
     turning = square[:, 3].sum() * 1e-4  # at a radius of a centimetre
     kind = "bending" if lateral > _LATERAL * (lateral + axial + turning) else "axial" if axial > turning else "torsion"

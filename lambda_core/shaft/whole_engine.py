@@ -14,9 +14,18 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.shaft.lumps import lump, unbalance_of_lumps
 from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
+from lambda_core.shaft.whole_markers import MarkerMotion, motions
 from lambda_core.shaft.whole_samples import WholeSamples
-from lambda_core.shaft.whole_start import load_terms, start_state
-from lambda_core.shaft.whole_tables import Part, all_free, led_bodies, lump_bodies, make_parts, whole_bundle
+from lambda_core.shaft.whole_start import load_terms, start_state, state_sizes
+from lambda_core.shaft.whole_tables import (
+    Part,
+    all_free,
+    beside_bodies,
+    led_bodies,
+    lump_bodies,
+    make_parts,
+    whole_bundle,
+)  # fmt: skip
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.compiled_laws import Announce
@@ -31,7 +40,6 @@ from lambda_core.solver.drivers.engine import (
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
 from lambda_core.solver.drivers.observation import Scratch, channels_of
 from lambda_core.solver.drivers.ring_values import losses_of_raceways
-from lambda_core.solver.drivers.solver_context import state_scales
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import CAGE, INNER, OUTER, running
 from lambda_core.solver.entry import core
@@ -74,12 +82,14 @@ class WholeEngine:
         self.parts = make_parts(model, self.shaft, [all_free(found.context) for found in self.equilibria])
         bundle = whole_bundle(model, self.shaft, self.parts)
         terms, table = load_terms(model, self.shaft, self.parts)
+        self._markers = MarkerMotion(model, self.shaft)
         self._bundle = bundle._replace(terms=terms, table=table)
         self._blocks = make_blocks(self._bundle)
         self._factors = make_factors(self._blocks.reach, self._bundle.active.size)
         start = start_state(model, self.shaft, self.parts, self._bundle.active, self.start, self.equilibria)
+        scales = state_sizes(model, self.shaft, self.parts, self._bundle)
         tolerance = min(part.bearing.model.solver.tolerance for part in self.parts)
-        self._memory = memory.make_memory(start, self._scale(), tolerance, self._bundle, _CAPACITY)
+        self._memory = memory.make_memory(start, scales, tolerance, self._bundle, _CAPACITY)
         self.sample_interval = min(map(_usual_interval, self.equilibria))
         control, count = self._memory.control, self._memory.count
         frequency = highest_frequency(model.speed_over_time, *(function for _, function in model.varying))
@@ -103,29 +113,15 @@ class WholeEngine:
         self._start_angles = self._angles()
         self._start_energy = self._stored()
 
-    def _scale(self) -> FloatArray:
-        """Return the absolute scales that the tolerance multiplies."""
-        shared = np.zeros(self._bundle.shared.size)
-        balls, kept, lumps = [], [], np.zeros(L.NS)
-        for part in self.parts:
-            alone = part.alone
-            n = L.NB * part.balls
-            size = L.NS * len(part.bodies)
-            whole = state_scales(alone.model, np.arange(size))
-            balls.append(whole[:n])
-            kept.append(whole[n + size :])
-            bodies = whole[n : n + size].reshape(-1, L.NS)
-            lumps += bodies[INNER] / len(self.parts)
-            for body, own in zip(part.bodies[OUTER:], bodies[OUTER:], strict=True):
-                shared[L.NS * body :][: L.NS] = own
-        for body in (*lump_bodies(self.shaft), *led_bodies(self.model, self.shaft)):
-            shared[L.NS * body :][: L.NS] = lumps
-        return np.concatenate([*balls, shared[self._bundle.active], *kept])
-
     @property
     def time(self) -> float:
         """Start of the next step [s]."""
         return float(self._memory.control["time"][0])
+
+    @property
+    def drive_torque(self) -> float:
+        """Mean torque of the coupling without friction [N m]; nan where torques on the shaft change over time."""
+        return math.nan if self.model.has_changing_torque else self.start.drive_torque
 
     @property
     def states(self) -> int:
@@ -177,11 +173,15 @@ class WholeEngine:
         flat = self._bodies(states, times)
         found = [self._observe(part, times, states, flat) for part in self.parts]
         lumps = flat.view(R.BODY_STATE)[:, lump_bodies(self.shaft)]
+        twist, beside = self._twist(flat), motions(flat.view(R.BODY_STATE)[:, beside_bodies(self.model, self.shaft)])
         whole = {
             "time": times,
             "shaft_position": lumps["position"].copy(),
             "shaft_tilt": np.stack([-lumps["tilt"][:, :, 1], lumps["tilt"][:, :, 0]], axis=2),
-            "shaft_twist": self._twist(flat),
+            "shaft_twist": twist,
+            "body_position": beside[:, :, :3],
+            "body_tilt": beside[:, :, 3:],
+            "marker_position": self._markers.displacements(motions(lumps, twist), beside),
             "reaction_force": np.stack([wrenches[:, :3] for _, wrenches in found], axis=1),
             "reaction_moment": np.stack([wrenches[:, 3:] for _, wrenches in found], axis=1),
             "power_loss": sum((channels["loss"].sum(axis=1) for channels, _ in found), np.zeros(n)),

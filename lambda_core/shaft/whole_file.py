@@ -24,11 +24,15 @@ from lambda_core.results.writer import DiskError
 WHOLE = "shaft.h5"
 LAYOUT, _ATTRIBUTE = 2, "lambda_bearing_shaft_layout"
 _ROWS, _SLOT = 1024, 65536
+NAMED = {"bearings": "bearing", "bodies": "body", "markers": "marker"}  # lists of names, and their dimensions
 CHANNELS = (
     Channel("time", (), "s", "time"),
     Channel("shaft_position", ("lump", "axis"), "m", "displacement of the shaft at every lump"),
     Channel("shaft_tilt", ("lump", "tilt"), "rad", "tilt of the shaft at every lump about y and z"),
     Channel("shaft_twist", ("lump",), "rad", "turn of the shaft at every lump beyond that of the coupling"),
+    Channel("body_position", ("body", "axis"), "m", "displacement of every body beside the shaft"),
+    Channel("body_tilt", ("body", "axis"), "rad", "turn of every body beside the shaft about x, y and z"),
+    Channel("marker_position", ("marker", "axis"), "m", "displacement of every named place"),
     Channel("reaction_force", ("bearing", "axis"), "N", "force of every bearing on the shaft"),
     Channel("reaction_moment", ("bearing", "axis"), "N m", "moment of every bearing on the shaft about its centre"),
     Channel("power_loss", (), "W", "power that all bearings dissipate"),
@@ -44,8 +48,10 @@ class WholeWriter:
         file.swmr_mode = True
 
     @classmethod
-    def create(cls, path: Path, texts: Mapping[str, str], arrays: Mapping[str, Any], names: list[str]) -> WholeWriter:
-        """Create the file; `arrays` has places [m] of the lumps and the bearings."""
+    def create(
+        cls, path: Path, texts: Mapping[str, str], arrays: Mapping[str, Any], names: Mapping[str, list[str]]
+    ) -> WholeWriter:
+        """Create the file; `arrays` has places [m] of the lumps and the bearings, `names` those of NAMED."""
         file = h5py.File(path, "w", libver="latest")
         file.attrs[_ATTRIBUTE] = LAYOUT
         file.attrs["created"] = datetime.now(UTC).isoformat(timespec="seconds")
@@ -53,10 +59,14 @@ class WholeWriter:
             file.attrs[name] = text
         for name, values in arrays.items():
             file.create_dataset(name, data=values)
-        file.create_dataset("bearings", data=np.array(names, dtype=object), dtype=h5py.string_dtype())
-        sizes = {"lump": len(arrays["lump_positions"]), "bearing": len(names), "axis": 3, "tilt": 2}
+        for what in NAMED:
+            file.create_dataset(what, data=np.array(names[what], dtype=object), dtype=h5py.string_dtype())
+        sizes = {"lump": len(arrays["lump_positions"]), "axis": 3, "tilt": 2}
+        sizes |= {dim: len(names[what]) for what, dim in NAMED.items()}
         for channel in CHANNELS:
             shape = tuple(sizes[dim] for dim in channel.dims)
+            if 0 in shape:
+                continue
             data = file.create_dataset(
                 channel.name, (0, *shape), np.float64, maxshape=(None, *shape), chunks=(_ROWS, *shape),
                 compression="gzip", shuffle=True,
@@ -79,7 +89,7 @@ class WholeWriter:
     def flush(self, status: Status, rows: Rows) -> None:
         """Put everything on disk, then say so."""
         with self._guard():
-            for channel in CHANNELS if self._waiting else ():
+            for channel in (c for c in CHANNELS if self._waiting and c.name in self._file):
                 values = np.concatenate([samples[channel.name] for samples in self._waiting])
                 data = self._file[channel.name]
                 data.resize(self.rows + len(values), axis=0)
@@ -131,7 +141,8 @@ class WholeFile:
             self.case, self.case_toml = str(file.attrs["case"]), str(file.attrs["case_toml"])
             self.speed, self.drive_torque = float(file.attrs["speed"]), float(file.attrs["drive_torque"])
             self.code = str(file.attrs["code"])
-            self.bearings = [str(name) for name in file["bearings"].asstr()[()]]
+            names = {what: [str(n) for n in file[what].asstr()[()]] if what in file else [] for what in NAMED}
+            self.bearings, self.bodies, self.markers = names["bearings"], names["bodies"], names["markers"]
             self.lump_positions = np.asarray(file["lump_positions"])
             self.bearing_positions = np.asarray(file["bearing_positions"])
 
@@ -150,11 +161,11 @@ class WholeFile:
             return Status.from_bytes(file["status"][()])
 
     def channels(self, start: float = 0.0) -> dict[str, NDArray[np.float64]]:
-        """Return every channel from time `start` [s] on, first axis is time."""
+        """Return every channel that there is from time `start` [s] on, first axis is time."""
         with self._opened() as file:
             rows = Status.from_bytes(file["status"][()]).rows.samples
             first = int(np.searchsorted(file["time"][:rows], start))
-            return {channel.name: np.asarray(file[channel.name][first:rows]) for channel in CHANNELS}
+            return {c.name: np.asarray(file[c.name][first:rows]) for c in CHANNELS if c.name in file}
 
     def checkpoint(self) -> Checkpoint | None:
         """Return the newest whole checkpoint."""

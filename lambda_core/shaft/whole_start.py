@@ -9,7 +9,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.beam import NODE
 from lambda_core.shaft.lumps import LumpedShaft, unbalance_of_lumps
-from lambda_core.shaft.model import ShaftModel
+from lambda_core.shaft.model import GROUND, ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState
 from lambda_core.shaft.whole_tables import (
     LUMP_SIGNS,
@@ -17,15 +17,18 @@ from lambda_core.shaft.whole_tables import (
     SIGNS,
     STATES,
     Part,
+    beside_bodies,
     led_bodies,
     load_signals,
     lump_bodies,
     motion_signal,
+    table_size,
 )
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.solver.drivers.solver_context import state_scales
 from lambda_core.solver.drivers.tables import CAGE, INNER, OUTER
 from lambda_core.solver.drivers.time_tables import add_terms
 from lambda_core.system.bearing import TimeFunction
@@ -44,15 +47,20 @@ def load_terms(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -
     rows: list[np.ndarray] = []
     table: list[float] = []
     lumps = lump_bodies(shaft)
-    given = model.loads + model.weight + model.growth
+    size, nodes = model.body.mass.shape[0], NODE * model.body.positions.size
+    given = (model.loads + model.weight + model.growth)[:size]
     if not model.twists:  # torques go straight to the coupling
-        given[_ABOUT_X::NODE] = 0.0
+        given[_ABOUT_X:nodes:NODE] = 0.0
+    changing = dict(model.varying)
     for row, function in model.varying:
-        if row % NODE == _ABOUT_X and not model.twists:
+        if row >= size or (row % NODE == _ABOUT_X and not model.twists):
             continue
         given[row] -= initial(function)
         for share, signal in zip(shaft.follow[row, : NODE * lumps.size], _signals(lumps), strict=True):
             add_terms(signal, scaled(function, float(share)), rows, table)
+    for k, signal in enumerate(_signals(beside_bodies(model, shaft))):
+        constant = TimeFunction.constant(float(model.loads[size + k]))
+        add_terms(signal, changing.get(size + k, constant), rows, table)
     still = (shaft.follow[:, : NODE * lumps.size].T @ given).reshape(-1, NODE)
     still[:, :3] -= np.outer(shaft.mass, model.gravity)
     for value, signal in zip(still.ravel(), _signals(lumps), strict=True):
@@ -63,7 +71,7 @@ def load_terms(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -
         outer, seating = part.bodies[OUTER], part.bearing.seating
         add_terms(load_signals(outer)[0], TimeFunction.constant(seating.force), rows, table)
         for dof, (stiffness, shift) in enumerate(zip(seating.stiffness, seating.shift, strict=True)):
-            if math.isinf(stiffness) and model.housing is None:
+            if math.isinf(stiffness) and (model.housing is None or part.bearing.carrier != GROUND):
                 add_terms(motion_signal(outer, dof), TimeFunction.constant(shift), rows, table)
         for body, wave in zip(part.bodies[CAGE + 1 :], part.alone.bundle.bodies[CAGE + 1 :], strict=True):
             for signal, gravity in zip(load_signals(body)[:3], model.gravity, strict=True):  # bends no ring
@@ -85,8 +93,7 @@ def start_state(
     equilibria: list[Equilibrium],
 ) -> FloatArray:
     """Return the state that the motion begins with: equilibrium, every ball at its cage's speed."""
-    last = max(int(led_bodies(model, shaft).max()), *(max(part.bodies) for part in parts))
-    bodies = np.zeros(last + 1, R.BODY_STATE)
+    bodies = np.zeros(table_size(model, shaft, parts), R.BODY_STATE)
     flat = bodies.view(np.float64)
     moved = np.array([state.displacement[model.body.rows(float(x))] for x in shaft.positions])
     for body, own, azimuth in zip(lump_bodies(shaft), moved, unbalance_of_lumps(model, shaft)[1], strict=True):
@@ -94,6 +101,8 @@ def start_state(
         bodies["angle"][body] *= model.twists
         bodies["angle"][body] += azimuth  # a body's unbalance points to its own angle 0
         bodies["spin"][body] = model.speed
+    for body, own in zip(beside_bodies(model, shaft), state.bodies, strict=True):
+        flat[L.NS * body + LUMP_STATES] = LUMP_SIGNS * own
     balls, kept = [], []
     for part, found, outer in zip(parts, equilibria, state.outer, strict=True):
         y, alone = initial_state(found), found.context
@@ -113,6 +122,24 @@ def start_state(
         balls.append(_carried(y[:n].view(R.BALL).copy(), outer).view(np.float64))
         kept.append(y[y.size - alone.bundle.states.size :])
     return np.concatenate([*balls, flat[active], *kept])
+
+
+def state_sizes(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...], bundle: L.Bundle) -> FloatArray:
+    """Return the absolute scales of all states that the tolerance multiplies: lumps and bodies are as inner rings."""
+    shared, lumps = np.zeros(bundle.shared.size), np.zeros(L.NS)
+    balls, kept = [], []
+    for part in parts:
+        n, size = L.NB * part.balls, L.NS * len(part.bodies)
+        whole = state_scales(part.alone.model, np.arange(size))
+        balls.append(whole[:n])
+        kept.append(whole[n + size :])
+        bodies = whole[n : n + size].reshape(-1, L.NS)
+        lumps += bodies[INNER] / len(parts)
+        for body, own in zip(part.bodies[OUTER:], bodies[OUTER:], strict=True):
+            shared[L.NS * body :][: L.NS] = own
+    for body in (*lump_bodies(shaft), *beside_bodies(model, shaft), *led_bodies(model, shaft)):
+        shared[L.NS * body :][: L.NS] = lumps
+    return np.concatenate([*balls, shared[bundle.active], *kept])
 
 
 def _carried(balls: np.ndarray, pose: FloatArray) -> np.ndarray:

@@ -50,6 +50,13 @@ class OrbitOfShaft(Record):
     swing_um: list[float] = Field(description="half of what lies between the smallest and largest value: x, y, z")
 
 
+class PlaceInMotion(Record):
+    """The motion of a body beside the shaft, or of a named place."""
+
+    mean_um: list[float] = Field(description="mean displacement x, y, z")
+    swing_um: list[float] = Field(description="half of what lies between the smallest and largest value: x, y, z")
+
+
 class WholeSummary(Record):
     """A run of a shaft in its bearings."""
 
@@ -63,8 +70,12 @@ class WholeSummary(Record):
     bearings: list[BearingInMotion] = Field(description="from left to right")
     friction_torque_Nmm: float | None = Field(description="of all bearings")
     power_loss_W: float | None = Field(description="of all bearings")
-    drive_torque_Nm: float | None = Field(description="of the coupling on the shaft, friction included")
+    drive_torque_Nm: float | None = Field(
+        description="of the coupling on the shaft, with friction; null where torques change"
+    )
     orbit: list[OrbitOfShaft] = Field(description="at every lump of the shaft")
+    bodies: dict[str, PlaceInMotion] = Field(default={}, description="bodies beside the shaft")
+    markers: dict[str, PlaceInMotion] = Field(default={}, description="named places")
     energy_residual: float | None = Field(description="(input - dissipated - stored) over integral of |input power|")
     simulated_s: float = Field(description="simulated time")
     wall_s: float = Field(description="wall time of the integration")
@@ -99,8 +110,10 @@ def summarise_whole(found: WholeFile) -> WholeSummary:
         bearings=bearings,
         friction_torque_Nmm=friction,
         power_loss_W=None if None in losses else sum(p for p in losses if p is not None),
-        drive_torque_Nm=None if friction is None else found.drive_torque + turn * 1e-3 * friction,
+        drive_torque_Nm=None if friction is None else finite(found.drive_torque + turn * 1e-3 * friction),
         orbit=_orbit(found.lump_positions, channels["shaft_position"]),
+        bodies=_places(found.bodies, channels.get("body_position")),
+        markers=_places(found.markers, channels.get("marker_position")),
         energy_residual=first.energy_residual,
         simulated_s=first.simulated_s,
         wall_s=status.wall,
@@ -120,6 +133,14 @@ def _shared(reasons: list[str], count: int) -> list[str]:
     return list(dict.fromkeys(
         text if plain.count(text) == count else reason for text, reason in zip(plain, reasons, strict=True)
     ))  # fmt: skip
+
+
+def _places(names: list[str], moved: FloatArray | None) -> dict[str, PlaceInMotion]:
+    """Return means and swings of displacements of shape (n, names, 3)."""
+    if moved is None:
+        return {}
+    each = {name: 1e6 * moved[:, i] for i, name in enumerate(names)}
+    return {name: PlaceInMotion(mean_um=one.mean(axis=0).tolist(), swing_um=_swing(one)) for name, one in each.items()}
 
 
 def _swing(values: FloatArray) -> list[float]:
@@ -156,6 +177,10 @@ def _orbit(places: FloatArray, positions: FloatArray) -> list[OrbitOfShaft]:
         )
         for i, place in enumerate(places)
     ]
+
+
+def _swung(one: PlaceInMotion, axis: int) -> str:
+    return f"{_number(one.mean_um[axis], 3)} ± {_number(one.swing_um[axis], 2)}"
 
 
 def _number(value: float | None, digits: int = 4) -> str:
@@ -196,6 +221,10 @@ def _text(found: WholeSummary, width: int | None) -> str:
         f"{'drive torque':<{HEAD}}{_number(found.drive_torque_Nm)} N m",
         f"{'largest orbit':<{HEAD}}y ± {largest.swing_um[1]:.3g}  z ± {largest.swing_um[2]:.3g} um "
         f"at {largest.position_mm:.4g} mm",
+        *(
+            f"{name:<{HEAD}}x {_swung(one, 0)}   y {_swung(one, 1)}   z {_swung(one, 2)} um"
+            for name, one in (*found.bodies.items(), *found.markers.items())
+        ),
         f"{'energy residual':<{HEAD}}{residual} of input",
         f"{'wall time':<{HEAD}}{found.wall_s:.2f} s for {found.simulated_s:.4g} s",
         *(f"{'warning':<{HEAD}}{b.name}: {warning}" for b in bearings for warning in b.warnings),

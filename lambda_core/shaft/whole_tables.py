@@ -2,8 +2,9 @@
 
 Bodies stand in the order: first lump, outer ring of the first bearing, the other lumps, then the other outer rings and
 cages bearing by bearing. A bearing's inner ring is the lump at its place; every bearing has its own origin at its place
-along the shaft, so that all positions are displacements. Where the shaft twists and the coupling turns it beside all
-lumps, a body without mass comes then, whose angle leads; last the waves of elastic rings and cages, bearing by bearing.
+along the shaft, so that all positions are displacements. The bodies beside the shaft follow. Where the shaft twists and
+the coupling turns it beside all lumps, a body without mass comes then, whose angle leads; last the waves of elastic
+rings and cages, bearing by bearing.
 """
 
 from __future__ import annotations
@@ -18,8 +19,10 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import DOFS
+from lambda_core.elastic.beam import NODE
 from lambda_core.shaft.lumps import LumpedShaft, unbalance_of_lumps
-from lambda_core.shaft.model import MountedBearing, ShaftModel
+from lambda_core.shaft.model import GROUND, PLACES, MountedBearing, ShaftModel
+from lambda_core.shaft.structure import Rows, structure
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
@@ -79,7 +82,7 @@ def make_parts(model: ShaftModel, shaft: LumpedShaft, contexts: list[SolverConte
     """Give every bearing its places."""
     found: list[Part] = []
     balls, raceways, states, slots, waves = 0, 0, 0, 0, 0
-    behind = max(shaft.positions.size + 2 * len(model.bearings), int(led_bodies(model, shaft).max()) + 1)
+    behind = table_size(model, shaft, ())
     for i, (bearing, context) in enumerate(zip(model.bearings, contexts, strict=True)):
         lump = shaft.at(bearing.position)
         inner = lump + 1 if lump else 0
@@ -106,7 +109,23 @@ def led_bodies(model: ShaftModel, shaft: LumpedShaft) -> NDArray[np.int64]:
     lumps = lump_bodies(shaft)
     if not model.twists:
         return lumps
-    return np.append(lumps, lumps.size + 2 * len(model.bearings))[[shaft.driven]]
+    return np.append(lumps, body_count(model, shaft))[[shaft.driven]]
+
+
+def beside_bodies(model: ShaftModel, shaft: LumpedShaft) -> NDArray[np.int64]:
+    """Return the bodies beside the shaft."""
+    return np.arange(body_count(model, shaft) - len(model.bodies), body_count(model, shaft))
+
+
+def table_size(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> int:
+    """Return how many bodies there are: those with a mass, one that leads, waves of elastic parts."""
+    led = int(led_bodies(model, shaft).max())
+    return 1 + max(body_count(model, shaft) - 1, led, *(max(part.bodies) for part in parts), 0)
+
+
+def body_count(model: ShaftModel, shaft: LumpedShaft) -> int:
+    """Return how many bodies have a mass: lumps, outer rings and cages, bodies beside the shaft."""
+    return shaft.positions.size + 2 * len(model.bearings) + len(model.bodies)
 
 
 def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> L.Bundle:
@@ -118,7 +137,7 @@ def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...])
     system = first.system.copy()
     system["balls"] = sum(part.balls for part in parts)
     system["surfaces"] = max(int(b.system["surfaces"][0]) for b in bundles)
-    tied, stiffness, rest = _ties(model, shaft, parts)
+    tied, stiffness, damping, rest = _ties(model, shaft, parts)
     inputs, now, rates = (np.zeros(bodies.size, kind) for kind in (R.INPUTS, R.BODY_STATE, R.BODY_STATE))
     states = np.concatenate([b.states for b in bundles])
     most = max(b.state_pivots.size for b in bundles)
@@ -128,7 +147,8 @@ def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...])
         raceways=raceways, waves=np.concatenate([_waves(p) for p in parts]),
         lands=np.concatenate([_lands(p, i, int(spans[i])) for i, p in enumerate(parts)]),
         slots=np.concatenate([_slots(p, int(spans[i])) for i, p in enumerate(parts)]), tied=tied,
-        tie_stiffness=stiffness, tie_rest=rest, state_steps=np.concatenate([b.state_steps for b in bundles]),
+        tie_stiffness=stiffness, tie_damping=damping, tie_rest=rest,
+        state_steps=np.concatenate([b.state_steps for b in bundles]),
         laws=L.Laws(*laws), par=np.concatenate([b.par for b in bundles]), terms=np.zeros(0, R.TERM),
         table=np.zeros(1), active=_active(bodies, parts), inputs=inputs, signals=inputs.view(R.SIGNAL),
         cells=np.zeros_like(first.cells), scratch=np.zeros(1, R.SCRATCH), shared=now.view(np.float64), bodies_now=now,
@@ -140,7 +160,7 @@ def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...])
 
 def _bodies(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> Any:
     led = led_bodies(model, shaft)
-    bodies = np.zeros(max(int(led.max()), *(max(part.bodies) for part in parts)) + 1, R.BODY)
+    bodies = np.zeros(table_size(model, shaft, parts), R.BODY)
     bodies["moves"], bodies["mode"] = 1, R.LOCKED
     lumps = bodies[lump_bodies(shaft)]
     lumps["mass"], lumps["polar_inertia"] = shaft.mass, shaft.polar_inertia
@@ -148,10 +168,12 @@ def _bodies(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> A
     lumps["mode"], lumps["unbalance"] = R.FREE, unbalance_of_lumps(model, shaft)[0]
     bodies[lump_bodies(shaft)] = lumps
     bodies["mode"][led, 5] = R.PRESCRIBED
-    for spring in model.springs:
-        body = lump_bodies(shaft)[shaft.at(spring.position)]
-        bodies["stiffness"][body, : STATES.size] += spring.stiffness
-        bodies["damping"][body, : STATES.size] += spring.damping
+    for number, rigid in zip(beside_bodies(model, shaft), model.bodies, strict=True):
+        own = bodies[number]
+        own["mass"], own["polar_inertia"] = rigid.mass, rigid.polar_inertia
+        own["transverse_inertia"] = rigid.transverse_inertia
+        hold = np.array(rigid.hold)[[*PLACES, 3]]  # the turn about x comes last
+        own["mode"] = np.where(np.isfinite(hold), R.FREE, R.LOCKED)
     for i, part in enumerate(parts):
         inner, outer, cage = part.bodies[: CAGE + 1]
         alone = part.alone.bundle.bodies
@@ -166,10 +188,10 @@ def _bodies(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> A
 
 def _outer_modes(model: ShaftModel, i: int) -> list[int]:
     """Return how an outer ring is held: springs and elastic housings tie it, and it is free between them."""
-    seating = model.bearings[i].seating
+    seating, carrier = model.bearings[i].seating, model.bearings[i].carrier
     found = []
     for stiffness, shift in zip(seating.stiffness, seating.shift, strict=True):
-        if math.isfinite(stiffness) or model.housing is not None:
+        if math.isfinite(stiffness) or (model.housing is not None and carrier == GROUND):
             found.append(R.FREE)
         else:
             found.append(R.PRESCRIBED if shift else R.LOCKED)
@@ -242,27 +264,41 @@ def _slots(part: Part, begin: int) -> Any:
 
 def _ties(
     model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]
-) -> tuple[NDArray[np.int64], FloatArray, FloatArray]:
-    """Return the entries of the shared state that shaft and housing tie, their stiffness, and where they rest."""
-    bodies = lump_bodies(shaft)
-    lead = [L.NS * (bodies.size + 2 * len(parts)) + L.STHETA] if shaft.driven == bodies.size else []
+) -> tuple[NDArray[np.int64], FloatArray, FloatArray, FloatArray]:
+    """Return the entries of the shared state that structures tie, their stiffness and damping, and where they rest.
+
+    These are shaft, housing, seats, springs and dampers, and what holds the bodies beside the shaft.
+    """
+    lumps, beside = lump_bodies(shaft), beside_bodies(model, shaft)
+    lead = [L.NS * body_count(model, shaft) + L.STHETA] if shaft.driven == lumps.size else []
     outer = [L.NS * part.bodies[OUTER] + STATES for part in parts]
-    tied = np.concatenate([*(L.NS * int(b) + LUMP_STATES for b in bodies), lead, *outer]).astype(np.int64)
-    lumps = shaft.stiffness.shape[0]
-    signs = np.concatenate([np.tile(LUMP_SIGNS, bodies.size), np.ones(len(lead)), np.tile(SIGNS, len(parts))])
-    stiffness, rest = np.zeros((tied.size, tied.size)), np.zeros(tied.size)
-    stiffness[:lumps, :lumps] = shaft.stiffness
-    rest[3 : 6 * bodies.size : 6] = unbalance_of_lumps(model, shaft)[1]  # a lump's angle 0 is that of its unbalance
-    springs = np.concatenate([b.seating.stiffness for b in model.bearings])
-    springs = np.where(np.isfinite(springs), springs, 0.0)
-    stiffness[lumps:, lumps:] = np.diag(springs) + (0.0 if model.housing is None else model.housing)
-    rest[lumps:] = np.concatenate([b.seating.shift for b in model.bearings])
+    others = [L.NS * int(b) + LUMP_STATES for b in beside]
+    tied = np.concatenate([*(L.NS * int(b) + LUMP_STATES for b in lumps), lead, *outer, *others]).astype(np.int64)
+    signs = np.concatenate([
+        np.tile(LUMP_SIGNS, lumps.size), np.ones(len(lead)), np.tile(SIGNS, len(parts)),
+        np.tile(LUMP_SIGNS, beside.size),
+    ])  # fmt: skip
+    size = shaft.stiffness.shape[0]
+    rings = slice(size, size + SIGNS.size * len(parts))
+    rows = Rows(lambda x: NODE * shaft.at(x), rings.start, rings.stop, tied.size)
+    stiffness, damping = structure(model, rows)
+    stiffness[:size, :size] += shaft.stiffness
+    if model.housing is not None:
+        stiffness[rings, rings] += model.housing
+    if model.housing_damping is not None:
+        damping[rings, rings] += model.housing_damping
+    rest = np.zeros(tied.size)
+    rest[3 : 6 * lumps.size : 6] = unbalance_of_lumps(model, shaft)[1]  # a lump's angle 0 is that of its unbalance
+    rest[rings] = np.concatenate([b.seating.shift for b in model.bearings])
     if not model.twists:
-        turns = tied % L.NS == L.STHETA
+        turns = np.flatnonzero(tied[:size] % L.NS == L.STHETA)
         stiffness[turns] = stiffness[:, turns] = 0.0
-    used = np.flatnonzero(np.abs(stiffness).sum(axis=1))
-    stiffness = (stiffness * np.outer(signs, signs))[np.ix_(used, used)]
-    return tied[used], np.ascontiguousarray(stiffness), (rest * signs)[used]
+    used = np.flatnonzero(np.abs(stiffness).sum(axis=1) + np.abs(damping).sum(axis=1))
+    around = np.outer(signs, signs)
+    stiffness, damping = ((matrix * around)[np.ix_(used, used)] for matrix in (stiffness, damping))
+    if not damping.any():
+        damping = np.zeros((0, 0))
+    return tied[used], np.ascontiguousarray(stiffness), np.ascontiguousarray(damping), (rest * signs)[used]
 
 
 def load_signals(body: int) -> list[int]:

@@ -161,6 +161,7 @@ class Bundle(NamedTuple):
     links: Any  # LINK (force elements between bodies,)
     tied: Any  # int64 (n,): entries of the shared state that elastic structures tie together; mostly none
     tie_stiffness: Any  # (n, n): of shafts and housings between them [N/m, N, N m]
+    tie_damping: Any  # (n, n), or (0, 0) where nothing is damped [N s/m, N s, N m s]
     tie_rest: Any  # (n,): where they are without force
     slots: Any  # SLOT (places where laws read states of contacts,)
     state_steps: Any  # (states of contacts,): for differences
@@ -199,6 +200,7 @@ _TYPES = {
     "links": table_t(R.LINK),
     "tied": iarray1,
     "tie_stiffness": array2,
+    "tie_damping": array2,
     "tie_rest": array1,
     "slots": table_t(R.SLOT),
     "state_steps": array1,

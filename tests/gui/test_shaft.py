@@ -29,6 +29,8 @@ NAMES = {
     "discs": ("d",),
     "loads": ("l",),
     "springs": ("s",),
+    "bodies": ("k",),
+    "markers": ("m",),
 }
 
 

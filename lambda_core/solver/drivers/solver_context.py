@@ -111,6 +111,7 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: O
         **tables._asdict(),
         tied=np.zeros(0, dtype=np.int64),
         tie_stiffness=np.zeros((0, 0)),
+        tie_damping=np.zeros((0, 0)),
         tie_rest=np.zeros(0),
         laws=kernels.pointers(),
         wrench=compiled.wrench_pointer,

@@ -112,7 +112,7 @@ def evaluate(t, y, bundle, dydt, rates, want):
         return 0
     if link_forces(t, bundle, running) != 1:
         return 0
-    structure_forces(bundle)
+    structure_forces(bundle, running)
     turn_waves(bundle)
     for r in range(bundle.rows.size):
         row = bundle.rows[r]

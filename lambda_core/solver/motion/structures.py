@@ -1,6 +1,6 @@
-"""Elastic structures that tie bodies together, shafts and housings: one matrix of stiffness between their places.
+"""Elastic structures that tie bodies together, shafts, housings, springs: one matrix of stiffness, one of damping.
 
-Forces are -K (u - u_0) of positions, components of axes and angles about them, with the potential
+Forces are -K (u - u_0) - C du/dt of positions, components of axes and angles about them, with the potential
 (u - u_0).K (u - u_0)/2: small deflections of linear bodies. A force along a component of a body's axis is a moment on
 the body, one along its angle a moment about its axis.
 """
@@ -8,7 +8,7 @@ the body, one along its angle a moment about its axis.
 from __future__ import annotations
 
 from lambda_core.solver.contact.contact_kinematics import axis_x
-from lambda_core.solver.layout import NS, SAY, SAZ, helper
+from lambda_core.solver.layout import NS, SAY, SAZ, SSIGMA, SVX, SWY, SWZ, helper
 
 
 @helper
@@ -21,14 +21,40 @@ def _pull(i, bundle):
 
 
 @helper
-def structure_forces(bundle):
-    """Add the forces of all structures to those on the bodies.
+def _rate(entry, bundle):
+    """Return how fast a tied entry changes: of an axis by w x a, of an angle by the spin."""
+    now, c = bundle.bodies_now[entry // NS], entry % NS
+    if c < SAY:
+        return now.velocity[c]
+    ay, az, wy, wz = now.tilt[0], now.tilt[1], now.tilt_velocity[0], now.tilt_velocity[1]
+    ax = axis_x(ay, az)
+    wx = -(wy * ay + wz * az) / ax
+    return wz * ax - wx * az if c == SAY else (wx * ay - wy * ax if c == SAZ else now.spin)
+
+
+@helper
+def _resist(i, bundle):
+    """Return the generalised force of dampers on tied entry i."""
+    force = 0.0
+    for k in range(bundle.tie_damping.shape[1]):
+        if bundle.tie_damping[i, k] != 0.0:
+            force -= bundle.tie_damping[i, k] * _rate(bundle.tied[k], bundle)
+    return force
+
+
+@helper
+def structure_forces(bundle, running):
+    """Add the forces of all structures to those on the bodies, and what their dampers take to the losses.
 
     The power of a force f along the axis a of a body is f.da/dt = (a x f).omega.
     """
     for i in range(bundle.tied.size):
         b, c = bundle.tied[i] // NS, bundle.tied[i] % NS
         wrench, force = bundle.body_wrenches[b], _pull(i, bundle)
+        if bundle.tie_damping.size > 0:
+            resist = _resist(i, bundle)
+            running.support -= resist * _rate(bundle.tied[i], bundle)
+            force += resist
         if c < SAY:
             wrench.force[c] += force
             continue
@@ -54,6 +80,11 @@ def structure_columns(bundle, bl):
         row, sign = (c, 1.0) if c < SAY else ((5, 1.0) if c == SAY else ((4, -1.0) if c == SAZ else (3, 1.0)))
         for k in range(bundle.tied.size):
             bl.shared[b, row, bundle.tied[k]] -= sign * bundle.tie_stiffness[i, k]
+        for k in range(bundle.tie_damping.shape[1]):
+            e = bundle.tied[k] % NS
+            rate = SVX + e if e < SAY else (SWZ if e == SAY else (SWY if e == SAZ else SSIGMA))
+            turned = -1.0 if e == SAZ else 1.0  # the axis leans towards -z where it turns about y
+            bl.shared[b, row, bundle.tied[k] - e + rate] -= sign * turned * bundle.tie_damping[i, k]
 
 
 @helper

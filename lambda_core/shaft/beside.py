@@ -1,0 +1,119 @@
+"""What a case says beside shaft and bearings, in SI: rigid bodies, springs between bodies, loads on all of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from lambda_core.case.shaft import ShaftCase
+from lambda_core.case.shaft_parts import ShaftBody
+from lambda_core.catalogue.protocol import Catalogue
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.gear_forces import GearForces
+from lambda_core.domain.units import parse
+from lambda_core.elastic.beam import NODE
+from lambda_core.elastic.body import ElasticBody
+from lambda_core.shaft.body_material import body_material
+from lambda_core.shaft.model import GROUND, SHAFT, MountedBearing, Place, RigidBody, ShaftSpring
+from lambda_core.shaft.places import Places
+from lambda_core.shaft.structure import carried
+from lambda_core.solver.drivers.held_ring import POSE
+from lambda_core.system.bearing import TimeFunction
+from lambda_core.system.ledger import Ledger
+from lambda_core.system.time_functions import added, initial, scaled, time_function
+
+COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
+_DOFS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
+_ROUNDING = 1e-9
+
+
+def rigid_bodies(case: ShaftCase, catalogue: Catalogue, ledger: Ledger) -> tuple[RigidBody, ...]:
+    """Return the bodies beside the shaft, masses given or from their shapes."""
+    return tuple(_rigid(name, given, catalogue, ledger) for name, given in case.bodies.items())
+
+
+def _rigid(name: str, given: ShaftBody, catalogue: Catalogue, ledger: Ledger) -> RigidBody:
+    mass, polar, transverse, extent = 0.0, 0.0, 0.0, (0.0, 0.0, 0.0)
+    if given.length is not None:
+        material = body_material(given.material, f"bodies.{name}.material", catalogue, ledger)
+        density = material.density if material else 0.0
+        if given.diameter is not None:
+            squares = given.diameter**2 + given.bore**2
+            mass = density * 0.25 * math.pi * (given.diameter**2 - given.bore**2) * given.length
+            polar, transverse = mass * squares / 8.0, mass * (squares / 16.0 + given.length**2 / 12.0)
+            extent = (given.length, given.diameter, given.diameter)
+        elif given.width is not None and given.height is not None:
+            mass = density * given.length * given.width * given.height
+            polar = mass * (given.width**2 + given.height**2) / 12.0
+            transverse = mass * (given.length**2 / 12.0 + (given.width**2 + given.height**2) / 24.0)
+            extent = (given.length, given.width, given.height)
+    hold = [_hold(getattr(given, f"hold_{dof}"), dof) for dof in _DOFS]
+    return RigidBody(
+        name, (given.x, given.y, given.z), given.mass or mass, given.polar_inertia or polar,
+        given.transverse_inertia or transverse, tuple(hold), extent,
+    )  # fmt: skip
+
+
+def _hold(text: str, dof: str) -> float:
+    if text in ("locked", "free"):
+        return math.inf if text == "locked" else 0.0
+    return parse(text, "angular_stiffness" if dof.startswith("tilt") else "stiffness")
+
+
+def connections(case: ShaftCase, stand: Places, ledger: Ledger) -> tuple[ShaftSpring, ...]:
+    """Return springs, dampers and bushings, along the axes of the case."""
+    found = []
+    for name, given in case.springs.items():
+        place, to = stand.of[f"springs.{name}"], stand.carrier(given.to)
+        matrices = []
+        for prefix in ("", "damping_"):
+            own = np.diag([getattr(given, prefix + dof) for dof in _DOFS])
+            matrices.append(_along(place).T @ own @ _along(place))
+        if SHAFT in (place.body, to) and max(np.abs(matrix[3]).max() for matrix in matrices) > _ROUNDING:
+            ledger.problem(f"springs.{name}.tilt_x", "would hold the shaft against turning: leave it out")
+        found.append(ShaftSpring(name, place, to, *matrices))
+    return tuple(found)
+
+
+def _along(place: Place) -> FloatArray:
+    """Return how motions along the axes of the case are motions along those of a place, shape (6, 6)."""
+    return np.asarray(np.kron(np.eye(2), place.axes.T))
+
+
+def all_loads(
+    case: ShaftCase, stand: Places, body: ElasticBody, bodies: Sequence[RigidBody], gears: Mapping[str, GearForces]
+) -> tuple[FloatArray, tuple[tuple[int, TimeFunction], ...]]:
+    """Return forces and moments at t = 0 on shaft nodes and bodies, and those that change with their rows."""
+    size = body.mass.shape[0]
+    found: FloatArray = np.zeros(size + NODE * len(bodies))
+    varying: dict[int, list[TimeFunction]] = {}
+    for name, load in case.loads.items():
+        place = stand.of[f"loads.{name}"]
+        if place.body == GROUND:
+            continue
+        if place.body == SHAFT:
+            first, arm = body.rows(place.point[0]).start, np.array([0.0, *place.point[1:]])
+        else:
+            own = bodies[place.body - 1]
+            first, arm = size + NODE * (place.body - 1), np.subtract(place.point, own.centre)
+        share = carried(arm).T @ _along(place).T  # of each component at the place in each row of its body
+        functions = [time_function(getattr(load, component)) for component in COMPONENTS]
+        for i in range(NODE):
+            total = added(*(scaled(f, float(c)) for f, c in zip(functions, share[i], strict=True)))
+            found[first + i] += initial(total)
+            if any(term.kind != "constant" for term in total.terms):
+                varying.setdefault(first + i, []).append(total)
+    for name, forces in gears.items():
+        found[body.rows(case.gears[name].place)] += [*forces.force, *forces.moment]
+    return found, tuple((row, added(*functions)) for row, functions in varying.items())
+
+
+def refuse_idle_dampers(bearings: Sequence[MountedBearing], housing: FloatArray | None, ledger: Ledger) -> None:
+    """Note dampers of seats in which no ring can move."""
+    for bearing in bearings:
+        for dof, k, c in zip(POSE, bearing.seating.stiffness, bearing.seating.damping, strict=True):
+            if c and math.isinf(k) and housing is None:
+                where = f"bearings.{bearing.name}.support.damping_{dof}"
+                ledger.problem(where, "does nothing: the outer ring is locked in the ground")

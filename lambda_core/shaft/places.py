@@ -1,0 +1,122 @@
+"""Where parts of a shaft's case stand: on which body, at which point, along which axes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from lambda_core.case.shaft import ShaftCase
+from lambda_core.case.shaft_parts import ShaftMarker
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import unknown_name
+from lambda_core.domain.units import show
+from lambda_core.elastic.body import ElasticBody
+from lambda_core.shaft.model import GROUND, SHAFT, Place
+from lambda_core.system.ledger import Ledger
+
+_PLACED = ("bearings", "discs", "gears", "loads", "springs")
+_ON_AXIS = ("bearings", "discs", "gears")  # stand on the shaft itself
+_SAME = 1e-6  # [m]
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where everything stands.
+
+    Attributes
+    ----------
+    of : dict of str to Place
+        By path: "loads.belt".
+    carriers : dict of str to int
+        Number of every body by its name.
+    markers : dict of str to Place
+        Those of the case, and the nodes of a reduced shaft by their names.
+    """
+
+    of: Mapping[str, Place]
+    carriers: Mapping[str, int]
+    markers: Mapping[str, Place]
+
+    def on_shaft(self, table: str, name: str) -> bool:
+        """Tell whether a part stands on the shaft."""
+        return self.of[f"{table}.{name}"].body == SHAFT
+
+    def carrier(self, name: str) -> int:
+        """Return the number of a body, given by its name or by a marker on it."""
+        return self.carriers[name] if name in self.carriers else self.markers[name].body
+
+
+def places(case: ShaftCase, outside: ElasticBody | None, ledger: Ledger) -> Places:
+    """Return where everything stands; what is wrong with it is noted."""
+    carriers = {"ground": GROUND, "shaft": SHAFT, **{name: i + 1 for i, name in enumerate(case.bodies)}}
+    nodes: dict[str, float] = {}
+    if outside is not None and outside.names:
+        nodes = dict(zip(outside.names, outside.positions.tolist(), strict=True))
+    markers = {name: Place(SHAFT, (float(x), 0.0, 0.0), np.eye(3)) for name, x in nodes.items()}
+    for name, marker in case.markers.items():
+        if name in nodes:
+            ledger.problem(f"markers.{name}", "is the name of a node of the shaft already: choose another one")
+        if marker.body not in carriers:
+            ledger.problem(f"markers.{name}.body", unknown_name("body", marker.body, carriers))
+        point = (marker.x, marker.y, marker.z)
+        markers[name] = Place(carriers.get(marker.body, GROUND), point, _axes(marker))
+    found: dict[str, Place] = {}
+    for table in _PLACED:
+        for name, part in getattr(case, table).items():
+            where = f"{table}.{name}"
+            if part.marker is None:
+                found[where] = Place(SHAFT, (part.position, 0.0, 0.0), np.eye(3))
+            elif part.marker not in markers:
+                words = unknown_name("marker", part.marker, markers) if markers else "there are no [markers]"
+                ledger.problem(f"{where}.marker", words)
+            else:
+                found[where] = markers[part.marker]
+                _fits(table, where, part.marker, found[where], ledger)
+    _ends(case, carriers, markers, found, ledger)
+    return Places(found, carriers, markers)
+
+
+def _fits(table: str, where: str, marker: str, place: Place, ledger: Ledger) -> None:
+    """Note a marker that this part cannot stand at."""
+    beside = max(abs(place.point[1]), abs(place.point[2])) > _SAME
+    if table in _ON_AXIS and (place.body != SHAFT or beside):
+        ledger.problem(f"{where}.marker", f'"{marker}" is not on the axis of the shaft, where this has to stand')
+    elif table == "springs" and place.body == SHAFT and beside:
+        ledger.problem(f"{where}.marker", f'"{marker}" turns with the shaft beside its axis: no spring can stand there')
+
+
+def _ends(
+    case: ShaftCase, carriers: Mapping[str, int], markers: Mapping[str, Place], found: Mapping[str, Place],
+    ledger: Ledger,
+) -> None:  # fmt: skip
+    """Check what carries outer rings, and the other ends of springs."""
+    others = [(f"bearings.{name}", "outer", part.outer) for name, part in case.bearings.items()]
+    others += [(f"springs.{name}", "to", part.to) for name, part in case.springs.items()]
+    for where, option, other in others:
+        if other not in carriers and other not in markers:
+            ledger.problem(f"{where}.{option}", unknown_name("body or marker", other, [*carriers, *markers]))
+            continue
+        if where not in found:
+            continue
+        body = carriers[other] if other in carriers else markers[other].body
+        if other not in carriers and math.dist(markers[other].point, found[where].point) > _SAME:
+            at = ", ".join(show(x, "length", 6) for x in found[where].point)
+            ledger.problem(f"{where}.{option}", f'"{other}" stands elsewhere: both ends have to be at {at}')
+        if option == "outer" and body == SHAFT:
+            ledger.problem(f"{where}.outer", "the outer ring sits in the ground or in a body, not on the shaft")
+        elif body == found[where].body:
+            ledger.problem(f"{where}.{option}", "both ends are on the same body")
+
+
+def _axes(marker: ShaftMarker) -> FloatArray:
+    """Return the axes of a marker as columns: turned about x, then about y and z as they were."""
+    found: FloatArray = np.eye(3)
+    for angle, (i, k) in ((marker.about_x, (1, 2)), (marker.about_y, (2, 0)), (marker.about_z, (0, 1))):
+        turn = np.eye(3)
+        turn[i, i] = turn[k, k] = math.cos(angle)
+        turn[k, i], turn[i, k] = math.sin(angle), -math.sin(angle)
+        found = turn @ found
+    return found
