@@ -64,13 +64,27 @@ def remove(node: Node, draft: Draft) -> Keys:
     return (*section, str(min(at, len(tables) - 1))) if tables else section
 
 
+# What names bodies and markers of a shaft: section and option
+_ENDS = (("bearings", "outer"), ("springs", "to"))
+_REFER: dict[str, tuple[tuple[str, str], ...]] = {
+    "bodies": (*_ENDS, ("markers", "body")),
+    "markers": (*_ENDS, *((table, "marker") for table in ("bearings", "discs", "gears", "loads", "springs"))),
+}
+
+
 def rename(node: Node, draft: Draft, name: str) -> Keys:
-    """Give the table of a node another name, in its place; a name that is taken changes nothing."""
+    """Give the table of a node another name, in its place and where others name it; a taken one changes nothing."""
     section = _section(node)
     tables: dict[str, Any] = draft.get(*section)
     if name in tables:
         return node.table
-    _put(draft, section, {name if key == node.table[-1] else key: deepcopy(table) for key, table in tables.items()})
+    old = node.table[-1]
+    _put(draft, section, {name if key == old else key: deepcopy(table) for key, table in tables.items()})
+    for places in _REFER.get(section[0], ()) if draft.is_shaft else ():
+        for other, table in (draft.get(places[0]) or {}).items():
+            if isinstance(table, dict) and table.get(places[1]) == old:
+                draft.set(places[0], other, places[1], value=name)
+    draft.seal()
     return (*section, name)
 
 

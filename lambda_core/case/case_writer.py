@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import tempfile
@@ -63,12 +64,36 @@ def _fresh(tables: Mapping[str, Any]) -> str:
 
 def tables_toml(tables: Mapping[str, Any], original: str = "") -> str:
     """Write plain tables, right or wrong, as TOML; what they have in common with `original` keeps its text."""
+    original = _renamed(original, tables)
     document = tomlkit.parse(original)
     if original.strip():
         _update(document, tomllib.loads(original), tables)
     else:
         _fill(document, tables)
     return tomlkit.dumps(document)
+
+
+def _renamed(original: str, tables: Mapping[str, Any]) -> str:
+    """Return a text whose named tables have their new names in their headers, so that their comments stay theirs.
+
+    A table is renamed where one of a section goes and one comes that says the same, or they are the only ones.
+    """
+    text = original
+    for section, before in tomllib.loads(original).items():
+        after = tables.get(section)
+        if not isinstance(before, dict) or not isinstance(after, Mapping):
+            continue
+        gone = [name for name in before if name not in after and isinstance(before[name], dict)]
+        come = [name for name in after if name not in before and isinstance(after[name], Mapping)]
+        for old in gone:
+            alike = [name for name in come if after[name] == before[old]]
+            new = alike[0] if alike else come[0] if len(gone) == len(come) == 1 else None
+            if new is not None:
+                come.remove(new)
+                head = rf"^(\s*\[+\s*{re.escape(section)}\s*\.\s*)(\"?){re.escape(old)}\2(?=\s*[.\]])"
+                key = new if re.fullmatch(r"[\w-]+", new, re.ASCII) else json.dumps(new)
+                text = re.sub(head, lambda found, key=key: found[1] + key, text, flags=re.MULTILINE)  # type: ignore[misc]
+    return text
 
 
 def save_case(case: Case, path: str | Path, original: str | None = None) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal
@@ -37,7 +36,8 @@ from lambda_core.domain.units import (
 
 SHARED = ("lubricant", "materials", "surface", "models", "parameters", "gravity")  # tables of the case of every bearing
 NAMED = ("bearings", "markers", "bodies", "discs", "loads", "gears", "springs")  # tables of named parts
-_NAME = re.compile(NAME_PATTERN)
+# Names that are there already; a bearing's result stands beside that of the whole, shaft.h5
+TAKEN = {"bearings": ("shaft",), "markers": ("shaft", "ground"), "bodies": ("shaft", "ground")}
 
 
 class ShaftSection(Section):
@@ -196,14 +196,8 @@ class ShaftCase(Section):
     _folder: Path | None = PrivateAttr(default=None)
 
     @model_validator(mode="after")
-    def _names(self, info: Any) -> ShaftCase:
+    def _knows_its_folder(self, info: Any) -> ShaftCase:
         self._folder = (info.context or {}).get("folder")
-        for table in NAMED:
-            for name in getattr(self, table):
-                if not _NAME.match(name):
-                    raise ValueError(f'{table}: "{name}": use letters, digits, dot, dash and underscore in names')
-                if table in ("markers", "bodies") and name in ("shaft", "ground"):
-                    raise ValueError(f'{table}: "{name}" is there already: choose another name')
         return self
 
     @property

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
+from lambda_core.case.case import NAME_PATTERN
 from lambda_core.case.case_io import case_text, toml_tables
 from lambda_core.case.problems import problems
-from lambda_core.case.shaft import ShaftCase
+from lambda_core.case.shaft import NAMED, TAKEN, ShaftCase
 from lambda_core.domain.errors import CaseError, Problem, UsageError
 
 
@@ -36,10 +38,27 @@ def validate_shaft(data: Mapping[str, Any], source: str = "shaft", folder: Path 
         raise CaseError(
             source, [Problem("bearing", f"is one bearing, not a shaft: lambda-bearing quasistatic {source}")]
         )
+    found = _names(data)
     try:
-        return ShaftCase.model_validate(data, context={"folder": folder})
+        case = ShaftCase.model_validate(data, context={"folder": folder})
     except ValidationError as error:
-        raise CaseError(source, problems(error, ShaftCase, data)) from None
+        raise CaseError(source, [*problems(error, ShaftCase, data), *found]) from None
+    if found:
+        raise CaseError(source, found)
+    return case
+
+
+def _names(data: Mapping[str, Any]) -> list[Problem]:
+    """Return what is wrong with the names of named parts, each at its own path."""
+    found = []
+    for table in NAMED:
+        parts = data.get(table)
+        for name in parts if isinstance(parts, Mapping) else ():
+            if not re.match(NAME_PATTERN, str(name)):
+                found.append(Problem(f"{table}.{name}", "use letters, digits, dot, dash and underscore in names"))
+            elif name in TAKEN.get(table, ()):
+                found.append(Problem(f"{table}.{name}", f'"{name}" is there already: choose another name'))
+    return found
 
 
 def shaft_json_schema() -> dict[str, Any]:

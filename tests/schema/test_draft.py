@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from lambda_core import api
-from lambda_core.case.draft import Draft
+from lambda_core.case.draft import Draft, draft_of
 
 HAND_WRITTEN = """\
 # Drive end of the fan.
@@ -206,3 +206,19 @@ def test_tables_that_go_on_further_down_are_changed_too(changes: dict[tuple[str,
         draft.set(*keys, value=value)
     assert tomllib.loads(draft.text()) == draft.tables
     assert "# two poles at 50 Hz" in draft.text()
+
+
+def test_a_renamed_table_keeps_its_comments(tmp_path: Path) -> None:
+    """Also where its values change afterwards, and for tables in it; other tables stay as they are."""
+    text = (
+        'name = "box"\n\n# the left one\n[bearings.left]\nposition = "20 mm"  # its middle\n'
+        '[bearings.left.geometry]  # own\nball_count = 9\n\n# the right one\n[bearings.right]\nposition = "150 mm"\n'
+    )
+    path = tmp_path / "box.toml"
+    path.write_text(text)
+    draft = draft_of(text, path)
+    tables = draft.get("bearings")
+    draft.set("bearings", value={"drive-side" if name == "left" else name: table for name, table in tables.items()})
+    assert draft.text() == text.replace("bearings.left", "bearings.drive-side")
+    draft.set("bearings", "drive-side", "position", value="25 mm")
+    assert draft.text() == text.replace("bearings.left", "bearings.drive-side").replace('"20 mm"', '"25 mm"')

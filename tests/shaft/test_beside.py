@@ -204,6 +204,17 @@ def test_mistakes_with_their_paths() -> None:
         check_shaft(case)
 
 
+def test_names_have_paths() -> None:
+    """A name that no file can have, and names that are there already."""
+    case = tables()
+    case["bearings"]["shaft"] = case["bearings"].pop("left")
+    case["discs"]["a b"] = case["discs"].pop("wheel")
+    case["bodies"]["ground"] = {"x": "0 mm"}
+    with pytest.raises(api.CaseError) as found:
+        check_shaft(case)
+    assert {"bearings.shaft", "discs.a b", "bodies.ground"} <= {problem.where for problem in found.value.problems}
+
+
 def test_markers_in_the_report(model: ShaftModel) -> None:
     """A marker on the shaft moves as the shaft there, one on a body as the body carries it."""
     from lambda_core.shaft.shaft_report import _at
