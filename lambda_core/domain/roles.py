@@ -44,7 +44,8 @@ ROLES: dict[str, Role] = {
             "damping",
             "normal force opposing the penetration velocity",
             arguments_of(
-                "delta f penetration [m]; delta_dot f penetration velocity [m/s]; load f elastic load [N]; "
+                "delta f penetration, below zero a gap within the law's reach [m]; "
+                "delta_dot f penetration velocity [m/s]; load f elastic load [N]; "
                 "u_mean f? mean surface velocity, >= 0 [m/s]; semi_a f? semi-axis across rolling [m]; "
                 "semi_b f? semi-axis along rolling [m]; R_x f? reduced radius along rolling [m]; "
                 "R_y f? reduced radius across rolling [m]; E_eff f? E' [Pa]; "
@@ -296,7 +297,7 @@ ELECTRIC_ROLES = {name: role for name, role in ROLES.items() if role.section == 
 # Built-in default per role; "auto" is resolved to the model for which the lubricant has data.
 DEFAULT_MODELS: dict[str, str] = {
     "normal_contact": "hamrock-brewe",
-    "damping": "cubic",
+    "damping": "squeeze-film",
     "rheology": "auto",
     "film_thickness": "chittenden",
     "thermal_correction": "murch-wilson",

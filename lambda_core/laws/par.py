@@ -48,6 +48,19 @@ def par_layout(law: Law) -> Layout:
     return replace(found, members=(*found.members, *(Member(name, "float") for name in behind)))
 
 
+def number_in(law: Law, par: FloatArray, name: str, otherwise: float) -> float:
+    """Return the number of a name in what :func:`make_par` returned, `otherwise` where the law has none of that name.
+
+    It is looked for among the numbers before the first array or record.
+    """
+    for place, member in enumerate(par_layout(law).members):
+        if member.kind not in ("float", "int", "bool"):
+            break
+        if member.name == name:
+            return float(par[place])
+    return otherwise
+
+
 def make_par(law: Law, parameters: BaseModel, context: Context) -> FloatArray:
     """Return the flat array that stands for ``par`` in the solver, for one run and force element.
 

@@ -73,6 +73,7 @@ def run_figures(summary: Any, units: UnitSystem = SI) -> Table:
         ("capacitance of the bearing", rounded(summary.bearing_capacitance_nF), "nF"),
         ("inner ring x, y, z (mean)", position, units.unit("um")),
         ("energy residual", rounded(summary.energy_residual, 2), "of input"),
+        ("ends of Newton's iterations", rounded(summary.iteration_residual, 2), "of input"),
         *([("vibrations", summary.vibrations.sentence(), "")] if summary.vibrations else []),
     )
     return Table("averages of the run", ("", "value", "unit"), rows)
@@ -166,6 +167,7 @@ def convergence(summary: Any, units: UnitSystem = SI) -> Table:
         ("cage revolutions averaged", str(summary.revolutions_averaged), ""),
         in_unit("95 % half-width of the friction torque", summary.friction_torque_ci_Nmm, "N mm", units),
         ("energy residual", written(summary.energy_residual), "of input"),
+        ("ends of Newton's iterations", written(summary.iteration_residual), "of input"),
         ("wall time", written(summary.wall_s), "s"),
         *((name.replace("_", " "), f"{count:.0f}", "") for name, count in summary.solver_statistics.items()),
     ]

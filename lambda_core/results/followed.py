@@ -15,6 +15,7 @@ from lambda_core.solver.integrator.tableau import STAGES, WEIGHTS, A
 from lambda_core.system.bearing import Solver
 
 FOURTH_POWERS = "steps_to_the_fourth"  # of the statistics of a run: sum of the fourth powers of its steps [s4]
+ITERATION_WORK = "iteration_work"  # of the same: work of early ends of Newton's iteration, counted positive [J]
 _FASTEST = math.pi  # w h from which on a step sees nothing of a swing
 
 

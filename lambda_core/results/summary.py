@@ -21,7 +21,7 @@ from lambda_core.results.bent import Bent, bent_parts
 from lambda_core.results.convergence import shortfalls, window
 from lambda_core.results.currents import Currents, currents_of
 from lambda_core.results.event_rows import EventSeen, ObserverNumber
-from lambda_core.results.followed import FOURTH_POWERS, Followed, followed
+from lambda_core.results.followed import FOURTH_POWERS, ITERATION_WORK, Followed, followed
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, tolerance_warning, warnings, worst
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from lambda_core.results.reader import Result
 
 _MECHANISMS_OF_CAGE = ("pocket", "land")
+_NO_COUNTS = (FOURTH_POWERS, ITERATION_WORK)  # statistics of a run that stand elsewhere in its summary
 
 
 LOADED_BALLS = "balls that the inner ring loads with more than 1 % of its largest contact load"
@@ -104,6 +105,10 @@ class Summary(Record):
     shoulders: list[Shoulder] = Field(description="how near contacts came to the shoulders, the worst on each ring")
     warnings: list[str] = Field(description="where case or run left what bearing, oil and laws are made for")
     energy_residual: float | None = Field(description="(input - dissipated - stored) over integral of |input power|")
+    iteration_residual: float | None = Field(
+        description="work of early ends of Newton's iteration, counted positive, over the same; null of older results",
+        default=None,
+    )
 
     revolutions_discarded: int = Field(description="whole cage revolutions before averaging")
     revolutions_averaged: int = Field(description="whole cage revolutions averaged")
@@ -184,6 +189,7 @@ def summarise(result: Result) -> Summary:
             *warnings(_highest_pressure(result), edges, extremes.largest_tilt, kind_of(result.model["geometry"])),
         ],
         energy_residual=finite(residual),
+        iteration_residual=_iteration_residual(status.statistics, whole),
         revolutions_discarded=chosen.discarded,
         revolutions_averaged=chosen.revolutions,
         simulated_s=time,
@@ -191,10 +197,16 @@ def summarise(result: Result) -> Summary:
         wall_per_simulated_second=finite(_quotient(status.wall, time)),
         wall_per_revolution_s=finite(_quotient(status.wall, revolutions)),
         vibrations=followed(settings, status, time),
-        solver_statistics={name: count for name, count in status.statistics.items() if name != FOURTH_POWERS},
+        solver_statistics={name: count for name, count in status.statistics.items() if name not in _NO_COUNTS},
         equilibrium=_equilibrium(result),
         assumptions=list(result.assumptions),
     )
+
+
+def _iteration_residual(statistics: Mapping[str, float], whole: Interval) -> float | None:
+    """Return the work that early ends of the iteration put in or took, over the energy that flowed."""
+    work, flow = statistics.get(ITERATION_WORK), whole.change("input_abs")
+    return None if work is None or not flow > 0.0 else work / flow
 
 
 def _reasons(state: str, message: str, found: list[str]) -> list[str]:

@@ -65,7 +65,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *_currents(summary.currents),
         *watched_lines(summary),
         line("shoulders", *(_margin(edge, units) for edge in summary.shoulders)),
-        line("energy residual", f"{_small(summary.energy_residual)} of input"),
+        line("energy residual", f"{_small(summary.energy_residual)} of input", _iteration(summary)),
         *([line("vibrations", summary.vibrations.sentence())] if summary.vibrations else []),
         line("wall time", *_wall(summary)),
         *assumption_lines(summary.assumptions, summary.file),
@@ -73,6 +73,12 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *(line("not converged" if index == 0 else "", reason) for index, reason in enumerate(summary.reasons)),
     ]
     return "\n".join(wrapped(lines, width))
+
+
+def _iteration(summary: Summary) -> str:
+    """Return what early ends of Newton's iteration put in or took, where it is known."""
+    found = summary.iteration_residual
+    return "" if found is None else f"ends of iterations {_small(found)}"
 
 
 def _currents(found: Currents | None) -> list[str]:

@@ -205,6 +205,7 @@ RACEWAY = record(
     ("modulus", f8),  # E' of ball and ring [Pa]
     ("radius_deformed", f8),  # of the common surface, across rolling [m]
     ("roughness", f8),  # of both surfaces together [m]
+    ("reach", f8),  # gap below which the film between ball and raceway pushes them apart already [m]
     ("axial_offset", f8),  # of the plane of the groove's circle from the body's centre [m]
     ("surface_on", i8),  # 0: nominal
     ("oil", OIL),
@@ -283,6 +284,7 @@ RUNNING = record(
     ("drive", f8),  # power of what prescribes spins [W]
     ("relative_speed", f8),  # of the first two bodies [rad/s]
     ("position", f8, (3,)),  # of the first body [m]
+    ("iteration", f8),  # work of what Newton's iteration leaves of the equations, counted positive [W]
 )
 TOTALS = record(
     ("stored_energy", f8),  # [J]

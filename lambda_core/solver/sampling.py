@@ -6,7 +6,7 @@ import numpy as np
 
 from lambda_core.solver.cage.guides import guide_force, land_state, pocket_apply, pocket_state
 from lambda_core.solver.contact.contact_capacitance import bulk_permittivity, contact_capacitance, gap_capacitance
-from lambda_core.solver.contact.contact_kinematics import axis_x, contact_angle, contact_kinematics, surface_lift
+from lambda_core.solver.contact.contact_kinematics import axis_x, contact_angle, contact_kinematics, near, surface_lift
 from lambda_core.solver.contact.contact_states import hand_states
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.integrator.memory import evaluate_t
@@ -41,6 +41,18 @@ observe_sig = i8(array1, array2, bundle_t, evaluate_t, f8, array4, array3, array
 
 
 @helper
+def _show(kin, contact, sample):
+    """Write what a contact under load shows."""
+    sample.load = contact.load + contact.damping_force
+    sample.max_pressure = contact.max_pressure
+    sample.semi_axis_a, sample.semi_axis_b = contact.semi_axis_a, contact.semi_axis_b
+    sample.film_central, sample.film_minimum = contact.film_central, contact.film_minimum
+    sample.film_parameter, sample.asperity_share = contact.film_parameter, contact.asperity_share
+    sample.film_temperature = contact.film_temperature
+    sample.slip, sample.entrainment, sample.spin_velocity = kin.slip_t, kin.entrainment_t, kin.rotation_n
+
+
+@helper
 def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
     """Write the channels of one contact; zeros and the gap's capacitance when it is open.
 
@@ -60,6 +72,7 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
     sample.film_temperature = raceway.oil.temperature
     if delta <= 0.0:
         sample.capacitance = bulk_permittivity(raceway, laws, bundle) * gap_capacitance(raceway, -delta)
+    if delta <= -near(raceway, system):
         return 1
     hand_states(raceway, j, bundle)
     ok = bundle.wrench(
@@ -67,13 +80,8 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
     )
     if ok != 1:
         return 0
-    sample.load = contact.load + contact.damping_force
-    sample.max_pressure = contact.max_pressure
-    sample.semi_axis_a, sample.semi_axis_b = contact.semi_axis_a, contact.semi_axis_b
-    sample.film_central, sample.film_minimum = contact.film_central, contact.film_minimum
-    sample.film_parameter, sample.asperity_share = contact.film_parameter, contact.asperity_share
-    sample.film_temperature = contact.film_temperature
-    sample.slip, sample.entrainment, sample.spin_velocity = kin.slip_t, kin.entrainment_t, kin.rotation_n
+    if delta > 0.0:
+        _show(kin, contact, sample)
     add_contact(raceway, j, bundle)
     losses[:] = 0.0
     named, cells = losses_of(losses, bundle.raceways.size), cells_of(bundle.cells[0])
@@ -81,6 +89,8 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
     for i in range(MECHANISMS * bundle.raceways.size):
         sample.contact_loss += losses[i]
         rates[i] += losses[i]
+    if delta <= 0.0:
+        return 1
     return contact_capacitance(raceway, kin, laws, bundle, shorted, sample)
 
 

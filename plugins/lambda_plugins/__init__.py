@@ -20,7 +20,12 @@ _LAWS: dict[str, dict[str, str]] = {
         "hamrock-brewe": "normal_contact:hamrock_brewe",
         "hertz-exact": "normal_contact:hertz_exact",
     },
-    "damping": {"cubic": "damping:cubic", "hunt-crossley": "damping:hunt_crossley", "none": "damping:none"},
+    "damping": {
+        "cubic": "damping:cubic",
+        "hunt-crossley": "damping:hunt_crossley",
+        "none": "damping:none",
+        "squeeze-film": "damping:squeeze_film",
+    },
     "rheology": {
         "vogel-dicke": "vogel_dicke:vogel_dicke",
         "bode": "bode:bode_rheology",

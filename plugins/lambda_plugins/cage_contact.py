@@ -1,7 +1,8 @@
 """Contacts of the cage: with the balls in its pockets, with the lands of the rings; of two balls without a cage.
 
 One penalty contact for all: a spring whose stiffness sets in over the first fraction of a micrometre, damping that
-grows from zero at first touch and never pulls, and cubic friction at the point of contact against the slip there.
+grows from zero at first touch and never pulls, and cubic friction at the point of contact against the slip there. In
+a pocket the oil is squeezed before ball and cage touch.
 """
 
 from __future__ import annotations
@@ -16,6 +17,10 @@ from lambda_plugins.shapes import at_least, at_most, cubic_friction_slope
 
 _ASSUMED = "assumption; 5e6 N/m and the friction law as in the group's models"
 _VALIDITY = "rigid bodies with a penalty contact; all constants are assumptions"
+_SOURCES = (
+    "Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005; "
+    "Pitois et al. 2000, J. Colloid Interface Sci. 231, 26"
+)
 _LIMITS_AT = 1e-12  # [m] below this distance from the centre no direction of contact is defined
 
 
@@ -56,19 +61,57 @@ class CageContact(Parameters):
         return self
 
 
+class Pocket(CageContact):
+    """Constants of a pocket."""
+
+    film_width: float = parameter(
+        0.2,
+        "half the width of the oil film between ball and pocket over the ball's diameter; 0: no oil in the pocket",
+        source="assumption: the pocket's wall",
+        status="assumed",
+        ge=0.0,
+        le=0.5,
+    )
+    thinnest_film: Annotated[float, Quantity("small_length")] = parameter(
+        "1 um", "film at first touch of ball and pocket: roughness", source=_ASSUMED, status="assumed", gt=0.0
+    )
+
+
 class Guide(NamedTuple):
     """A contact of the cage as its kernels see it."""
 
     contact: CageContact
     play: float  # way from the centre to first touch [m]
     arm: float  # from the body's centre to the contact point, along the way [m]
+    film: float = 0.0  # 6 pi R^2 of the film that is squeezed, R the reduced radius [m2]; 0: there is none
+    edge: float = 1.0  # what the gap grows by from the middle of the film to its edge [m]
+    touch: float = 1.0  # film at first touch [m]
 
 
-def prepare_pocket(parameters: CageContact, context: Context) -> Guide:
-    """Return the constants with the pocket's clearance and the ball's radius."""
+def prepare_pocket(parameters: Pocket, context: Context) -> Guide:
+    """Return the constants with the pocket's clearance, the ball's radius and the film between both."""
     if not context.pocket_clearance >= 0.0:
         raise ValueError("the cage has no pocket clearance: give a cage with pockets")
-    return Guide(parameters, 0.5 * context.pocket_clearance, 0.5 * context.ball_diameter)
+    radius, play, width = 0.5 * context.ball_diameter, 0.5 * context.pocket_clearance, parameters.film_width
+    if width == 0.0 or play == 0.0:
+        return Guide(parameters, play, radius)
+    reduced = radius * (radius + play) / play
+    edge = (width * context.ball_diameter) ** 2 / (2.0 * reduced)
+    return Guide(parameters, play, radius, 6.0 * math.pi * reduced * reduced, edge, parameters.thinnest_film)
+
+
+def squeezed(guide: Guide, gap: float, closing: float, eta0: float) -> float:
+    """Return the force of the film between ball and pocket [N], `gap` apart, that close at a speed; no film pulls.
+
+    Reynolds' equation between a sphere and a plane at an approach v has p = 3 eta v R (1/h^2 - 1/h_e^2), zero at the
+    edge of the film where h_e = h + b^2/2R: F = 6 pi eta v R^2/h (1 - h/h_e)^2. Wide against the gap it is Taylor's
+    6 pi eta v R^2/h, narrow Stefan's 3 pi eta v b^4/2 h^3 of parallel discs. Oil that has left is not sucked in again.
+    """
+    if closing <= 0.0:
+        return 0.0
+    h = at_least(gap, 0.0) + guide.touch
+    share = guide.edge / (h + guide.edge)
+    return guide.film * eta0 * closing / h * share * share
 
 
 def prepare_land(parameters: CageContact, context: Context) -> Guide:
@@ -96,20 +139,22 @@ def push_back(
     v_rel: FloatArray,
     omega_rel: FloatArray,
     guide: Guide,
+    film: float,
     out: FloatArray,
 ) -> None:
     """Write force and point for a body that is `penetration` beyond its play in the unit direction n.
 
     Normal force along -n: k e^2/(2 e_0) up to the onset e_0 and k (e - e_0/2) above, plus damping
-    d s^2 (3 - 2 s) de/dt, s = e/full penetration, never below zero. Friction: mu(v) F_N against the slip
-    v_rel + omega_rel x (P - r) at P = r + arm n, cubic in its amount.
+    d s^2 (3 - 2 s) de/dt, s = e/full penetration, never below zero, plus the force of a film. Friction: mu(v) F_N
+    against the slip v_rel + omega_rel x (P - r) at P = r + arm n, cubic in its amount.
     """
     contact = guide.contact
     onset = contact.onset
-    spring = 0.5 * penetration * penetration / onset if penetration < onset else penetration - 0.5 * onset
-    s = at_most(penetration / contact.full_penetration, 1.0)
+    e = at_least(penetration, 0.0)
+    spring = 0.5 * e * e / onset if e < onset else e - 0.5 * onset
+    s = at_most(e / contact.full_penetration, 1.0)
     closing = v_rel[0] * n0 + v_rel[1] * n1 + v_rel[2] * n2
-    normal = at_least(contact.stiffness * spring + contact.damping * s * s * (3.0 - 2.0 * s) * closing, 0.0)
+    normal = at_least(contact.stiffness * spring + contact.damping * s * s * (3.0 - 2.0 * s) * closing, 0.0) + film
     x0 = guide.arm * n0
     x1 = guide.arm * n1
     x2 = guide.arm * n2
@@ -133,9 +178,9 @@ def push_back(
 @law(
     "cage_contact",
     "spherical-pocket",
-    CageContact,
+    Pocket,
     role_api=2,
-    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
+    reference=_SOURCES,
     validity=_VALIDITY,
     prepare=prepare_pocket,
 )
@@ -145,23 +190,26 @@ def spherical_pocket(
     """Ball in a spherical pocket: contact once its centre is off the pocket's by the radial clearance.
 
     Syla et al. 2026, eq. 28 (F = mu_c(v) F_N with Teutsch's cubic coefficient); stiffness and damping are assumptions.
+    Before that the oil between both is squeezed: F = 6 pi eta v R^2/h (1 - h/h_e)^2 (Pitois et al. 2000).
     """
     out[:] = 0.0
     distance = math.sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2])
-    if distance > par.play and distance > _LIMITS_AT:
+    if (distance > par.play or par.film > 0.0) and distance > _LIMITS_AT:
         n0 = r[0] / distance
         n1 = r[1] / distance
         n2 = r[2] / distance
-        push_back(n0, n1, n2, distance - par.play, r, v_rel, omega_rel, par, out)
+        film = squeezed(par, par.play - distance, v_rel[0] * n0 + v_rel[1] * n1 + v_rel[2] * n2, eta0)
+        if film > 0.0 or distance > par.play:
+            push_back(n0, n1, n2, distance - par.play, r, v_rel, omega_rel, par, film, out)
     return OK
 
 
 @law(
     "cage_contact",
     "cylindrical-pocket",
-    CageContact,
+    Pocket,
     role_api=2,
-    reference="Syla et al. 2026, Lubricants 14, 154, section 2.5; Teutsch 2005",
+    reference=_SOURCES,
     validity=_VALIDITY,
     prepare=prepare_pocket,
 )
@@ -170,12 +218,16 @@ def cylindrical_pocket(
 ) -> int:
     """Ball in a cylindrical pocket with a radial axis: free along the radius, for ring-guided cages.
 
-    Contact law and friction as in the spherical pocket.
+    Contact law, film and friction as in the spherical pocket.
     """
     out[:] = 0.0
     distance = math.sqrt(r[0] * r[0] + r[2] * r[2])
-    if distance > par.play and distance > _LIMITS_AT:
-        push_back(r[0] / distance, 0.0, r[2] / distance, distance - par.play, r, v_rel, omega_rel, par, out)
+    if (distance > par.play or par.film > 0.0) and distance > _LIMITS_AT:
+        n0 = r[0] / distance
+        n2 = r[2] / distance
+        film = squeezed(par, par.play - distance, v_rel[0] * n0 + v_rel[2] * n2, eta0)
+        if film > 0.0 or distance > par.play:
+            push_back(n0, 0.0, n2, distance - par.play, r, v_rel, omega_rel, par, film, out)
     return OK
 
 
@@ -199,7 +251,7 @@ def land_guidance(
     out[:] = 0.0
     distance = math.sqrt(r[1] * r[1] + r[2] * r[2])
     if distance > par.play and distance > _LIMITS_AT:
-        push_back(0.0, r[1] / distance, r[2] / distance, distance - par.play, r, v_rel, omega_rel, par, out)
+        push_back(0.0, r[1] / distance, r[2] / distance, distance - par.play, r, v_rel, omega_rel, par, 0.0, out)
     return OK
 
 
@@ -223,7 +275,7 @@ def ball_ball(r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: flo
         n0 = -r[0] / distance
         n1 = -r[1] / distance
         n2 = -r[2] / distance
-        push_back(n0, n1, n2, par.play - distance, r, v_rel, omega_rel, par, out)
+        push_back(n0, n1, n2, par.play - distance, r, v_rel, omega_rel, par, 0.0, out)
     return OK
 
 

@@ -5,7 +5,11 @@ from __future__ import annotations
 import math
 from typing import Annotated, NamedTuple
 
+import numpy as np
+
 from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, Quantity, law, parameter
+from lambda_plugins.film_thickness import Floors, chittenden
+from lambda_plugins.film_thickness import prepare as prepare_floors
 from lambda_plugins.normal_contact import stiffness
 from lambda_plugins.shapes import at_least, at_most
 
@@ -63,6 +67,81 @@ def cubic(delta: float, delta_dot: float, load: float, par: Onset, out: FloatArr
     """
     s = at_most(at_least(delta / par.delta_max, 0.0), 1.0)
     out[0] = at_least(par.d_max * s * s * (3.0 - 2.0 * s) * delta_dot, -load)
+    return OK
+
+
+class SqueezeFilm(CubicDamping):
+    """Parameters of the cubic damping with the film between ball and raceway."""
+
+    layer: Annotated[float, Quantity("small_length")] = parameter(
+        "10 um",
+        "oil on ball and raceway together: the film is squeezed below that gap",
+        source="assumption",
+        status="assumed",
+        gt=0.0,
+    )
+    thinnest_film: Annotated[float, Quantity("small_length")] = parameter(
+        "0.2 um", "least film at first touch: roughness", source="assumption", status="assumed", gt=0.0
+    )
+
+
+class Squeezed(NamedTuple):
+    """The cubic damping's onset and the film's numbers."""
+
+    d_max: float  # [N s/m]
+    delta_max: float  # [m]
+    reach: float  # gap from which the film is squeezed [m]; the solver looks at the contact from there on
+    touch: float  # film at first touch [m]
+    shape: float  # 12 pi sqrt(R_x R_y)/(1/R_x + 1/R_y) [m2]
+
+
+def prepare_film(parameters: SqueezeFilm, context: Context) -> Squeezed:
+    """Return the onset of the cubic damping, and the film's shape and thickness."""
+    onset = prepare_cubic(parameters, context)
+    rx, ry, oil, found = context.radius_x, context.radius_y, context.oil, np.zeros(2)
+    speed = 0.25 * context.speed * context.pitch_diameter
+    floors = prepare_floors(Floors(), context)
+    chittenden(speed, 0.0, context.mean_load, rx, ry, context.e_eff, oil.viscosity, oil.alpha_p, floors, found)
+    shape = 12.0 * math.pi * math.sqrt(rx * ry) / (1.0 / rx + 1.0 / ry)
+    return Squeezed(*onset, parameters.layer, max(float(found[0]), parameters.thinnest_film), shape)
+
+
+@law(
+    "damping",
+    "squeeze-film",
+    SqueezeFilm,
+    role_api=2,
+    reference="Teutsch 2005 (thesis, TU Kaiserslautern); Pitois et al. 2000, J. Colloid Interface Sci. 231, 26",
+    validity="lightly loaded contacts: pressures that thicken the oil leave the cubic damping alone",
+    prepare=prepare_film,
+)
+def squeeze_film(
+    delta: float,
+    delta_dot: float,
+    load: float,
+    semi_a: float,
+    semi_b: float,
+    eta0: float,
+    alpha_p: float,
+    par: Squeezed,
+    out: FloatArray,
+) -> int:
+    """Teutsch's cubic damping, and the film that a ball squeezes before it touches.
+
+    Between paraboloids with the gap h + x^2/2 R_x + y^2/2 R_y Reynolds' equation for an approach at v has the solution
+    p = 6 eta v/(1/R_x + 1/R_y) (1/gap^2 - 1/H^2) within the line gap = H on which the oil ends:
+    F = 12 pi eta v sqrt(R_x R_y)/(1/R_x + 1/R_y) (1 - h/H)^2/h: own work; for a sphere on a plane 6 pi eta R^2 v/h,
+    with the edge Pitois et al. 2000, J. Colloid Interface Sci. 231, 26. The film at first touch is that of the mean
+    load, at least the roughness. Oil that pressure has made thick flows no more: under load exp(-alpha p_max) is left,
+    own work. A film does not pull.
+    """
+    s = at_most(at_least(delta / par.delta_max, 0.0), 1.0)
+    film = par.touch + at_least(-delta, 0.0)
+    edge = 1.0 - film / (par.touch + par.reach)
+    squeezed = par.shape * eta0 * edge * edge / film
+    if load > 0.0:
+        squeezed *= math.exp(-1.5 * alpha_p * load / (math.pi * semi_a * semi_b))
+    out[0] = at_least((par.d_max * s * s * (3.0 - 2.0 * s) + squeezed) * delta_dot, -load)
     return OK
 
 

@@ -73,6 +73,7 @@ class Setting:
             f"bodies.outer_ring.x={motion}",
             f"bodies.inner_ring.x={inner}",
             f"bodies.cage.type={CAGE}",
+            "parameters.cage_contact.film_width=0",  # the paper's pockets have no film
             # A shaft on two bearings does not rock about the loaded balls of one.
             "bodies.inner_ring.tilt_y=locked",
             "bodies.inner_ring.tilt_z=locked",

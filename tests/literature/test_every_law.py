@@ -17,6 +17,7 @@ LOSSES, CAPACITANCE, SURFACE = "test_models_losses", "test_models_capacitance", 
 CLOSED, MIXED = "test_models_closed_form", "test_models_mixed_friction"
 SUPPLY, FILMS = "test_models_supply", "test_models_films"
 ROLLING = "test_models_rolling"
+SQUEEZED = "test_squeezed_films"
 BLOW, NOTHING = (CLOSED, "test_a_blow_against_a_guide_lasts_half_a_period"), (CLOSED, "test_none_is_nothing")
 
 # role/name of every law: (module, test) that calls it.
@@ -25,6 +26,7 @@ CHECKED: dict[str, tuple[str, str]] = {
     "normal_contact/hertz-exact": (CONTACT, "test_exact_hertz_meets_the_table_of_dimensionless_numbers"),
     "damping/cubic": (CLOSED, "test_cubic_damping"),
     "damping/hunt-crossley": (CLOSED, "test_a_blow_rebounds_as_hunt_and_crossley_say"),
+    "damping/squeeze-film": (SQUEEZED, "raceway_force"),
     "damping/none": NOTHING,
     "rheology/vogel-dicke": (LUBRICANT, "test_fva3_viscosity"),
     "rheology/bode": (LUBRICANT, "test_bode_viscosity"),

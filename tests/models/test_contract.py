@@ -26,7 +26,7 @@ from ..literature.oils import REQUIRED  # noqa: TID252
 
 NAMES = {
     "normal_contact": {"hamrock-brewe", "hertz-exact"},
-    "damping": {"cubic", "hunt-crossley", "none"},
+    "damping": {"cubic", "hunt-crossley", "squeeze-film", "none"},
     "rheology": {"vogel-dicke", "bode", "roelands", "barus-limited"},
     "film_thickness": {"chittenden", "hamrock-dowson"},
     "thermal_correction": {"murch-wilson", "zhu-cheng", "none"},

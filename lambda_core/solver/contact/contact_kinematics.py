@@ -93,6 +93,12 @@ def surface_lift(ball, ring, raceway, bundle, kin):
 
 
 @helper
+def near(raceway, system):
+    """Return the gap below which ball and raceway feel each other [m]; films push only where something moves."""
+    return raceway.reach if system.guides_on == 1 else 0.0
+
+
+@helper
 def contact_kinematics(ball, ring, raceway, kin):
     """Identify the contact of one ball with one raceway.
 
@@ -108,7 +114,8 @@ def contact_kinematics(ball, ring, raceway, kin):
     Returns
     -------
     float
-        Penetration [m]; velocities are written only where it is positive. NaN when the surface law refused.
+        Penetration [m], negative a gap; velocities are written only within the reach of the film. NaN when the surface
+        law refused.
     """
     c, s = math.cos(ball.azimuth), math.sin(ball.azimuth)
     axis, centre, along, across = _from_axis(ball, ring, c, s)
@@ -120,7 +127,7 @@ def contact_kinematics(ball, ring, raceway, kin):
     kin.penetration = delta
     kin.axial, kin.radial = axial, radial
     kin.cosine, kin.sine = c, s
-    if delta <= 0.0:
+    if delta <= -raceway.reach:
         return delta
     na, nr = axial / length, radial / length
     n = add(scale(na, axis), scale(nr, p))

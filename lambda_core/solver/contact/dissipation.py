@@ -35,9 +35,11 @@ def raceway_losses(raceway, kin, system, grid, contact, cells, losses):
     Power of the film's shear in a cell is split between sliding and spin in proportion
     to the squares of the two velocity fields, so that both are non-negative.
     """
+    k = raceway.number
+    losses.damping[k] += contact.damping_force * kin.normal_velocity
     if contact.wet == 0:
         return
-    a, b, k = contact.semi_axis_a, contact.semi_axis_b, raceway.number
+    a, b = contact.semi_axis_a, contact.semi_axis_b
     slide, spin, boundary = _cell_powers(a, b, kin.rotation_n, grid, cells)
     roll, bend = rolling_speeds(raceway, kin)
     floor = system.roll_floor
@@ -47,4 +49,3 @@ def raceway_losses(raceway, kin, system, grid, contact, cells, losses):
     losses.rolling[k] += 2.0 * contact.rolling_force * roll * roll / math.sqrt(roll * roll + floor * floor)
     turn = bend / raceway.radius_x
     losses.hysteresis[k] += contact.hysteresis_moment * turn * bend / math.sqrt(bend * bend + floor * floor)
-    losses.damping[k] += contact.damping_force * kin.normal_velocity

@@ -15,11 +15,12 @@ from lambda_core.solver.vec import clear
 
 @helper
 def pipeline(raceway, kin, laws, par, system, grid, cells, scratch, contact, wrench):
-    """Run the whole pipeline of one contact; see raceway_wrench."""
+    """Run the whole pipeline of one contact, or of a film that nothing presses yet; see raceway_wrench."""
     out, fault = scratch.out[:], scratch.fault
+    contact.wet = 0
     if normal_stage(raceway, kin, laws, par, system, contact, out, fault) != 1:
         return 0
-    if system.friction_on == 0:
+    if system.friction_on == 0 or kin.penetration <= 0.0:
         clear(wrench)
         wrench.force[2] = -(contact.load + contact.damping_force)
         return 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, surface_lift
+from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, near, surface_lift
 from lambda_core.solver.contact.contact_states import hand_states
 from lambda_core.solver.contact.ring_waves import add_push_slope, wave_pushes
 from lambda_core.solver.contact.tangent import wrench_at
@@ -35,6 +35,7 @@ def _wrenches_near(scratch, bl):
 def _contact_columns(ball, j, ring, raceway, row, bundle, bl):
     """Add one raceway contact of ball j to the force slopes; scratch holds its kinematics and wrench."""
     scratch, p = bundle.scratch[0], bl.reach.place[row.number, raceway.body]
+    apart = -near(raceway, bundle.system[0])
     index, on_ring = bl.reach.index[row.number], bl.parts[j, p]
     kin, fm = scratch.kinematics[1], bl.wrenches
     near_ball, near_ring = bl.ball.view(BALL), bl.body.view(BODY_STATE)
@@ -45,12 +46,12 @@ def _contact_columns(ball, j, ring, raceway, row, bundle, bl):
         step = ball_step(c, False)
         near_ball[0] = ball
         bl.ball[c] += step
-        if _touches(near_ball[0], ring, raceway, bundle, kin) <= 0.0:
+        if _touches(near_ball[0], ring, raceway, bundle, kin) <= apart:
             # The step leaves a lightly loaded contact, which deserves its stiffness all the same: step back instead.
             near_ball[0] = ball
             step = -step
             bl.ball[c] += step
-            if _touches(near_ball[0], ring, raceway, bundle, kin) <= 0.0:
+            if _touches(near_ball[0], ring, raceway, bundle, kin) <= apart:
                 continue
         _wrenches_near(scratch, bl)
         add_slope(bl.own, c, fm[2], fm[0], step)
@@ -62,11 +63,11 @@ def _contact_columns(ball, j, ring, raceway, row, bundle, bl):
         step = body_step(c, False)
         near_ring[0] = ring
         bl.body[c] += step
-        if _touches(ball, near_ring[0], raceway, bundle, kin) <= 0.0:
+        if _touches(ball, near_ring[0], raceway, bundle, kin) <= apart:
             near_ring[0] = ring
             step = -step
             bl.body[c] += step
-            if _touches(ball, near_ring[0], raceway, bundle, kin) <= 0.0:
+            if _touches(ball, near_ring[0], raceway, bundle, kin) <= apart:
                 continue
         _wrenches_near(scratch, bl)
         add_slope(bl.to_shared, column, fm[2], fm[0], step)
@@ -104,7 +105,7 @@ def _wave_columns(ball, j, ring, raceway, row, bundle, bl):
                 bl.ball[c] += step
             else:
                 bl.body[c - NB] += step
-            if _touches(near_ball[0], near_ring[0], raceway, bundle, kin) > 0.0:
+            if _touches(near_ball[0], near_ring[0], raceway, bundle, kin) > -near(raceway, bundle.system[0]):
                 _wrenches_near(scratch, bl)
                 if c < NB:
                     _push_slopes(raceway, r, bundle, bl.from_ball, c, step, bl)
@@ -119,7 +120,7 @@ def _wave_columns(ball, j, ring, raceway, row, bundle, bl):
             kept, step = bundle.shared[NS * body + c], body_step(c, False)
             for _ in range(2):
                 bundle.shared[NS * body + c] = kept + step
-                touches = _touches(ball, ring, raceway, bundle, kin) > 0.0
+                touches = _touches(ball, ring, raceway, bundle, kin) > -near(raceway, bundle.system[0])
                 bundle.shared[NS * body + c] = kept
                 if touches:
                     _wrenches_near(scratch, bl)
@@ -139,7 +140,7 @@ def raceway_columns(ball, j, row, bundle, bl):
         raceway = bundle.raceways[k]
         ring = bundle.bodies_now[raceway.body]
         delta = _touches(ball, ring, raceway, bundle, kin)
-        if delta <= 0.0:
+        if delta <= -near(raceway, bundle.system[0]):
             continue
         if not delta < np.inf:
             scratch.fault.ball = j

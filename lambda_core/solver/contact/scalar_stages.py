@@ -45,10 +45,12 @@ def normal_stage(raceway, kin, laws, par, system, contact, out, fault):
     """Elastic load, contact ellipse and damping force."""
     delta, ring, where = kin.penetration, raceway.number, raceway.parameters
     rx, ry, e = raceway.radius_x, raceway.radius_y, raceway.modulus
-    out[:4] = np.nan
-    status = laws.normal_contact(delta, rx, ry, e, part(par, where.normal_contact), out)
-    if status != 1 or not finite(out[:4]):
-        return report(fault, NORMAL_CONTACT, status, ring, delta, rx, ry, e)
+    out[:4] = 0.0
+    if delta > 0.0:
+        out[:4] = np.nan
+        status = laws.normal_contact(delta, rx, ry, e, part(par, where.normal_contact), out)
+        if status != 1 or not finite(out[:4]):
+            return report(fault, NORMAL_CONTACT, status, ring, delta, rx, ry, e)
     load = out[0]
     contact.load, contact.semi_axis_a, contact.semi_axis_b, contact.max_pressure = load, out[1], out[2], out[3]
     if system.guides_on == 0:  # quasi-static: nothing moves along the normal

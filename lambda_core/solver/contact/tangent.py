@@ -107,7 +107,7 @@ def _quotient(changed, base, step, column):
 def _penetration_column(raceway, kin, laws, par, system, grid, cells2, scratch, slope):
     """Write d(wrench)/d(penetration) from the whole pipeline at a slightly larger one."""
     delta, changed = kin.penetration, scratch.wrench[1]
-    step = _RELATIVE * delta + 1e-13
+    step = _RELATIVE * abs(delta) + 1e-13
     kin.penetration = delta + step
     ok = pipeline(raceway, kin, laws, par, system, grid, cells2, scratch, scratch.contact[1], changed)
     kin.penetration = delta
@@ -186,7 +186,7 @@ def contact_tangent(raceway, kin, laws, par, system, grid_table, blocks, scratch
         _damping_column(raceway, kin, laws, par, contact, scratch.out[:], slope)
     if _penetration_column(raceway, kin, laws, par, system, grid, cells2, scratch, slope) != 1:
         return 0
-    if system.friction_on == 0:
+    if contact.wet == 0:
         return 1
     if _entrainment_column(raceway, kin, laws, par, system, grid, blocks, scratch, slope) != 1:
         return 0

@@ -230,7 +230,8 @@ class BearingEngine:
     def statistics(self) -> dict[str, float]:
         """Return counters of the integrator."""
         counted = {name: float(self._memory.count[name][0]) for name in _COUNTERS}
-        return {**counted, "steps_to_the_fourth": float(self._memory.control["fourth_powers"][0])}
+        steps, rest = self._memory.control["fourth_powers"][0], running(self._memory.integrals)["iteration"]
+        return {**counted, "steps_to_the_fourth": float(steps), "iteration_work": float(rest)}
 
     def ring_modes(self) -> list[tuple[float, float]]:
         """Return frequency [Hz] and damping ratio of the modes of the rings at `time`."""

@@ -108,7 +108,8 @@ class Engine(Protocol):
     def statistics(self) -> dict[str, float]:
         """Return counters: steps, rejected, newton_iterations, rhs_calls, jacobians, factorisations.
 
-        With `steps_to_the_fourth`, the sum of the fourth powers of the steps [s4].
+        With `steps_to_the_fourth`, the sum of the fourth powers of the steps [s4], and `iteration_work`, the work that
+        early ends of Newton's iteration put in or took, counted positive [J].
         """
 
     def ring_modes(self) -> list[tuple[float, float]]:

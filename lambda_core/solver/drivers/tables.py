@@ -12,6 +12,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, DOFS
 from lambda_core.domain.hertz import ball_raceway_radii
 from lambda_core.laws.context import Oil
+from lambda_core.laws.par import number_in
 from lambda_core.laws.state import names_behind
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
@@ -143,6 +144,9 @@ def _raceways(model: BearingModel, frame: ContactFrame, oils: Oils, parameters: 
         _oil(record["oil"], oils[ring])
         for role in R.RACEWAY_ROLES:
             record["parameters"][role] = parameters.add(element, role)
+        begin, end = record["parameters"]["damping"]
+        damping = model.laws[element]["damping"].model
+        record["reach"] = number_in(damping, parameters.all()[begin:end], "reach", 0.0)
     return raceways
 
 

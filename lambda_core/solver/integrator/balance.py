@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.solver.integrator.tableau import ERROR, LOSS, STAGES, WEIGHTS, A
 from lambda_core.solver.layout import (
     BESIDE_LOSSES,
     BPSI,
@@ -32,8 +31,9 @@ from lambda_core.solver.layout import (
 from lambda_core.solver.records import PRESCRIBED
 
 # Shares of the energy that flows, over the tolerance, which a step may lose.
-_LEAK = 0.4  # for good, twice (scheme and iteration): together a fifth below what a balance may miss
-_SCATTER = 5.0  # with either sign: cancels from step to step but for single events, which this bounds
+LEAK = 0.4  # for good, twice (scheme and iteration): together a fifth below what a balance may miss
+SCATTER = 5.0  # with either sign: cancels from step to step but for single events, which this bounds
+_AT_ONCE = 0.25  # of what earlier steps have left
 _CLOSER = 0.1  # of the floor is left to the iteration: what it leaves looks to the scheme like a loss of its own
 _ROUNDING = 2.0**-51  # relative, of a double: two units in its last place
 _OF_ONE = 2 * MECHANISMS + RUNNING_SIZE - BESIDE_LOSSES  # losses of one bearing
@@ -171,7 +171,7 @@ def _residual_work(bundle, mem):
 
 
 @helper
-def _floor(mem, h):
+def floor_of(mem, h):
     """Return the energy that a step may lose although nothing flows [J]: so much per time, however short steps are.
 
     By the step, a thousand short ones would lose a thousand times as much: more than a light bearing turns slowly by.
@@ -184,8 +184,8 @@ def _floor(mem, h):
 
 
 @helper
-def _excess(mem, h, energy, share, floor):
-    """Return an energy over what a step may lose: `share` tolerances of what flows, and the floor.
+def allowed(mem, h, share, floor):
+    """Return the energy that a step may lose [J]: `share` tolerances of what flows, and the floor.
 
     What flows is put in or dissipated, whichever is more, now or on the average so far; where vibrations are the
     answer, also what goes to and fro between motion and springs.
@@ -199,7 +199,7 @@ def _excess(mem, h, energy, share, floor):
     flow = max(lost, now.input_abs)
     if control.time > 0.0:
         flow = max(flow, max(all_lost, so_far.input_abs, control.turned_over) / control.time)
-    return abs(energy) / (share * control.tolerance * h * flow + floor)
+    return share * control.tolerance * h * flow + floor
 
 
 @helper
@@ -213,7 +213,7 @@ def leak_of_iterate(bundle, mem, h):
     off = abs(power - led)
     for i in range(mem.new.size):
         off += abs(mem.inertia[i] * mem.slope[i] * mem.last_move[i])
-    return _excess(mem, h, h * off, _LEAK, _CLOSER * _floor(mem, h))
+    return h * off / allowed(mem, h, LEAK, _CLOSER * floor_of(mem, h))
 
 
 @helper
@@ -229,7 +229,8 @@ def finalise_step(bundle, mem):
         if p >= 0:
             mem.new[p] = mem.base[p] + gamma * mem.new[i]
     _work_of_motions(bundle, mem)
-    _, led, share = _residual_work(bundle, mem)
+    power, led, share = _residual_work(bundle, mem)
+    running.iteration = abs(power)
     running.input += led + _work_of_loads(bundle, mem)
     running.drive += led * share
     running.input_abs = abs(running.input)
@@ -269,77 +270,25 @@ def _quadrature(mem, h, losses):
 def leak_of_step(mem, h):
     """Return the energy that the scheme loses in this step, over what a step may lose.
 
-    What is dissipated adds up; errors of quadrature have either sign, and where a loss jumps no step is short enough.
+    What is dissipated adds up over as much time as the longest step takes: that one might lose it all at once, and so
+    may a blow, of what the steps before have left. Errors of quadrature have either sign, and where a loss jumps no
+    step is short enough.
     """
     losses = mem.rates.size - BESIDE_LOSSES
     # One bearing has two raceways: loops of a length that the compiler knows.
     error = _quadrature(mem, h, _OF_ONE) if losses == _OF_ONE else _quadrature(mem, h, losses)
-    lost = _excess(mem, h, _dissipated(mem, h), _LEAK, _floor(mem, h))
-    return max(lost, _excess(mem, h, error, _SCATTER, mem.control[0].leak_floor))
+    control, lost, own = mem.control[0], _dissipated(mem, h), allowed(mem, h, LEAK, floor_of(mem, h))
+    control.kept = own - lost
+    excess = lost / (own + _AT_ONCE * control.allowance)
+    return max(excess, abs(error) / allowed(mem, h, SCATTER, control.leak_floor))
 
 
 @helper
-def leak_of_stages(mem, h):
-    """Return the energy that a step of several stages loses, over what a step may lose; see leak_of_step.
-
-    The scheme's own share is known from the matrix of its algebraic stability, and of either sign. The quadrature's
-    is the difference of the formula and the one embedded in it.
-    """
-    stages, taken, error = mem.stages, 0.0, 0.0
-    for i in range(mem.new.size):
-        if mem.inertia[i] > 0.0:
-            for j in range(STAGES):
-                along = 0.5 * LOSS[j, j] * stages[j, i]
-                for k in range(j):
-                    along += LOSS[j, k] * stages[k, i]
-                taken += mem.inertia[i] * stages[j, i] * along
-    for j in range(STAGES):
-        lost = 0.0
-        for i in range(mem.rates.size - BESIDE_LOSSES):
-            lost += mem.stage_rates[j, i]
-        error += ERROR[j] * lost
-    lost = _excess(mem, h, h * h * taken, _LEAK, _floor(mem, h))
-    return max(lost, _excess(mem, h, h * error, _SCATTER, mem.control[0].leak_floor))
-
-
-@helper
-def add_turn_over(mem, h):
-    """Add the energy that the forces of a step's last stage move to and fro."""
-    power = 0.0
-    for i in range(mem.new.size):
-        if mem.inertia[i] > 0.0:
-            power += abs(mem.inertia[i] * mem.new[i] * mem.stages[STAGES - 1, i])
-    mem.control[0].turned_over += h * power
-
-
-@helper
-def _settled(mem, end, inertia, k, h):
-    """Return what the kinetic energy of a led speed grows by in a step beyond what the stages were given [J]."""
-    start, given = mem.shared[k], 0.0
-    for i in range(STAGES):
-        v = start
-        for j in range(i + 1):
-            v += h * A[i, j] * mem.stage_shared[j, k]
-        given += h * WEIGHTS[i] * v * mem.stage_shared[i, k]
-    return inertia * (0.5 * (end[k] * end[k] - start * start) - given)
-
-
-@helper
-def settle_led(bundle, mem, h):
-    """Have the input of a step of stages account for the kinetic energy of rings that are led, also across jumps."""
-    running = running_of(mem.integrals)[0]
-    for b in range(bundle.bodies.size):
-        body, first = bundle.bodies[b], NS * b
-        for i in range(3):
-            if body.mode[i] == PRESCRIBED:
-                running.input += _settled(mem, bundle.shared, body.mass, first + SVX + i, h)
-        for i in range(2):
-            if body.mode[3 + i] == PRESCRIBED:
-                running.input += _settled(mem, bundle.shared, body.transverse_inertia, first + SWY + i, h)
-        if body.mode[5] == PRESCRIBED:
-            drive = _settled(mem, bundle.shared, body.polar_inertia, first + SSIGMA, h)
-            running.input += drive
-            running.drive += drive
+def keep_allowance(mem, h):
+    """Keep for later steps what an accepted one has not lost of its share, at most the longest step's."""
+    control = mem.control[0]
+    most = allowed(mem, control.longest_step, LEAK, control.leak_floor)
+    control.allowance = min(max(control.allowance + control.kept, 0.0), most)
 
 
 @helper

@@ -6,7 +6,7 @@ absolute scales per state, and by the energy that a step gives or takes.
 
 from __future__ import annotations
 
-from lambda_core.solver.integrator.balance import add_to_integrals, leak_of_step
+from lambda_core.solver.integrator.balance import add_to_integrals, keep_allowance, leak_of_step
 from lambda_core.solver.integrator.correction import norm
 from lambda_core.solver.integrator.newton import solve_step
 from lambda_core.solver.integrator.stepping import take_steps
@@ -132,6 +132,8 @@ def _attempt(evaluate, jacobian, h, bundle, bl, fa, mem):
 def _shift(bundle, mem, h):
     """Make the new point the current one, and the integrals with it."""
     add_to_integrals(mem)
+    if mem.count[0].history >= 2:
+        keep_allowance(mem, h)
     for i in range(mem.shared.size):
         mem.shared1[i] = mem.shared[i]
         mem.shared[i] = bundle.shared[i]

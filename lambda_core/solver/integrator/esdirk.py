@@ -5,15 +5,15 @@ it needs 51 steps per period for 0.5 % of the frequency; this formula needs four
 Each implicit stage is a step of the form new = base + gamma f(new), which newton.solve_step solves.
 
 The running integrals W advance by the weights of the formula, with the powers that each stage's own equations of
-motion transfer: work, losses and energy then part by what the scheme itself takes (balance.leak_of_stages), which is
-known, and by the error of quadrature of elastic energies, which is of the order of the formula.
+motion transfer: work, losses and energy then part by what the scheme itself takes (stage_balance.leak_of_stages),
+which is known, and by the error of quadrature of elastic energies, which is of the order of the formula.
 """
 
 from __future__ import annotations
 
-from lambda_core.solver.integrator.balance import add_turn_over, leak_of_stages, settle_led
 from lambda_core.solver.integrator.correction import norm
 from lambda_core.solver.integrator.newton import solve_step
+from lambda_core.solver.integrator.stage_balance import add_turn_over, leak_of_stages, settle_led
 from lambda_core.solver.integrator.stepping import take_steps
 from lambda_core.solver.integrator.tableau import ERROR, GAMMA, NODES, STAGES, WEIGHTS, A
 from lambda_core.solver.layout import helper

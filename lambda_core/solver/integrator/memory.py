@@ -55,6 +55,8 @@ CONTROL = np.dtype(
         ("convergence_rate", np.float64),  # of Newton's iteration: change over the change before [-]
         ("tolerance", np.float64),  # of errors, in scales of the states [-]
         ("leak_floor", np.float64),  # energy that the longest step may lose though nothing flows [J]
+        ("allowance", np.float64),  # energy that steps have left of what they might have lost [J]
+        ("kept", np.float64),  # of it the step in hand [J]
         ("dissipated_power", np.float64),  # at `time` [W]
         ("fourth_powers", np.float64),  # of all steps, their sum: what the scheme takes of vibrations goes with it [s4]
         ("turned_over", np.float64),  # energy that went to and fro between motion and forces; 0: not counted [J]

@@ -18,7 +18,7 @@ from lambda_core.solver.cage.guides import (
     pocket_apply,
     pocket_state,
 )
-from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, surface_lift
+from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, near, surface_lift
 from lambda_core.solver.contact.contact_states import hand_states, lost_in, state_rates
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.contact.ring_waves import push_waves
@@ -65,9 +65,9 @@ def raceway_forces(t, ball, j, row, bundle, losses, want):
         delta = contact_kinematics(ball, ring, raceway, kin)
         keeps = raceway.states > 0 and system.friction_on == 1
         hand_states(raceway, j, bundle)
-        if delta <= 0.0:
-            if keeps and state_rates(t, raceway, j, -1.0, bundle) != 1:
-                return 0
+        if delta <= 0.0 and keeps and state_rates(t, raceway, j, -1.0, bundle) != 1:
+            return 0
+        if delta <= -near(raceway, system):
             continue
         if not delta < np.inf:
             scratch.fault.ball = j
@@ -83,7 +83,7 @@ def raceway_forces(t, ball, j, row, bundle, losses, want):
         before = lost_in(losses, k) if keeps else 0.0
         if keeps or (want == 1 and system.friction_on == 1):
             raceway_losses(raceway, kin, system, grid_of(bundle.grid), contact, cells_of(bundle.cells[0]), losses)
-        if keeps and state_rates(t, raceway, j, max(lost_in(losses, k) - before, 0.0), bundle) != 1:
+        if keeps and delta > 0.0 and state_rates(t, raceway, j, max(lost_in(losses, k) - before, 0.0), bundle) != 1:
             return 0
     return 1
 

@@ -6,6 +6,7 @@ from lambda_core.solver.layout import helper
 
 _POSITION = 1e-8  # [m]
 _ANGLE = 1e-7  # [rad]
+_CLOSE = 0.1  # of both, for laws that are called with the place itself: films of a micrometre
 _LINEAR = 1e-2  # velocities enter the kinematics linearly
 _SLOW = 1e-5  # [m/s] step for laws that are called with the velocity itself
 _TURN = 1e-3  # [rad/s] likewise
@@ -14,10 +15,8 @@ _TURN = 1e-3  # [rad/s] likewise
 @helper
 def ball_step(c, direct):
     """Return the difference step of ball state c; `direct` for laws called with velocities."""
-    if c < 2:
-        return _POSITION
-    if c == 2:
-        return _ANGLE
+    if c <= 2:
+        return (_POSITION if c < 2 else _ANGLE) * (_CLOSE if direct else 1.0)
     if not direct:
         return _LINEAR
     return _SLOW if c < 6 else _TURN
@@ -26,10 +25,8 @@ def ball_step(c, direct):
 @helper
 def body_step(c, direct):
     """Return the difference step of shared state c."""
-    if c < 3:
-        return _POSITION
     if c < 6:
-        return _ANGLE
+        return (_POSITION if c < 3 else _ANGLE) * (_CLOSE if direct else 1.0)
     if not direct:
         return _LINEAR
     return _SLOW if c < 9 else _TURN

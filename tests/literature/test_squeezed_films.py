@@ -1,0 +1,136 @@
+"""Films that are squeezed before bodies touch: Reynolds' equation solved on a grid, limits in print, blows."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.sparse import csr_matrix
+from scipy.sparse.linalg import spsolve
+
+from lambda_core.laws.probe import trial_context
+from lambda_core.testing import evaluate
+
+from .published import Published
+
+R_X, R_Y, ETA, SPEED = 3e-3, 4.8e-2, 0.03, 0.02
+LAYER, TOUCH = 8e-6, 1e-6
+RACEWAY = {"layer": "8 um", "thinnest_film": "1 um", "time_constant": "0 s"}
+
+
+def raceway_force(gap: float, *, layer: str = "8 um", radii: tuple[float, float] = (R_X, R_Y), **given: float) -> float:
+    """Return the film's force on a ball [N]; a slow bearing, so that the film at first touch is the roughness."""
+    context = dataclasses.replace(trial_context("ball_inner"), speed=1e-6, radius_x=radii[0], radius_y=radii[1])
+    inputs: dict[str, Any] = {"delta": -gap, "delta_dot": SPEED, "load": 0.0, "semi_a": 0.0, "semi_b": 0.0}
+    inputs |= {"eta0": ETA, "alpha_p": 2e-8, "R_x": radii[0], "R_y": radii[1], **given}
+    return float(evaluate("damping/squeeze-film", RACEWAY | {"layer": layer}, context, **inputs)[0])
+
+
+def reynolds(h0: float, edge: float, r_x: float, r_y: float) -> float:
+    """Return the force of a film between paraboloids [N] that ends where the gap is `edge`: finite volumes."""
+    n = 160
+    a, b = math.sqrt(2.0 * r_x * (edge - h0)), math.sqrt(2.0 * r_y * (edge - h0))
+    x, dx = np.linspace(-a, a, n, retstep=True)
+    y, dy = np.linspace(-b, b, n, retstep=True)
+
+    def gap(p: Any, q: Any) -> Any:
+        return h0 + p[:, None] ** 2 / (2.0 * r_x) + q[None, :] ** 2 / (2.0 * r_y)
+
+    inside = gap(x, y) < edge
+    number = -np.ones((n, n), dtype=int)
+    number[inside] = np.arange(inside.sum())
+    rows, columns, values = [], [], []
+    for along, (step, shift) in enumerate(((dx, (1, 0)), (dy, (0, 1)))):
+        for sign in (1, -1):
+            half = 0.5 * sign * step
+            flow = (gap(x + half, y) if along == 0 else gap(x, y + half)) ** 3 / step**2
+            beside = np.roll(number, (-sign * shift[0], -sign * shift[1]), axis=(0, 1))
+            here = number[inside]
+            rows += [here, here[beside[inside] >= 0]]
+            columns += [here, beside[inside][beside[inside] >= 0]]
+            values += [-flow[inside], flow[inside][beside[inside] >= 0]]
+    matrix = csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))))
+    pressure = spsolve(matrix.tocsc(), np.full(int(inside.sum()), -12.0 * ETA * SPEED))
+    return float(pressure.sum() * dx * dy)
+
+
+@pytest.mark.parametrize("gap", [0.0, 2e-6])
+def test_film_of_a_raceway_against_reynolds_equation(gap: float) -> None:
+    """3 %: a grid of 160 x 160 on an ellipse whose edge goes through its cells."""
+    expected = reynolds(TOUCH + gap, TOUCH + LAYER, R_X, R_Y)
+    Published(expected, "Reynolds 1886, finite volumes", "grid", rel=0.03).check(raceway_force(gap))
+
+
+def test_a_sphere_near_a_flooded_plane() -> None:
+    """6 pi eta R^2 v/h where the oil reaches far (Taylor; Cox and Brenner 1967); the edge takes 2 h/H = 2e-3."""
+    found = raceway_force(0.0, layer="1 mm", radii=(R_X, R_X))
+    expected = 6.0 * math.pi * ETA * R_X**2 * SPEED / TOUCH
+    Published(expected, "Cox and Brenner 1967, Chem. Eng. Sci. 22, 1753, leading term", "edge", rel=3e-3).check(found)
+
+
+def test_a_film_pushes_only_and_flows_no_more_under_pressure() -> None:
+    assert raceway_force(1e-6, delta_dot=-SPEED) == 0.0
+    assert raceway_force(1.01 * LAYER - 1e-9) == pytest.approx(0.0, abs=1e-3 * raceway_force(0.0))
+    loaded = {"load": 10.0, "semi_a": 1e-4, "semi_b": 5e-5}
+    share = raceway_force(-1e-9, **loaded) / raceway_force(0.0)
+    assert share == pytest.approx(math.exp(-2e-8 * 1.5 * 10.0 / (math.pi * 5e-9)), rel=1e-6)
+
+
+def pocket_force(gap: float, width: float, name: str = "spherical-pocket") -> float:
+    context, n = trial_context("ball_cage"), np.array([0.0, 0.0, 1.0])
+    place: Any = (0.5 * context.pocket_clearance - gap) * n
+    out = evaluate(
+        f"cage_contact/{name}", {"film_width": width, "thinnest_film": "1 um"}, context, r=place, v_rel=SPEED * n,
+        omega_rel=np.zeros(3), eta0=ETA,
+    )  # fmt: skip
+    return float(-out[2])
+
+
+@pytest.mark.parametrize("name", ["spherical-pocket", "cylindrical-pocket"])
+def test_film_of_a_pocket_against_its_pressure(name: str) -> None:
+    """Integral of p = 3 eta v R (1/h^2 - 1/h_e^2) over the film's width, 2000 rings."""
+    context, gap, width = trial_context("ball_cage"), 3e-6, 0.2
+    ball, play = 0.5 * context.ball_diameter, 0.5 * context.pocket_clearance
+    radius, edge = ball * (ball + play) / play, width * context.ball_diameter
+    r = (np.arange(2000) + 0.5) * edge / 2000
+    h, h_edge = gap + 1e-6 + r**2 / (2.0 * radius), gap + 1e-6 + edge**2 / (2.0 * radius)
+    pressure = 3.0 * ETA * SPEED * radius * (1.0 / h**2 - 1.0 / h_edge**2)
+    expected = float((pressure * 2.0 * math.pi * r).sum() * edge / 2000)
+    Published(expected, "Reynolds 1886 between sphere and plane", "quadrature", rel=1e-4).check(
+        pocket_force(gap, width, name)
+    )
+
+
+def test_a_narrow_film_is_that_of_parallel_discs() -> None:
+    """3 pi eta v b^4/(2 h^3); the gap grows by 1 % up to the film's edge."""
+    context = trial_context("ball_cage")
+    ball, play = 0.5 * context.ball_diameter, 0.5 * context.pocket_clearance
+    radius, h = ball * (ball + play) / play, 11e-6
+    edge = math.sqrt(2.0 * radius * 0.01 * h)
+    expected = 1.5 * math.pi * ETA * SPEED * edge**4 / h**3
+    found = pocket_force(h - 1e-6, edge / context.ball_diameter)
+    Published(expected, "Stefan 1874, parallel discs", "curvature", rel=0.03).check(found)
+
+
+@pytest.mark.parametrize(("law", "least", "most"), [("squeeze-film", -0.05, 0.05), ("cubic", 0.8, 1.0)])
+def test_an_oiled_ball_does_not_rebound(law: str, least: float, most: float) -> None:
+    """Balls rebound from a wetted wall above a Stokes number of 10 (Gondret et al. 2002), a dry one at any speed.
+
+    A ball of 0.7 g meets a raceway at 20 mm/s from 5 um: m v/(6 pi eta R^2) is 3 of a plane, 0.3 of the groove.
+    """
+    mass, stiffness, step = 0.7e-3, 1.1e10, 2e-7
+    context = dataclasses.replace(trial_context("ball_outer"), speed=100.0, radius_x=R_X, radius_y=R_Y, mean_load=36.0)
+    delta, velocity = -5e-6, SPEED
+    for _ in range(4000):
+        load = stiffness * max(delta, 0.0) ** 1.5
+        size = math.sqrt(max(delta, 0.0))
+        inputs = {"delta": delta, "delta_dot": velocity, "load": load, "eta0": ETA, "alpha_p": 2e-8}
+        inputs |= {"semi_a": 0.3 * size, "semi_b": 0.08 * size}
+        velocity -= step * (load + float(evaluate(f"damping/{law}", None, context, **inputs)[0])) / mass
+        delta += step * velocity
+        if velocity < 0.0 and delta < 0.0:
+            break
+    assert least <= -velocity / SPEED <= most
