@@ -27,7 +27,7 @@ PUSH = (0.0, 0.0, -500.0)  # [N]
 PUSHED_AT = 0.96e-3  # [s]
 END = 7.68e-3  # [s]
 STEPS = (480e-6, 320e-6, 160e-6, 80e-6, 40e-6, 20e-6, 8e-6, 4e-6)  # [s]
-_COMMON = 4e-6  # [s] between points of the reference
+COMMON = 4e-6  # [s] between points of the reference
 _AXES = "xyz"
 
 
@@ -204,7 +204,7 @@ def study(
     steps: Sequence[float] = STEPS, tolerance: float = 1e-4, bearing: Led | None = None
 ) -> Iterator[tuple[str, float, float, float]]:
     """Yield (scheme, step [s], error, leak) of every step; where the coupling breaks down, infinite."""
-    reference, bearing = inside(_COMMON, tolerance), bearing or FromProgram(tolerance)
+    reference, bearing = inside(COMMON, tolerance), bearing or FromProgram(tolerance)
     for name, scheme in SCHEMES.items():
         for step in steps:
             try:
@@ -212,7 +212,7 @@ def study(
             except SolverError:
                 yield name, step, math.inf, math.inf
                 continue
-            yield name, step, error(path, reference, step, _COMMON), path.leak
+            yield name, step, error(path, reference, step, COMMON), path.leak
 
 
 def main(tolerance: float = 1e-4) -> int:

@@ -12,7 +12,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import BODIES
-from lambda_core.fmu.circuit import Circuit, circuit
+from lambda_core.fmu.circuit_image import Circuit, circuit
 from lambda_core.fmu.curves import Constant, constants
 from lambda_core.fmu.image import Image, host_words
 from lambda_core.fmu.starting import Start, prepare_start

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from lambda_core.electric import columns as columns_of_march
 from lambda_core.electric.contacts import VACUUM_PERMITTIVITY
-from lambda_core.fmu.circuit import NUMBERS
+from lambda_core.fmu.circuit_image import NUMBERS
 from lambda_core.fmu.frozen import Frozen
 from lambda_core.fmu.variables import Variable, control
 from lambda_core.laws.jit.portable import features, known_processor

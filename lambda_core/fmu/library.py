@@ -163,7 +163,7 @@ def library_parts(frozen: Frozen, variables: Sequence[Variable], platforms: Sequ
     alike, image = list(platforms) != ["linux"], frozen.image.bytes()
     codes = object_codes(frozen.entries, frozen.image.functions, cache_folder(), targets, alike=alike)
     objects = {
-        platform: {"code.o": code, "image.o": data_code("lb_image", image, target)}
+        platform: {**code, "image.o": data_code("lb_image", image, target)}
         for platform, target, code in zip(platforms, targets, codes, strict=True)
     }
     header = header_text(frozen, variables).encode()

@@ -32,6 +32,7 @@ PROCESSORS = {
 _CPU, _FEATURES = "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES"
 _VERSIONS = (2, 3)
 _STEP = 1e-4  # [s] between communication points, as a proposal
+_STAYS = "the contact angles that radii are taken at, and mean loads that laws ask for, stay those of the exported case"
 _END = 0.1  # [s]
 _FIXED_TIME = (1980, 1, 1, 0, 0, 0)  # of files in the archive: the same case makes the same bytes
 
@@ -170,7 +171,7 @@ def write(task: Mapping[str, Any], announce: Callable[[str], None] | None = None
     parts = library_parts(frozen, seen, task["platforms"])
     about = About(
         name=model.name,
-        text=f"rolling bearing, coupled by {task['couple']}, started at its equilibrium",
+        text=f"rolling bearing, coupled by {task['couple']}, started at its equilibrium; {_STAYS}",
         identifier="bearing_" + re.sub(r"\W", "_", model.name, flags=re.ASCII),
         token=parts.token,
         tool=f"lambda-bearing {version('lambda-bearing')}",

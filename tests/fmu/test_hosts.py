@@ -102,6 +102,35 @@ def test_a_step_is_repeated_until_both_sides_agree(exported: Export, example: Ca
     assert element.force(2 * step, rate)[2] > found[2]  # further down it is pushed up harder
 
 
+def bearing_for_modelica(names: set[str]) -> str:
+    """Return a Modelica model with the names of an FMU, that answers with a spring."""
+    given = {name for name in names if "reaction" not in name}
+    inputs = "\n".join(f"  input Real {name};" for name in sorted(given))
+    outputs = "\n".join(f"  output Real {name};" for name in sorted(names - given))
+    rest = {"x": "1.507e-4", "y": "0", "z": "0"}
+    law = "\n".join(f"  reaction_force_{a} = -2e8*({a} - {at}) - 1e4*{a}_rate;" for a, at in rest.items())
+    ring = f"model Ring\n{inputs}\n{outputs}\nequation\n{law}\nend Ring;\n"
+    return f"{ring}model Bearing\n  Ring inner_ring;\nend Bearing;\n"
+
+
+UNITS_OF_MODELICA = """package Modelica package Units package SI
+type Mass = Real(unit="kg"); type Force = Real(unit="N"); type Position = Real(unit="m");
+type Velocity = Real(unit="m/s"); type Acceleration = Real(unit="m/s2");
+end SI; end Units; end Modelica;"""
+
+
+def test_the_text_for_modelica_is_a_model() -> None:
+    """Parsed, flattened, sorted and solved, with a spring of 200 N/um in the place of the FMU: 500 N are 2.5 um."""
+    modelica = pytest.importorskip("modelica.sim", reason="modelica is not installed: pip install modelica[sim]")
+    from modelica.lang import parse
+
+    named = set(re.findall(r"bearing\.inner_ring\.(\w+)", (HOSTS / "RotorOnBearing.mo").read_text()))
+    texts = [UNITS_OF_MODELICA, bearing_for_modelica(named), (HOSTS / "RotorOnBearing.mo").read_text()]
+    system = modelica.causalize(modelica.flatten([parse(text) for text in texts], "RotorOnBearing"))
+    found = modelica.simulate(system, stop=0.01)
+    assert found["r[3]"][-1] == pytest.approx(-2.5e-6, rel=1e-3)
+
+
 def test_the_text_for_modelica_names_what_is_there(host: Any, exported: Export, tmp_path: Path) -> None:
     unit = host.Unit(exported(2, "motion"), tmp_path)
     text = (HOSTS / "RotorOnBearing.mo").read_text()

@@ -12,7 +12,7 @@ from __future__ import annotations
 import hashlib
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -94,8 +94,10 @@ def symbol(pointer: Pointer) -> str:
 
 def object_codes(
     entries: Sequence[Entry], table: Sequence[Pointer], cache: Path, targets: Sequence[Target], *, alike: bool
-) -> list[bytes]:
-    """Return an object file per target with the entries and all that they call.
+) -> list[dict[str, bytes]]:
+    """Return object files by name, per target, with the entries and all that they call.
+
+    Each function has a file of its own: what was made of it once serves every library that it is in.
 
     Parameters
     ----------
@@ -103,7 +105,7 @@ def object_codes(
     table : sequence of Pointer
         Functions that an image points to, for ``lb_functions``, an array of their addresses.
     cache : Path
-        Folder of compiled code: what was made once of the same functions is kept there.
+        Folder of compiled code, where these files are kept.
     alike : bool
         Whether the code is to have the same bits on every system: functions that they compute differently are refused.
 
@@ -112,41 +114,53 @@ def object_codes(
     SolverError
         When something in it cannot run without Python.
     """
-    pointers = [*table, *(entry.pointer for entry in entries)]
-    folder = cache / f"portable-{_content(entries, pointers)[:24]}"
-    whole, made = None, []
-    for target in targets:
-        kept = folder / f"{target.triple or 'here'}{'-alike' if alike else ''}.o"
-        with suppress(OSError):
-            made.append(kept.read_bytes())
+    names: dict[str, str] = {}
+    made: list[dict[str, bytes]] = [{} for _ in targets]
+    for pointer in [*table, *(entry.pointer for entry in entries)]:
+        if symbol(pointer) in names:
             continue
-        whole = whole or _linked(entries, table, pointers, alike=alike)
-        made.append(machine_code(whole, target))
-        with suppress(OSError):  # a cache that cannot be written costs time only
-            folder.mkdir(parents=True, exist_ok=True)
-            part = kept.with_name(f"{os.getpid()}.part")
-            part.write_bytes(made[-1])
-            part.replace(kept)
+        name = names[symbol(pointer)] = f"lb_{_content(pointer)[:24]}"
+        for found, code in zip(made, _kept(pointer, name, cache, targets, alike=alike), strict=True):
+            found[f"{name}.o"] = code
+    codegen = cpu_target.target_context.codegen()
+    doors = llvm.parse_assembly(str(_doors(codegen, names, entries, table)))
+    for name in ("lb_functions", *(entry.name for entry in entries), *names.values()):
+        _within(doors, name)
+    for found, target in zip(made, targets, strict=True):
+        found["doors.o"] = machine_code(doors, target)
     return made
 
 
-def _linked(entries: Sequence[Entry], table: Sequence[Pointer], pointers: Sequence[Pointer], *, alike: bool) -> Any:
-    """Return everything in one module, without Python."""
-    codegen = cpu_target.target_context.codegen()
-    whole = llvm.parse_assembly(_head(codegen))
-    names, callers = _link(whole, pointers)
-    whole.link_in(llvm.parse_assembly(str(_doors(codegen, names, entries, table))))
-    for name in names.values():
-        whole.get_function(name).linkage = "internal"
-    _without_python(whole, callers)
-    whole = llvm.parse_assembly(_TEXTS.sub(r"\1 [1 x i8] zeroinitializer", str(whole)))
-    for name in ("lb_functions", *(entry.name for entry in entries)):
-        _within(whole, name)
-    whole.verify()
+def _kept(pointer: Pointer, name: str, cache: Path, targets: Sequence[Target], *, alike: bool) -> list[bytes]:
+    """Return the object file of a function per target, from the cache where it is there."""
+    part, made = None, []
+    for target in targets:
+        file = cache / f"portable-{name[3:]}" / f"{target.triple or 'here'}{'-alike' if alike else ''}.o"
+        with suppress(OSError):
+            made.append(file.read_bytes())
+            continue
+        part = part or _alone(pointer, name, alike=alike)
+        made.append(machine_code(part, target))
+        with suppress(OSError):  # a cache that cannot be written costs time only
+            file.parent.mkdir(parents=True, exist_ok=True)
+            beside = file.with_name(f"{os.getpid()}.part")
+            beside.write_bytes(made[-1])
+            beside.replace(file)
+    return made
+
+
+def _alone(pointer: Pointer, name: str, *, alike: bool) -> Any:
+    """Return a module with a function under a name and all that it calls, without Python."""
+    part = _part(pointer, name)
+    caller = _compiled(pointer).fndesc.qualname
+    _without_python(part, dict.fromkeys(_unknown(part), caller))
+    part = llvm.parse_assembly(_TEXTS.sub(r"\1 [1 x i8] zeroinitializer", str(part)))
+    _within(part, name)
+    part.verify()
     if not alike:
-        return whole
-    _refuse_unlike(whole)
-    return exact(whole)
+        return part
+    _refuse_unlike(part)
+    return exact(part)
 
 
 def _refuse_unlike(whole: Any) -> None:
@@ -177,19 +191,17 @@ def _head(codegen: Any) -> str:
     return f'target triple = "{codegen._llvm_module.triple}"\ntarget datalayout = "{codegen._data_layout}"\n'
 
 
-def _content(entries: Sequence[Entry], pointers: Iterable[Pointer]) -> str:
-    """Return a hash of all that goes into the object file."""
+def _content(pointer: Pointer) -> str:
+    """Return a hash of all that goes into the object file of a function."""
     made_by = b"".join(file.read_bytes() for file in (Path(__file__), Path(__file__).with_name("emission.py")))
     digest = hashlib.sha256(environment_key().encode() + made_by)
-    digest.update(repr([(entry.name, entry.arguments) for entry in entries]).encode())
-    for pointer in pointers:
-        digest.update(_compiled(pointer).library._get_module_for_linking().as_bitcode())
+    digest.update(_compiled(pointer).library._get_module_for_linking().as_bitcode())
     return digest.hexdigest()
 
 
 def unknown(pointer: Pointer) -> list[str]:
     """Return the functions that compiled code calls and that are there with Python only."""
-    return _unknown(_part(pointer, "wanted", 0))
+    return _unknown(_part(pointer, "wanted"))
 
 
 def _unknown(part: Any) -> list[str]:
@@ -204,21 +216,7 @@ def _compiled(pointer: Pointer) -> Any:
     return pointer.compiled
 
 
-def _link(whole: Any, pointers: Iterable[Pointer]) -> tuple[dict[str, str], dict[str, str]]:
-    """Put the code behind pointers into a module; returns their short names by their own, and who calls what."""
-    names: dict[str, str] = {}
-    callers: dict[str, str] = {}
-    for pointer in pointers:
-        name = symbol(pointer)
-        if name not in names:
-            part = _part(pointer, f"lb_{len(names)}", len(names))
-            callers.update(dict.fromkeys(_unknown(part), _compiled(pointer).fndesc.qualname))
-            names[name] = f"lb_{len(names)}"
-            whole.link_in(part)
-    return names, callers
-
-
-def _part(pointer: Pointer, name: str, mark: int) -> Any:
+def _part(pointer: Pointer, name: str) -> Any:
     """Return a module with a function under a name, and what it calls hidden."""
     part = _compiled(pointer).library._get_module_for_linking().clone()
     for number, each in enumerate([*part.functions, *part.global_variables]):
@@ -227,7 +225,7 @@ def _part(pointer: Pointer, name: str, mark: int) -> Any:
         elif not each.is_declaration:
             # Numba's names have up to 100 kB each.
             kind = _TEXT if each.name.startswith(".const.pick") else "k"
-            each.linkage, each.name = "internal", f"{kind}{number}_{mark}"
+            each.linkage, each.name = "internal", f"{kind}{number}"
     _run(part, "add_global_dead_code_eliminate_pass")  # the doors for Python
     return part
 
@@ -303,7 +301,7 @@ def _without_python(whole: Any, callers: Mapping[str, str]) -> None:
         shape = _DECLARED.search(str(each))
         kind = shape[1] if shape else ""
         stubs[name] = (
-            f"define {kind} @{name}{shape[2]} {{ ret {kind} {_RESULT.get(kind, '0')} }}"
+            f"define {kind} @{name}{shape[2]} alwaysinline {{ ret {kind} {_RESULT.get(kind, '0')} }}"
             if shape
             else f"@{name} = global ptr null"
         )
@@ -311,8 +309,6 @@ def _without_python(whole: Any, callers: Mapping[str, str]) -> None:
     for each in [*whole.functions, *whole.global_variables]:
         if each.name in stubs:
             each.linkage = "internal"
-            if each.is_function:
-                each.add_function_attribute("alwaysinline")
     _run(whole, "add_always_inliner_pass", "add_global_dead_code_eliminate_pass")
 
 
