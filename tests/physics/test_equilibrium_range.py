@@ -52,6 +52,10 @@ HARD = [
     ),
     ("6319-cp10-1500", {"speed": "20000 rpm"}),
     ("6319-cp10-1500", {"bearing": {"clearance": "-20 um"}}),
+    # oil far below its range: found by way of warmer oil, whatever the continuation's luck
+    ("6319-cp10-1500", {"lubricant": {"temperature": "-55 degC"}}),
+    ("6319-cp10-1500", {"lubricant": {"temperature": "-60 degC"}}),
+    ("6319-cp10-3000", {"lubricant": {"temperature": "-58 degC"}}),
 ]
 
 
@@ -118,3 +122,11 @@ def test_points_of_angular_contact() -> None:
 @pytest.mark.slow
 def test_a_thousand_points_drawn_from_the_catalogue() -> None:
     assert _failures(1000, seed=2) == []
+
+
+def test_what_is_beyond_a_limit_is_said_where_nothing_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("lambda_core.solver.drivers.equilibrium.from_warmer_oil", lambda *_: None)
+    with pytest.raises(
+        SolverError, match=r"no quasi-static equilibrium with friction .* the oil at -55 degC is outside"
+    ):
+        solve(api.check("6319-cp10-1500", ["lubricant.temperature=-55 degC"]))

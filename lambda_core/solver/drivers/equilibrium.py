@@ -25,6 +25,7 @@ from lambda_core.solver.drivers.law_inputs import guides, links, times
 from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring, rings_of_contacts
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.tables import INNER, OUTER
+from lambda_core.solver.drivers.warmer_oil import from_warmer_oil
 from lambda_core.solver.entry import Core, core
 from lambda_core.solver.faults import OUTSIDE, ROLES
 from lambda_core.solver.sampling import CONTACT_CHANNELS
@@ -32,6 +33,7 @@ from lambda_core.solver.statics.continuation import STATIC_REPORT
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel, Geometry
 from lambda_core.system.law_context import ContactFrame
+from lambda_core.system.operating_limits import operating_warnings
 from lambda_core.system.raceways import raceways, raceways_of_a_ball
 
 _FRAME_ITERATIONS = 4
@@ -138,7 +140,7 @@ def solve(
     roll(model, frame, state, contacts)
     smooth, converged = state.copy(), True
     try:
-        report = continue_static(compiled, context, state, friction=True)
+        report = _with_friction(compiled, context, state, strict=strict)
         report = _follow_paths(compiled, context, state, report)
     except SolverError:
         if strict:
@@ -193,6 +195,27 @@ def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *
     if status != Status.OK:
         raise SolverError(_no_equilibrium(report, friction=friction))
     return report
+
+
+def _with_friction(compiled: Core, context: SolverContext, state: FloatArray, *, strict: bool) -> StaticReport:
+    """Find the friction's equilibrium from that without, in place; by way of warmer oil where it has to be found.
+
+    Where there is none, what lies beyond the limits of bearing, oil and laws is said with it.
+    """
+
+    def found(where: SolverContext, start: FloatArray) -> StaticReport:
+        return continue_static(compiled, where, start, friction=True)
+
+    start = state.copy()
+    try:
+        return found(context, state)
+    except SolverError as error:
+        near = from_warmer_oil(context, start, found) if strict else None
+        if near is None:
+            beyond = operating_warnings(context.model) if strict else []
+            raise SolverError("; ".join([str(error), *beyond])) from None
+        state[:] = near
+        return found(context, state)
 
 
 def _follow_paths(compiled: Core, context: SolverContext, state: FloatArray, report: StaticReport) -> StaticReport:

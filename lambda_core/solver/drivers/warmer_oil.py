@@ -1,0 +1,57 @@
+"""Friction's equilibrium in thick oil, from that in warmer oil.
+
+In oil far below its range friction has steep plateaus, and whether the continuation finds a way between them is a
+matter of luck: 5 K on it does. So the way leads through temperatures (natural-parameter continuation: Allgower and
+Georg 1990, Numerical Continuation Methods, 1.1), in steps that are halved where one fails.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import SolverError
+from lambda_core.solver.drivers.compiled_laws import derive_oils
+from lambda_core.solver.drivers.solver_context import SolverContext, assemble
+
+_WARMER = (5.0, 10.0, 20.0, 40.0)  # where the way may begin [K]
+_TRIES = 12  # steps on the way, those that fail included
+# Solves for the equilibrium from a state, in place.
+Solve = Callable[[SolverContext, FloatArray], object]
+
+
+def from_warmer_oil(context: SolverContext, start: FloatArray, solve: Solve) -> FloatArray | None:
+    """Return a state near the equilibrium of a context, found at warmer oil; None where no way leads there.
+
+    Parameters
+    ----------
+    start : float64[:], shape (size,)
+        State without friction.
+    solve : callable
+        Raises SolverError where it finds none.
+    """
+    for warmer in _WARMER:
+        state, left, step = start.copy(), warmer, warmer
+        try:
+            solve(_warmed(context, warmer), state)
+        except SolverError:
+            continue
+        for _ in range(_TRIES):
+            trial, goal = state.copy(), max(left - step, 0.0)
+            try:
+                solve(_warmed(context, goal), trial)
+            except SolverError:
+                step *= 0.5
+                continue
+            if goal == 0.0:
+                return trial
+            state, left, step = trial, goal, 2.0 * step
+    return None
+
+
+def _warmed(context: SolverContext, by: float) -> SolverContext:
+    """Return the same with warmer oil [K]."""
+    oil = context.model.oil
+    model = dataclasses.replace(context.model, oil=dataclasses.replace(oil, temperature=oil.temperature + by))
+    return assemble(model, context.kernels, context.frame, derive_oils(model, context.kernels, context.frame))
