@@ -6,7 +6,7 @@ import math
 from typing import Annotated, NamedTuple
 
 from lambda_core.plugins import OK, Context, FloatArray, Parameters, Quantity, law, parameter
-from lambda_plugins.shapes import at_most
+from lambda_plugins.shapes import at_least, at_most
 from lambda_plugins.vector_math import exp, log, power
 
 
@@ -79,7 +79,8 @@ def chittenden(
     force = math.sqrt(load * load + par.load * par.load)
     U = eta0 * speed / (E_eff * R_e)
     W = force / (E_eff * R_e * R_e)
-    common = R_e * (alpha_p * E_eff) ** 0.49 * exp(0.68 * log(U) - 0.073 * log(W))
+    G = at_least(alpha_p * E_eff, 1e-200)
+    common = R_e * exp(0.49 * log(G) + 0.68 * log(U) - 0.073 * log(W))
     shape = power(R_s / R_e, 2.0 / 3.0)
     central = 4.31 * common * (1.0 - exp(-at_most(1.23 * shape, 700.0)))
     minimum = 3.68 * common * (1.0 - exp(-at_most(0.67 * shape, 700.0)))
