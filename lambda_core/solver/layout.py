@@ -121,7 +121,7 @@ class Cells(NamedTuple):
 
 
 CELL_ROWS = len(Cells._fields) - 2
-GUARD = 1  # cells behind each row, which nobody writes: what stands there shows an index out of its array
+GUARD = 8  # cells behind each row, which nobody writes, a line of cache: what stands first there shows an index too far
 _RESULTS = 6  # rows that laws write
 KINEMATIC_ROWS = Cells._fields.index("pressure") - 2  # the first row that depends on the kinematics alone
 

@@ -9,6 +9,7 @@ import numpy as np
 from lambda_core.solver.contact.scalar_stages import finite
 from lambda_core.solver.faults import BOUNDARY_FRICTION, CONTACT_TEMPERATURE, OUTSIDE, RHEOLOGY, TRACTION, report
 from lambda_core.solver.layout import helper, part, rows_helper, vector_helper
+from lambda_core.solver.vec import inverse_root
 
 # Variance of a uniform distribution over a cell of unit width: the slip's own spread in a cell.
 CELL_VARIANCE = 1.0 / 12.0
@@ -27,8 +28,9 @@ def _slip_rows(
         # Variance of the slip inside a cell, from its slopes across and along.
         slope_t, slope_s = a * width_s[i] * (wn + ws * kink), a * width_s[i] * wt * kink
         turn = b * width_t[i] * wn
-        v = math.sqrt(floor + CELL_VARIANCE * (slope_t * slope_t + slope_s * slope_s + turn * turn) + t * t + r * r)
-        vt[i], vs[i], slip[i], inverse[i] = t, r, v, 1.0 / v
+        square = floor + CELL_VARIANCE * (slope_t * slope_t + slope_s * slope_s + turn * turn) + t * t + r * r
+        per_v = inverse_root(square)
+        vt[i], vs[i], slip[i], inverse[i] = t, r, square * per_v, per_v
 
 
 @helper

@@ -19,7 +19,7 @@ from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.code_files import compiled_sources
 from lambda_core.solver.contact import cell_probe as probe
-from lambda_core.solver.drivers.contact_grid import unit_grid
+from lambda_core.solver.drivers.contact_grid import cell_blocks, unit_grid
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.system.raceways import raceways
@@ -119,7 +119,7 @@ def contact_field(
     bundle, kernels, groove = context.bundle, context.kernels, raceways(context.model.geometry)[place]
     raceway: Any = bundle.raceways[place]
     grid = unit_grid(strips, rows)
-    cells, scratch = np.zeros((2, L.CELL_ROWS, grid.shape[1] + L.GUARD)), np.zeros_like(bundle.scratch)
+    cells, scratch = cell_blocks(grid.shape[1]), np.zeros_like(bundle.scratch)
     losses = np.zeros(L.MECHANISMS * bundle.raceways.size)
     scratch[0].fault.role = -1
     finer = bundle._replace(grid=grid, cells=cells, scratch=scratch)

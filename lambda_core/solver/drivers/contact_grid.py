@@ -5,9 +5,21 @@ from __future__ import annotations
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.solver.layout import Grid
+from lambda_core.solver.layout import CELL_ROWS, GUARD, Grid
 
 _VECTOR = 16  # cells that vectorised loops take at once
+_LINE = 8  # numbers in a line of the processor's cache
+
+
+def cell_blocks(cells: int) -> FloatArray:
+    """Return room for two contacts of so many cells, layout.Bundle.cells.
+
+    Rows begin with a line of the cache: a vector that lies across two lines is read and written twice.
+    """
+    shape = 2, CELL_ROWS, cells + GUARD
+    room = np.zeros(shape[0] * shape[1] * shape[2] + _LINE)
+    first = -(room.ctypes.data // room.itemsize) % _LINE
+    return room[first : first + room.size - _LINE].reshape(shape)
 
 
 def unit_grid(strips: int, rows: int) -> FloatArray:

@@ -14,7 +14,7 @@ from lambda_core.laws.context import Oil
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.compiled_laws import Kernels
-from lambda_core.solver.drivers.contact_grid import unit_grid
+from lambda_core.solver.drivers.contact_grid import cell_blocks, unit_grid
 from lambda_core.solver.drivers.contact_memory import state_arrays, state_tail
 from lambda_core.solver.drivers.law_inputs import Oils
 from lambda_core.solver.drivers.tables import build_tables
@@ -122,7 +122,7 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: O
         active=active,
         inputs=inputs,
         signals=inputs.view(R.SIGNAL),
-        cells=np.zeros((2, L.CELL_ROWS, grid.shape[1] + L.GUARD)),
+        cells=cell_blocks(grid.shape[1]),
         scratch=np.zeros(1, R.SCRATCH),
         shared=now.view(np.float64),
         bodies_now=now,
