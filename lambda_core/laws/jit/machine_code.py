@@ -21,6 +21,7 @@ from types import FunctionType, ModuleType
 from typing import Any
 from weakref import WeakSet
 
+import llvmlite.binding as llvm  # type: ignore[import-untyped]
 from numba import config, njit, types
 from numba.core.errors import NumbaExperimentalFeatureWarning
 from numba.extending import register_jitable
@@ -30,6 +31,22 @@ from lambda_core.domain.role import Role
 from lambda_core.laws.jit import inlined, plain
 from lambda_core.laws.jit.plain import is_plain
 
+
+def _take_wide_vectors() -> None:
+    """Let loops over cells take all of 512 bits where the processor has them and keeps its clock with them.
+
+    LLVM takes half of them on Intel's processors, the first of which slowed down; later ones, from Ice Lake on, are
+    told by AVX512-VBMI2. What the user sets (NUMBA_CPU_NAME, NUMBA_CPU_FEATURES) stays.
+    """
+    if config.CPU_NAME is not None or config.CPU_FEATURES is not None or not config.ENABLE_AVX:
+        return
+    with contextlib.suppress(RuntimeError):  # LLVM does not know this processor's features
+        features = llvm.get_host_cpu_features()
+        if features.get("avx512vbmi2", False):
+            config.CPU_FEATURES = features.flatten() + ",-prefer-256-bit"
+
+
+_take_wide_vectors()
 _KEEP = 90.0 * 86400.0  # compiled code that was not used for this long is dropped [s]
 _known_helpers: WeakSet[FunctionType] = WeakSet()
 
