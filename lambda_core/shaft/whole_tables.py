@@ -51,13 +51,14 @@ class Part:
         Of the bearing alone, rings and cage free in every direction: what its results are read by.
     bodies : tuple of ints
         Lump that carries the inner ring, outer ring, cage; then the waves of elastic ones.
-    first_ball, first_raceway, first_state, first_slot, first_wave : int
+    first_ball, first_row, first_raceway, first_state, first_slot, first_wave : int
     """
 
     bearing: MountedBearing
     alone: SolverContext
     bodies: tuple[int, ...]
     first_ball: int
+    first_row: int
     first_raceway: int
     first_state: int
     first_slot: int
@@ -81,7 +82,7 @@ def all_free(found: SolverContext) -> SolverContext:
 def make_parts(model: ShaftModel, shaft: LumpedShaft, contexts: list[SolverContext]) -> tuple[Part, ...]:
     """Give every bearing its places."""
     found: list[Part] = []
-    balls, raceways, states, slots, waves = 0, 0, 0, 0, 0
+    balls, rows, raceways, states, slots, waves = 0, 0, 0, 0, 0, 0
     behind = table_size(model, shaft, ())
     for i, (bearing, context) in enumerate(zip(model.bearings, contexts, strict=True)):
         lump = shaft.at(bearing.position)
@@ -90,8 +91,9 @@ def make_parts(model: ShaftModel, shaft: LumpedShaft, contexts: list[SolverConte
         cage = shaft.positions.size + 2 * i + 1
         count = context.bundle.waves.size
         bodies = (inner, outer, cage, *range(behind + waves, behind + waves + count))
-        found.append(Part(bearing, context, bodies, balls, raceways, states, slots, waves))
+        found.append(Part(bearing, context, bodies, balls, rows, raceways, states, slots, waves))
         balls += found[-1].balls
+        rows += context.bundle.rows.size
         raceways += context.bundle.raceways.size
         states += context.bundle.states.size
         slots += context.bundle.slots.size
@@ -143,7 +145,7 @@ def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...])
     most = max(b.state_pivots.size for b in bundles)
     laws = (np.ascontiguousarray(np.concatenate(tables)) for tables in zip(*(b.laws for b in bundles), strict=True))
     return first._replace(
-        system=system, bodies=bodies, rows=np.concatenate([_row(p, i, int(spans[i])) for i, p in enumerate(parts)]),
+        system=system, bodies=bodies, rows=np.concatenate([_rows(p, i, int(spans[i])) for i, p in enumerate(parts)]),
         raceways=raceways, waves=np.concatenate([_waves(p) for p in parts]),
         lands=np.concatenate([_lands(p, i, int(spans[i])) for i, p in enumerate(parts)]),
         slots=np.concatenate([_slots(p, int(spans[i])) for i, p in enumerate(parts)]), tied=tied,
@@ -216,10 +218,10 @@ def _active(bodies: Any, parts: tuple[Part, ...]) -> NDArray[np.int64]:
 
 def _raceways(part: Part, i: int, begin: int) -> Any:
     raceways = part.alone.bundle.raceways.copy()
-    count = len(part.alone.bundle.raceways)
+    sets = len(part.alone.bundle.laws.raceways)  # one for each ring, however many raceways it has
     for k, raceway in enumerate(raceways):
         raceway["number"], raceway["body"] = part.first_raceway + k, part.bodies[int(raceway["body"])]
-        raceway["laws"] += count * i
+        raceway["laws"] += sets * i
         raceway["first_state"] += part.first_state - part.first_ball * int(raceway["states"])
         raceway["slots"] += part.first_slot
         raceway["waves"] += part.first_wave
@@ -228,15 +230,18 @@ def _raceways(part: Part, i: int, begin: int) -> Any:
     return raceways
 
 
-def _row(part: Part, i: int, begin: int) -> Any:
-    row = part.alone.bundle.rows.copy()
-    row["number"], row["first_ball"], row["first_raceway"] = i, part.first_ball, part.first_raceway
-    row["cage"], row["waves"] = part.bodies[CAGE], row["waves"] + part.first_wave
+def _rows(part: Part, i: int, begin: int) -> Any:
+    rows = part.alone.bundle.rows.copy()
+    rows["number"] += part.first_row
+    rows["first_ball"] += part.first_ball
+    rows["first_raceway"] += part.first_raceway
+    rows["waves"] += part.first_wave
+    rows["cage"] = part.bodies[CAGE]
     for name, each in _OFFSETS.items():
-        row[name] += each * i
-    row["pocket"] += begin
-    row["drag"] += begin
-    return row
+        rows[name] += each * i
+    rows["pocket"] += begin
+    rows["drag"] += begin
+    return rows
 
 
 def _lands(part: Part, i: int, begin: int) -> Any:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
+from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError
 from lambda_core.results.quasistatic import QuasiStatic
 from lambda_core.shaft.resolving import check_shaft
@@ -79,20 +80,8 @@ def test_motion_of_one_bearing(whole: WholeEngine) -> None:
         assert np.abs(values - at).max() < 1e-2 * np.abs(reference).max(), name
 
 
-def test_a_bearing_of_the_whole_moves_as_it_does_alone(whole: WholeEngine) -> None:
-    """Balls and waves of both rings and the cage feel the same bits as in a model of that bearing alone."""
-    changed = copy.deepcopy(ONE)
-    parts = {"inner_ring": SOFT, "outer_ring": SOFT, "cage": CAGE}
-    changed["shaft"] = {"sections": [{"length": "300 mm", "diameter": "95 mm"}]}
-    changed["bearings"] = {
-        name: {**BEARING, "position": place, "elastic": parts} for name, place in (("a", "40 mm"), ("b", "260 mm"))
-    }
-    changed["bearings"]["b"]["support"] = {"x": "free"}
-    changed["loads"] = {"pull": {"position": "120 mm", "force_z": "-25 kN"}}
-    changed["discs"] = {
-        "wheel": {"position": "150 mm", "mass": "5 kg", "unbalance": "1 kg mm", "unbalance_angle": "50 deg"}
-    }
-    engine = WholeEngine(check_shaft(changed))
+def feels_the_same(engine: WholeEngine) -> FloatArray:
+    """Compare balls and waves of every bearing with the same alone, bit for bit; returns the whole shared state."""
     y, bundle = engine._memory.y, engine._bundle
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))
     assert core().evaluate(0.0, y, bundle, dydt, rates, 1) == 1
@@ -107,9 +96,43 @@ def test_a_bearing_of_the_whole_moves_as_it_does_alone(whole: WholeEngine) -> No
         assert np.array_equal(slope[: L.NB * part.balls], dydt[balls])
         waves = np.array(one.bundle.shared_rates).reshape(-1, L.NS)[3:]
         assert np.array_equal(waves, slopes[list(part.bodies[3:])])
+    return bodies
+
+
+def test_a_bearing_of_the_whole_moves_as_it_does_alone(whole: WholeEngine) -> None:
+    """Balls and waves of both rings and the cage feel the same bits as in a model of that bearing alone."""
+    changed = copy.deepcopy(ONE)
+    parts = {"inner_ring": SOFT, "outer_ring": SOFT, "cage": CAGE}
+    changed["shaft"] = {"sections": [{"length": "300 mm", "diameter": "95 mm"}]}
+    changed["bearings"] = {
+        name: {**BEARING, "position": place, "elastic": parts} for name, place in (("a", "40 mm"), ("b", "260 mm"))
+    }
+    changed["bearings"]["b"]["support"] = {"x": "free"}
+    changed["loads"] = {"pull": {"position": "120 mm", "force_z": "-25 kN"}}
+    changed["discs"] = {
+        "wheel": {"position": "150 mm", "mass": "5 kg", "unbalance": "1 kg mm", "unbalance_angle": "50 deg"}
+    }
+    engine = WholeEngine(check_shaft(changed))
+    bodies = feels_the_same(engine)
     # the start: waves of the outer rings rest, but for those of the equilibrium whose balls' friction was left out
     outer = [body for part in engine.parts for body in part.bodies[6 : 6 + 3]]
     assert np.abs(bodies[outer][:, [L.SY, L.SZ]]).max() > 1e-6
+
+
+def test_kinds_of_bearings_in_a_whole() -> None:
+    """Two rows beside four-point contact beside one row: rows, raceways and laws of each stand in their places."""
+    changed = copy.deepcopy(ONE)
+    changed["shaft"] = {"sections": [{"length": "300 mm", "diameter": "40 mm"}]}
+    floats = {"support": {"x": "free"}, "elastic": {"outer_ring": SOFT, "cage": {"orders": 2}}}
+    changed["bearings"] = {
+        "a": {"designation": "SKF 3208 A", "position": "30 mm", "elastic": {"outer_ring": SOFT}},
+        "b": {"designation": "SKF QJ 208", "position": "150 mm", **floats},
+        "c": {"designation": "SKF 6208", "position": "270 mm", "clearance": "CN", **floats},
+    }
+    changed["loads"] = {"pull": {"position": "150 mm", "force_z": "-5 kN", "force_x": "500 N"}}
+    engine = WholeEngine(check_shaft(changed))
+    feels_the_same(engine)
+    assert engine.advance(2e-4).ok
 
 
 def test_balance_of_a_run() -> None:
