@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -210,9 +209,18 @@ def _names_above(canvas: Canvas, model: ShaftModel, scale: _Scale, colours: Mapp
         if is_load:
             rows = model.body.rows(place)
             label = f"{name} {_way(*model.loads[rows.start : rows.start + 3])}".rstrip()
-        column = min(max(0, round(scale.x(place) - 0.5 * len(label))), max(0, canvas.width - len(label)))
-        if canvas.is_free(0, column, len(label)):
-            canvas.words(0, column, label, colours["primary" if is_load else "success"])
+        colour = colours["primary" if is_load else "success"]
+        _label(canvas, 0, scale.x(place), label, colour, moves=(name, place) in bodies)
+
+
+def _label(canvas: Canvas, line: int, middle: float, label: str, colour: str, *, moves: bool) -> None:
+    """Write a name around a place, or where it moves at the next free one to the right; nothing without room."""
+    most = max(0, canvas.width - len(label))
+    column = min(max(0, round(middle - 0.5 * len(label))), most)
+    while moves and column < most and not canvas.is_free(line, column, len(label)):
+        column += 1
+    if canvas.is_free(line, column, len(label)):
+        canvas.words(line, column, label, colour)
 
 
 def _names_below(
@@ -228,11 +236,7 @@ def _names_below(
             column += 1
         canvas.words(line, column, label, colours["accent"])
     for spring in model.springs:
-        label = f"⌇{spring.name}"
-        column = round(scale.x(spring.place.point[0]) - 0.5 * len(label))
-        column = min(max(0, column), max(0, canvas.width - len(label)))
-        if canvas.is_free(line, column, len(label)):
-            canvas.words(line, column, label, colours["warning"])
+        _label(canvas, line, scale.x(spring.place.point[0]), f"⌇{spring.name}", colours["warning"], moves=True)
 
 
 def _held(bearing: MountedBearing) -> str:
@@ -242,7 +246,7 @@ def _held(bearing: MountedBearing) -> str:
     stiffness = bearing.seating.stiffness[0]
     if stiffness == 0.0:
         return f"~{bearing.name}~"
-    return f"⊢{bearing.name}⊣" if math.isinf(stiffness) else f"≷{bearing.name}≷"
+    return f"⊢{bearing.name}⊣" if bearing.is_locked_along else f"≷{bearing.name}≷"
 
 
 def _way(x: float, y: float, z: float) -> str:

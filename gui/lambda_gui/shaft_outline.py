@@ -37,7 +37,14 @@ _FIRST: dict[str, tuple[str, ...]] = {
 }
 _BELOW: dict[Keys, dict[str, str]] = {
     ("lubricant",): {"properties": "Own properties"},
-    ("bearings",): {"geometry": "Inner geometry", "fits": "Fits", "temperatures": "Temperatures"},
+    ("bearings",): {
+        "geometry": "Inner geometry",
+        "fits": "Fits",
+        "temperatures": "Temperatures",
+        "elastic.outer_ring": "Elastic outer ring",
+        "elastic.inner_ring": "Elastic inner ring",
+        "elastic.cage": "Elastic cage",
+    },
 }
 _ORDER = (
     "shaft",
@@ -100,14 +107,14 @@ def _shaft(names: Names) -> Node:
 def _named(section: str, names: tuple[str, ...]) -> Node:
     words = str(ShaftCase.model_fields[section].description)
     what = _NAMED.get(section) or Named(_title(section), words, section.rstrip("s").replace("_", " "), {})
-    nodes = []
+    nodes, below = [], {inner.split(".")[0] for inner in _BELOW.get((section,), {})}
     for name in names:
         table = (section, name)
         node = Node(f"{section}.{name}", name, about(ShaftCase, table), [_group(table)], kind="item", section=what,
                     table=table, heading=f"{what.one} {name}")  # fmt: skip
         node.groups += [
             Group(_title(inner), (*table, inner), tuple(_options((*table, inner))))
-            for inner in _tables(table) if inner not in _BELOW.get((section,), {})
+            for inner in _tables(table) if inner not in below
         ]  # fmt: skip
         node.children = _below(table, node.key, heading=f"{name} · ")
         nodes.append(node)
@@ -118,7 +125,7 @@ def _below(table: Keys, key: str, heading: str = "") -> list[Node]:
     """Return the nodes of the tables in a table that have forms of their own."""
     nodes = []
     for inner, title in _BELOW.get(table[:1], {}).items():
-        node = form_node(ShaftCase, f"{key}.{inner}", title, (*table, inner))
+        node = form_node(ShaftCase, f"{key}.{inner}", title, (*table, *inner.split(".")))
         node.heading = f"{heading}{title[:1].lower() + title[1:]}" if heading else title
         nodes.append(node)
     return nodes

@@ -10,6 +10,8 @@ from lambda_core.elastic.body import ElasticBody
 from lambda_core.system.bearing import ZERO, BearingModel, TimeFunction
 
 PLACES = (0, 1, 2, 4, 5)  # of a pose (solver.drivers.held_ring) among the six rows of a node
+# [N/m] of a seat that is locked in a body that moves: a hundred to a thousand times as stiff as a bearing
+LOCKED = 1e11
 GROUND, SHAFT = -1, 0  # numbers of bodies; the others follow
 
 
@@ -49,6 +51,11 @@ class MountedBearing:
     static_rating: float  # C_0 [N]
     fatigue_limit: float  # C_u [N]
     carrier: int = GROUND  # body that the outer ring sits in
+
+    @property
+    def is_locked_along(self) -> bool:
+        """Whether its seat holds the outer ring along the shaft."""
+        return self.seating.stiffness[0] >= LOCKED
 
 
 @dataclass(frozen=True)

@@ -7,16 +7,13 @@ import math
 from lambda_core.case.shaft import ShaftBearing
 from lambda_core.domain.ratings import dynamic_rating, fatigue_load_limit, static_rating
 from lambda_core.domain.units import parse
-from lambda_core.shaft.model import GROUND, MountedBearing, Seating
+from lambda_core.shaft.model import GROUND, LOCKED, MountedBearing, Seating
 from lambda_core.solver.drivers.held_ring import POSE
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.resolve_clearance import picked
 
 _SIGN = {"+x": 1, "-x": -1, None: 0}
-# [N/m] of a seat that is locked in a body that moves: a hundred to a thousand times as stiff as a bearing; tilts: the
-# same at the ring's outside radius.
-_LOCKED = 1e11
 
 
 def mounted(
@@ -72,14 +69,14 @@ def axial_play(given: ShaftBearing, model: BearingModel) -> float:
 
 
 def _seat(name: str, given: ShaftBearing, model: BearingModel, carrier: int, ledger: Ledger) -> tuple[float, ...]:
-    """Return the stiffness of the seat; one that is locked in a body that moves is very stiff."""
+    """Return the stiffness of the seat; one that is locked in a body that moves is very stiff, tilts at its radius."""
     found = [_stiffness(given, dof) for dof in POSE]
     if carrier == GROUND or not any(map(math.isinf, found)):
         return tuple(found)
     radius = 0.5 * model.geometry.outside_diameter
-    ledger.assume(f"{name}: its seat, locked in a body that moves, gives way by 1 um under {_LOCKED * 1e-9:.0f} kN")
+    ledger.assume(f"{name}: its seat, locked in a body that moves, gives way by 1 um under {LOCKED * 1e-9:.0f} kN")
     return tuple(
-        k if math.isfinite(k) else _LOCKED * (radius**2 if dof.startswith("tilt") else 1.0)
+        k if math.isfinite(k) else LOCKED * (radius**2 if dof.startswith("tilt") else 1.0)
         for dof, k in zip(POSE, found, strict=True)
     )
 

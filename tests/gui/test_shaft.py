@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections import defaultdict
 from pathlib import Path
 from typing import Any
 
@@ -10,17 +11,21 @@ import pytest
 from driving import LARGE, SMALL, builder, checked, focused_place, screen_text, wait_for, write
 from lambda_gui.app import BuilderApp
 from lambda_gui.derived import Derived
+from lambda_gui.entries import rename
 from lambda_gui.helper import Estimator
 from lambda_gui.nodes import Node
 from lambda_gui.shaft_answer_screen import ShaftAnswerScreen
-from lambda_gui.shaft_outline import shaft_outline
+from lambda_gui.shaft_drawing import drawn_shaft
+from lambda_gui.shaft_outline import shaft_names, shaft_outline
 from lambda_gui.shaft_screen import ShaftScreen
 from lambda_gui.tree import ModelTree
 from textual.pilot import Pilot
 
 from lambda_core import api
+from lambda_core.case.draft import draft_of
 from lambda_core.case.shaft import ShaftCase
 from lambda_core.domain.option_tree import option_paths
+from lambda_core.shaft.fresh_shaft import fresh_shaft
 
 NAMES = {
     "shaft.sections": ("0",),
@@ -197,3 +202,62 @@ def test_pieces_of_a_list_come_and_go_with_their_comments() -> None:
 
 def test_the_schema_of_shafts_knows_every_table() -> None:
     assert set(api.schema(shaft=True)["properties"]) == set(ShaftCase.model_fields)
+
+
+HOUSED = """
+[bodies.box]
+x = "85 mm"
+length = "160 mm"
+width = "120 mm"
+height = "80 mm"
+
+[markers.foot]
+body = "box"
+x = "10 mm"
+
+[springs.mount]
+marker = "foot"
+z = "40 N/um"
+
+[springs.seal]
+position = "120 mm"
+to = "box"
+z = "1 N/um"
+"""
+
+
+def test_a_housing_is_drawn_with_its_springs() -> None:
+    case = tomllib.loads(fresh_shaft("box") + HOUSED)
+    case["bearings"]["left"]["outer"] = "box"
+    names = [
+        "primary",
+        "success",
+        "secondary",
+        "accent",
+        "background",
+        "foreground",
+        "border-blurred",
+        "warning",
+        "surface",
+    ]
+    drawn = drawn_shaft(api.check_shaft(case), None, 100, 22, dict.fromkeys(names, "#808080")).plain
+    for word in ("[box]", "⌇seal", "⌇mount", "⊢left⊣"):
+        assert word in drawn
+
+
+def test_a_new_name_goes_wherever_it_is_named(tmp_path: Path) -> None:
+    """A body in markers, springs and bearings, a marker in springs; one undo each."""
+    text = fresh_shaft("box").replace("# outer = ", "outer = ") + HOUSED
+    draft = draft_of(text, tmp_path / "box.toml")
+    found = [m for top in shaft_outline(shaft_names(draft)) for m in top.walk()]
+    (node,) = (n for n in found if n.key == "bodies.box")
+    assert rename(node, draft, "case") == ("bodies", "case")
+    assert (draft.get("markers", "foot", "body"), draft.get("springs", "seal", "to")) == ("case", "case")
+    assert draft.get("bearings", "right", "outer") == "case"
+    (node,) = (
+        n for n in (m for top in shaft_outline(shaft_names(draft)) for m in top.walk()) if n.key == "markers.foot"
+    )
+    rename(node, draft, "paw")
+    assert draft.get("springs", "mount", "marker") == "paw"
+    assert "# A housing that gives way" in draft.text()
+    assert api.check_shaft(draft.tables).bodies[0].name == "case"

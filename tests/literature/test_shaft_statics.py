@@ -304,3 +304,50 @@ def test_life_of_a_system() -> None:
     """Two equal bearings live 2^(-0.9) as long as one (Weibull slope 10/9), a much longer life does not count."""
     assert system_life([1000.0, 1000.0]) == pytest.approx(1000.0 * 2.0**-0.9)
     assert system_life([1000.0, 1e9]) == pytest.approx(1000.0, rel=1e-5)
+
+
+def test_warm_rings_in_the_equilibrium_of_the_whole() -> None:
+    """An inner ring 30 K warmer takes alpha dT d of the clearance; the whole stands as with bearings bought that tight.
+
+    Growth at the raceway, 12e-6/K times the raceway's diameter (docs/theory); reactions and poses to 1e-9.
+    """
+    warm = {"inner_ring": "80 degC", "outer_ring": "50 degC", "balls": "50 degC"}
+    found = []
+    for more in ({"temperatures": warm}, {}):
+        case: dict[str, Any] = {
+            "shaft": {"sections": [{"length": "200 mm", "diameter": "30 mm"}]},
+            "bearings": {
+                "left": bearing("30 mm", **more),
+                "right": bearing("150 mm", **more, support={**PINNED, "x": "free"}),
+            },
+            "loads": {"gear": {"position": "80 mm", "force_z": "-2 kN", "force_y": "500 N", "force_x": "300 N"}},
+        }
+        if not more:
+            for one in case["bearings"].values():
+                one["clearance"] = f"{1e6 * found[0][0].bearings[0].model.geometry.clearance:.15g} um"
+        found.append(solved(case))
+    (hot, one), (tight, two) = found
+    loose = check_shaft({"name": "shaft", **SHARED, **case, "bearings": {"left": bearing("30 mm")}})
+    lost = loose.bearings[0].model.geometry.clearance - hot.bearings[0].model.geometry.clearance
+    assert lost == pytest.approx(12e-6 * 30.0 * hot.bearings[0].model.geometry.race_diameter_inner, rel=0.15)
+    assert tight.bearings[0].model.geometry.clearance == pytest.approx(hot.bearings[0].model.geometry.clearance)
+    assert two.reactions == pytest.approx(one.reactions, rel=1e-6, abs=1e-3)
+    assert two.pose(tight, 0) == pytest.approx(one.pose(hot, 0), rel=1e-3, abs=1e-9)
+
+
+def test_misalignment_of_the_rings() -> None:
+    """The slope of the shaft against the outer ring: all of it where the seat is locked."""
+    _, overhung_state = overhung()
+    model = overhung()[0]
+    slope = overhung_state.displacement[model.body.rows(0.15)][4:]
+    tilt = overhung_state.pose(model, 1)[3:]
+    assert np.abs(tilt + overhung_state.outer[1, 3:] - slope).max() < 1e-15
+    assert np.abs(slope).max() > 1e-4
+    case: dict[str, Any] = {
+        "shaft": {"sections": [{"length": "200 mm", "diameter": "30 mm"}]},
+        "bearings": {"left": bearing("30 mm", support={}), "right": bearing("150 mm", support={"x": "free"})},
+        "loads": {"gear": {"position": "195 mm", "force_z": "-1 kN"}},
+    }
+    model, state = solved(case)
+    assert state.pose(model, 1)[3:] == pytest.approx(state.displacement[model.body.rows(0.15)][4:], abs=1e-15)
+    assert np.abs(state.pose(model, 1)[3:]).max() > 1e-4
