@@ -9,10 +9,12 @@ import pytest
 from scipy.optimize import fsolve
 
 from lambda_core import api
+from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.dynamics import BearingEngine
 
+from .ring_of_beams import waves_of_beams
 from .support import integrate, machine
 
 CASE = "6319-cp10-3000"
@@ -67,7 +69,7 @@ def test_pinched_by_two_pockets() -> None:
     state, waves = m.at_rest(), slice(FIRST, FIRST + 11)
     state.balls[[0, 4], L.BR] += 0.5 * m.model.cage.pocket_clearance + 60e-6
 
-    def unbalanced(cosines: np.ndarray) -> np.ndarray:
+    def unbalanced(cosines: FloatArray) -> FloatArray:
         state.shared[waves, L.SY] = cosines
         m.evaluate(m.vector(state))
         return np.array(m.context.bundle.body_rates["velocity"][waves, 1])
@@ -86,6 +88,37 @@ def test_pinched_by_two_pockets() -> None:
     assert 2.0 * cosines.sum() == pytest.approx((math.pi / 4.0 - 2.0 / math.pi) * unit, rel=1e-3)
     across = 2.0 * float(cosines @ np.cos(orders * math.pi / 2.0))
     assert -across == pytest.approx((2.0 / math.pi - 0.5) * unit, rel=1e-3)
+
+
+def test_pushed_round_by_four_pockets() -> None:
+    """Balls that push the cage to and fro along its circumference bend it as a ring of straight beams: 1 %.
+
+    At 0, 90, 180 and 270 degrees, forwards and backwards in turn: in balance, and two waves of it.
+    """
+    m = machine(*THIN, "elastic.cage.orders=6", "gravity.z=0 m/s2", "bearing.geometry.ball_count=8",
+                "parameters.cage_contact.film_width=0", case=CASE)  # fmt: skip
+    state, waves = m.at_rest(), slice(FIRST, FIRST + 5)
+    turn = (0.5 * m.model.cage.pocket_clearance + 20e-6) / (0.5 * m.model.geometry.pitch_diameter)
+    state.balls[[0, 2, 4, 6], L.BPSI] += turn * np.array([1.0, -1.0, 1.0, -1.0])
+
+    def unbalanced(amplitudes: FloatArray) -> FloatArray:
+        state.shared[waves, L.SY : L.SZ + 1] = amplitudes.reshape(-1, 2)
+        m.evaluate(m.vector(state))
+        return np.array(m.context.bundle.body_rates["velocity"][waves, 1:]).ravel()
+
+    found = fsolve(unbalanced, np.zeros(10), xtol=1e-13).reshape(-1, 2)
+    unbalanced(found)
+    pushes = -m.observe(m.vector(state))["pocket_force"][[0, 2, 4, 6]]
+    assert np.abs(pushes[:, 2]).min() > 5.0 * np.abs(pushes[:, 1]).max()
+    ring, azimuths = m.model.elastic["cage"].ring, state.balls[[0, 2, 4, 6], L.BPSI]
+    # the law's force stands in the frame of the ball: turned into that of its pocket
+    places = 0.5 * math.pi * np.arange(4)
+    c, s = np.cos(azimuths - places), np.sin(azimuths - places)
+    forces = np.stack([pushes[:, 1] * c - pushes[:, 2] * s, pushes[:, 1] * s + pushes[:, 2] * c], axis=1)
+    bending = ring.youngs_modulus * ring.second_moment
+    beams = waves_of_beams(ring.radius, bending, 0.0, forces, places, 2)
+    assert found[0] == pytest.approx(beams, abs=0.01 * np.abs(beams).max())
+    assert np.abs(found[0]).max() > 1e-6
 
 
 def test_the_pattern_of_a_turning_cage_lags() -> None:

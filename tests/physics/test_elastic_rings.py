@@ -13,6 +13,7 @@ from lambda_core.domain.errors import CaseError
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.dynamics import BearingEngine
 
+from .ring_of_beams import waves_of_beams
 from .support import integrate, machine
 
 CASE = "6319-cp10-1500"
@@ -32,46 +33,15 @@ def test_in_a_rigid_housing_a_ring_is_rigid(ring: str) -> None:
     assert stiff.inner_ring_displacement_um[2] == pytest.approx(rigid.inner_ring_displacement_um[2], rel=1e-6)
 
 
-def beam_ring(loads: FloatArray, azimuths: FloatArray, waves: int, elements: int = 720) -> FloatArray:
-    """Return the amplitudes of `waves` waves of the outer ring's radial displacement, by straight beam elements [m].
-
-    A polygon of Euler-Bernoulli beams (Przemieniecki 1968, Theory of Matrix Structural Analysis, eq. 5.116) that hardly
-    stretch, on radial springs, loaded at its corners. Nothing of it is taken from the theory of waves.
-    """
+def beam_ring(loads: FloatArray, azimuths: FloatArray, waves: int) -> FloatArray:
+    """Return the amplitudes of `waves` waves of the outer ring's radial displacement, by straight beam elements [m]."""
     model = api.check(CASE)
-    g, steel, width = model.geometry, model.outer_material, model.geometry.width
+    g, steel = model.geometry, model.outer_material
     inside, outside = 0.5 * g.race_diameter_outer, 0.5 * g.outside_diameter
-    radius, height = 0.5 * (inside + outside), outside - inside
-    bending = steel.youngs_modulus * width * height**3 / 12.0
-    stretching = 1e4 * bending / radius**2 * 10.0
-    bed = 1e8 / (math.pi * radius) * (2.0 * math.pi * radius / elements)  # [N/m] of one corner
-    size, length = 3 * elements, 2.0 * radius * math.sin(math.pi / elements)
-    around = 2.0 * math.pi * np.arange(elements) / elements
-    k = np.zeros((size, size))
-    a, b, c, d = (
-        stretching / length, 12.0 * bending / length**3, 6.0 * bending / length**2, 4.0 * bending / length,
-    )  # fmt: skip
-    local = np.array(
-        [[a, 0, 0, -a, 0, 0], [0, b, c, 0, -b, c], [0, c, d, 0, -c, d / 2],
-         [-a, 0, 0, a, 0, 0], [0, -b, -c, 0, b, -c], [0, c, d / 2, 0, -c, d]]
-    )  # fmt: skip
-    for i in range(elements):
-        along = around[i] + math.pi / elements + math.pi / 2.0
-        one = np.array([[math.cos(along), math.sin(along), 0], [-math.sin(along), math.cos(along), 0], [0, 0, 1]])
-        turn = np.kron(np.eye(2), one)
-        rows = np.r_[3 * i : 3 * i + 3, np.arange(3 * (i + 1), 3 * (i + 1) + 3) % size]
-        k[np.ix_(rows, rows)] += turn.T @ local @ turn
-    force = np.zeros(size)
-    for i, angle in enumerate(around):
-        out = np.array([math.cos(angle), math.sin(angle)])
-        k[3 * i : 3 * i + 2, 3 * i : 3 * i + 2] += bed * np.outer(out, out)
-        k[3 * i : 3 * i + 2, 3 * i : 3 * i + 2] += 1e-6 * bed * np.eye(2)  # nothing else keeps it from turning
-    for load, azimuth in zip(loads, azimuths, strict=True):
-        i = round(azimuth / (2.0 * math.pi / elements)) % elements
-        force[3 * i : 3 * i + 2] += load * np.array([math.cos(around[i]), math.sin(around[i])])
-    moved = np.linalg.solve(k, force).reshape(-1, 3)
-    radial = moved[:, 0] * np.cos(around) + moved[:, 1] * np.sin(around)
-    return np.array([2.0 * np.mean(radial * f(waves * around)) for f in (np.cos, np.sin)])
+    radius, bending = 0.5 * (inside + outside), steel.youngs_modulus * g.width * (outside - inside) ** 3 / 12.0
+    return waves_of_beams(
+        radius, bending, 1e8 / (math.pi * radius), np.stack([loads, 0.0 * loads], axis=1), azimuths, waves
+    )
 
 
 def test_the_shape_is_that_of_a_ring_of_beams() -> None:
@@ -83,7 +53,7 @@ def test_the_shape_is_that_of_a_ring_of_beams() -> None:
     azimuths = np.radians([contact.azimuth_deg for contact in outer])
     largest = math.hypot(bent.cosine_um[0], bent.sine_um[0])
     for i, waves in enumerate((2, 3, 4)):
-        beams = 1e6 * beam_ring(loads, azimuths, waves, 360)
+        beams = 1e6 * beam_ring(loads, azimuths, waves)
         assert np.abs(beams - [bent.cosine_um[i], bent.sine_um[i]]).max() < 0.01 * largest
 
 
