@@ -19,6 +19,7 @@ import pytest
 from lambda_core import api
 from lambda_core.domain.errors import UsageError
 from lambda_core.fmu.library import PLATFORMS, SOURCES, compiler
+from lambda_core.laws.jit.portable import features
 
 HERE = Path(__file__).parent
 CASE, CHANGES = "6208-axial-1300", ("solver.duration=0.2 s",)
@@ -125,6 +126,21 @@ def ran(command: list[str], unit: Any, library: Path, environment: dict[str, str
     done = subprocess.run([*command, *words], env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return [[float.fromhex(word) for word in line.split()] for line in done.stdout.splitlines()]
+
+
+def test_a_processor_without_the_features_is_told_so(
+    host: Any, exported: Callable[[int, str], Path], tmp_path: Path, c_compiler: tuple[str, ...]
+) -> None:
+    """A processor of 2008, which QEMU plays: no instance, and a sentence instead of an illegal instruction."""
+    emulator = shutil.which("qemu-x86_64")
+    if emulator is None or "avx2" not in features():
+        pytest.skip("QEMU for x86-64 is not installed, or this processor lacks AVX2 itself")
+    unit, program = host.Unit(exported(2, "force"), tmp_path / "unit"), tmp_path / "host"
+    subprocess.run([*c_compiler, "-O1", str(HERE / "plain_host.c"), "-o", str(program), "-ldl"], check=True)
+    words = [emulator, "-cpu", "Nehalem", str(program), str(unit.file), unit.token.decode(), "1", "1e-4", "1", "0"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 3
+    assert "this processor lacks what the bearing was exported for" in done.stderr
 
 
 @pytest.mark.slow
