@@ -2,48 +2,90 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
 
-from lambda_core.catalogue.protocol import BearingRow
-from lambda_core.system.resolve_shoulders import FOUR_POINT_SHOULDERS, HIGH_SHOULDERS
+from lambda_core.catalogue.protocol import BearingRow, Value
+from lambda_core.system.bearing import SPHERICAL, Geometry
+from lambda_core.system.raceways import row_places
+from lambda_core.system.resolve_geometry import with_clearance
+from lambda_core.system.resolve_rows import sphere_edge
+from lambda_core.system.resolve_shoulders import ALIGNING_SHOULDERS, FOUR_POINT_SHOULDERS, HIGH_SHOULDERS
+from lambda_core.system.ring_profile import profiles
 
 RING, BALL, AIR = "█", "░", " "
 # Shoulder height over ball diameter where no shoulder is printed: D_1 - d_1 = 1.21 D_w (lambda_db.derive)
 _SHOULDER = 0.25 * (2.0 - 1.21)
+_HEIGHTS = {
+    "angular contact": HIGH_SHOULDERS,
+    "double row": HIGH_SHOULDERS,
+    "four-point": FOUR_POINT_SHOULDERS,
+    "self-aligning": ALIGNING_SHOULDERS,
+}
 _CELL_ASPECT = 2.0
+Profile = Callable[[float], float]
 
 
 @dataclass(frozen=True)
 class Section:
-    """Half-section in mm: x from the middle of the width, r from the axis."""
+    """Half-section of a bearing in mm: x from the middle of the width, r from the axis."""
 
-    bore: float
-    outside: float
-    width: float
-    chamfer: float
-    pitch: float
-    ball: float
-    race_inner: float
-    race_outer: float
-    groove_inner: float
-    groove_outer: float
-    shoulder_inner: float
-    shoulder_outer: float
-    angle: float = 0.0  # contact angle; above zero the inner ring's right and the outer ring's left shoulder are low
+    geometry: Geometry
+    chamfer: float = 0.0  # [mm]
+
+    @cached_property
+    def bore(self) -> float:
+        """Bore [mm]."""
+        return _mm(self.geometry.bore_diameter)
+
+    @cached_property
+    def outside(self) -> float:
+        """Outside diameter [mm]."""
+        return _mm(self.geometry.outside_diameter)
+
+    @cached_property
+    def width(self) -> float:
+        """Width [mm]."""
+        return _mm(self.geometry.width)
+
+    @cached_property
+    def pitch(self) -> float:
+        """Pitch diameter [mm]."""
+        return _mm(self.geometry.pitch_diameter)
+
+    @cached_property
+    def ball(self) -> float:
+        """Ball diameter [mm]."""
+        return _mm(self.geometry.ball_diameter)
+
+    @cached_property
+    def race_inner(self) -> float:
+        """Diameter of the inner raceway at its bottom [mm]."""
+        return _mm(self.geometry.race_diameter_inner)
+
+    @cached_property
+    def race_outer(self) -> float:
+        """Diameter of the outer raceway at its bottom, of a sphere its own [mm]."""
+        return _mm(self.geometry.race_diameter_outer)
 
     def cell(self, x: float, r: float) -> str:
         """Return what fills the point."""
-        if x * x + (r - 0.5 * self.pitch) ** 2 <= 0.25 * self.ball**2:
+        if any((x - place) ** 2 + (r - 0.5 * self.pitch) ** 2 <= 0.25 * self.ball**2 for place in self._places):
             return BALL
         if self._chamfered(x, r):
             return AIR
-        inner_centre = 0.5 * self.race_inner + self.groove_inner
-        if r <= 0.5 * (self.race_inner if self.angle and x > 0.0 else self.shoulder_inner):
-            return RING if x * x + (r - inner_centre) ** 2 > self.groove_inner**2 else AIR
-        outer_centre = 0.5 * self.race_outer - self.groove_outer
-        if r >= 0.5 * (self.race_outer if self.angle and x < 0.0 else self.shoulder_outer):
-            return RING if x * x + (r - outer_centre) ** 2 > self.groove_outer**2 else AIR
-        return AIR
+        inner, outer = self._profiles
+        return RING if r <= 1e3 * inner(1e-3 * x) or r >= 1e3 * outer(1e-3 * x) else AIR
+
+    @cached_property
+    def _places(self) -> tuple[float, ...]:
+        return tuple(1e3 * place for place in row_places(self.geometry))
+
+    @cached_property
+    def _profiles(self) -> tuple[Profile, Profile]:
+        return profiles(self.geometry)
 
     def _chamfered(self, x: float, r: float) -> bool:
         axial = abs(x) - (0.5 * self.width - self.chamfer)
@@ -51,36 +93,59 @@ class Section:
         return axial > 0.0 and radial > 0.0 and axial * axial + radial * radial > self.chamfer**2
 
 
+def _mm(length: float) -> float:
+    return float(f"{1e3 * length:.12g}")
+
+
 def section_of(row: BearingRow) -> Section | None:
-    needed = (row.ball_diameter, row.pitch_diameter, row.groove_radius_inner, row.groove_radius_outer)
-    if any(value is None for value in needed):
+    """Return the section of a catalogue's bearing without clearance, None where its inner geometry is not known.
+
+    Four-point contact is drawn with one groove: its shims follow from a clearance.
+    """
+    spherical = row.kind == "self-aligning"
+    ball, pitch, inner, outer = (
+        _value(row.ball_diameter), _value(row.pitch_diameter), _value(row.groove_radius_inner),
+        _value(row.groove_radius_outer, 1.0 if spherical else math.nan),
+    )  # fmt: skip
+    if any(math.isnan(value) for value in (ball, pitch, inner, outer)):
         return None
-    ball, pitch, groove_inner, groove_outer = (1e3 * value.value for value in needed if value is not None)
-
-    def known(name: str, otherwise: float) -> float:
-        value = getattr(row, name)
-        return otherwise if value is None else float(1e3 * value.value)
-
-    race_inner, race_outer = known("race_diameter_inner", pitch - ball), known("race_diameter_outer", pitch + ball)
-    angle = row.contact_angle.value if row.contact_angle is not None and row.kind == "angular contact" else 0.0
-    heights = HIGH_SHOULDERS if angle else {"inner": _SHOULDER, "outer": _SHOULDER}
-    if row.kind == "four-point":
-        heights = FOUR_POINT_SHOULDERS
-    return Section(
-        bore=1e3 * row.bore_diameter.value,
-        outside=1e3 * row.outside_diameter.value,
-        width=1e3 * row.width.value,
-        chamfer=known("chamfer", 0.0),
-        pitch=pitch,
-        ball=ball,
-        race_inner=race_inner,
-        race_outer=race_outer,
-        groove_inner=groove_inner,
-        groove_outer=groove_outer,
-        shoulder_inner=known("shoulder_diameter_inner", race_inner + 2.0 * heights["inner"] * ball),
-        shoulder_outer=known("shoulder_diameter_outer", race_outer - 2.0 * heights["outer"] * ball),
-        angle=angle,
+    race_inner, race_outer = (
+        _value(row.race_diameter_inner, pitch - ball),
+        _value(row.race_diameter_outer, pitch + ball),
     )
+    heights = _HEIGHTS.get(row.kind, {"inner": _SHOULDER, "outer": _SHOULDER})
+    angle, apart = _value(row.contact_angle, 0.0), _value(row.row_distance, 0.0)
+    geometry = Geometry(
+        ball_count=round(_value(row.ball_count)),
+        ball_diameter=ball,
+        pitch_diameter=pitch,
+        race_diameter_inner=race_inner,
+        race_diameter_outer=race_outer,
+        groove_radius_inner=inner,
+        groove_radius_outer=outer,
+        shoulder_diameter_inner=_value(row.shoulder_diameter_inner, race_inner + 2.0 * heights["inner"] * ball),
+        shoulder_diameter_outer=_value(
+            row.shoulder_diameter_outer, race_outer - 2.0 * heights.get("outer", 0.0) * ball
+        ),
+        clearance=0.0,
+        bore_diameter=row.bore_diameter.value,
+        outside_diameter=row.outside_diameter.value,
+        width=row.width.value,
+        series=row.series,
+        contact_angle=0.0 if row.kind == "four-point" else angle,
+        resting_angle=angle if row.kind in ("double row", "self-aligning") else 0.0,
+        rows=2 if row.kind in ("double row", "self-aligning") else 1,
+        row_distance=apart,
+        arrangement={"double row": "O", "self-aligning": SPHERICAL}.get(row.kind, ""),
+    )
+    if spherical:
+        geometry = with_clearance(geometry, 0.0)
+        geometry = replace(geometry, shoulder_diameter_outer=sphere_edge(geometry))
+    return Section(geometry, 1e3 * _value(row.chamfer, 0.0))
+
+
+def _value(known: Value | None, otherwise: float = math.nan) -> float:
+    return otherwise if known is None else known.value
 
 
 def cross_section(row: BearingRow, height: int = 17) -> str:

@@ -66,22 +66,7 @@ class Sketch(Static):
 
 def section_of_geometry(geometry: Geometry) -> Section:
     """Return the section of a resolved bearing."""
-    g = geometry
-    return Section(
-        bore=1e3 * g.bore_diameter,
-        outside=1e3 * g.outside_diameter,
-        width=1e3 * g.width,
-        chamfer=0.0,
-        pitch=1e3 * g.pitch_diameter,
-        ball=1e3 * g.ball_diameter,
-        race_inner=1e3 * g.race_diameter_inner,
-        race_outer=1e3 * g.race_diameter_outer,
-        groove_inner=1e3 * g.groove_radius_inner,
-        groove_outer=1e3 * g.groove_radius_outer,
-        shoulder_inner=1e3 * g.shoulder_diameter_inner,
-        shoulder_outer=1e3 * g.shoulder_diameter_outer,
-        angle=0.0 if g.four_point else g.contact_angle,
-    )
+    return Section(geometry)
 
 
 def drawn(section: Section, height: int, width: int, colours: dict[str, str]) -> Text:

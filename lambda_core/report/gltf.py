@@ -15,11 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.system.raceways import row_places
+from lambda_core.system.ring_profile import geometry_of, profiles
 from lambda_core.views.scene import Scene
 
 Surface = tuple[FloatArray, NDArray[np.uint32]]  # places, shape (n, 3); triangles, shape (m, 3)
 _FLOAT, _INDEX = 5126, 5125  # glTF component types: float32, uint32
 _AROUND, _ACROSS = 96, 16  # segments of rings; of a ball half as many as around
+_ALONG = 61  # points of a ring along its width
 _GLASS = 0.35  # opacity of the rings: loads and balls inside them stay visible
 _STEEL, _DARK, _BRASS, _RED = (0.75, 0.76, 0.78), (0.25, 0.27, 0.32), (0.72, 0.55, 0.25), (0.8, 0.15, 0.1)
 
@@ -125,17 +128,13 @@ def glb(scene: Scene, fps: float) -> bytes:
 
 
 def _rings(file: _File, scene: Scene, time: int) -> None:
-    size = scene.geometry
+    size, shapes = scene.geometry, profiles(geometry_of(dict(scene.geometry)))
     half, groove = 0.5 * size["width"], 0.5 * size["ball_diameter"]
-    for body, name, far, shoulder in ((0, "inner", "bore_diameter", -1), (1, "outer", "outside_diameter", 1)):
-        race, radius = 0.5 * size[f"race_diameter_{name}"], size[f"groove_radius_{name}"]
-        wide = min(0.9 * groove, 0.9 * half, 0.9 * radius)
-        x = np.linspace(-wide, wide, 13)
-        profile = race - shoulder * (radius - np.sqrt(radius**2 - x**2))
+    x = np.linspace(-half, half, _ALONG)
+    for body, name, far in ((0, "inner", "bore_diameter"), (1, "outer", "outside_diameter")):
+        profile = np.array([shapes[body](float(place)) for place in x])
         back = 0.5 * size[far]
-        outline = np.array(
-            [(-half, back), (-half, profile[0]), *zip(x, profile, strict=True), (half, profile[-1]), (half, back)]
-        )
+        outline = np.array([(-half, back), *zip(x, profile, strict=True), (half, back)])
         mesh = file.mesh(f"{name} ring", _turned(outline), _STEEL, _GLASS)
         node = file.node(f"{name} ring", 0, mesh=mesh)
         file.move(node, "translation", time, scene.body_position[:, body])
@@ -148,20 +147,22 @@ def _rings(file: _File, scene: Scene, time: int) -> None:
 
 def _cage(file: _File, scene: Scene, time: int) -> None:
     """Add two rims with bars between the pockets: a picture of a cage, not the drawing of this one."""
-    size, count = scene.geometry, scene.load.shape[1]
+    size, places = scene.geometry, row_places(geometry_of(dict(scene.geometry)))
+    count = scene.load.shape[1] // len(places)
     ball, pitch = 0.5 * size["ball_diameter"], 0.5 * size["pitch_diameter"]
     node = file.node("cage", 0)
     high, side = 0.16 * ball, 1.02 * ball
-    for x in (-side - 0.12 * ball, side):
-        outline = np.array([(x, pitch - high), (x + 0.12 * ball, pitch - high), (x + 0.12 * ball, pitch + high),
-                            (x, pitch + high)])  # fmt: skip
+    for place in (places[0] - side - 0.12 * ball, places[-1] + side):
+        outline = np.array([(place, pitch - high), (place + 0.12 * ball, pitch - high),
+                            (place + 0.12 * ball, pitch + high), (place, pitch + high)])  # fmt: skip
         file.node("rim", node, mesh=file.mesh("rim", _turned(outline), _BRASS))
-    for number in range(count):
-        angle = 2.0 * math.pi * (number + 0.5) / count
-        middle = pitch * np.array([0.0, math.cos(angle), math.sin(angle)])
-        reach = np.array([side, 0.0, 0.0])
-        gap = max(pitch * math.sin(math.pi / count) - 1.02 * ball, 0.05 * ball)
-        file.node("bar", node, mesh=file.mesh("bar", _tube(middle - reach, middle + reach, gap), _BRASS))
+    gap = max(pitch * math.sin(math.pi / count) - 1.02 * ball, 0.05 * ball)
+    for row, place in enumerate(places):  # pockets of two rows stand in turn
+        for number in range(count):
+            angle = 2.0 * math.pi * (number + 0.5 + 0.5 * row) / count
+            middle = np.array([place, pitch * math.cos(angle), pitch * math.sin(angle)])
+            reach = np.array([side, 0.0, 0.0])
+            file.node("bar", node, mesh=file.mesh("bar", _tube(middle - reach, middle + reach, gap), _BRASS))
     file.move(node, "translation", time, scene.body_position[:, 2])
     file.move(node, "rotation", time, _pose(scene, 2))
 

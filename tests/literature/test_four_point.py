@@ -307,3 +307,9 @@ def test_a_run_shows_both_arcs(tmp_path: Any) -> None:
     by_mechanism = result["loss"][-1, :12].sum()
     assert result["contact_loss"][-1].sum() == pytest.approx(by_mechanism, rel=1e-9)
     assert abs(result.summary().energy_residual) < 1e-3
+    panels = api.view(result.path, "arcs").panels
+    assert [panel.title for panel in panels] == ["inner ring", "outer ring"] * 2
+    names = [[series.name for series in panel.series if not series.unlisted] for panel in panels[:2]]
+    assert names == [["arc inner +x", "arc inner -x"], ["arc outer +x", "arc outer -x"]]
+    last = next(series for series in panels[0].series if series.unlisted).y
+    assert sorted(last) == pytest.approx(sorted(1e-3 * arcs[-1, :, 0]))

@@ -10,6 +10,7 @@ from lambda_core.plugins import View
 def register_views(register: Callable[[View], None]) -> None:
     """Register every built-in view: call it from the hook ``lambda_views``."""
     from lambda_plugins.views import (
+        arcs,
         azimuth,
         balls,
         cage,
@@ -28,6 +29,7 @@ def register_views(register: Callable[[View], None]) -> None:
 
     for module in (
         azimuth,
+        arcs,
         contact_map,
         friction,
         catalogues,

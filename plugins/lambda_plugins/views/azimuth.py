@@ -24,7 +24,8 @@ def _series(run: RunData, span: Span, channel: str, scale: float, loaded: bool =
     return found
 
 
-def _notes(span: Span) -> tuple[str, ...]:
+def notes(span: Span) -> tuple[str, ...]:
+    """Return what lines, bands and azimuths mean."""
     return (f"lines: mean over {span.words}, band: smallest to largest; points: every ball at the end state", _FRAME)
 
 
@@ -34,7 +35,7 @@ def load_distribution(run: RunData, options: Options) -> ViewData:
     series = tuple(_series(run, span, "load", 1e-3, loaded=False))
     polar = Panel("around the bearing", AZIMUTH, Axis("load", "kN", low=0.0), series, shape="polar")
     flat = Panel("over azimuth", AZIMUTH, Axis("load", "kN", low=0.0), series)
-    return ViewData("load-distribution", "Load distribution", source(run), (polar, flat), 2, _notes(span))
+    return ViewData("load-distribution", "Load distribution", source(run), (polar, flat), 2, notes(span))
 
 
 def contact_angle(run: RunData, options: Options) -> ViewData:
@@ -42,8 +43,8 @@ def contact_angle(run: RunData, options: Options) -> ViewData:
     span = averaging(run)
     series = tuple(_series(run, span, "contact_angle", 180.0 / np.pi))
     panel = Panel("", AZIMUTH, Axis("contact angle", "deg", least=1.0), series)
-    notes = (*_notes(span), "positive when the ball pushes the outer ring towards +x; loaded contacts only")
-    return ViewData("contact-angle", "Contact angle", source(run), (panel,), 1, notes)
+    told = (*notes(span), "positive when the ball pushes the outer ring towards +x; loaded contacts only")
+    return ViewData("contact-angle", "Contact angle", source(run), (panel,), 1, told)
 
 
 def pressure(run: RunData, options: Options) -> ViewData:
@@ -52,7 +53,7 @@ def pressure(run: RunData, options: Options) -> ViewData:
     panel = Panel(
         "", AZIMUTH, Axis("maximum pressure", "GPa", low=0.0), tuple(_series(run, span, "max_pressure", 1e-9))
     )
-    return ViewData("pressure", "Contact pressure", source(run), (panel,), 1, _notes(span))
+    return ViewData("pressure", "Contact pressure", source(run), (panel,), 1, notes(span))
 
 
 def film(run: RunData, options: Options) -> ViewData:
@@ -67,8 +68,8 @@ def film(run: RunData, options: Options) -> ViewData:
         Panel("", AZIMUTH, Axis("film parameter Lambda", low=0.0), tuple(lambdas), marks),
     )
     sigma = 1e6 * float(run.model["roughness"])
-    notes = (*_notes(span), f"Lambda = central film over the composite roughness {sigma:.3g} um; loaded contacts only")
-    return ViewData("film", "Lubricant film", source(run), panels, 2, notes)
+    told = (*notes(span), f"Lambda = central film over the composite roughness {sigma:.3g} um; loaded contacts only")
+    return ViewData("film", "Lubricant film", source(run), panels, 2, told)
 
 
 VIEWS = (
