@@ -25,7 +25,7 @@ def _of_arcs(run: RunData, span: Span, ring: str, channel: str, scale: float, *,
 
 def arcs(run: RunData, options: Options) -> ViewData:
     """Loads and contact angles of all four contacts of the balls."""
-    if not any(channel.name == "arc_load" for channel in run.channels):
+    if not _has_arcs(run):
         raise NotApplicable("the rings of this bearing have one groove for each row: arcs are of four-point contact")
     span = averaging(run)
     panels = [
@@ -40,4 +40,14 @@ def arcs(run: RunData, options: Options) -> ViewData:
     return ViewData("arcs", "Arcs of four-point contact", source(run), tuple(panels), 2, (*notes(span), about))
 
 
-VIEWS = (View("arcs", "loads and angles of both arcs of each ring, four-point contact", "result", arcs, view_api=1),)
+def _has_arcs(run: RunData) -> bool:
+    """Tell whether the rings of a run have two arcs each."""
+    return any(channel.name == "arc_load" for channel in run.channels)
+
+
+VIEWS = (
+    View(
+        "arcs", "loads and angles of both arcs of each ring, four-point contact", "result", arcs,
+        offered=_has_arcs, view_api=1,
+    ),
+)  # fmt: skip
