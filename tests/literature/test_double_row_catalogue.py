@@ -63,7 +63,7 @@ def test_ratings_of_every_row(catalogue: SqlCatalogue) -> None:
     assert max(static) < 0.017
     assert sorted(dynamic)[21] < 0.006
     assert sorted(static)[21] < 0.0075
-    assert len(heights) == 22
+    assert len(heights) == 21
     assert (min(heights), max(heights)) == pytest.approx((0.17, 0.28), abs=0.01)
 
 
