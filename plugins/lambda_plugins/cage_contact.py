@@ -83,29 +83,47 @@ class Guide(NamedTuple):
     contact: CageContact
     play: float  # way from the centre to first touch [m]
     arm: float  # from the body's centre to the contact point, along the way [m]
-    film: float = 0.0  # 6 pi R^2 of the film that is squeezed, R the reduced radius [m2]; 0: there is none
-    edge: float = 1.0  # what the gap grows by from the middle of the film to its edge [m]
+    film: float = 0.0  # 12 pi sqrt(R_x R_y)/(1/R_x + 1/R_y) of the film that is squeezed [m2]; 0: there is none
+    edge: float = 1.0  # what the gap grows by from the middle of the film to the end of the wall [m]
     touch: float = 1.0  # film at first touch [m]
 
 
-def prepare_pocket(parameters: Pocket, context: Context) -> Guide:
-    """Return the constants with the pocket's clearance, the ball's radius and the film between both."""
+def prepare_sphere(parameters: Pocket, context: Context) -> Guide:
+    """Return the constants with the pocket's clearance, the ball's radius and the film between both.
+
+    A ball of radius R_b in a sphere of radius R_b + c: R_x = R_y = R_b (R_b + c)/c.
+    """
+    return _pocket(parameters, context, round_along=True)
+
+
+def prepare_cylinder(parameters: Pocket, context: Context) -> Guide:
+    """Return the same for a pocket whose wall is straight along its axis.
+
+    R_x = R_b along the axis, where the film ends with the wall, R_y = R_b (R_b + c)/c across it.
+    """
+    return _pocket(parameters, context, round_along=False)
+
+
+def _pocket(parameters: Pocket, context: Context, *, round_along: bool) -> Guide:
     if not context.pocket_clearance >= 0.0:
         raise ValueError("the cage has no pocket clearance: give a cage with pockets")
     radius, play, width = 0.5 * context.ball_diameter, 0.5 * context.pocket_clearance, parameters.film_width
     if width == 0.0 or play == 0.0:
         return Guide(parameters, play, radius)
-    reduced = radius * (radius + play) / play
-    edge = (width * context.ball_diameter) ** 2 / (2.0 * reduced)
-    return Guide(parameters, play, radius, 6.0 * math.pi * reduced * reduced, edge, parameters.thinnest_film)
+    across = radius * (radius + play) / play
+    along = across if round_along else radius
+    film = 12.0 * math.pi * math.sqrt(along * across) / (1.0 / along + 1.0 / across)
+    edge = (width * context.ball_diameter) ** 2 / (2.0 * along)
+    return Guide(parameters, play, radius, film, edge, parameters.thinnest_film)
 
 
 def squeezed(guide: Guide, gap: float, closing: float, eta0: float) -> float:
     """Return the force of the film between ball and pocket [N], `gap` apart, that close at a speed; no film pulls.
 
-    Reynolds' equation between a sphere and a plane at an approach v has p = 3 eta v R (1/h^2 - 1/h_e^2), zero at the
-    edge of the film where h_e = h + b^2/2R: F = 6 pi eta v R^2/h (1 - h/h_e)^2. Wide against the gap it is Taylor's
-    6 pi eta v R^2/h, narrow Stefan's 3 pi eta v b^4/2 h^3 of parallel discs. Oil that has left is not sucked in again.
+    Reynolds' equation between paraboloids at an approach v has p = 6 eta v/(1/R_x + 1/R_y) (1/gap^2 - 1/h_e^2), zero
+    on the line gap = h_e = h + b^2/2 R_x that meets the wall's end: F = 12 pi eta v sqrt(R_x R_y)/(1/R_x + 1/R_y)
+    (1 - h/h_e)^2/h. Round a sphere it is Taylor's 6 pi eta v R^2/h where wide against the gap, Stefan's
+    3 pi eta v b^4/2 h^3 of parallel discs where narrow. Oil that has left is not sucked in again.
     """
     if closing <= 0.0:
         return 0.0
@@ -145,8 +163,9 @@ def push_back(
     """Write force and point for a body that is `penetration` beyond its play in the unit direction n.
 
     Normal force along -n: k e^2/(2 e_0) up to the onset e_0 and k (e - e_0/2) above, plus damping
-    d s^2 (3 - 2 s) de/dt, s = e/full penetration, never below zero, plus the force of a film. Friction: mu(v) F_N
-    against the slip v_rel + omega_rel x (P - r) at P = r + arm n, cubic in its amount.
+    d s^2 (3 - 2 s) de/dt, s = e/full penetration, never below zero: F_N; plus the force of a film. Friction: mu(v) F_N
+    against the slip v_rel + omega_rel x (P - r) at P = r + arm n, cubic in its amount; what a film carries rubs by its
+    own shear, which is left out.
     """
     contact = guide.contact
     onset = contact.onset
@@ -154,7 +173,8 @@ def push_back(
     spring = 0.5 * e * e / onset if e < onset else e - 0.5 * onset
     s = at_most(e / contact.full_penetration, 1.0)
     closing = v_rel[0] * n0 + v_rel[1] * n1 + v_rel[2] * n2
-    normal = at_least(contact.stiffness * spring + contact.damping * s * s * (3.0 - 2.0 * s) * closing, 0.0) + film
+    borne = at_least(contact.stiffness * spring + contact.damping * s * s * (3.0 - 2.0 * s) * closing, 0.0)
+    normal = borne + film
     x0 = guide.arm * n0
     x1 = guide.arm * n1
     x2 = guide.arm * n2
@@ -166,7 +186,7 @@ def push_back(
     slip1 -= across * n1
     slip2 -= across * n2
     speed = math.sqrt(slip0 * slip0 + slip1 * slip1 + slip2 * slip2)
-    drag = normal * cubic_friction_slope(speed, contact.mu_s, contact.mu_d, contact.v_s, contact.v_d)
+    drag = borne * cubic_friction_slope(speed, contact.mu_s, contact.mu_d, contact.v_s, contact.v_d)
     out[0] = -normal * n0 - drag * slip0
     out[1] = -normal * n1 - drag * slip1
     out[2] = -normal * n2 - drag * slip2
@@ -182,7 +202,7 @@ def push_back(
     role_api=2,
     reference=_SOURCES,
     validity=_VALIDITY,
-    prepare=prepare_pocket,
+    prepare=prepare_sphere,
 )
 def spherical_pocket(
     r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: Guide, out: FloatArray
@@ -211,14 +231,15 @@ def spherical_pocket(
     role_api=2,
     reference=_SOURCES,
     validity=_VALIDITY,
-    prepare=prepare_pocket,
+    prepare=prepare_cylinder,
 )
 def cylindrical_pocket(
     r: FloatArray, v_rel: FloatArray, omega_rel: FloatArray, eta0: float, par: Guide, out: FloatArray
 ) -> int:
     """Ball in a cylindrical pocket with a radial axis: free along the radius, for ring-guided cages.
 
-    Contact law, film and friction as in the spherical pocket.
+    Contact law and friction as in the spherical pocket. The film's wall is round across the pocket's axis only:
+    F = 12 pi eta v sqrt(R_x R_y)/(1/R_x + 1/R_y) (1 - h/h_e)^2/h with R_x = R_b (own work).
     """
     out[:] = 0.0
     distance = math.sqrt(r[0] * r[0] + r[2] * r[2])

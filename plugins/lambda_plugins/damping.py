@@ -81,7 +81,11 @@ class SqueezeFilm(CubicDamping):
         gt=0.0,
     )
     thinnest_film: Annotated[float, Quantity("small_length")] = parameter(
-        "0.2 um", "least film at first touch: roughness", source="assumption", status="assumed", gt=0.0
+        "0.2 um",
+        "roughness that keeps ball and raceway apart where no film does",
+        source="assumption",
+        status="assumed",
+        gt=0.0,
     )
 
 
@@ -96,14 +100,18 @@ class Squeezed(NamedTuple):
 
 
 def prepare_film(parameters: SqueezeFilm, context: Context) -> Squeezed:
-    """Return the onset of the cubic damping, and the film's shape and thickness."""
+    """Return the onset of the cubic damping, and the film's shape and thickness.
+
+    Film of smooth surfaces and roughness keep the bodies apart together, by the root of the sum of their squares:
+    either alone where the other is small, and without a bend where they are alike, over speed or temperature.
+    """
     onset = prepare_cubic(parameters, context)
     rx, ry, oil, found = context.radius_x, context.radius_y, context.oil, np.zeros(2)
     speed = 0.25 * context.speed * context.pitch_diameter
     floors = prepare_floors(Floors(), context)
     chittenden(speed, 0.0, context.mean_load, rx, ry, context.e_eff, oil.viscosity, oil.alpha_p, floors, found)
     shape = 12.0 * math.pi * math.sqrt(rx * ry) / (1.0 / rx + 1.0 / ry)
-    return Squeezed(*onset, parameters.layer, max(float(found[0]), parameters.thinnest_film), shape)
+    return Squeezed(*onset, parameters.layer, math.hypot(float(found[0]), parameters.thinnest_film), shape)
 
 
 @law(
@@ -131,9 +139,9 @@ def squeeze_film(
     Between paraboloids with the gap h + x^2/2 R_x + y^2/2 R_y Reynolds' equation for an approach at v has the solution
     p = 6 eta v/(1/R_x + 1/R_y) (1/gap^2 - 1/H^2) within the line gap = H on which the oil ends:
     F = 12 pi eta v sqrt(R_x R_y)/(1/R_x + 1/R_y) (1 - h/H)^2/h: own work; for a sphere on a plane 6 pi eta R^2 v/h,
-    with the edge Pitois et al. 2000, J. Colloid Interface Sci. 231, 26. The film at first touch is that of the mean
-    load, at least the roughness. Oil that pressure has made thick flows no more: under load exp(-alpha p_max) is left,
-    own work. A film does not pull.
+    with the edge Pitois et al. 2000, J. Colloid Interface Sci. 231, 26. At first touch film of the mean load and
+    roughness are left, the root of the sum of their squares. Oil that pressure has made thick flows no more: under
+    load exp(-alpha p_max) is left, own work. A film does not pull.
     """
     s = at_most(at_least(delta / par.delta_max, 0.0), 1.0)
     film = par.touch + at_least(-delta, 0.0)
