@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.elastic.beam import NODE
-from lambda_core.shaft.model import GROUND, PLACES, MountedBearing, ShaftModel
+from lambda_core.shaft.loose_motion import loose_motion
+from lambda_core.shaft.model import GROUND, PLACES, ShaftModel
 from lambda_core.shaft.structure import static_rows, structure
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
 from lambda_core.solver.drivers.first_state import free_contact_angle
@@ -97,7 +98,8 @@ class _Whole:
         deflects = np.setdiff1d(np.arange(self.size), frame)
         self.linear: FloatArray = np.zeros((count, count))
         self.linear[np.ix_(deflects, deflects)] = model.body.stiffness[np.ix_(deflects, deflects)]
-        held = [model.drive, *(rows.bodies + np.flatnonzero(np.isinf(_holds(model)))).tolist()]
+        holds = [k for body in model.bodies for k in body.hold]  # six of each; inf where locked
+        held = [model.drive, *(rows.bodies + np.flatnonzero(np.isinf(holds))).tolist()]
         self.start = np.zeros(count)
         ties = structure(model, rows)[0]
         given = np.zeros(count)
@@ -175,11 +177,6 @@ def _carried(model: ShaftModel, frame: NDArray[np.int64]) -> FloatArray:
     return found
 
 
-def _holds(model: ShaftModel) -> FloatArray:
-    """Return the stiffness of what holds the bodies beside the shaft, six of each; inf where locked."""
-    return np.array([k for body in model.bodies for k in body.hold])
-
-
 class SharedKernels:
     """Compiled laws by their choice: bearings on one shaft mostly have the same, and laws are tried out once."""
 
@@ -213,15 +210,18 @@ def solve_shaft(model: ShaftModel, announce: Announce = None, kernels: SharedKer
         When there is none: nothing holds the shaft, or a bearing falls apart.
     """
     shared = kernels or SharedKernels(announce)
-    rings = [HeldRing(b.model, _first_angle(b), 1000.0, shared.of(b.model), announce) for b in model.bearings]
+    rings = []
+    for m, takes in ((bearing.model, bearing.takes) for bearing in model.bearings):
+        angle = free_contact_angle(m) if takes else m.geometry.resting_angle
+        rings.append(HeldRing(m, angle, 1000.0, shared.of(m), announce))
     whole = _Whole(model, rings)
+    _refuse_loose(whole)
     q = _first_guess(whole)
     iterations = 0
     for _ in range(_FRAMES):
         q, used = _newton(whole, q)
         iterations += used
-        changed = [ring.refresh() for ring in rings]
-        if not any(changed):
+        if not sum(ring.refresh() for ring in rings):
             break
     unbalanced, reactions = whole.residual(q)
     _check_sides(model, reactions)
@@ -238,10 +238,6 @@ def solve_shaft(model: ShaftModel, announce: Announce = None, kernels: SharedKer
         residual=whole.merit(unbalanced),
         iterations=iterations,
     )
-
-
-def _first_angle(bearing: MountedBearing) -> float:
-    return free_contact_angle(bearing.model) if bearing.takes else bearing.model.geometry.resting_angle
 
 
 def _first_guess(whole: _Whole) -> FloatArray:
@@ -317,21 +313,40 @@ def _along(whole: _Whole, q: FloatArray, move: FloatArray, unbalanced: FloatArra
     return q + share * move, trial
 
 
+def _refuse_loose(whole: _Whole) -> None:
+    """Refuse a shaft or a body that nothing holds in a direction in which something pulls it."""
+    held = whole.tangent(np.array([np.diag(_GUESS)] * len(whole.rings)))[np.ix_(whole.free, whole.free)]
+    pull = (whole.given - whole.linear @ whole.start)[whole.free]
+    way = loose_motion(held, pull, whole.arms[whole.free], whole.scale)
+    if way is not None:
+        axis, what = _named(whole, int(whole.free[np.flatnonzero(np.abs(way) > 0.99)[0]]))
+        turned = f"against turning about {axis[-1]}" if axis.startswith("tilt") else f"along {axis}"
+        raise SolverError(f"{whole.model.name}: no equilibrium of the shaft: nothing holds it {turned} ({what})")
+
+
 def _no_balance(whole: _Whole, unbalanced: FloatArray, merit: float) -> str:
     sizes = np.abs(unbalanced / whole.arms)
     of_rings = set(whole.outer.ravel().tolist())
-    worst = int(max((row for row in whole.free if row not in of_rings), key=lambda row: sizes[row]))
-    number, bodies = NODE * whole.model.body.positions.size, worst - whole.size - len(of_rings)
-    if bodies >= 0:
-        what, axis = f"of {whole.model.bodies[bodies // NODE].name}", _AXES[bodies % NODE]
-    elif worst < number:
-        what, axis = f"at {1e3 * whole.model.body.positions[worst // NODE]:.4g} mm", _AXES[worst % NODE]
-    else:
-        what, axis = "of the shaft's own modes", "one"
+    axis, what = _named(whole, int(max((row for row in whole.free if row not in of_rings), key=lambda row: sizes[row])))
     return (
         f"{whole.model.name}: no equilibrium of the shaft: {merit:.1e} of the loads stay unbalanced, most along {axis} "
         f"{what}: is the shaft held in every direction, and does each bearing take what comes to it?"
     )
+
+
+def _named(whole: _Whole, row: int) -> tuple[str, str]:
+    """Return the axis of an unknown, and where it is."""
+    model, beyond = whole.model, row - whole.size
+    if beyond >= whole.outer.size:
+        body, axis = divmod(beyond - whole.outer.size, NODE)
+        return _AXES[axis], f"of {model.bodies[body].name}"
+    if beyond >= 0:
+        bearing, place = divmod(beyond, len(POSE))
+        return _AXES[PLACES[place]], f"outer ring of {model.bearings[bearing].name}"
+    node, axis = divmod(row, NODE)
+    if node < model.body.positions.size:
+        return _AXES[axis], f"at {1e3 * model.body.positions[node]:.4g} mm"
+    return "one", "of the shaft's own modes"
 
 
 def _check_sides(model: ShaftModel, reactions: FloatArray) -> None:

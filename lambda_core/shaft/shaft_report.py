@@ -83,7 +83,8 @@ class ModeAtSpeed(Record):
 
     frequency_Hz: float
     direction: float = Field(description="+1 whirls with the shaft, -1 against it, between: elliptic or in a line")
-    kind: str
+    kind: str = Field(description="how the shaft moves: bending, axial, torsion; body: bodies beside it alone")
+    bodies_share: float = Field(description="of the kinetic energy, in the bodies beside the shaft")
     damping_ratio: float = Field(description="share of critical damping, by the bearings; 0 where it is left out")
 
 
@@ -99,6 +100,8 @@ class CriticalSpeed(Record):
 
     speed_rpm: float
     direction: float
+    kind: str = Field(description="how the shaft moves most: bending, axial, torsion")
+    bodies_share: float = Field(description="of the kinetic energy, in the bodies beside the shaft")
 
 
 class BodyMoved(Record):
@@ -133,7 +136,9 @@ class ShaftReport(Record):
     shear_N: list[list[float]] = Field(description="along y and z")
     bending_moment_Nm: list[list[float]] = Field(description="about y and z, of the right side on the left")
     torque_Nm: list[float] = Field(description="about x, of the right side on the left")
-    critical_speeds: list[CriticalSpeed] = Field(description="of bending, bearings as stiff as at the operating point")
+    critical_speeds: list[CriticalSpeed] = Field(
+        description="at which the shaft moves across its axis, bearings as stiff as at the operating point"
+    )
     modes: list[ModeAtSpeed] = Field(description="natural frequencies at this speed, damped by the bearings")
     campbell: list[CampbellRow] = Field(description="natural frequencies over speed, undamped")
     iterations: int = Field(description="of Newton's method")
@@ -182,7 +187,13 @@ def report_of(model: ShaftModel, state: ShaftState) -> ShaftReport:
         bending_moment_Nm=_listed(forces[:, 4:]),
         torque_Nm=_listed(forces[:, 3]),
         critical_speeds=[
-            CriticalSpeed(speed_rpm=30.0 / math.pi * mode.frequency, direction=mode.direction) for mode in critical
+            CriticalSpeed(
+                speed_rpm=30.0 / math.pi * mode.frequency,
+                direction=mode.direction,
+                kind=mode.kind,
+                bodies_share=mode.beside,
+            )
+            for mode in critical
         ],
         modes=_modes(modes_at(model, stiffness, model.speed, damped(model, state, dampings))),
         campbell=[
@@ -221,7 +232,7 @@ def _modes(found: list[Mode]) -> list[ModeAtSpeed]:
     return [
         ModeAtSpeed(
             frequency_Hz=mode.frequency / (2.0 * math.pi), direction=mode.direction, kind=mode.kind,
-            damping_ratio=mode.damping,
+            bodies_share=mode.beside, damping_ratio=mode.damping,
         )
         for mode in found[:_SHOWN]
     ]  # fmt: skip

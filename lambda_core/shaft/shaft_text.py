@@ -71,13 +71,14 @@ _ROWS: tuple[tuple[str, Callable[[BearingOnShaft], str]], ...] = (
 def report_text(report: ShaftReport, width: int | None = None) -> str:
     """Return what one equilibrium says: the bearings side by side, then the shaft."""
     names = [bearing.name for bearing in report.bearings]
-    wide = max(_COLUMN, 1 + max(len(name) for name in names))
+    cells = {head: [value(bearing) for bearing in report.bearings] for head, value in _ROWS}
+    wide = max(_COLUMN, 1 + max(len(text) for row in (names, *cells.values()) for text in row))
     lines = [
         f"{report.case}, {report.speed_rpm:.5g} 1/min",
         "",
         f"{'':<{_HEAD}}" + "".join(f"{n:>{wide}}" for n in names),
     ]
-    table = [f"{head:<{_HEAD}}" + "".join(f"{value(b):>{wide}}" for b in report.bearings) for head, value in _ROWS]
+    table = [f"{head:<{_HEAD}}" + "".join(f"{text:>{wide}}" for text in row) for head, row in cells.items()]
     return "\n".join([*lines, *table, "", *wrapped(_shaft_lines(report), width)])
 
 
@@ -105,10 +106,16 @@ def _shaft_lines(report: ShaftReport) -> list[str]:
     for name, moved in (*report.bodies.items(), *report.markers.items()):
         each = zip("xyz", moved.displacement_um, strict=True)
         lines.append(f"{name:<{HEAD}}moves " + "   ".join(f"{axis} {_digits(um, 3)} um" for axis, um in each))
-    speeds = [f"{one.speed_rpm:.5g} {_way(one.direction)}" for one in report.critical_speeds[:4]]
+    speeds = [
+        f"{one.speed_rpm:.5g} {_way(one.direction)}{_mostly(one.kind)}{_with_bodies(one.bodies_share)}"
+        for one in report.critical_speeds[:4]
+    ]
     lines.append(f"{'critical speeds':<{HEAD}}{', '.join(speeds) or NONE} 1/min")
     bending = [mode for mode in report.modes if mode.kind == "bending"][:4]
-    told = [f"{mode.frequency_Hz:.4g} ({1e2 * mode.damping_ratio:.2g} %)" for mode in bending]
+    told = [
+        f"{mode.frequency_Hz:.4g} ({1e2 * mode.damping_ratio:.2g} %){_with_bodies(mode.bodies_share)}"
+        for mode in bending
+    ]
     lines.append(f"{'bending modes':<{HEAD}}{', '.join(told) or NONE} Hz (damping)")
     for bearing in report.bearings:
         lines += [f"{'warning':<{HEAD}}{bearing.name}: {warning}" for warning in bearing.warnings]
@@ -120,6 +127,16 @@ def _shaft_lines(report: ShaftReport) -> list[str]:
 def _of_bearings(report: ShaftReport) -> tuple[str, ...]:
     """Return how an assumption of bearings begins: with a name, or with several."""
     return tuple(f"{bearing.name}{mark}" for bearing in report.bearings for mark in (":", ","))
+
+
+def _mostly(kind: str) -> str:
+    """Return a mark for a mode in which the shaft moves across its axis among other things."""
+    return "" if kind == "bending" else f" mostly {kind}"
+
+
+def _with_bodies(share: float) -> str:
+    """Return a mark for a mode whose kinetic energy is mostly in the bodies beside the shaft."""
+    return " with bodies" if share > 0.5 else ""
 
 
 def _way(direction: float) -> str:

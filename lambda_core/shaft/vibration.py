@@ -22,16 +22,20 @@ from lambda_core.solver.drivers.equilibrium import Equilibrium
 _ABOUT_X = 3  # row of a node that turns about the shaft
 _COUNT = 16  # modes that are looked at
 _LATERAL = 0.5  # of the motion squared, from which on a mode counts as bending
+_SHAKEN = 0.1  # of the motion squared across the axis: from here on unbalance shakes a mode of another kind too
+_FELT = 0.01  # of the kinetic energy in the shaft: below it a mode of the bodies beside it is theirs alone
 
 
 @dataclass(frozen=True)
 class Mode:
-    """A mode of the turning shaft: frequency [rad/s], direction (+1 forward, -1 backward), what moves."""
+    """A mode of the turning shaft: frequency [rad/s], direction (+1 forward, -1 backward), how the shaft moves."""
 
     frequency: float
     direction: float
-    kind: str  # bending, axial, torsion
+    kind: str  # bending, axial, torsion; body: of the bodies beside the shaft alone
     damping: float = 0.0  # share of critical
+    beside: float = 0.0  # share of the kinetic energy in the bodies beside the shaft
+    lateral: float = 0.0  # share of the shaft's motion squared that is across its axis
 
 
 def housed_stiffness(model: ShaftModel, state: ShaftState) -> FloatArray:
@@ -201,19 +205,21 @@ def modes_at(model: ShaftModel, stiffness: FloatArray, spin: float, damping: Flo
 
 
 def criticals(model: ShaftModel, stiffness: FloatArray) -> list[Mode]:
-    """Return the critical speeds of bending, rising."""
+    """Return the critical speeds of the shaft across its axis, rising: bent, or swinging together with its housing."""
     mass, gyroscopic = masses(model)
     found = critical_speeds(stiffness, mass, gyroscopic, nodes=model.body.positions.size, count=_COUNT)
-    return [mode for mode in (_mode(model, one, mass) for one in found) if mode.kind == "bending"]
+    return [mode for mode in (_mode(model, one, mass) for one in found) if mode.lateral > _SHAKEN]
 
 
 def _mode(model: ShaftModel, one: Whirl, mass: FloatArray) -> Mode:
     size = model.body.mass.shape[0]
     energy = np.real(np.conj(one.shape) * (mass @ one.shape))
-    if energy[size:].sum() > 0.5 * energy.sum():
-        return Mode(one.frequency, one.direction, "body", one.damping)
+    beside = float(energy[size:].sum() / energy.sum())
+    if beside > 1.0 - _FELT:
+        return Mode(one.frequency, one.direction, "body", one.damping, beside)
     square = np.abs(one.shape[: NODE * model.body.positions.size].reshape(-1, NODE)) ** 2
     lateral, axial = square[:, 1:3].sum(), square[:, 0].sum()
     turning = square[:, 3].sum() * 1e-4  # at a radius of a centimetre
-    kind = "bending" if lateral > _LATERAL * (lateral + axial + turning) else "axial" if axial > turning else "torsion"
-    return Mode(one.frequency, one.direction, kind, one.damping)
+    share = float(lateral / (lateral + axial + turning))
+    kind = "bending" if share > _LATERAL else "axial" if axial > turning else "torsion"
+    return Mode(one.frequency, one.direction, kind, one.damping, beside, share)

@@ -54,14 +54,15 @@ def bearing_on_shaft(name: str, position: float) -> api.BearingOnShaft:
 
 def report() -> api.ShaftReport:
     """Return what could be said of the shaft that `init --shaft` writes."""
-    mode = {"frequency_Hz": 600.0, "direction": 1.0, "kind": "bending", "damping_ratio": 0.0}
+    mode = {"frequency_Hz": 600.0, "direction": 1.0, "kind": "bending", "bodies_share": 0.0, "damping_ratio": 0.0}
     return api.ShaftReport(
         case="box", speed_rpm=3000.0, bearings=[bearing_on_shaft("left", 21.0), bearing_on_shaft("right", 148.0)],
         gears={"wheel": [796.0, 300.0, 213.0]}, system_life_h=4e5, friction_torque_Nmm=122.0, drive_torque_Nm=-47.8,
         shaft_mass_kg=4.4, positions_mm=[0.0, 85.0, 170.0], deflection_um=[[0.0, 0.0, -1.0]] * 2 + [[0.0, -15.0, -2.0]],
         slope_mrad=[[0.0, 0.0]] * 3, cut_positions_mm=[0.0, 85.0, 170.0], shear_N=[[0.0, 0.0]] * 3,
         bending_moment_Nm=[[0.0, 0.0], [28.0, 3.0], [0.0, 0.0]], torque_Nm=[0.0] * 3,
-        critical_speeds=[{"speed_rpm": 40012.0, "direction": 0.0}], modes=[mode],
+        critical_speeds=[{"speed_rpm": 40012.0, "direction": 0.0, "kind": "bending", "bodies_share": 0.0}],
+        modes=[mode],
         campbell=[{"speed_rpm": speed, "modes": [mode]} for speed in (0.0, 6000.0)], iterations=5, residual=0.0,
         assumptions=[],
     )  # fmt: skip

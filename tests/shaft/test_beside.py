@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
+from lambda_core.domain.errors import SolverError
 from lambda_core.elastic.whirl import natural_frequencies
 from lambda_core.shaft.fresh_shaft import fresh_shaft
 from lambda_core.shaft.model import ShaftModel
@@ -17,7 +18,7 @@ from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import SharedKernels, solve_shaft
 from lambda_core.shaft.shaft_report import BodyMoved
 from lambda_core.shaft.structure import static_rows, stretch
-from lambda_core.shaft.vibration import damped, masses, modes_at, supported
+from lambda_core.shaft.vibration import criticals, damped, masses, modes_at, supported
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.shaft.whole_tables import LUMP_STATES, beside_bodies
 from lambda_core.solver import layout as L
@@ -104,6 +105,28 @@ def test_modes_of_a_housing_on_its_mounts(model: ShaftModel) -> None:
     expected = natural_frequencies(k, np.diag([12000.0] * 3 + [30.0, 40.0, 40.0]))[0]
     assert [f for f in found if f > 1.0] == pytest.approx(sorted(expected)[: len(found)], rel=2e-2)
     assert masses(heavy)[0].shape == stiffness.shape == damped(heavy, state, np.zeros((2, 6, 6))).shape
+
+
+def test_a_shaft_that_swings_with_its_housing_has_its_critical_speed(model: ShaftModel) -> None:
+    """Mounts of 20 to 40 N/um under 16 kg: the shaft is shaken there, far below its own bending (m w^2 = k, 10 %)."""
+    box = model.bodies[0]
+    found = criticals(model, supported(model, solve_shaft(model, kernels=KERNELS)))
+    first = min(mode.frequency for mode in found if mode.beside > 0.5)
+    mass = box.mass + model.body.total_mass
+    assert found[0].frequency <= first < 1.1 * math.sqrt(4 * 40e6 / mass)
+    assert all(mode.lateral > 0.1 for mode in found)
+
+
+def test_what_nothing_holds_is_said() -> None:
+    """A shaft whose bearings are free along x, and a box on one mount, which takes the shaft with it."""
+    case = tables(springs={}, bodies={}, markers={})
+    for name in ("left", "right"):
+        case["bearings"][name] |= {"outer": "ground", "support": {"x": "free"}}
+    with pytest.raises(SolverError, match="nothing holds it along x"):
+        solve_shaft(check_shaft(case), kernels=KERNELS)
+    alone = tables(springs={"foot": {"marker": "foot-lf", "z": "20 N/um"}})
+    with pytest.raises(SolverError, match="nothing holds it"):
+        solve_shaft(check_shaft(alone), kernels=KERNELS)
 
 
 def test_a_housing_in_motion(model: ShaftModel) -> None:

@@ -1,0 +1,39 @@
+"""What nothing holds: motions of a shaft and of the bodies beside it that no stiffness resists, under load."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+
+_NOTHING = 1e-12  # eigenvalue of a stiffness whose diagonal is one: below it is rounding
+_PULLED = 1e-9  # of the loads: less of them along a loose motion is rounding
+
+
+def loose_motion(stiffness: FloatArray, pull: FloatArray, arms: FloatArray, scale: float) -> FloatArray | None:
+    """Return how loads carry off what a stiffness does not hold; None where they find hold everywhere.
+
+    Parameters
+    ----------
+    stiffness : float64[:, :], shape (n, n)
+        Symmetric [N/m, N, N m].
+    pull : float64[:], shape (n,)
+        Loads on the same motions [N, N m].
+    arms : float64[:], shape (n,)
+        Lengths that make turning a way [m]; 1 for displacements.
+    scale : float
+        Size of the loads [N].
+
+    Returns
+    -------
+    float64[:], shape (n,), or None
+        Of every motion the way, the longest 1.
+    """
+    unit = 1.0 / np.sqrt(np.maximum(np.diag(stiffness), np.finfo(float).tiny))
+    values, shapes = np.linalg.eigh(stiffness * np.outer(unit, unit))
+    loose = shapes[:, values < _NOTHING]
+    way = unit * (loose @ (loose.T @ (unit * pull))) * arms
+    longest = float(np.abs(way).max(initial=0.0))
+    if longest == 0.0 or abs(float(way / arms @ pull)) < _PULLED * scale * longest:
+        return None
+    return np.asarray(way / longest)
