@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from dataclasses import dataclass
 from decimal import Decimal
 from functools import cache, lru_cache
@@ -164,6 +165,8 @@ def parse(text: object, quantity: str) -> float:
         article = "an" if quantity[0] in "aeiou" else "a"
         raise ValueError(f'expected {article} {quantity.replace("_", " ")} with its unit, for example "1 {first}"')
     if isinstance(text, int | float):
+        if not abs(text) <= sys.float_info.max:
+            raise ValueError(f'must be a finite number with its unit, for example "1 {first}"')
         raise ValueError(f'{text:g} has no unit: write "{text:g} {first}" (allowed: {", ".join(units)})')
     if mistake := misread(text, first):
         raise ValueError(mistake)

@@ -46,6 +46,8 @@ def test_reads_si(text: str, quantity: str, expected: float) -> None:
         ("6 000 rpm", "rotational_speed", 'write the digits together: "6000 rpm"'),
         ("6'000 rpm", "rotational_speed", 'write the digits together: "6000 rpm"'),
         (16, "force", 'has no unit: write "16 N"'),
+        (float("nan"), "inertia", 'must be a finite number with its unit, for example "1 kg m2"'),
+        (10**400, "force", 'must be a finite number with its unit, for example "1 N"'),
         ("16", "force", 'has no unit: write "16 N"'),
         ("16 rpm", "force", "rpm is not a unit of force; allowed: N, kN, MN"),
         ("50 Hz", "rotational_speed", "Hz is not a unit of rotational_speed"),
