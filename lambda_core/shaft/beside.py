@@ -12,7 +12,7 @@ from lambda_core.case.shaft_parts import ShaftBody
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.gear_forces import GearForces
-from lambda_core.domain.units import parse
+from lambda_core.domain.units import parse, show
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import ElasticBody
 from lambda_core.shaft.body_material import body_material
@@ -49,11 +49,16 @@ def _rigid(name: str, given: ShaftBody, catalogue: Catalogue, ledger: Ledger) ->
             polar = mass * (given.width**2 + given.height**2) / 12.0
             transverse = mass * (given.length**2 / 12.0 + (given.width**2 + given.height**2) / 24.0)
             extent = (given.length, given.width, given.height)
+    mass, polar = given.mass or mass, given.polar_inertia or polar
+    transverse = given.transverse_inertia or transverse
+    if polar > 2.0 * transverse * (1.0 + _ROUNDING):  # of any masses I_x <= I_y + I_z
+        ledger.problem(
+            f"bodies.{name}.{'polar' if given.polar_inertia else 'transverse'}_inertia",
+            f"no body has a polar inertia, {show(polar, 'inertia', 4)}, of more than twice its transverse one, "
+            f"{show(transverse, 'inertia', 4)}",
+        )
     hold = [_hold(getattr(given, f"hold_{dof}"), dof) for dof in _DOFS]
-    return RigidBody(
-        name, (given.x, given.y, given.z), given.mass or mass, given.polar_inertia or polar,
-        given.transverse_inertia or transverse, tuple(hold), extent,
-    )  # fmt: skip
+    return RigidBody(name, (given.x, given.y, given.z), mass, polar, transverse, tuple(hold), extent)
 
 
 def _hold(text: str, dof: str) -> float:

@@ -86,6 +86,16 @@ def test_a_stiff_housing_is_the_ground(model: ShaftModel) -> None:
     assert np.array_equal(two.bodies, np.zeros((1, 6)))
 
 
+def test_no_body_turns_heavier_about_x_than_about_y_and_z_together() -> None:
+    """I_x <= I_y + I_z of any masses; a thin disc, where they are equal, is a body."""
+    case = tables()
+    case["bodies"]["box"] |= {"polar_inertia": "0.2 kg m2", "transverse_inertia": "0.1 kg m2"}
+    assert check_shaft(case).bodies[0].polar_inertia == 0.2
+    case["bodies"]["box"] |= {"polar_inertia": "0.21 kg m2"}
+    with pytest.raises(api.CaseError, match=r"bodies\.box\.polar_inertia +no body has a polar inertia, 0\.21 kg m2"):
+        check_shaft(case)
+
+
 def test_modes_of_a_housing_on_its_mounts(model: ShaftModel) -> None:
     """A body on mounts with a shaft a thousand times lighter: six frequencies of the textbook's rigid body (1e-2).
 
