@@ -1,15 +1,11 @@
 """Reduced models from outside: mass, stiffness and nodes of any finite-element program, in one file.
 
-What a file says stands in docs/shaft.md. Formats: JSON, NumPy's .npz, HDF5, and TOML that names a CSV file for every
-matrix. Units are SI, or millimetres, tonnes and newtons.
+What a file says stands in docs/shaft.md. Units are SI, or millimetres, tonnes and newtons.
 """
 
 from __future__ import annotations
 
-import csv
 import json
-import tomllib
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -19,12 +15,13 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, Problem, unknown_name
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import ElasticBody
+from lambda_core.elastic.reduced_files import MATRICES, contents
 
 FORMAT = "lambda-bearing reduced body 1"
 UNITS = {"m kg N": 1.0, "mm t N": 1e-3}  # metres in the file's unit of length
-_MATRICES = ("stiffness", "mass", "gyroscopic", "damping")
-_KEYS = ("format", "units", "nodes", "names", "lumps", *_MATRICES)
+_KEYS = ("format", "units", "nodes", "names", "lumps", *MATRICES)
 _SYMMETRY = 1e-6  # of the largest entry
+_BEYOND = 1e100  # no number of a model: squares of it are infinite
 
 
 def write_reduced(body: ElasticBody, path: str | Path) -> None:
@@ -56,8 +53,8 @@ def read_reduced(path: str | Path) -> ElasticBody:
         With everything that is wrong with the file.
     """
     source = Path(path)
-    data, found = _contents(source), list[Problem]()
-    if data.get("format", FORMAT) != FORMAT or ("format" not in data and source.suffix.lower() == ".json"):
+    data, found = contents(source), list[Problem]()
+    if str(data.get("format", FORMAT)) != FORMAT or ("format" not in data and source.suffix.lower() == ".json"):
         raise CaseError(source.name, [Problem("format", f'must be "{FORMAT}"')])
     for key in data:
         if key not in _KEYS:
@@ -67,13 +64,13 @@ def read_reduced(path: str | Path) -> ElasticBody:
         found.append(Problem("units", 'must be "m kg N" (the default) or "mm t N"'))
     nodes = _nodes(data, found)
     matrices = {
-        name: _numbers(data, name, (2,), found) for name in _MATRICES if name in data or name in ("stiffness", "mass")
+        name: _numbers(data, name, (2,), found) for name in MATRICES if name in data or name in ("stiffness", "mass")
     }
     if not found:
         _check(nodes, matrices, found)
     names = tuple(map(str, np.ravel(np.asarray(data.get("names", []), dtype=object))))
-    lumps = _lumps(data, names, nodes.size, found)
-    if names and (len(names) != nodes.size or len(set(names)) != len(names)):
+    lumps = _lumps(data, names, nodes.size, found) if nodes.size else ()
+    if names and nodes.size and (len(names) != nodes.size or len(set(names)) != len(names)):
         found.append(Problem("names", f"must be one for each of the {nodes.size} nodes, all different"))
     if found:
         raise CaseError(source.name, found)
@@ -88,90 +85,24 @@ def read_reduced(path: str | Path) -> ElasticBody:
     )  # fmt: skip
 
 
-def _contents(path: Path) -> dict[str, Any]:
-    """Return what stands in a file, by name."""
-    readers: dict[str, tuple[str, Callable[[Path], Any]]] = {
-        ".json": ("JSON", lambda file: json.loads(file.read_text(encoding="utf-8"))),
-        ".npz": ("a file of np.savez", _of_npz),
-        ".h5": ("HDF5", _of_hdf5),
-        ".hdf5": ("HDF5", _of_hdf5),
-        ".toml": ("TOML", _of_toml),
-    }
-    if path.suffix.lower() not in readers:
-        raise CaseError(path.name, [Problem("", f"its name must end in {', '.join(readers)}")])
-    kind, read = readers[path.suffix.lower()]
-    try:
-        if not path.is_file():
-            raise FileNotFoundError(2, "no such file")
-        data = read(path)
-    except CaseError:
-        raise
-    except FileNotFoundError as error:
-        raise CaseError(
-            path.name, [Problem("", f"cannot be read: {(error.strerror or 'no such file').lower()}")]
-        ) from None
-    except PermissionError:
-        raise CaseError(path.name, [Problem("", "cannot be read: permission denied")]) from None
-    except (ValueError, OSError, RecursionError, KeyError, EOFError):
-        raise CaseError(path.name, [Problem("", f"is not {kind}")]) from None
-    if not isinstance(data, dict):
-        raise CaseError(path.name, [Problem("", "must be one object with nodes, stiffness and mass")])
-    return data
-
-
-def _of_npz(path: Path) -> dict[str, Any]:
-    with np.load(path, allow_pickle=False) as file:
-        return {name: file[name].item() if file[name].ndim == 0 else file[name] for name in file.files}
-
-
-def _of_hdf5(path: Path) -> dict[str, Any]:
-    import h5py
-
-    found: dict[str, Any] = {}
-    with h5py.File(path, "r") as file:
-        for name, data in (*file.items(), *file.attrs.items()):
-            value = data[()] if isinstance(data, h5py.Dataset) else data
-            if isinstance(value, h5py.Group):
-                continue
-            plain = np.asarray(value)
-            if plain.dtype.kind in "SO":
-                plain = np.array([one.decode() if isinstance(one, bytes) else str(one) for one in plain.ravel()])
-                value = plain if np.ndim(value) else str(plain[0])
-            found[str(name)] = value
-    return found
-
-
-def _of_toml(path: Path) -> dict[str, Any]:
-    """Return the tables of a TOML file; a name in place of a matrix is that of a CSV file beside it."""
-    found = tomllib.loads(path.read_text(encoding="utf-8"))
-    for name in ("nodes", *_MATRICES):
-        if isinstance(found.get(name), str):
-            file = path.parent / found[name]
-            try:
-                with file.open(encoding="utf-8", newline="") as stream:
-                    found[name] = [[float(cell) for cell in row] for row in csv.reader(stream) if row]
-            except OSError:
-                raise CaseError(path.name, [Problem(name, f'"{found[name]}" cannot be read')]) from None
-            except ValueError as error:
-                raise CaseError(path.name, [Problem(name, f'"{found[name]}": {error}')]) from None
-            if name == "nodes" and all(len(row) == 1 for row in found[name]):
-                found[name] = [row[0] for row in found[name]]
-    return found
-
-
 def _numbers(data: dict[str, Any], name: str, dimensions: tuple[int, ...], found: list[Problem]) -> FloatArray:
     """Return an array of numbers; an empty one and a problem where there is none."""
-    try:
-        values = np.array(data[name], dtype=float)
-    except KeyError:
-        found.append(Problem(name, "is required"))
-    except (TypeError, ValueError):
-        found.append(Problem(name, f"is not a list of {'rows of ' * (dimensions == (2,))}numbers"))
-    else:
-        if values.ndim in dimensions and values.size and np.all(np.isfinite(values)):
-            return values
-        wanted = " or ".join(map(str, dimensions))
-        found.append(Problem(name, f"must be {wanted}-dimensional, finite and not empty"))
+    message = "is required"
+    if name in data:
+        try:
+            given = np.asarray(data[name])
+            if given.dtype.kind == "c":
+                message = "is complex: structural damping is not taken, give the real matrix"
+            elif given.dtype.kind not in "iufO":
+                raise TypeError("no numbers")
+            else:
+                values: FloatArray = given.astype(float)
+                if values.ndim in dimensions and values.size and np.all(np.abs(values) < _BEYOND):
+                    return values
+                message = f"must be {' or '.join(map(str, dimensions))}-dimensional, finite and not empty"
+        except (TypeError, ValueError, OverflowError):
+            message = f"is not a list of {'rows of ' * (dimensions == (2,))}numbers"
+    found.append(Problem(name, message))
     return np.zeros((0,) * dimensions[0])
 
 
@@ -197,7 +128,7 @@ def _lumps(data: dict[str, Any], names: tuple[str, ...], count: int, found: list
     """Return the numbers of the nodes that carry the mass in motion, given by number from 0 on, or by name."""
     given = np.ravel(np.asarray(data.get("lumps", []), dtype=object)).tolist()
     numbers = [names.index(str(one)) if str(one) in names else one for one in given]
-    if all(isinstance(n, int | np.integer) and 0 <= n < count for n in numbers):
+    if all(isinstance(n, int | np.integer) and not isinstance(n, bool) and 0 <= n < count for n in numbers):
         return tuple(int(n) for n in numbers)
     found.append(Problem("lumps", f"must be names of nodes, or numbers from 0 to {count - 1}"))
     return ()

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.elastic.reduced import read_reduced
 from lambda_core.shaft.model import GROUND, PLACES, MountedBearing
+from lambda_core.shaft.outside import OutsideFile
 from lambda_core.system.ledger import Ledger
 
 _WHERE = "housing.reduced"
@@ -29,7 +29,8 @@ def elastic_housing(
     bearings : sequence of MountedBearing
         The housing has a node at each of their places; it holds them in their locked degrees of freedom.
     """
-    body = ledger.ask(_WHERE, lambda: read_reduced(path))
+    file = OutsideFile(_WHERE, path, ledger)
+    body = file.read()
     if body is None:
         return None
     rows: list[int] = []
@@ -41,13 +42,13 @@ def elastic_housing(
             first = body.rows(bearing.position).start
         except ValueError as error:
             nodes = ", ".join(f"{1e3 * x:.6g}" for x in body.positions)
-            ledger.problem(_WHERE, f"{bearing.name}: {error}; nodes stand at {nodes} mm")
+            file.problem(f"{bearing.name}: {error}; nodes stand at {nodes} mm")
             continue
         held = [d for d, k in enumerate(bearing.seating.stiffness) if math.isinf(k)]
         rows += [first + PLACES[d] for d in held]
         own += [len(PLACES) * i + d for d in held]
     if not rows:
-        ledger.problem(_WHERE, "it holds no outer ring: all are free, or sit on springs or in bodies")
+        file.problem("it holds no outer ring: all are free, or sit on springs or in bodies")
     if ledger.problems:
         return None
     kept, places = np.array(rows), np.array(own)
@@ -57,12 +58,12 @@ def elastic_housing(
         follows = np.linalg.solve(k[np.ix_(others, others)], k[np.ix_(others, kept)])
         condensed: FloatArray = k[np.ix_(kept, kept)] - k[np.ix_(kept, others)] @ follows
     except np.linalg.LinAlgError:
-        ledger.problem(_WHERE, "some of it is held by nothing: its stiffness is singular beside the bearings")
+        file.problem("some of it is held by nothing: its stiffness is singular beside the bearings")
         return None
     scale = np.sqrt(np.abs(np.diag(condensed)))
     stretch = np.linalg.eigvalsh(condensed / np.outer(scale, scale))
     if stretch[0] < _LOOSE * stretch[-1]:
-        ledger.problem(_WHERE, "the housing is held by nothing: fix it to the ground before it is reduced")
+        file.problem("the housing is held by nothing: fix it to the ground before it is reduced")
         return None
     whole, damping = np.zeros((2, *(len(PLACES) * len(bearings),) * 2))
     whole[np.ix_(places, places)] = 0.5 * (condensed + condensed.T)

@@ -10,7 +10,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import ElasticBody
-from lambda_core.elastic.reduced import read_reduced
+from lambda_core.shaft.outside import OutsideFile
 from lambda_core.system.ledger import Ledger
 
 _WHERE = "shaft.reduced"
@@ -22,23 +22,21 @@ _ALIKE = 1e-6  # relative difference of what has to be equal
 
 def reduced_shaft(path: Path, ledger: Ledger) -> ElasticBody | None:
     """Return the model of a shaft from a file; None after a problem, each with what to do about it."""
-    body = ledger.ask(_WHERE, lambda: read_reduced(path))
+    file = OutsideFile(_WHERE, path, ledger)
+    body = file.read()
     if body is None:
         return None
     before = len(ledger.problems)
     if body.positions.size < 2:
-        ledger.problem(_WHERE, "nodes: a shaft needs two at least")
+        file.problem("nodes: a shaft needs two at least")
         return None
     if body.positions[0] < 0.0:
-        ledger.problem(_WHERE, "nodes: x counts from the left end of the shaft, none is below 0")
+        file.problem("nodes: x counts from the left end of the shaft, none is below 0")
     if body.damping is not None:
-        ledger.problem(
-            _WHERE,
-            "damping: that of a shaft turns with it, which is not computed: leave it out",
-        )
+        file.problem("damping: that of a shaft turns with it, which is not computed: leave it out")
     rigid = _rigid_motions(body)
-    _check_stiffness(body, rigid, ledger)
-    _check_mass(body, rigid, ledger)
+    _check_stiffness(body, rigid, file)
+    _check_mass(body, rigid, file)
     if len(ledger.problems) > before:
         return None
     return _with_gyroscopic(body, rigid, ledger)
@@ -53,57 +51,59 @@ def _rigid_motions(body: ElasticBody) -> FloatArray:
     return found
 
 
-def _check_stiffness(body: ElasticBody, rigid: FloatArray, ledger: Ledger) -> None:
+def _check_stiffness(body: ElasticBody, rigid: FloatArray, file: OutsideFile) -> None:
     k = body.stiffness
     for name, motion in zip(_MOTIONS, rigid.T, strict=True):
         alone = float(np.diag(k) @ motion**2)
         if abs(motion @ k @ motion) > _FREE * alone:
-            ledger.problem(
-                _WHERE,
+            file.problem(
                 f"stiffness: moving all nodes as one {name} takes force: a shaft must be free of supports; otherwise "
-                "the order of rows, units or places of nodes do not fit",
+                "the order of rows, units or places of nodes do not fit"
             )
             return
     scale = 1.0 / np.sqrt(np.maximum(np.diag(k), np.finfo(float).tiny))
     stretch = np.linalg.eigvalsh(k * np.outer(scale, scale))
     loose = int((stretch <= _LOOSE * stretch[-1]).sum())
     if loose != NODE:
-        ledger.problem(_WHERE, f"stiffness: {loose} motions take no force, a free shaft has six: parts are not joined")
+        file.problem(f"stiffness: {loose} motions take no force, a free shaft has six: parts are not joined")
         return
-    half = _turned(body, k)
-    if half is not None and np.abs(half).max() > _ALIKE * np.abs(k).max():
-        ledger.problem(
-            _WHERE,
-            "stiffness: not alike in y and z: a shaft that turns has to be",
-        )
+    held = _of_nodes(body, k)
+    if np.abs(_turned(held) - held).max() > _ALIKE * np.abs(held).max():
+        file.problem("stiffness: not alike in y and z: a shaft that turns has to be")
 
 
-def _turned(body: ElasticBody, matrix: FloatArray) -> FloatArray | None:
-    """Return by how much a matrix changes when the body is turned by 90 degrees; None where modes stand in it."""
-    if matrix.shape[0] != NODE * body.positions.size:
-        return None
+def _of_nodes(body: ElasticBody, stiffness: FloatArray) -> FloatArray:
+    """Return the stiffness between the nodes, further coordinates following without force: they take some (checked)."""
+    n = NODE * body.positions.size
+    follows = np.linalg.solve(stiffness[n:, n:], stiffness[n:, :n])
+    found: FloatArray = stiffness[:n, :n] - stiffness[:n, n:] @ follows
+    return found
+
+
+def _turned(matrix: FloatArray) -> FloatArray:
+    """Return a matrix of nodes after a turn of the body by 90 degrees."""
     quarter = np.zeros((NODE, NODE))
     quarter[0, 0] = quarter[3, 3] = 1.0
     quarter[2, 1] = quarter[5, 4] = 1.0  # y goes to z
     quarter[1, 2] = quarter[4, 5] = -1.0
-    turn = np.kron(np.eye(body.positions.size), quarter)
-    found: FloatArray = turn.T @ matrix @ turn - matrix
+    turn = np.kron(np.eye(matrix.shape[0] // NODE), quarter)
+    found: FloatArray = turn.T @ matrix @ turn
     return found
 
 
-def _check_mass(body: ElasticBody, rigid: FloatArray, ledger: Ledger) -> None:
+def _check_mass(body: ElasticBody, rigid: FloatArray, file: OutsideFile) -> None:
     whole = rigid.T @ body.mass @ rigid
     masses = np.diag(whole)[:3]
     if masses.min() <= 0.0 or np.ptp(masses) > _ALIKE * masses.max():
         told = ", ".join(f"{m:.6g} kg" for m in masses)
-        ledger.problem(_WHERE, f"mass: moved along x, y and z it has {told}: a body has one mass")
+        file.problem(f"mass: moved along x, y and z it has {told}: a body has one mass")
         return
     if whole[3, 3] <= 0.0 or abs(whole[4, 4] - whole[5, 5]) > _ALIKE * whole[5, 5]:
-        ledger.problem(_WHERE, "mass: needs a moment of inertia about x, and the same about y and z")
+        file.problem("mass: needs a moment of inertia about x, and the same about y and z")
         return
     scale = 1.0 / np.sqrt(np.maximum(np.diag(body.mass), np.finfo(float).tiny))
     if np.linalg.eigvalsh(body.mass * np.outer(scale, scale))[0] < 1e-14:
-        ledger.problem(_WHERE, "mass: some coordinates move without mass: reduce stiffness and mass by the same matrix")
+        file.problem("mass: some coordinates move without mass: reduce stiffness and mass by the same matrix")
 
 
 def _with_gyroscopic(body: ElasticBody, rigid: FloatArray, ledger: Ledger) -> ElasticBody:
