@@ -10,6 +10,7 @@ from lambda_core.fmu.circuit_image import NUMBERS
 from lambda_core.fmu.frozen import Frozen
 from lambda_core.fmu.variables import Variable, control
 from lambda_core.laws.jit.portable import features, known_processor
+from lambda_core.results.limits import HIGHEST_PRESSURE
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.equilibrium import (
@@ -46,6 +47,11 @@ _CPUID = {
     "avx512vl": (7, 1, 31),
 }
 _WIDE = {"avx512": 0xE6, "avx": 0x6}  # registers that the system must keep for features that begin so
+# A communication step ends with a sentence after so many iterations, and so many more for each second of it. On the
+# way the integrator takes some 2e5 a second, 1e7 where vibrations are followed (steps of 1 us, with their stages): ten
+# times that is no motion of a bearing. The first number is for the shock of a load that jumps.
+_MOST_ITERATIONS = 5_000
+_MOST_ITERATIONS_PER_SECOND = 1e8
 
 
 def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
@@ -57,6 +63,11 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
         "CONTROL_TIME": control(frozen, "time"),
         "CONTROL_STOP": control(frozen, "stop"),
         "SAMPLES_WAITING": image.place(frozen.memory.count) + _at(COUNT, "samples_waiting"),
+        "ITERATIONS": image.place(frozen.memory.count) + _at(COUNT, "newton_iterations"),
+        "MOST_ITERATIONS": _MOST_ITERATIONS,
+        "MOST_ITERATIONS_PER_SECOND": _MOST_ITERATIONS_PER_SECOND,
+        "PRESSURE": next(i for i, v in enumerate(variables) if v.name == "bearing.max_pressure"),
+        "HIGHEST_PRESSURE": HIGHEST_PRESSURE,
         "FAULT_ROLE": fault + _at(R.FAULT, "role"),
         "FAULT_STATUS": fault + _at(R.FAULT, "status"),
         "FAULT_BALL": fault + _at(R.FAULT, "ball"),
@@ -70,6 +81,7 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
         "STATUS_REFUSED": int(Status.REFUSED),
         "STATUS_STEP_TOO_SMALL": int(Status.STEP_TOO_SMALL),
         "VARIABLES": len(variables),
+        **{f"TERM_{name.upper()}": _at(R.TERM, name) for name in ("value", "rate", "acceleration", "begin")},
         **_start_numbers(frozen),
         **_circuit_numbers(frozen),
     }

@@ -93,7 +93,7 @@ def export_fmu(
         With a sentence about the case or its equilibrium.
     """
     from lambda_core.case.case_writer import standalone_toml
-    from lambda_core.domain.files import check_folder, check_new
+    from lambda_core.domain.files import check_folder, check_new, check_target
     from lambda_core.fmu.varied import varied
     from lambda_core.solver.drivers.given import COUPLINGS
     from lambda_core.system.cases import case
@@ -120,7 +120,7 @@ def export_fmu(
     options = tuple(vary)
     varied(options, loaded)
     resolve(loaded)
-    target = Path(out) if out is not None else Path(f"{_plain(loaded.name)}.fmu")
+    target = check_target(Path(out) if out is not None else Path(f"{_plain(loaded.name)}.fmu"))
     check_folder(check_new(target, force).parent, target)
     task = {"case": standalone_toml(loaded), "out": str(target.absolute()), "fmi": fmi, "couple": couple}
     task |= {"vary": options, "platforms": wanted}

@@ -163,6 +163,11 @@ def test_states_and_instances(host: Any, exported: Export, tmp_path: Path, fmi: 
     assert first.unpack(bytes_[:-1], begin) == host.ERROR
     assert first.unpack(b"?" * len(bytes_), begin) == host.ERROR
     assert first.said[-1] == "these bytes are no state of this bearing"
+    for place in (64, len(bytes_) // 2, len(bytes_) - 1, 60):  # 60: in the sum itself
+        damaged = bytearray(bytes_)
+        damaged[place] ^= 0x80
+        assert first.unpack(bytes(damaged), begin) == host.ERROR
+        assert "damaged on its way" in first.said[-1]
     assert first.do("Reset") == host.OK
 
 
@@ -201,7 +206,9 @@ def test_bad_use_is_answered_with_a_sentence(host: Any, exported: Export, tmp_pa
     }
     bearing.time -= STEP
     trials["but the bearing stands at 0.0001 s: to go back, restore a state"] = bearing.step(STEP)
-    bearing.time += STEP
+    bearing.time += 2 * STEP
+    trials["but the bearing stands at 0.0001 s: steps follow each other without a gap"] = bearing.step(STEP)
+    bearing.time -= STEP
     unit.references["nothing"] = 999
     trials["there is no real variable with the value reference 999"] = bearing.set("nothing", 0.0)
     trials["initialisation has not begun"] = bearing.do("ExitInitializationMode")
@@ -237,6 +244,47 @@ def test_slopes_are_those_of_the_reactions(host: Any, exported: Export, tmp_path
     assert slope < -1e7
     assert after[1] == before[1]  # the balls stand where they stood
     assert bearing.slope("bearing.loss", "inner_ring.y_acceleration") == 0.0
+
+
+def test_slopes_with_rates_are_those_of_this_instant(host: Any, exported: Export, tmp_path: Path) -> None:
+    """After a step without setting anew: central differences about the motion as it goes on, by set and restore."""
+    unit = unit_of(host, exported, tmp_path, 2, "motion")
+    bearing, force, rate, acceleration = host.Instance(unit).ready(), "inner_ring.reaction_force_x", 1e-3, 5.0
+    (x,) = bearing.get(["inner_ring.x"])
+    for name, value in (("x", x), ("x_rate", rate), ("x_acceleration", acceleration)):
+        assert bearing.set(f"inner_ring.{name}", value) == host.OK
+    assert bearing.step(STEP) == host.OK
+    now = {
+        "inner_ring.x": x + rate * STEP + 0.5 * acceleration * STEP**2,
+        "inner_ring.x_rate": rate + acceleration * STEP,
+        "inner_ring.x_acceleration": acceleration,
+    }
+    before = bearing.get(unit.named("output"))
+    for known, by in (("inner_ring.x_rate", 1e-6), ("inner_ring.x", 1e-9)):
+        found, forces = bearing.slope(force, known), []
+        for side in (1, -1):
+            state = bearing.save()
+            for name, value in now.items():
+                bearing.set(name, value + side * by * (name == known))
+            forces += bearing.get([force])
+            bearing.restore(state, bearing.time)
+        assert found == pytest.approx((forces[0] - forces[1]) / (2.0 * by), rel=1e-4)
+        assert found < 0.0
+    assert bearing.get(unit.named("output")) == before
+
+
+def test_what_no_bearing_takes_ends_with_a_sentence(host: Any, exported: Export, tmp_path: Path) -> None:
+    """A force in other units: steps of picoseconds lead nowhere. Pressures beyond what steel bears are said once."""
+    unit = unit_of(host, exported, tmp_path)
+    bearing = host.Instance(unit).ready()
+    kept = bearing.save()
+    assert bearing.set("inner_ring.force_x", 1e9) == host.OK
+    assert bearing.step(2e-5) == host.ERROR
+    assert "7000 iterations are spent (contact pressure" in bearing.said[-1]
+    assert "are loads in N" in bearing.said[-1]
+    assert len([said for said in bearing.said if "is beyond 4.2 GPa, where steel yields" in said]) == 1
+    bearing.restore(kept, 0.0)
+    assert bearing.step(STEP) == host.OK
 
 
 def test_the_library_asks_for_the_c_library_alone(exported: Export, tmp_path: Path) -> None:
@@ -318,6 +366,9 @@ def test_what_cannot_be_exported_is_said(
 def test_a_place_that_takes_no_file_is_refused_before_the_work(c_compiler: tuple[str, ...], tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="does not exist"):
         api.export_fmu(CASE, out=tmp_path / "nowhere" / "no.fmu", announce=pytest.fail)
+    for force in (False, True):
+        with pytest.raises(UsageError, match="it is a folder"):
+            api.export_fmu(CASE, out=tmp_path, force=force, announce=pytest.fail)
 
 
 def test_code_that_needs_python_is_refused() -> None:

@@ -8,19 +8,10 @@
 
 #include "image.h"
 
-#define TOKEN_SIZE 64
-
 /* Numbers of the host that belong to a state. */
 enum { ORIGIN, LOST_BEFORE, TURNED_BEFORE, TORQUE, PHASE, UNSETTLED };
 #define HOST(b, which) REAL(b, LB_HOST + 8 * (which))
 #define WORK_PER_CALL 500
-
-static void address(unsigned char *image) {
-  for (size_t i = 0; i < sizeof lb_relocations / sizeof *lb_relocations; i++)
-    *(uint64_t *)(image + lb_relocations[i][0]) = (uint64_t)(uintptr_t)(image + lb_relocations[i][1]);
-  for (size_t i = 0; i < sizeof lb_fixes / sizeof *lb_fixes; i++)
-    *(uint64_t *)(image + lb_fixes[i][0]) = (uint64_t)(uintptr_t)lb_functions[lb_fixes[i][1]];
-}
 
 int lb_say(lb_bearing *b, int status, const char *form, ...) {
   char sentence[1024];
@@ -28,7 +19,7 @@ int lb_say(lb_bearing *b, int status, const char *form, ...) {
   va_start(rest, form);
   vsnprintf(sentence, sizeof sentence, form, rest);
   va_end(rest);
-  if (b->tell && (b->logging || status >= LB_DISCARD))
+  if (b->tell && (b->logging || status >= LB_WARNING))
     b->tell(b, status, status >= LB_DISCARD ? "logStatusError" : "logStatusWarning", sentence);
   return status;
 }
@@ -83,10 +74,10 @@ void lb_free(lb_bearing *b) {
 
 void lb_reset(lb_bearing *b) {
   memcpy(b->image, lb_image, LB_IMAGE_SIZE);
-  address(b->image);
+  lb_address(b->image);
   HOST(b, PHASE) = LB_CREATED;
   HOST(b, TORQUE) = NAN;
-  b->stale = 1;
+  b->stale = 1, b->warned = 0;
 }
 
 double lb_time(lb_bearing *b) { return HOST(b, ORIGIN) + REAL(b, LB_CONTROL_TIME); }
@@ -148,6 +139,14 @@ static int look(lb_bearing *b) {
   if (settle(b) != LB_OK) return LB_ERROR;
   if (lb_observe(b->image) != LB_STATUS_OK) return refused(b);
   b->stale = 0;
+  double pressure = extreme(b, &lb_variables[LB_PRESSURE]);
+  if (pressure > LB_HIGHEST_PRESSURE && !b->warned) {
+    b->warned = 1;
+    lb_say(b, LB_WARNING,
+           "at t = %.9g s the contact pressure of %.3g GPa is beyond %g GPa, where steel yields (ISO 76): the contact laws "
+           "are elastic (said once)",
+           lb_time(b), 1e-9 * pressure, 1e-9 * LB_HIGHEST_PRESSURE);
+  }
   return LB_OK;
 }
 
@@ -241,7 +240,19 @@ int lb_set(lb_bearing *b, const unsigned *which, size_t count, const double *val
   return LB_OK;
 }
 
+/* Steps that lead nowhere: what a host gave was in other units, or its coupling runs away. */
+static int astray(lb_bearing *b, double until, double most) {
+  b->stale = 1;
+  double pressure = look(b) == LB_OK ? extreme(b, &lb_variables[LB_PRESSURE]) : NAN;
+  return lb_say(b, LB_ERROR,
+                "at t = %.9g s, on the way to %.9g s, %.0f iterations are spent (contact pressure %.3g GPa): forces or motions "
+                "that no bearing takes; are loads in N, places in m, speeds in rad/s?",
+                lb_time(b), HOST(b, ORIGIN) + until, most, 1e-9 * pressure);
+}
+
 static int arrive(lb_bearing *b, double until) {
+  int64_t before = WORD(b, LB_ITERATIONS);
+  double most = LB_MOST_ITERATIONS + LB_MOST_ITERATIONS_PER_SECOND * (until - REAL(b, LB_CONTROL_TIME));
   REAL(b, LB_CONTROL_STOP) = until;
   while (REAL(b, LB_CONTROL_TIME) < until) {
     int64_t status = lb_advance(b->image, until, WORK_PER_CALL);
@@ -249,6 +260,7 @@ static int arrive(lb_bearing *b, double until) {
     if (status == LB_STATUS_REFUSED) return refused(b);
     if (status == LB_STATUS_STEP_TOO_SMALL)
       return lb_say(b, LB_ERROR, "at t = %.9g s the integrator's step fell below the smallest one allowed", lb_time(b));
+    if (REAL(b, LB_CONTROL_TIME) < until && (double)(WORD(b, LB_ITERATIONS) - before) > most) return astray(b, until, most);
   }
   REAL(b, LB_CONTROL_STOP) = INFINITY;
   return LB_OK;
@@ -260,8 +272,8 @@ int lb_step(lb_bearing *b, double now, double step) {
   if (!(isfinite(now) && isfinite(step) && step > 0.0))
     return lb_say(b, LB_ERROR, "a step from t = %g s by %g s: a positive, finite length is due", now, step);
   if (fabs(now - begin) > 1e-6 * step + 1e-12 * fabs(begin))
-    return lb_say(b, LB_ERROR, "a step from t = %.9g s, but the bearing stands at %.9g s: to go back, restore a state",
-                  now, begin);
+    return lb_say(b, LB_ERROR, "a step from t = %.9g s, but the bearing stands at %.9g s: %s", now, begin,
+                  now < begin ? "to go back, restore a state" : "steps follow each other without a gap");
   if (!(until > REAL(b, LB_CONTROL_TIME)))
     return lb_say(b, LB_ERROR, "a step of %g s from t = %.9g s is lost in rounding", step, now);
   b->stale = 1;
@@ -278,50 +290,20 @@ int lb_step(lb_bearing *b, double now, double step) {
 #endif
 }
 
-int lb_save(lb_bearing *b, void **state) {
-  if (!*state) *state = malloc(LB_IMAGE_SIZE);
-  if (!*state) return lb_say(b, LB_ERROR, "there is no memory for a state of %u bytes", (unsigned)LB_IMAGE_SIZE);
-  memcpy(*state, b->image, LB_IMAGE_SIZE);
-  return LB_OK;
-}
-
-int lb_restore(lb_bearing *b, const void *state) {
-  if (!state) return lb_say(b, LB_ERROR, "there is no state to restore");
-  memcpy(b->image, state, LB_IMAGE_SIZE);
-  address(b->image);
-  b->stale = 1;
-  return LB_OK;
-}
-
-size_t lb_packed_size(void) { return LB_IMAGE_SIZE + TOKEN_SIZE; }
-
-int lb_pack(lb_bearing *b, const void *state, void *bytes, size_t size) {
-  unsigned char *image = (unsigned char *)bytes + TOKEN_SIZE;
-  if (!state || size < lb_packed_size())
-    return lb_say(b, LB_ERROR, "a state takes %u bytes, not %u", (unsigned)lb_packed_size(), (unsigned)size);
-  memset(bytes, 0, TOKEN_SIZE);
-  strncpy(bytes, LB_TOKEN, TOKEN_SIZE - 1);
-  memcpy(image, state, LB_IMAGE_SIZE);
-  /* Addresses mean nothing outside: the same state is the same bytes. */
-  for (size_t i = 0; i < sizeof lb_relocations / sizeof *lb_relocations; i++)
-    memcpy(image + lb_relocations[i][0], lb_image + lb_relocations[i][0], 8);
-  for (size_t i = 0; i < sizeof lb_fixes / sizeof *lb_fixes; i++)
-    memcpy(image + lb_fixes[i][0], lb_image + lb_fixes[i][0], 8);
-  return LB_OK;
-}
-
-int lb_unpack(lb_bearing *b, const void *bytes, size_t size, void **state) {
-  if (!bytes || size != lb_packed_size() || strncmp(bytes, LB_TOKEN, TOKEN_SIZE - 1) != 0)
-    return lb_say(b, LB_ERROR, "these bytes are no state of this bearing");
-  if (!*state) *state = malloc(LB_IMAGE_SIZE);
-  if (!*state) return lb_say(b, LB_ERROR, "there is no memory for a state of %u bytes", (unsigned)LB_IMAGE_SIZE);
-  memcpy(*state, (const unsigned char *)bytes + TOKEN_SIZE, LB_IMAGE_SIZE);
-  return LB_OK;
+/* An input goes on with its derivatives since it was set: say the same from here on, and slopes are those of now. */
+static void anchor(lb_bearing *b, const lb_variable *v) {
+  unsigned row = v->begin - LB_TERM_BEGIN;
+  double *value = &REAL(b, row + LB_TERM_VALUE), *rate = &REAL(b, row + LB_TERM_RATE);
+  double acceleration = REAL(b, row + LB_TERM_ACCELERATION), passed = REAL(b, LB_CONTROL_TIME) - REAL(b, v->begin);
+  *value += passed * (*rate + 0.5 * passed * acceleration);
+  *rate += passed * acceleration;
+  REAL(b, v->begin) = REAL(b, LB_CONTROL_TIME);
 }
 
 static void shift(lb_bearing *b, const unsigned *knowns, size_t m, const double *along, double by) {
   int varies = 0;
   for (size_t k = 0; k < m; k++) {
+    if (lb_variables[knowns[k]].kind == LB_INPUT) anchor(b, &lb_variables[knowns[k]]);
     REAL(b, lb_variables[knowns[k]].place) += by * along[k];
     varies |= lb_variables[knowns[k]].kind == LB_VARIED;
   }

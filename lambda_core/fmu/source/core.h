@@ -26,6 +26,7 @@ typedef struct {
 typedef struct lb_bearing {
   unsigned char *memory, *image; /* the image begins at a line of the processor's cache */
   int stale;                     /* outputs are to be computed before they are read */
+  int warned;                    /* of a pressure that steel does not bear */
   char *name;
   void *host;    /* what the host wants back with each sentence */
   void *logger;  /* its function */

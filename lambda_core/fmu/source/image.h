@@ -30,6 +30,7 @@ extern int64_t lb_march(unsigned char *image);
 #define REAL(b, place) (*(double *)((b)->image + (place)))
 #define WORD(b, place) (*(int64_t *)((b)->image + (place)))
 
+void lb_address(unsigned char *image); /* give it the addresses of where it stands */
 void lb_follow(lb_bearing *b); /* bring constants to the values of the options */
 int lb_settle(lb_bearing *b);  /* find the equilibrium at the start; an error where there is none */
 #if LB_CIRCUIT
