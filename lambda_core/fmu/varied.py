@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.errors import UsageError
+from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.domain.units import UNITS, parse
 
 if TYPE_CHECKING:
@@ -60,17 +60,18 @@ def varied(texts: Iterable[str], case: Case) -> tuple[Varied, ...]:
     Raises
     ------
     UsageError
-        When a text is not of that form, the case does not say the option, or says a value beyond the limits.
+        When a text is not of that form, there is no such option, the case does not say it, or says a value beyond the
+        limits.
     """
     written = case.written()
-    found = tuple(_read(text, written) for text in texts)
+    found = tuple(_read(text, written, case) for text in texts)
     paths = [each.path for each in found]
     if twice := sorted({path for path in paths if paths.count(path) > 1}):
         raise UsageError(f"{twice[0]} is to vary twice: give it one range")
     return found
 
 
-def _read(text: str, written: Mapping[str, Any]) -> Varied:
+def _read(text: str, written: Mapping[str, Any], case: Case) -> Varied:
     path, equals, span = text.partition("=")
     low, dots, high = span.partition("..")
     path, low, high = path.strip(), low.strip(), high.strip()
@@ -79,10 +80,12 @@ def _read(text: str, written: Mapping[str, Any]) -> Varied:
     said: Any = written
     for part in path.split("."):
         said = said.get(part) if isinstance(said, Mapping) else None
-    if said is None or isinstance(said, Mapping | list | bool):
-        raise UsageError(f"{path} is to vary, but the case does not say what it is at first: add --set {path}=...")
     if _NUMBER.fullmatch(low):  # "20..100 degC"
         low = f"{low} {_NUMBER.sub('', high, count=1)}".strip()
+    if said is None:
+        _check_known(path, low, case)
+    if said is None or isinstance(said, Mapping | list | bool):
+        raise UsageError(f"{path} is to vary, but the case does not say what it is at first: add --set {path}=...")
     quantity = _quantity(path, str(low))
     lowest, highest, start = (_value(path, each, quantity) for each in (low, high, said))
     if not lowest < highest:
@@ -90,6 +93,18 @@ def _read(text: str, written: Mapping[str, Any]) -> Varied:
     if not lowest <= start <= highest:
         raise UsageError(f"{path} is {said} in the case, which is not between {low} and {high}")
     return Varied(path, quantity, lowest, start, highest)
+
+
+def _check_known(path: str, value: str, case: Case) -> None:
+    """Raise UsageError when no case says such an option, or none such a value."""
+    from lambda_core.case.case_io import apply_overrides
+
+    try:
+        apply_overrides(case, [f"{path}={value}"])
+    except CaseError as error:
+        for problem in error.problems:
+            if f"{path}.".startswith(f"{problem.where}."):
+                raise UsageError(f"{path} is to vary, but {problem.where} {problem.message}") from None
 
 
 def _quantity(path: str, text: str) -> str:

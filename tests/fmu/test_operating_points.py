@@ -166,7 +166,10 @@ def test_options_that_no_curve_follows_are_refused(change: Any, sentence: str) -
         ("lubricant.temperature=20 degC..90 um", "cannot vary"),
         ("lubricant.temperature=cold..90 degC", "no number with a unit"),
         ("bearing.designation=1..2", "which is not between 1 and 2"),
-        ("surfaces.roughness=0.1..0.2 um", "add --set surfaces.roughness"),
+        ("surface.roughness=0.1..0.2 um", "add --set surface.roughness"),
+        ("lubricant.temprature=20..90 degC", "lubricant.temprature is not a known option; nearest: temperature"),
+        ("lubricnt.temperature=20..90 degC", "lubricnt is not a known option; nearest: lubricant"),
+        ("clearance=4..9 um", "did you mean bearing.clearance"),
     ],
 )
 def test_a_range_that_is_none_is_refused(text: str, sentence: str) -> None:
