@@ -22,7 +22,7 @@ def test_a_search_without_rows_says_what_the_catalogue_holds(
     shown = capsys.readouterr()
     assert shown.out == ""
     assert f'nothing matches "{" ".join(words)}"' in shown.err
-    assert "deep groove, angular contact and four-point contact ball bearings of" in shown.err
+    assert "angular contact, four-point contact, double row and self-aligning ball bearings of" in shown.err
     assert "oils and greases: --lubricants" in shown.err
 
 

@@ -69,5 +69,9 @@ def test_limits_units_defaults_and_choices() -> None:
         "33",
         "QJ2",
         "QJ3",
+        "12",
+        "13",
+        "22",
+        "23",
     ]
     assert card("depth.cage").default == "true"

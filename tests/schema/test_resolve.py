@@ -440,7 +440,9 @@ def test_every_catalogue_bearing_resolves_or_says_what_is_missing(rows: Catalogu
         clearance = {} if row.contact_angle is None else {"clearance": None}  # a class is of radial contact
         case = base.with_(bearing={"designation": row.designation, "maker": row.maker, **clearance})
         found = {problem.where for problem in api.problems(case)}
-        assert found == (set() if row.ball_count else missing), row.designation
+        # 20 balls of 18.256 mm fit the ratings of QJ 217 best, and leave no bar for a cage between them: it says so.
+        crowded = {"bodies.cage.pocket_clearance"} if row.designation == "QJ217" else set()
+        assert found == (crowded if row.ball_count else missing), row.designation
         resolved += not found
     assert resolved > 90
 

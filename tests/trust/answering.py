@@ -53,7 +53,7 @@ STATES = (
     State("equilibrium and loading of compiled code", ("quasistatic", CASE, *SLOW), 1.0),
     State("a record of minutes", ("run", CASE, *SLOW, "--out", "r.h5"), 0.3, "r.h5"),
     State("6016 from 500 rpm to rest in 7 ms", ("run", CASE, *STOP, "--out", "r.h5"), 0.3, "r.h5"),
-    State("standstill under axial load", ("run", CASE, "--set", "operation.speed=0 rpm", "--set", "solver.duration=1 s",
+    State("standstill under axial load", ("run", CASE, "--set", "operation.speed=0 rpm", "--set", "solver.duration=1 h",
                                           *SMOOTHED, "--out", "r.h5"), 0.3, "r.h5"),
     State("a study of runs", ("study", "run", "s.toml", "--workers", "1"), 0.02, "turns/runs/*.h5"),
     State("drawing", ("view", "whole.h5", "--format", "png"), 2.0),

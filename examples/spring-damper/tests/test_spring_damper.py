@@ -10,7 +10,7 @@ MASS, STIFFNESS, DAMPING, LOAD = 2.0, 2e6, 200.0, 100.0
 CASE = [
     "bearing.clearance=0.2 mm", "loads.axial=0 N", "gravity.z=0 m/s2", f"bodies.inner_ring.mass={MASS} kg",
     "elements.s.law=spring-damper", "elements.s.second=inner_ring", f"elements.s.parameters.stiffness={STIFFNESS} N/m",
-    f"elements.s.parameters.damping={DAMPING} N s/m", "solver.tolerance=1e-4", "solver.duration=6 ms",
+    f"elements.s.parameters.damping={DAMPING} N s/m", "solver.tolerance=3e-5", "solver.duration=6 ms",
     "output.interval=0.1 ms",
     f'loads.inner_ring.force_y={{kind="ramp", start="{LOAD} N", end="0 N", start_time="0.1 us", end_time="0.2 us"}}',
 ]  # fmt: skip
