@@ -163,9 +163,9 @@ def push_back(
     """Write force and point for a body that is `penetration` beyond its play in the unit direction n.
 
     Normal force along -n: k e^2/(2 e_0) up to the onset e_0 and k (e - e_0/2) above, plus damping
-    d s^2 (3 - 2 s) de/dt, s = e/full penetration, never below zero: F_N; plus the force of a film. Friction: mu(v) F_N
-    against the slip v_rel + omega_rel x (P - r) at P = r + arm n, cubic in its amount; what a film carries rubs by its
-    own shear, which is left out.
+    d s^2 (3 - 2 s) de/dt, s = e/full penetration, never below zero, plus the force of a film: F_N. Friction: mu(v) F_N
+    against the slip v_rel + omega_rel x (P - r) at P = r + arm n, cubic in its amount. mu is of a mixed contact: who
+    carries, film or asperities, does not change it.
     """
     contact = guide.contact
     onset = contact.onset
@@ -173,8 +173,7 @@ def push_back(
     spring = 0.5 * e * e / onset if e < onset else e - 0.5 * onset
     s = at_most(e / contact.full_penetration, 1.0)
     closing = v_rel[0] * n0 + v_rel[1] * n1 + v_rel[2] * n2
-    borne = at_least(contact.stiffness * spring + contact.damping * s * s * (3.0 - 2.0 * s) * closing, 0.0)
-    normal = borne + film
+    normal = at_least(contact.stiffness * spring + contact.damping * s * s * (3.0 - 2.0 * s) * closing, 0.0) + film
     x0 = guide.arm * n0
     x1 = guide.arm * n1
     x2 = guide.arm * n2
@@ -186,7 +185,7 @@ def push_back(
     slip1 -= across * n1
     slip2 -= across * n2
     speed = math.sqrt(slip0 * slip0 + slip1 * slip1 + slip2 * slip2)
-    drag = borne * cubic_friction_slope(speed, contact.mu_s, contact.mu_d, contact.v_s, contact.v_d)
+    drag = normal * cubic_friction_slope(speed, contact.mu_s, contact.mu_d, contact.v_s, contact.v_d)
     out[0] = -normal * n0 - drag * slip0
     out[1] = -normal * n1 - drag * slip1
     out[2] = -normal * n2 - drag * slip2

@@ -163,19 +163,6 @@ def test_film_of_a_spherical_pocket_against_its_pressure() -> None:
     )
 
 
-@pytest.mark.parametrize("name", ["spherical-pocket", "cylindrical-pocket"])
-def test_a_film_in_a_pocket_does_not_rub_as_metal_does(name: str) -> None:
-    """Friction is that of the spring; before touch there is none, however fast ball and cage close."""
-    slip, force = np.array([0.3, 0.0, 0.0]), {}
-    for gap in (1e-6, -3e-6):
-        for eta in (0.0, ETA):
-            force[gap, eta] = pocket_out(gap, 0.2, name, eta=eta, slip=slip)
-    assert force[1e-6, ETA][0] == 0.0
-    assert force[1e-6, ETA][2] < 0.0
-    assert force[-3e-6, ETA][0] == force[-3e-6, 0.0][0] < 0.0
-    assert force[-3e-6, ETA][2] < force[-3e-6, 0.0][2] - 1.0
-
-
 def test_a_narrow_film_is_that_of_parallel_discs() -> None:
     """3 pi eta v b^4/(2 h^3); the gap grows by 1 % up to the film's edge."""
     context = trial_context("ball_cage")
