@@ -56,7 +56,7 @@ RING_GUIDED = ("bodies.cage.guidance=outer ring", "bodies.cage.land_clearance=0.
 
 EXCHANGES: tuple[Exchange, ...] = (
     Exchange("normal_contact", (Law("hamrock-brewe"), Law("hertz-exact"))),
-    Exchange("damping", (Law("cubic"), Law("hunt-crossley"), Law("none"))),
+    Exchange("damping", (Law("squeeze-film"), Law("cubic"), Law("hunt-crossley"), Law("none"))),
     Exchange(
         "rheology",
         (
