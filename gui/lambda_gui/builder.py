@@ -69,7 +69,9 @@ class BuilderScreen(LiveDraft):
     def __init__(self, draft: Draft) -> None:
         super().__init__(draft)
         self._form_timer: Timer | None = None
-        self._wanted: Keys | None = None
+        self._wanted: tuple[str, Keys] | None = (
+            None  # node and option that are to have the keyboard once its form stands
+        )
 
     # -- layout --
 
@@ -127,8 +129,9 @@ class BuilderScreen(LiveDraft):
                 form.reload(self.check.problems)
                 self._show_node_help(node)
                 self.query_one(Sketch).show_node(node)
-        if self._wanted is not None and self.form is not None:
-            self.form.show(self._wanted)
+        # On the way, the cursor may rest on another node (a tree that was planted anew begins at its first).
+        if self._wanted is not None and self._wanted[0] == node.key and self.form is not None:
+            self.form.show(self._wanted[1])
             self._wanted = None
 
     def _show_node_help(self, node: Node) -> None:
@@ -202,7 +205,7 @@ class BuilderScreen(LiveDraft):
         if self.form is not None and self.form.node is node and self.form.is_ready:
             self.form.show(keys)
             return
-        self._wanted = keys
+        self._wanted = (node.key, keys)
         tree.go_to(node.key)
 
     def options(self) -> list[str]:

@@ -161,7 +161,13 @@ class ModelTree(Tree[Node]):
                 while above is not None:
                     above.expand()
                     above = above.parent
-                self.call_after_refresh(self.move_cursor, line, False)
+        self.call_after_refresh(self._move_to, key)
+
+    def _move_to(self, key: str) -> None:
+        """Put the cursor on a node; lines are looked up late, since the tree may have been planted anew."""
+        line = next((at for at in self._tree_nodes.values() if at.data is not None and at.data.key == key), None)
+        if line is not None:
+            self.move_cursor(line)
 
     def action_enter(self) -> None:
         """Go into the form; a node that only groups others opens."""

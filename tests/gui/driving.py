@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from lambda_gui.app import BuilderApp
 from lambda_gui.builder import BuilderScreen
 from lambda_gui.rows import Row
+from lambda_gui.tree import ModelTree
 from textual.command import CommandList, CommandPalette
 
 if TYPE_CHECKING:
@@ -78,6 +79,19 @@ async def go_to(pilot: Pilot[None], path: str) -> None:
     keys = tuple(path.split("."))
     builder(pilot).go_to(keys)
     await wait_for(pilot, lambda: focused_place(pilot) == keys)
+
+
+async def move_to(pilot: Pilot[None], key: str) -> None:
+    """Move the tree's cursor to a node, with the keyboard on the tree."""
+    tree = pilot.app.screen.query_one(ModelTree)
+    tree.focus()
+    tree.go_to(key)
+
+    def is_there() -> bool:
+        at = tree.cursor_node
+        return tree.has_focus and at is not None and at.data is not None and at.data.key == key
+
+    await wait_for(pilot, is_there)
 
 
 async def find(pilot: Pilot[None], path: str, begin: str = "") -> None:

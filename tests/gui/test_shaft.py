@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from driving import LARGE, SMALL, builder, checked, focused_place, screen_text, wait_for, write
+from driving import LARGE, SMALL, builder, checked, focused_place, move_to, screen_text, wait_for, write
 from lambda_gui.app import BuilderApp
 from lambda_gui.derived import Derived
 from lambda_gui.entries import rename
@@ -103,8 +103,7 @@ def test_every_option_of_a_shaft_has_exactly_one_place() -> None:
 async def from_tree(pilot: Pilot[None], key: str, place: tuple[str, ...]) -> None:
     """Add a table from the tree and wait for its form."""
     await pilot.press("escape")
-    pilot.app.screen.query_one(ModelTree).go_to(key)
-    await pilot.pause(0.1)
+    await move_to(pilot, key)
     await pilot.press("plus")
     await wait_for(pilot, lambda: focused_place(pilot)[:-1] == place)
 
@@ -137,8 +136,7 @@ async def test_a_shaft_from_nothing_by_keys(work_folder: Path) -> None:
         await checked(pilot)
         assert builder(pilot).check.shaft is not None
         pilot.app.screen.query_one(ModelTree).focus()
-        pilot.app.screen.query_one(ModelTree).go_to("shaft.sections.1")
-        await pilot.pause(0.1)
+        await move_to(pilot, "shaft.sections.1")
         await pilot.press("delete")
         assert len(draft.get("shaft", "sections")) == 1
         await pilot.press("ctrl+z")
@@ -261,3 +259,17 @@ def test_a_new_name_goes_wherever_it_is_named(tmp_path: Path) -> None:
     assert draft.get("springs", "mount", "marker") == "paw"
     assert "# A housing that gives way" in draft.text()
     assert api.check_shaft(draft.tables).bodies[0].name == "case"
+
+
+async def test_an_added_table_has_the_keyboard_on_a_slow_machine_too(
+    work_folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The tree is planted anew and its cursor rests on the first node until the new one is reached."""
+    at_once = ModelTree._move_to
+    monkeypatch.setattr(ModelTree, "_move_to", lambda self, key: self.set_timer(0.3, lambda: at_once(self, key)))
+    async with BuilderApp().run_test(size=SMALL) as pilot:
+        await wait_for(pilot, lambda: "new shaft" in screen_text(pilot.app))  # type: ignore[arg-type]
+        await pilot.press(*"new", "enter")
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, ShaftScreen))
+        await from_tree(pilot, "shaft", ("shaft", "sections", "0"))
+        assert builder(pilot).draft.get("shaft", "sections") == [{}]
