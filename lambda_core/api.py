@@ -37,6 +37,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.shaft.resolving import check_shaft
     from lambda_core.shaft.ross import ross_rotor
     from lambda_core.shaft.shaft_calls import describe_shaft, init_shaft, is_shaft_file, shaft, shaft_pictures
+    from lambda_core.shaft.shaft_text import shaft_warnings
     from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, machines, save, schema
     from lambda_core.system.checking import check, describe, problems, resolve
     from lambda_core.system.law_trials import law_problems

@@ -100,7 +100,8 @@ def _check_shaft(case: str, changes: list[str], *, as_json: bool) -> None:
     if as_json:
         bearings = {bearing.name: bearing.model.title for bearing in model.bearings}
         found = {"version": 1, "valid": True, "case": model.name, "bearings": bearings}
-        typer.echo(json.dumps({**found, "assumptions": list(model.assumptions)}, indent=2))
+        told = {"warnings": api.shaft_warnings(model), "assumptions": list(model.assumptions)}
+        typer.echo(json.dumps({**found, **told}, indent=2))
     else:
         typer.echo("\n".join(wrapped(api.describe_shaft(model).splitlines(), columns())))
 

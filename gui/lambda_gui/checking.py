@@ -96,10 +96,10 @@ class ShaftChecker(Checker):
     def _resolved(self, tables: Mapping[str, Any], folder: Path | None, catalogue: Catalogue) -> Check:
         """Return the check of a shaft without mistakes, with what every bearing takes from the catalogue."""
         from lambda_core import api
-        from lambda_core.api import operating_warnings, value_reports
+        from lambda_core.api import value_reports
 
         shaft = api.check_shaft(tables, folder=folder, catalogue=catalogue)
-        values, warnings = [], []
+        values = []
         for number, bearing in enumerate(shaft.bearings):
             own = f"bearings.{bearing.name}."
             values += [
@@ -107,8 +107,7 @@ class ShaftChecker(Checker):
                 if value.path.startswith("bearing.") else value
                 for value in value_reports(bearing.model) if number == 0 or value.path.startswith("bearing.")
             ]  # fmt: skip
-            warnings += [f"{bearing.name}: {warning}" for warning in operating_warnings(bearing.model)]
-        return Check((), None, shaft, tuple(values), tuple(warnings))
+        return Check((), None, shaft, tuple(values), tuple(api.shaft_warnings(shaft)))
 
 
 def _with_needed(tables: Mapping[str, Any], root: type[BaseModel]) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from lambda_core.case.signals import SIGNAL_KINDS
 from lambda_core.domain.errors import Problem, nearest
 from lambda_core.domain.option_tree import is_tag, model_at, option_paths
 from lambda_core.domain.printable import printable
-from lambda_core.domain.units import show
+from lambda_core.domain.units import from_si, show, units_of
 
 _SLIP = 0.8  # likeness of a name that one slip makes another
 _LIMITS = {
@@ -56,7 +56,7 @@ def problems(error: ValidationError, model: type[BaseModel], data: Any, prefix: 
     for item in error.errors(include_url=False):
         path = _path(item["loc"])
         where = ".".join(str(part) for part in ([prefix] if prefix else []) + path)
-        sentence = printable(_message(item, path, model)).replace("\n", "\\n")  # one line, whatever was written
+        sentence = printable(_message(item, path, model, data)).replace("\n", "\\n")  # one line, whatever was written
         found.setdefault(where, Problem(where, sentence))
     return list(found.values())
 
@@ -74,7 +74,27 @@ def _parent(location: Sequence[int | str], model: type[BaseModel]) -> type[BaseM
     return model_at(model, keys[:-1])
 
 
-def _message(item: Any, path: list[int | str], model: type[BaseModel]) -> str:
+def _written(data: Any, path: Sequence[int | str]) -> Any:
+    """Return what stands at a path of plain tables; None where nothing does."""
+    for key in path:
+        if isinstance(data, Mapping):
+            data = data.get(key)
+        elif isinstance(data, list) and isinstance(key, int) and key < len(data):
+            data = data[key]
+        else:
+            return None
+    return data
+
+
+def _limit(value: float, quantity: str, written: Any) -> str:
+    """Write a limit in the unit that the value was written in, else in the first one of its quantity."""
+    known = list(units_of(quantity))
+    ends = [unit for unit in known if isinstance(written, str) and written.rstrip().endswith(unit)]
+    unit = max(ends, key=len, default=known[0])
+    return f"{from_si(value, quantity, unit):.6g} {unit}"
+
+
+def _message(item: Any, path: list[int | str], model: type[BaseModel], data: Any) -> str:
     kind, value, context = item["type"], item.get("input"), item.get("ctx", {})
     parent, name = _parent(item["loc"], model), str(path[-1]) if path else ""
     if kind == "extra_forbidden":
@@ -98,7 +118,7 @@ def _message(item: Any, path: list[int | str], model: type[BaseModel]) -> str:
     if kind in _LIMITS:
         key, words = _LIMITS[kind]
         quantity = quantity_of(parent, name) if parent else ""
-        limit = show(float(context[key]), quantity) if quantity else f"{context[key]:g}"
+        limit = _limit(float(context[key]), quantity, _written(data, path)) if quantity else f"{context[key]:g}"
         given = show(float(value), quantity) if quantity and isinstance(value, int | float) else value
         return f"{given if isinstance(given, str) else _quoted(given)}: {words} {limit}"
     if kind == "string_pattern_mismatch":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 from pydantic import ValidationInfo, field_validator, model_validator
@@ -192,8 +193,8 @@ class Gear(Placed):
     torque: Moment | None = option(None, "in place of the power: torque about the shaft", gt=0.0)
     role: Literal["driving", "driven"] = option(description="whether it drives its mate or is driven by it")
     mesh: Angle = option(description="azimuth of the mesh, from +y to +z")
-    pressure_angle: Angle = option("20 deg", "normal pressure angle", gt=0.0, lt=1.0)
-    helix_angle: Angle = option("0 deg", "helix angle at the pitch diameter", ge=0.0, lt=1.4)
+    pressure_angle: Angle = option("20 deg", "normal pressure angle", gt=0.0, lt=math.radians(60.0))
+    helix_angle: Angle = option("0 deg", "helix angle at the pitch diameter", ge=0.0, lt=math.radians(80.0))
     hand: Literal["right", "left"] | None = option(None, "hand of the helix")
 
     @model_validator(mode="after")

@@ -68,6 +68,7 @@ def launch_whole(
         name = engine.parts[i].bearing.name
         writers.append(ResultWriter.create(folder / f"{name}.h5", provenance, own, status, force=force))
     texts = {"case": model.name, "case_toml": model.case_toml, "code": _code(engine)}
+    texts["warnings"] = "\n".join(model.warnings)
     whole = WholeWriter.create(
         folder / WHOLE,
         {**texts, "speed": model.speed, "drive_torque": engine.drive_torque},  # type: ignore[dict-item]

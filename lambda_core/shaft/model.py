@@ -133,6 +133,8 @@ class ShaftModel:
         Beside the shaft.
     markers : tuple of (str, Place)
         Named places.
+    warnings : tuple of str
+        What cannot stand on the shaft as it is drawn.
     """
 
     name: str
@@ -160,6 +162,7 @@ class ShaftModel:
     bodies: tuple[RigidBody, ...] = ()
     markers: tuple[tuple[str, Place], ...] = ()
     housing_damping: FloatArray | None = None
+    warnings: tuple[str, ...] = ()
     case_toml: str = ""  # the case, complete: it runs again as it stands
 
     @property

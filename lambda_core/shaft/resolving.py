@@ -27,6 +27,7 @@ from lambda_core.elastic.sections import BodyMaterial, RoundSection
 from lambda_core.shaft.beside import COMPONENTS, all_loads, connections, refuse_idle_dampers, rigid_bodies
 from lambda_core.shaft.body_material import body_material
 from lambda_core.shaft.elastic_housing import elastic_housing
+from lambda_core.shaft.fitting import fitting_warnings
 from lambda_core.shaft.model import SHAFT, MountedBearing, ShaftModel, Unbalance
 from lambda_core.shaft.places import Places, places
 from lambda_core.shaft.reduced_shaft import reduced_shaft
@@ -204,6 +205,7 @@ def _shaft(
         contamination=case.life.contamination,
         gears=gears,
         assumptions=tuple(ledger.assumptions),
+        warnings=fitting_warnings(case, bearings, _outline(case)),
         outline=_outline(case) if outside is None else _drawn(body, bearings),
         discs=tuple((name, disc.place) for name, disc in case.discs.items()),
         load_places=tuple(acting),

@@ -14,9 +14,10 @@ from lambda_core.domain.loading import Ring
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import internal_forces
 from lambda_core.results.averages import finite
+from lambda_core.results.limits import warnings
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.results.summary import Contact
+from lambda_core.results.summary import LOADED_BALLS, MAX_LOAD, Contact
 from lambda_core.shaft.model import MountedBearing, Place, ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState
 from lambda_core.shaft.shaft_lives import bearing_life
@@ -32,6 +33,7 @@ from lambda_core.shaft.vibration import (
     supported,
 )
 from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.system.operating_limits import load_warnings, operating_warnings
 
 _CAMPBELL = 9  # speeds
 _SHOWN = 8  # modes
@@ -43,7 +45,7 @@ class BearingOnShaft(Record):
 
     name: str
     title: str
-    position_mm: float
+    position_mm: float = Field(description="of its middle, from the shaft's left end")
     force_N: list[float] = Field(description="of the bearing on the shaft: x, y, z")
     moment_Nm: list[float] = Field(description="of the bearing on the shaft about y and z")
     radial_load_N: float
@@ -52,9 +54,9 @@ class BearingOnShaft(Record):
     misalignment_mrad: list[float] = Field(description="of the inner ring against the outer ring about y and z")
     outer_ring_um: list[float] = Field(description="of the outer ring in the housing: x, y, z")
     clearance_um: float = Field(description="in operation")
-    loaded_balls: int
-    max_load_N: float
-    max_load_ring: Ring
+    loaded_balls: int = Field(description=LOADED_BALLS)
+    max_load_N: float = Field(description=MAX_LOAD)
+    max_load_ring: Ring = Field(description="the ring that the largest contact load stands at")
     max_pressure_GPa: float
     contact_angle_deg: list[float] = Field(description="smallest and largest of the loaded contacts, sizes")
     equivalent_load_N: float = Field(description="P of ISO 281")
@@ -64,7 +66,7 @@ class BearingOnShaft(Record):
     viscosity_ratio: float | None = Field(description="kappa")
     static_safety: float | None = Field(description="C_0 over P_0")
     friction_torque_Nmm: float | None
-    power_loss_W: float | None
+    power_loss_W: float | None = Field(description="of the friction; null where the balls found no steady motion")
     film_um: list[float] = Field(description="smallest and largest central film under load")
     stiffness: list[list[float]] = Field(
         description="6 x 6, inner ring against outer ring, order of `axes` [N/m, N/rad, N m/rad]; no row turns about x"
@@ -74,8 +76,8 @@ class BearingOnShaft(Record):
         description="6 x 6, likewise, of vibrations with the shaft's speed [N s/m, N s/rad, N m s/rad]; zeros at rest"
     )
     housed_damping: list[list[float]] = Field(description="the same with the housing in series")
-    contacts: list[Contact]
-    warnings: list[str]
+    contacts: list[Contact] = Field(description="of every ball with each ring")
+    warnings: list[str] = Field(description="what is beyond a limit: ratings, pressure, shoulders, tilt, speed, oil")
 
 
 class ModeAtSpeed(Record):
@@ -143,6 +145,7 @@ class ShaftReport(Record):
     campbell: list[CampbellRow] = Field(description="natural frequencies over speed, undamped")
     iterations: int = Field(description="of Newton's method")
     residual: float = Field(description="largest unbalanced force over the loads")
+    warnings: list[str] = Field(default=[], description="what cannot stand on the shaft as it is drawn")
     assumptions: list[str] = Field(description="values that nobody gave, and simplifications")
 
     def text(self, width: int | None = None) -> str:
@@ -202,6 +205,7 @@ def report_of(model: ShaftModel, state: ShaftState) -> ShaftReport:
         ],
         iterations=state.iterations,
         residual=state.residual,
+        warnings=list(model.warnings),
         assumptions=[
             *model.assumptions,
             "critical speeds, natural frequencies over speed: undamped, bearings as stiff as at this operating point",
@@ -286,7 +290,7 @@ def _bearing(
         damping=_listed(damping),
         housed_damping=_listed(damping_in_housing),
         contacts=alone.contacts,
-        warnings=_warnings(bearing, found, alone),
+        warnings=_warnings(bearing, found, alone, (radial, abs(axial)), float(np.hypot(*pose[3:]))),
     )
 
 
@@ -296,8 +300,16 @@ def _angles(alone: QuasiStatic) -> list[float]:
     return [min(angles), max(angles)] if angles else []
 
 
-def _warnings(bearing: MountedBearing, found: Equilibrium, alone: QuasiStatic) -> list[str]:
-    told = list(alone.warnings)
+def _warnings(
+    bearing: MountedBearing, found: Equilibrium, alone: QuasiStatic, loads: tuple[float, float], tilt: float
+) -> list[str]:
+    """Return what is beyond a limit, ratings first; the load is radial and axial [N]."""
+    model = bearing.model
+    told = [
+        *load_warnings(model, *loads),
+        *warnings(1e9 * alone.max_pressure_GPa, alone.shoulders, tilt, model.geometry.kind, on_shaft=True),
+        *operating_warnings(model, on_shaft=True),
+    ]
     if not found.converged:
         told.append("the balls found no steady motion at this load: no friction torque")
     return told

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from lambda_core.domain.number_text import NONE
 from lambda_core.domain.wrapping import HEAD, wrapped
+from lambda_core.system.operating_limits import operating_warnings
 
 if TYPE_CHECKING:
     from lambda_core.shaft.model import ShaftModel
@@ -29,7 +30,9 @@ def _span(values: list[float], digits: int = 3) -> str:
 
 def hours(value: float | None) -> str:
     """Write a life."""
-    return NONE if value is None else f"> {_LONG_LIFE:.0f}" if value > _LONG_LIFE else f"{value:.0f}"
+    if value is None:
+        return NONE
+    return f"> {_LONG_LIFE:.0f}" if value > _LONG_LIFE else f"{value:.0f}" if value >= 10.0 else f"{value:.2g}"
 
 
 _ROWS: tuple[tuple[str, Callable[[BearingOnShaft], str]], ...] = (
@@ -117,8 +120,8 @@ def _shaft_lines(report: ShaftReport) -> list[str]:
         for mode in bending
     ]
     lines.append(f"{'bending modes':<{HEAD}}{', '.join(told) or NONE} Hz (damping)")
-    for bearing in report.bearings:
-        lines += [f"{'warning':<{HEAD}}{bearing.name}: {warning}" for warning in bearing.warnings]
+    told = [*report.warnings, *(f"{one.name}: {warning}" for one in report.bearings for warning in one.warnings)]
+    lines += [f"{'WARNING':<{HEAD}}{warning}" for warning in told]
     own = [text for text in report.assumptions if not text.startswith(_of_bearings(report))]
     rest = f"and {len(report.assumptions) - len(own)} of the bearings and their laws: lambda-bearing check, --json"
     return lines + [f"{'assumption' if i == 0 else '':<{HEAD}}{text}" for i, text in enumerate([*own, rest])]
@@ -143,6 +146,23 @@ def _way(direction: float) -> str:
     return "forward" if direction > 0.5 else "backward" if direction < -0.5 else "elliptic"
 
 
+def shaft_warnings(model: ShaftModel) -> list[str]:
+    """Return what does not fit on a shaft, and what of its bearings is beyond a limit, before anything is solved.
+
+    Parameters
+    ----------
+    model : ShaftModel
+        From :func:`check_shaft`.
+
+    Returns
+    -------
+    list of str
+        Sentences with the names of what they are about.
+    """
+    beyond = [(one.name, operating_warnings(one.model, on_shaft=True)) for one in model.bearings]
+    return [*model.warnings, *(f"{name}: {warning}" for name, told in beyond for warning in told)]
+
+
 def model_text(model: ShaftModel) -> str:
     """Return what a resolved shaft is."""
     length = 1e3 * model.outline[-1][1]
@@ -162,4 +182,5 @@ def model_text(model: ShaftModel) -> str:
     for name, forces in model.gears.items():
         x, y, z = forces.force
         lines.append(f"{'gear ' + name:<{HEAD}}force x {x:.4g} N, y {y:.4g} N, z {z:.4g} N")
-    return "\n".join(lines + [f"{'assumption' if i == 0 else '':<{HEAD}}{t}" for i, t in enumerate(model.assumptions)])
+    lines += [f"{'assumption' if i == 0 else '':<{HEAD}}{text}" for i, text in enumerate(model.assumptions)]
+    return "\n".join(lines + [f"{'WARNING':<{HEAD}}{text}" for text in shaft_warnings(model)])

@@ -141,6 +141,7 @@ class WholeFile:
             self.case, self.case_toml = str(file.attrs["case"]), str(file.attrs["case_toml"])
             self.speed, self.drive_torque = float(file.attrs["speed"]), float(file.attrs["drive_torque"])
             self.code = str(file.attrs["code"])
+            self.warnings = str(file.attrs.get("warnings", "")).splitlines()  # results of old have none
             names = {what: [str(n) for n in file[what].asstr()[()]] if what in file else [] for what in NAMED}
             self.bearings, self.bodies, self.markers = names["bearings"], names["bodies"], names["markers"]
             self.lump_positions = np.asarray(file["lump_positions"])

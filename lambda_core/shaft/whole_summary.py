@@ -81,6 +81,7 @@ class WholeSummary(Record):
     wall_s: float = Field(description="wall time of the integration")
     wall_per_simulated_second: float | None = Field(description="wall time over simulated time")
     solver_statistics: dict[str, float] = Field(description="counters of the integrator")
+    warnings: list[str] = Field(default=[], description="what cannot stand on the shaft as it is drawn")
 
     def text(self, width: int | None = None) -> str:
         """Return the lines for people, none longer than `width` where one is given."""
@@ -119,6 +120,7 @@ def summarise_whole(found: WholeFile) -> WholeSummary:
         wall_s=status.wall,
         wall_per_simulated_second=finite(status.wall / first.simulated_s) if first.simulated_s > 0.0 else None,
         solver_statistics=first.solver_statistics,
+        warnings=found.warnings,
     )
 
 
@@ -227,7 +229,8 @@ def _text(found: WholeSummary, width: int | None) -> str:
         ),
         f"{'energy residual':<{HEAD}}{residual} of input",
         f"{'wall time':<{HEAD}}{found.wall_s:.2f} s for {found.simulated_s:.4g} s",
-        *(f"{'warning':<{HEAD}}{b.name}: {warning}" for b in bearings for warning in b.warnings),
+        *(f"{'WARNING':<{HEAD}}{warning}" for warning in found.warnings),
+        *(f"{'WARNING':<{HEAD}}{b.name}: {warning}" for b in bearings for warning in b.warnings),
         f"{'result':<{HEAD}}{found.folder}; of a bearing: lambda-bearing show {bearings[0].file}",
     ]
     return "\n".join([*lines, *wrapped(rest, width)])

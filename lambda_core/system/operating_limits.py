@@ -64,13 +64,15 @@ ROUGHEST = 1e-6  # composite rms roughness [m]
 SMALLEST_HEATING_FACTOR = 0.5
 
 
-def operating_warnings(model: BearingModel) -> list[str]:
+def operating_warnings(model: BearingModel, *, on_shaft: bool = False) -> list[str]:
     """Return a sentence for everything in a case that lies beyond what bearing, oil and laws are made for.
 
     Parameters
     ----------
     model : BearingModel
         Any resolved case; nothing is solved.
+    on_shaft : bool
+        Whether it is one of several bearings on a shaft: what it carries and how it tilts is known after solving.
 
     Returns
     -------
@@ -81,19 +83,21 @@ def operating_warnings(model: BearingModel) -> list[str]:
         *model.contradictions,
         *proportion_warnings(model.geometry),
         *_speed(model),
-        *_load(model),
-        *_tilt(model),
+        *(() if on_shaft else _load(model)),
+        *(() if on_shaft else _tilt(model)),
         *_oil(model),
         *_heating(model),
         *_surface(model),
     ]
 
 
-def tilt_warning(tilt: float, kind: str, what: str = "the inner ring tilts by") -> list[str]:
+def tilt_warning(tilt: float, kind: str, what: str = "the inner ring tilts by", *, on_shaft: bool = False) -> list[str]:
     """Return a sentence where the angle between the rings [rad] is above what bearings of a kind take."""
     most, said = _TILTS[kind]
     if tilt <= most:
         return []
+    if on_shaft:
+        return [f"{what} {1e3 * tilt:.2g} mrad: {said}"]
     return [
         f"{what} {1e3 * tilt:.2g} mrad: {said}; a shaft on two bearings hardly tilts like this "
         "(bodies.inner_ring.tilt_y and tilt_z: free, locked, or with a stiffness)"
@@ -155,11 +159,13 @@ def _unbacked(model: BearingModel, load: float, rating: float) -> Iterator[str]:
             )
 
 
-def _load(model: BearingModel) -> Iterator[str]:
+def _load(model: BearingModel) -> list[str]:
     loads = applied_load(model)
-    if loads is None:
-        return
-    radial, axial = loads
+    return [] if loads is None else list(load_warnings(model, *loads))
+
+
+def load_warnings(model: BearingModel, radial: float, axial: float) -> Iterator[str]:
+    """Say what is beyond ratings and other limits of the load that a bearing carries, radially and axially [N]."""
     dynamic, static = _ratings(model)
     g = model.geometry
     gamma, kind = g.ball_diameter * math.cos(g.contact_angle) / g.pitch_diameter, (g.contact_angle, g.rated_rows)

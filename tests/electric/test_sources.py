@@ -86,7 +86,7 @@ def test_series_is_repeated(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("electric", "where", "words"),
     [
-        ({"inverter": {"rise_time": "-50 ns"}}, "electric.inverter.rise_time", "must be greater than 0 s"),
+        ({"inverter": {"rise_time": "-50 ns"}}, "electric.inverter.rise_time", "must be greater than 0 ns"),
         ({"inverter": {"rise_time": "50"}}, "electric.inverter.rise_time", "has no unit"),
         ({"inverter": {"rise_time": "20 us"}}, "electric.inverter", "1/20 of a switching period"),
         ({"inverter": {"dc_lnk": "1 V"}}, "electric.inverter.dc_lnk", "nearest: dc_link"),
