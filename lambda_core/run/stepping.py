@@ -20,7 +20,13 @@ from lambda_core.domain.elements import BODIES
 from lambda_core.domain.errors import SolverError, UsageError, unknown_name
 from lambda_core.run.record_times import next_multiple
 from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.solver.drivers.given import Coupling, given_names, start
+from lambda_core.solver.drivers.given import (
+    MOST_ITERATIONS,
+    MOST_ITERATIONS_PER_SECOND,
+    Coupling,
+    given_names,
+    start,
+)
 
 if TYPE_CHECKING:
     from lambda_core.solver.drivers.compiled_laws import Announce
@@ -172,7 +178,7 @@ class Stepping(Iterator[Step]):
         return self
 
     def __next__(self) -> Step:
-        """Return the next step; SolverError when the integrator cannot go on."""
+        """Return the next step; SolverError when the integrator cannot go on, as :meth:`step_to`."""
         if self.time_s >= self._end:
             raise StopIteration
         return self._go(min(next_multiple(self.time_s, self.interval), self._end), exactly=self._exact)
@@ -185,7 +191,8 @@ class Stepping(Iterator[Step]):
         UsageError
             When the time is not ahead.
         SolverError
-            When the integrator cannot go on.
+            When the integrator cannot go on, or gets nowhere under loads or motions that no bearing takes; the bearing
+            stands where it stood before the step.
         """
         if not self.time_s < time_s < math.inf:
             raise UsageError(f"a step from {self.time_s:g} s to {time_s:g} s: it has to end later than it begins")
@@ -193,7 +200,7 @@ class Stepping(Iterator[Step]):
 
     def state(self) -> dict[str, NDArray[np.float64]]:
         """Return everything that a continuation from here needs: to look ahead, and :meth:`restore`."""
-        return {**self._engine.state(), "before": np.array(self._before)}
+        return {**self._engine.state(samples=False), "before": np.array(self._before)}
 
     def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
         """Go back to where :meth:`state` was asked; what follows is what followed then, bit for bit."""
@@ -202,16 +209,40 @@ class Stepping(Iterator[Step]):
 
     def _go(self, until: float, *, exactly: bool) -> Step:
         engine = self._engine
-        advance = engine.advance_exactly(until) if exactly else engine.advance(until)
-        if not advance.ok:
-            raise SolverError(advance.message)
-        channels = engine.now()
+        before = engine.state(samples=False)
+        try:
+            self._advance(until, exactly)
+            channels = engine.now()
+        except SolverError:
+            engine.forget_samples()
+            engine.restore(before)
+            raise
         reactions = dict(zip(BODIES, engine.reactions(), strict=True))
         engine.forget_samples()
         loss, turned = self._spent()
         torque = 1e3 * (loss - self._before[0]) / (turned - self._before[1]) if turned > self._before[1] else math.nan
         self._before = loss, turned
         return Step(engine.time, channels, reactions, torque)
+
+    def _advance(self, until: float, exactly: bool) -> None:
+        """Integrate to the end of a step; SolverError when the integrator cannot go on or gets nowhere."""
+        engine = self._engine
+        begin, before = engine.time, engine.iterations
+
+        def astray() -> bool:
+            most = MOST_ITERATIONS + MOST_ITERATIONS_PER_SECOND * (engine.time - begin)
+            return engine.iterations - before > most
+
+        advance = (engine.advance_exactly if exactly else engine.advance)(until, astray)
+        if not advance.ok:
+            raise SolverError(advance.message)
+        if engine.time < until:
+            pressure = 1e-9 * float(engine.now()["max_pressure"].max())
+            raise SolverError(
+                f"at t = {engine.time:.9g} s, on the way to {until:.9g} s, {engine.iterations - before} iterations are "
+                f"spent (contact pressure {pressure:.3g} GPa): forces or motions that no bearing takes; are loads in "
+                "N, places in m, speeds in rad/s?"
+            )
 
     def _spent(self) -> tuple[float, float]:
         """Return the dissipated energy [J] and the relative angle of the rings [rad] since the start."""

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.domain.errors import UsageError
+from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.results.averages import COLUMNS
 
 if TYPE_CHECKING:
@@ -125,6 +125,28 @@ def test_going_back_and_on_gives_the_same_bits() -> None:
     assert again.friction_torque_Nmm == first.friction_torque_Nmm
     for name in first.channels:
         assert np.array_equal(again[name], first[name], equal_nan=True), name
+
+
+@pytest.mark.parametrize("exact", [True, False])
+def test_what_no_bearing_takes_ends_and_changes_nothing(exact: bool) -> None:
+    """A force in other units: steps of picoseconds lead nowhere. A shock that a bearing may get passes."""
+    changes = ["solver.duration=5 ms"]
+    stepping, other = (api.iterate(CASE, changes, interval=1e-4, exact=exact) for _ in range(2))
+    assert next(stepping).time_s == next(other).time_s
+    kept = stepping.state()
+    stepping.push((1e9, 0.0, 0.0))
+    with pytest.raises(
+        SolverError, match=r"at t = 0.000\S+ s, on the way to .* iterations are spent .* are loads in N"
+    ):
+        next(stepping)
+    stepping.push()
+    again = stepping.state()
+    assert [name for name in kept if name != "given" and kept[name].tobytes() != again[name].tobytes()] == []
+    for bearing in (stepping, other):
+        bearing.push((0.0, 0.0, -50e3))
+    after, expected = next(stepping), next(other)
+    for name in expected.channels:
+        assert np.array_equal(after[name], expected[name], equal_nan=True), name
 
 
 def test_a_ring_that_is_led_answers_with_the_load_of_its_place() -> None:

@@ -49,6 +49,7 @@ _COUNTERS = (
     "ball_jacobians",
     "factorisations",
 )
+_BUFFER = ("sample_t", "sample_y")  # of the memory
 _MUCH_FASTER = 1.5  # a planned cage speed over that at the start, from which on it counts
 _SAMPLES_PER_PERIOD = 2.56  # of the highest frequency that is followed; what spectrum analysers take (ISO 13373-2)
 _SPIN_FOR_SAMPLES = 1.0  # [rad/s] slowest cage speed that the default sampling interval is made for
@@ -139,6 +140,11 @@ class BearingEngine:
         """Start of the next step [s]."""
         return float(self._memory.control["time"][0])
 
+    @property
+    def iterations(self) -> int:
+        """Newton iterations since the start."""
+        return int(self._memory.count["newton_iterations"][0])
+
     def parts(self) -> tuple[Core, SolverContext, memory.Memory, Scratch]:
         """Return what takes steps and looks at states, for code that is to do so elsewhere."""
         return self._core, self._context, self._memory, self._scratch
@@ -156,11 +162,11 @@ class BearingEngine:
 
         return drive(integrate, self, until, pause, self._drain, lambda: fault_sentence(self._context, self.time))
 
-    def advance_exactly(self, until: float) -> Advance:
+    def advance_exactly(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
         """Integrate until `time` == `until` [s]: steps on the way there are cut to end at it."""
         self._memory.control["stop"] = until
         try:
-            return self.advance(until)
+            return self.advance(until, pause)
         finally:
             self._memory.control["stop"] = math.inf
 
@@ -237,12 +243,16 @@ class BearingEngine:
         """Return frequency [Hz] and damping ratio of the modes of the rings at `time`."""
         return ring_modes(self._context.bundle, self._context.blocks, self._memory.inertia)
 
-    def state(self) -> dict[str, NDArray[np.float64]]:
-        """Return everything that a continuation needs: memory, Jacobian blocks, factors."""
+    def state(self, *, samples: bool = True) -> dict[str, NDArray[np.float64]]:
+        """Return everything that a continuation needs: memory, Jacobian blocks, factors.
+
+        Without `samples` the buffer of those that nobody has taken yet is left out.
+        """
         parts: dict[str, NDArray[np.float64]] = {}
         for prefix, group in (("memory", self._memory), ("factors", self._context.factors)):
             for name, array in zip(group._fields, group, strict=True):
-                parts[f"{prefix}.{name}"] = np.array(array, copy=True)
+                if samples or name not in _BUFFER:
+                    parts[f"{prefix}.{name}"] = np.array(array, copy=True)
         for name in ("a", "b", "c", "d", "shared", "parts"):
             parts[f"blocks.{name}"] = getattr(self._context.blocks, name).copy()
         parts["start"] = np.array([*self._start_angles, self._start_energy])

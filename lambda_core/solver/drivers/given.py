@@ -26,6 +26,11 @@ from lambda_core.system.time_functions import initial
 Coupling = Literal["force", "motion"]
 COUPLINGS: tuple[Coupling, ...] = ("force", "motion")
 RINGS = ("inner_ring", "outer_ring")
+# A step that another program asks for ends with a sentence after so many iterations, and so many more for each second
+# of the way that is behind it. The integrator takes some 2e5 a second, 1e7 where vibrations are followed (steps of
+# 1 us, with their stages): ten times that is no motion of a bearing. The first number is for a load that jumps.
+MOST_ITERATIONS = 5_000
+MOST_ITERATIONS_PER_SECOND = 1e8
 _POSE = tuple(dof for dof in DOFS if dof != SPIN)
 _MOTIONS = {f"{body}.{dof}": PER_BODY * b + MOTION + d for b, body in enumerate(BODIES) for d, dof in enumerate(DOFS)}
 _LOADS = {
