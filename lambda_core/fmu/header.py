@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
+from lambda_core.domain.channels import RINGS
+from lambda_core.domain.loading import CARRYING
 from lambda_core.electric import columns as columns_of_march
 from lambda_core.electric.contacts import VACUUM_PERMITTIVITY
 from lambda_core.fmu.circuit_image import NUMBERS
 from lambda_core.fmu.frozen import Frozen
 from lambda_core.fmu.variables import Variable, control
 from lambda_core.laws.jit.portable import features, known_processor
-from lambda_core.results.limits import HIGHEST_PRESSURE
+from lambda_core.results.limits import THINNEST_FILM, Grooves, highest_pressure
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.equilibrium import (
@@ -20,6 +25,8 @@ from lambda_core.solver.drivers.equilibrium import (
     PATH_SHARE,
     PATH_TOLERANCE,
 )
+from lambda_core.solver.drivers.given import MOST_ITERATIONS, MOST_ITERATIONS_PER_SECOND
+from lambda_core.solver.drivers.ring_values import rings_of_contacts
 from lambda_core.solver.faults import ROLES
 from lambda_core.solver.integrator.memory import COUNT
 from lambda_core.solver.statics.continuation import STATIC_REPORT
@@ -47,11 +54,12 @@ _CPUID = {
     "avx512vl": (7, 1, 31),
 }
 _WIDE = {"avx512": 0xE6, "avx": 0x6}  # registers that the system must keep for features that begin so
-# A communication step ends with a sentence after so many iterations, and so many more for each second of it. On the
-# way the integrator takes some 2e5 a second, 1e7 where vibrations are followed (steps of 1 us, with their stages): ten
-# times that is no motion of a bearing. The first number is for the shock of a load that jumps.
-_MOST_ITERATIONS = 5_000
-_MOST_ITERATIONS_PER_SECOND = 1e8
+_CALM = 0.1  # [s] after which a limit that is passed again is told again
+# What it looks at in a contact, to tell limits.
+_LOOKED_AT = (
+    "load", "contact_angle", "max_pressure", "semi_axis_a", "film_parameter", "asperity_share", "semi_axis_b",
+    "film_central", "film_minimum", "entrainment", "capacitance_hertz", "capacitance",
+)  # fmt: skip
 
 
 def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
@@ -64,10 +72,9 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
         "CONTROL_STOP": control(frozen, "stop"),
         "SAMPLES_WAITING": image.place(frozen.memory.count) + _at(COUNT, "samples_waiting"),
         "ITERATIONS": image.place(frozen.memory.count) + _at(COUNT, "newton_iterations"),
-        "MOST_ITERATIONS": _MOST_ITERATIONS,
-        "MOST_ITERATIONS_PER_SECOND": _MOST_ITERATIONS_PER_SECOND,
+        "MOST_ITERATIONS": MOST_ITERATIONS,
+        "MOST_ITERATIONS_PER_SECOND": MOST_ITERATIONS_PER_SECOND,
         "PRESSURE": next(i for i, v in enumerate(variables) if v.name == "bearing.max_pressure"),
-        "HIGHEST_PRESSURE": HIGHEST_PRESSURE,
         "FAULT_ROLE": fault + _at(R.FAULT, "role"),
         "FAULT_STATUS": fault + _at(R.FAULT, "status"),
         "FAULT_BALL": fault + _at(R.FAULT, "ball"),
@@ -82,6 +89,7 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
         "STATUS_STEP_TOO_SMALL": int(Status.STEP_TOO_SMALL),
         "VARIABLES": len(variables),
         **{f"TERM_{name.upper()}": _at(R.TERM, name) for name in ("value", "rate", "acceleration", "begin")},
+        **_limit_numbers(frozen),
         **_start_numbers(frozen),
         **_circuit_numbers(frozen),
     }
@@ -96,7 +104,7 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
     lines += [f"static const uint32_t lb_relocations[][2] = {{{_pairs(image.relocations)}}};"]
     lines += [f"static const uint32_t lb_fixes[][2] = {{{_pairs(image.fixes)}}};"]
     lines += [f"static const char *const lb_roles[] = {{{', '.join(map(_quoted, ROLES))}}};"]
-    lines += [*_start_tables(frozen), *_curves(frozen)]
+    lines += [*_limit_tables(frozen), *_start_tables(frozen), *_curves(frozen)]
     rows = (
         f"{{{v.kind:d},{v.place},{v.count},{v.stride},{v.scale!r},{v.begin},{_real(v.limits[0])},{_real(v.limits[1])}}}"
         for v in variables
@@ -104,6 +112,37 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
     lines += [f"static const lb_variable lb_variables[] = {{{', '.join(rows)}}};"]
     lines += [f"static const char *const lb_names[] = {{{', '.join(_quoted(v.name) for v in variables)}}};"]
     return "\n".join(lines) + "\n"
+
+
+def _limit_numbers(frozen: Frozen) -> dict[str, object]:
+    """Return the numbers of what is told where laws end: :mod:`lambda_core.results.limits`."""
+    contacts, grooves = frozen.scratch.contacts, Grooves.of(dataclasses.asdict(frozen.model.geometry))
+    places = {f"CONTACT_{name.upper()}": _at(R.CONTACT_SAMPLE, name) for name in _LOOKED_AT}
+    return {
+        "CONTACTS": frozen.image.place(contacts),
+        "CONTACT_SIZE": R.CONTACT_SAMPLE.itemsize,
+        "CONTACTS_OF_A_BALL": contacts.shape[-2],
+        **places,
+        "HIGHEST_PRESSURE": highest_pressure(grooves.kind),
+        "THINNEST_FILM": THINNEST_FILM,
+        "CALM": _CALM,
+        "CARRYING": CARRYING,
+        "LEAST_SHARE": grooves.least_share,
+        "ONE_SIDED": int(grooves.one_sided),
+        "RIDGE": int(grooves.ridge is not None),
+    }
+
+
+def _limit_tables(frozen: Frozen) -> list[str]:
+    """Return the ring of each contact of a ball, and of both rings the groove: radius, edge, edge between two arcs."""
+    grooves = Grooves.of(dataclasses.asdict(frozen.model.geometry))
+    ridge = np.zeros(len(RINGS)) if grooves.ridge is None else grooves.ridge
+    rows = ("{" + _reals(row) + "}" for row in np.column_stack([grooves.radius, grooves.edge, ridge]).tolist())
+    rings = ", ".join(map(str, rings_of_contacts(frozen.model.geometry)))
+    return [
+        f"static const unsigned lb_contact_ring[] = {{{rings}}};",
+        f"static const double lb_grooves[][3] = {{{', '.join(rows)}}};",
+    ]
 
 
 def _start_numbers(frozen: Frozen) -> dict[str, object]:
@@ -145,17 +184,12 @@ def _start_numbers(frozen: Frozen) -> dict[str, object]:
 
 def _circuit_numbers(frozen: Frozen) -> dict[str, object]:
     """Return the numbers of the circuit, where there is one."""
-    found, image, contacts = frozen.circuit, frozen.image, frozen.scratch.contacts
+    found, image = frozen.circuit, frozen.image
     if found is None:
         return {"CIRCUIT": 0}
-    names = (
-        "load", "film_central", "film_minimum", "film_parameter", "semi_axis_a", "semi_axis_b", "entrainment",
-        "capacitance_hertz", "capacitance",
-    )  # fmt: skip
     arguments, film = found.arguments, found.film
     tables, nodes = arguments["tables"], arguments["nodes"]
-    places = {f"CONTACT_{name.upper()}": image.place(contacts) + _at(R.CONTACT_SAMPLE, name) for name in names}
-    places |= {f"TABLE_{name.upper()}": image.place(getattr(tables, name)) for name in tables._fields}
+    places = {f"TABLE_{name.upper()}": image.place(getattr(tables, name)) for name in tables._fields}
     places |= {f"CIRCUIT_{name.upper()}": found.place(image, name) for name in NUMBERS}
     arrays = {"SOURCE_T": "source_t", "SOURCE_V": "source_v", "TIMES": "t", "TOTAL": "total", "PLACE": "place"}
     places |= {f"CIRCUIT_{name}": image.place(arguments[key]) for name, key in arrays.items()}
@@ -165,7 +199,6 @@ def _circuit_numbers(frozen: Frozen) -> dict[str, object]:
         "CIRCUIT": 1,
         **places,
         **{f"CIRCUIT_{name}": getattr(columns_of_march, name) for name in columns},
-        "CONTACT_SIZE": R.CONTACT_SAMPLE.itemsize,
         "CIRCUIT_FIRST": image.place(found.words),
         "CIRCUIT_INSULATED": image.place(found.words, 1),
         "CIRCUIT_PATCHES": image.place(found.rate),

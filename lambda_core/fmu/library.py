@@ -117,7 +117,9 @@ def build(parts: Parts, interface: str, folder: Path, name: str, platform: str) 
     for file, content in (parts.files | parts.objects[platform]).items():
         (folder / file).write_bytes(content)
     library = folder / f"{name}.{PLATFORMS[platform].suffix}"
-    sources = [SOURCES / f"{file}.c" for file in ("core", "states", "circuit", "follow", "start", interface, *own)]
+    sources = [
+        SOURCES / f"{file}.c" for file in ("core", "limits", "states", "circuit", "follow", "start", interface, *own)
+    ]
     sources += [MEMORY_SOURCE, *(folder / file for file in parts.objects[platform])]
     options = (*_OPTIONS, *(_OWN_MATHEMATICS if own else ()))
     whole = [*command, *options, f"-I{folder}", *map(str, sources), "-o", str(library), "-lm"]

@@ -18,7 +18,10 @@ from lambda_core.system.bearing import kind_of
 from lambda_core.system.operating_limits import tilt_warning
 
 # Static contact pressure of ball bearings that leaves 1e-4 of the ball diameter behind (ISO 76:2006, 5.1 and 5.2).
-HIGHEST_PRESSURE, HIGHEST_PRESSURE_ALIGNING = 4.2e9, 4.6e9  # [Pa] of self-aligning ball bearings the latter
+_HIGHEST_PRESSURE, _HIGHEST_PRESSURE_ALIGNING = 4.2e9, 4.6e9  # [Pa] of self-aligning ball bearings the latter
+# Film parameter Lambda below which lubrication counts as that of a boundary layer: asperities carry much of the load
+# (Hamrock and Dowson 1981, Ball Bearing Lubrication).
+THINNEST_FILM = 1.0
 # Errors of integration are vibrations: beyond this tolerance they set a cage whirling that finer runs leave quiet
 # (6208 under 700 N axial: at twice this after 2 s, at ten times within 0.1 s).
 COARSEST_TOLERANCE = 1e-3
@@ -68,6 +71,14 @@ class Grooves:
     ridge: FloatArray | None = None  # (2,) four-point contact: angle at which the two arcs of a ring meet [rad]
     kind: str = "deep groove"
 
+    @property
+    def least_share(self) -> float:
+        """Share of the largest load from which on a contact counts at the high edges.
+
+        A ball of the row that a thrust unloads leans far to the side under its weight alone.
+        """
+        return CARRYING if self.kind in ("double row", "self-aligning") else 0.0
+
     @staticmethod
     def of(geometry: Mapping[str, Any]) -> Grooves:
         """Take them from the geometry: cos(theta) = 1 - |d_shoulder - d_race|/(2 r_groove)."""
@@ -96,9 +107,7 @@ def shoulders(grooves: Grooves, load: FloatArray, angle: FloatArray, semi_axis: 
     """
     half = semi_axis / grooves.radius
     end = np.abs(angle) + half
-    # A ball of the row that a thrust unloads leans far to the side under its weight alone.
-    least = CARRYING * load.max(initial=0.0) if grooves.kind in ("double row", "self-aligning") else 0.0
-    found = _nearest(load > least, angle, end, grooves.edge, grooves.radius)
+    found = _nearest(load > grooves.least_share * load.max(initial=0.0), angle, end, grooves.edge, grooves.radius)
     if grooves.one_sided and load.max(initial=0.0) > 0.0:
         side = -np.sign(float((load * angle).sum()))  # of the low shoulder
         carrying = load > CARRYING * load.max()
@@ -155,6 +164,11 @@ def tolerance_warning(tolerance: float) -> list[str]:
     ]
 
 
+def highest_pressure(kind: str) -> float:
+    """Return the contact pressure from which on steel yields, of a kind of bearing as `Geometry.kind` has it [Pa]."""
+    return _HIGHEST_PRESSURE_ALIGNING if kind == "self-aligning" else _HIGHEST_PRESSURE
+
+
 def warnings(
     pressure: float, edges: list[Shoulder], tilt: float, kind: str = "deep groove", *, on_shaft: bool = False
 ) -> list[str]:
@@ -172,7 +186,7 @@ def warnings(
         Whether a shaft decides the tilt.
     """
     found = [sentence for edge in edges for sentence in edge.warning()]
-    most = HIGHEST_PRESSURE_ALIGNING if kind == "self-aligning" else HIGHEST_PRESSURE
+    most = highest_pressure(kind)
     if pressure > most:
         found.append(
             f"the contact pressure of {1e-9 * pressure:.3g} GPa is beyond {1e-9 * most:g} GPa, where steel yields "

@@ -5,7 +5,7 @@
 #if LB_CIRCUIT
 #define PI 3.14159265358979323846
 #define CONTACTS (2 * LB_BALLS)
-#define CONTACT(k, name) REAL(b, LB_CONTACT_##name + LB_CONTACT_SIZE * (k))
+#define CONTACT(k, name) REAL(b, LB_CONTACTS + LB_CONTACT_##name + LB_CONTACT_SIZE * (k))
 #define TABLE(name, end, k) REAL(b, LB_TABLE_##name + 8 * (CONTACTS * (end) + (k)))
 #define PATCHES(end, k) REAL(b, LB_CIRCUIT_PATCHES + 8 * (CONTACTS * (end) + (k)))
 #define NUMBER(name) REAL(b, LB_CIRCUIT_##name)

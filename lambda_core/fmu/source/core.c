@@ -77,7 +77,8 @@ void lb_reset(lb_bearing *b) {
   lb_address(b->image);
   HOST(b, PHASE) = LB_CREATED;
   HOST(b, TORQUE) = NAN;
-  b->stale = 1, b->warned = 0;
+  b->stale = 1, b->looked = NAN;
+  for (unsigned i = 0; i < LB_EVENTS; i++) b->seen[i] = -INFINITY;
 }
 
 double lb_time(lb_bearing *b) { return HOST(b, ORIGIN) + REAL(b, LB_CONTROL_TIME); }
@@ -139,14 +140,7 @@ static int look(lb_bearing *b) {
   if (settle(b) != LB_OK) return LB_ERROR;
   if (lb_observe(b->image) != LB_STATUS_OK) return refused(b);
   b->stale = 0;
-  double pressure = extreme(b, &lb_variables[LB_PRESSURE]);
-  if (pressure > LB_HIGHEST_PRESSURE && !b->warned) {
-    b->warned = 1;
-    lb_say(b, LB_WARNING,
-           "at t = %.9g s the contact pressure of %.3g GPa is beyond %g GPa, where steel yields (ISO 76): the contact laws "
-           "are elastic (said once)",
-           lb_time(b), 1e-9 * pressure, 1e-9 * LB_HIGHEST_PRESSURE);
-  }
+  lb_tell_limits(b);
   return LB_OK;
 }
 
@@ -240,19 +234,19 @@ int lb_set(lb_bearing *b, const unsigned *which, size_t count, const double *val
   return LB_OK;
 }
 
-/* Steps that lead nowhere: what a host gave was in other units, or its coupling runs away. */
-static int astray(lb_bearing *b, double until, double most) {
+/* Iterations that lead nowhere: what a host gave was in other units, or its coupling runs away. */
+static int astray(lb_bearing *b, double until, int64_t spent) {
   b->stale = 1;
   double pressure = look(b) == LB_OK ? extreme(b, &lb_variables[LB_PRESSURE]) : NAN;
   return lb_say(b, LB_ERROR,
-                "at t = %.9g s, on the way to %.9g s, %.0f iterations are spent (contact pressure %.3g GPa): forces or motions "
+                "at t = %.9g s, on the way to %.9g s, %lld iterations are spent (contact pressure %.3g GPa): forces or motions "
                 "that no bearing takes; are loads in N, places in m, speeds in rad/s?",
-                lb_time(b), HOST(b, ORIGIN) + until, most, 1e-9 * pressure);
+                lb_time(b), HOST(b, ORIGIN) + until, (long long)spent, 1e-9 * pressure);
 }
 
 static int arrive(lb_bearing *b, double until) {
   int64_t before = WORD(b, LB_ITERATIONS);
-  double most = LB_MOST_ITERATIONS + LB_MOST_ITERATIONS_PER_SECOND * (until - REAL(b, LB_CONTROL_TIME));
+  double begin = REAL(b, LB_CONTROL_TIME);
   REAL(b, LB_CONTROL_STOP) = until;
   while (REAL(b, LB_CONTROL_TIME) < until) {
     int64_t status = lb_advance(b->image, until, WORK_PER_CALL);
@@ -260,7 +254,9 @@ static int arrive(lb_bearing *b, double until) {
     if (status == LB_STATUS_REFUSED) return refused(b);
     if (status == LB_STATUS_STEP_TOO_SMALL)
       return lb_say(b, LB_ERROR, "at t = %.9g s the integrator's step fell below the smallest one allowed", lb_time(b));
-    if (REAL(b, LB_CONTROL_TIME) < until && (double)(WORD(b, LB_ITERATIONS) - before) > most) return astray(b, until, most);
+    int64_t spent = WORD(b, LB_ITERATIONS) - before;
+    double most = LB_MOST_ITERATIONS + LB_MOST_ITERATIONS_PER_SECOND * (REAL(b, LB_CONTROL_TIME) - begin);
+    if (REAL(b, LB_CONTROL_TIME) < until && (double)spent > most) return astray(b, until, spent);
   }
   REAL(b, LB_CONTROL_STOP) = INFINITY;
   return LB_OK;

@@ -33,6 +33,7 @@ extern int64_t lb_march(unsigned char *image);
 void lb_address(unsigned char *image); /* give it the addresses of where it stands */
 void lb_follow(lb_bearing *b); /* bring constants to the values of the options */
 int lb_settle(lb_bearing *b);  /* find the equilibrium at the start; an error where there is none */
+void lb_tell_limits(lb_bearing *b); /* warn where what was observed last leaves what the laws are made for */
 #if LB_CIRCUIT
 void lb_take(lb_bearing *b);   /* take the contacts as they were observed last for the end of a step */
 int lb_conduct(lb_bearing *b); /* bring the circuit to the end of a step */
