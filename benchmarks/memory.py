@@ -47,7 +47,7 @@ def follow(duration: float) -> tuple[list[float], list[float], float]:
 
 def measure(effort: Effort) -> Section:
     """Follow a run in a process of its own."""
-    duration = float(effort.pick(4, 20))
+    duration = float(effort.pick(20, 60))
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
         times, held, size = pool.submit(follow, duration).result()
     half = len(times) // 2

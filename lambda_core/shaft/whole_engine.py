@@ -85,7 +85,7 @@ class WholeEngine:
         self._markers = MarkerMotion(model, self.shaft)
         self._bundle = bundle._replace(terms=terms, table=table)
         self._blocks = make_blocks(self._bundle)
-        self._factors = make_factors(self._blocks.reach, self._bundle.active.size)
+        self._factors = make_factors(self._blocks.reach, self._bundle.active.size, self._blocks.cross.shape[0])
         start = start_state(model, self.shaft, self.parts, self._bundle.active, self.start, self.equilibria)
         scales = state_sizes(model, self.shaft, self.parts, self._bundle)
         tolerance = min(part.bearing.model.solver.tolerance for part in self.parts)
@@ -328,7 +328,7 @@ class WholeEngine:
         for prefix, group in (("memory", self._memory), ("factors", self._factors)):
             for name, array in zip(group._fields, group, strict=True):
                 parts[f"{prefix}.{name}"] = np.array(array, copy=True)
-        for name in ("a", "b", "c", "d", "shared", "parts"):
+        for name in ("a", "b", "c", "d", "cross", "shared", "parts"):
             parts[f"blocks.{name}"] = getattr(self._blocks, name).copy()
         parts["sampled"], parts["last"] = self._sampled.copy(), np.array(self._last)
         parts["start"] = np.array([self._last_time, self._start_energy, *self._start_angles])

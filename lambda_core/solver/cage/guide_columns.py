@@ -100,11 +100,12 @@ def _pocket_waves(ball, cage, j, row, law, par, bundle, bl):
 
 @helper
 def neighbour_columns(ball, other, row, bundle, bl):
-    """Add the ball-ball contact to the first ball's own block; the pair's coupling is left to the iteration."""
+    """Add the ball-ball contact to the first ball's own slopes; write those with the other ball's states into bl.beyond."""
     scratch, viscosity, fm = bundle.scratch[0], row.oil.viscosity, bl.wrenches
     g, out, fault = scratch.guide, scratch.out[:], scratch.fault
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)
     near_ball = bl.ball.view(BALL)
+    bl.beyond[:, :] = 0.0
     neighbour_state(ball, other, g)
     if guide_force(law, par, g, viscosity, out, fault, -1) != 1:
         return 0
@@ -112,16 +113,21 @@ def neighbour_columns(ball, other, row, bundle, bl):
         return 1
     clear(fm[0])
     neighbour_apply(ball.azimuth, first_arm(g, out), out, 1.0, fm[0])
-    for k in range(NB):
-        step = ball_step(k, True)
-        near_ball[0] = ball
-        bl.ball[k] += step
-        neighbour_state(near_ball[0], other, g)
+    for k in range(2 * NB):
+        c = k % NB
+        step = ball_step(c, True)
+        near_ball[0] = ball if k < NB else other
+        bl.ball[c] += step
+        clear(fm[2])
+        if k < NB:
+            neighbour_state(near_ball[0], other, g)
+        else:
+            neighbour_state(ball, near_ball[0], g)
         if guide_force(law, par, g, viscosity, out, fault, -1) != 1:
             return 0
-        clear(fm[2])
-        neighbour_apply(near_ball[0].azimuth, first_arm(g, out), out, 1.0, fm[2])
-        add_slope(bl.own, k, fm[2], fm[0], step)
+        azimuth = near_ball[0].azimuth if k < NB else ball.azimuth
+        neighbour_apply(azimuth, first_arm(g, out), out, 1.0, fm[2])
+        add_slope(bl.own if k < NB else bl.beyond, c, fm[2], fm[0], step)
     return 1
 
 

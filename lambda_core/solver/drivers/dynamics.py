@@ -253,7 +253,7 @@ class BearingEngine:
             for name, array in zip(group._fields, group, strict=True):
                 if samples or name not in _BUFFER:
                     parts[f"{prefix}.{name}"] = np.array(array, copy=True)
-        for name in ("a", "b", "c", "d", "shared", "parts"):
+        for name in ("a", "b", "c", "d", "cross", "shared", "parts"):
             parts[f"blocks.{name}"] = getattr(self._context.blocks, name).copy()
         parts["start"] = np.array([*self._start_angles, self._start_energy])
         if self.given.size:

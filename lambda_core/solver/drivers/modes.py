@@ -9,6 +9,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.solver import layout as L
 from lambda_core.solver.integrator.blocks import Blocks
+from lambda_core.solver.integrator.chain import AFTER, BEFORE
 
 _RING = 0.5  # share of a mode's kinetic energy in the rings, from which on it is one of theirs
 _SLOWEST = 20.0  # [Hz]
@@ -28,6 +29,11 @@ def dense(blocks: Blocks) -> FloatArray:
             matrix[np.ix_(own, own)] = blocks.a[j]
             matrix[np.ix_(own, columns)] = blocks.b[j, :, :width]
             matrix[np.ix_(columns, own)] = blocks.c[j, :width]
+            if blocks.cross.size:
+                z, i = reach.first[r + 1] - reach.first[r], j - reach.first[r]
+                for side, place in ((BEFORE, (i - 1) % z), (AFTER, (i + 1) % z)):
+                    beside = L.NB * (reach.first[r] + place) + np.arange(L.NB)
+                    matrix[np.ix_(own, beside)] += blocks.cross[j, side]
     matrix[tail:, tail:] = blocks.d
     return matrix
 

@@ -18,6 +18,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.laws.jit.unstable import NumbaExperimentalFeatureWarning
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.solver_context import SolverContext
+from lambda_core.solver.integrator.chain import AFTER, BEFORE
 from lambda_core.solver.integrator.handle import handle_t
 from lambda_core.solver.integrator.memory import make_memory
 from lambda_core.solver.integrator.state_blocks import dense_slopes
@@ -64,6 +65,13 @@ def _dense(t, y, out, handle):
                     column = tail + reach.columns[r, k]
                     out[row + i, column] = bl.b[j, i, k]
                     out[column, row + i] = bl.c[j, k, i]
+            if bl.cross.shape[0] > 0:
+                before = L.NB * (j - 1 if j > reach.first[r] else reach.first[r + 1] - 1)
+                after = L.NB * (j + 1 if j + 1 < reach.first[r + 1] else reach.first[r])
+                for i in range(L.NB):
+                    for k in range(L.NB):
+                        out[row + i, before + k] += bl.cross[j, BEFORE, i, k]
+                        out[row + i, after + k] += bl.cross[j, AFTER, i, k]
     for i in range(n):
         for k in range(n):
             out[tail + i, tail + k] = bl.d[i, k]

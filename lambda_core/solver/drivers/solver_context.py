@@ -61,7 +61,7 @@ class SolverContext:
 
     def __post_init__(self) -> None:
         self.blocks = make_blocks(self.bundle)
-        self.factors = make_factors(self.blocks.reach, self.bundle.active.size)
+        self.factors = make_factors(self.blocks.reach, self.bundle.active.size, self.blocks.cross.shape[0])
 
     def handle(self, memory: Memory) -> Any:
         """Return what leads to all of it and to the integrator's memory, which compiled code takes as one argument.

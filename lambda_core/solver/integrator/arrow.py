@@ -5,6 +5,8 @@ Schur complement is summed in a matrix of that size, which is taken out of the w
 
 Every product is a sum of multiples of rows: the entries of a row do not wait for one another, as the terms of an inner
 product do. So the ball blocks are kept as inverses, and the other blocks in the order in which they are gone through.
+
+Balls that touch each other are coupled beside the arrow (:mod:`.chain`).
 """
 
 from __future__ import annotations
@@ -14,6 +16,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import types
 
+from lambda_core.solver.integrator.chain import (
+    find_chains,
+    take_from_block,
+    take_from_columns,
+    take_from_rows,
+    take_part,
+    write_ahead,
+)
 from lambda_core.solver.integrator.reach import Reach
 from lambda_core.solver.layout import NB, array1, array2, array3, helper, iarray1, rows_helper
 from lambda_core.solver.lu import lu_factor, lu_solve
@@ -32,15 +42,20 @@ class Factors(NamedTuple):
     own: Any  # (widest, widest): what one row of balls has of the Schur complement
     tail: Any  # (widest,): and of the shared part of a right-hand side
     part: Any  # (9,): one ball's part of a solution
+    begin: Any  # int64 (rows,): ball of each row that is eliminated first
+    joined: Any  # int64 (Z or 0,): whether a ball's coupling with the next one is eliminated
+    behind: Any  # (Z or 0, 9, 9): X_j,j-1, scaled
+    ahead: Any  # (Z or 0, 9, 9): A_j^-1 X_j,j+1
 
 
 factors_t = types.NamedTuple(
-    [array3, iarray1, array2, array3, array3, array2, iarray1, array2, array1, array1], Factors
+    [array3, iarray1, array2, array3, array3, array2, iarray1, array2, array1, array1, iarray1, iarray1, array3, array3],
+    Factors,
 )
 
 
-def make_factors(reach: Reach, n: int) -> Factors:
-    """Allocate for the rows of balls that `reach` describes and n shared states."""
+def make_factors(reach: Reach, n: int, coupled: int) -> Factors:
+    """Allocate for the rows of balls that `reach` describes, n shared states and `coupled` balls that may touch."""
     balls, widest = int(reach.first[-1]), reach.columns.shape[1]
     return Factors(
         np.zeros((balls, NB, NB)),
@@ -53,6 +68,10 @@ def make_factors(reach: Reach, n: int) -> Factors:
         np.zeros((widest, widest)),
         np.zeros(widest),
         np.zeros(NB),
+        reach.first[:-1].copy(),
+        np.zeros(coupled, dtype=np.int64),
+        np.zeros((coupled, NB, NB)),
+        np.zeros((coupled, NB, NB)),
     )
 
 
@@ -102,13 +121,34 @@ def _invert(m, pivots):
 
 
 @helper
-def _factor_ball(bl, j, shift, gamma, fa, own, n):
-    """Invert the block of ball j and take its share, of n columns, from `own`; returns 0 when singular."""
+def _in_turn(begin, i, first, last):
+    """Return the ball i places after `begin` in the ring first..last-1."""
+    j = begin + i
+    return j if j < last else j - (last - first)
+
+
+@helper
+def _joined_before(reach, r, j, fa):
+    """Return the ball before ball j of row r where the two are joined, else -1."""
+    if fa.joined.size == 0:
+        return -1
+    before = j - 1 if j > reach.first[r] else reach.first[r + 1] - 1
+    return before if fa.joined[before] == 1 else -1
+
+
+@helper
+def _factor_ball(bl, j, before, shift, gamma, fa, own, n):
+    """Invert the block of ball j and take its share, of n columns, from `own`; returns 0 when singular.
+
+    `before` is the ball that it is joined to, -1 for none.
+    """
     m, x, across, c = fa.inverse[j], fa.x, fa.across[j], fa.c[j]
     for i in range(NB):
         for k in range(NB):
             m[k, i] = -gamma * bl.a[j, i, k]
         m[i, i] += shift
+    if before >= 0:
+        take_from_block(bl, j, before, gamma, fa, m)
     if _invert(m, fa.pivots) != 1:
         return 0
     for i in range(NB):
@@ -118,14 +158,22 @@ def _factor_ball(bl, j, shift, gamma, fa, own, n):
             f = -gamma * m[k, i]
             if f != 0.0:
                 _add(x[i], f, bl.b[j, k], n)
+    if before >= 0:
+        take_from_columns(j, before, fa, m, x, n)
+    for i in range(NB):
         for q in range(n):
             across[q, i] = x[i, q]
     for i in range(n):
         for k in range(NB):
-            f = -gamma * bl.c[j, i, k]
-            c[k, i] = f
-            if f != 0.0:
-                _add(own[i], -f, x[k], n)
+            c[k, i] = -gamma * bl.c[j, i, k]
+    if before >= 0:
+        take_from_rows(before, fa, c, n)
+    for i in range(n):
+        for k in range(NB):
+            if c[k, i] != 0.0:
+                _add(own[i], -c[k, i], x[k], n)
+    if fa.joined.size > 0 and fa.joined[j] == 1:
+        write_ahead(bl, j, gamma, fa, m)
     return 1
 
 
@@ -154,8 +202,13 @@ def arrow_factor(bl, shift, gamma, fa):
         own = schur if whole else fa.own
         if not whole:
             _exchange(schur, columns, own, n, True)
-        for j in range(reach.first[r], reach.first[r + 1]):
-            if _factor_ball(bl, j, shift, gamma, fa, own, n) != 1:
+        first, last = reach.first[r], reach.first[r + 1]
+        if fa.joined.size > 0:
+            fa.begin[r] = find_chains(bl, first, last, fa)
+        for i in range(last - first):
+            j = _in_turn(fa.begin[r], i, first, last)
+            before = _joined_before(reach, r, j, fa)
+            if _factor_ball(bl, j, before, shift, gamma, fa, own, n) != 1:
                 return 0
         if not whole:
             _exchange(schur, columns, own, n, False)
@@ -165,23 +218,52 @@ def arrow_factor(bl, shift, gamma, fa):
 
 
 @helper
+def _solve_forward(row, reach, fa, r, own, n):
+    """Write A_j^-1 times each ball's part of the right-hand side, and take its share from `own`."""
+    part, first, last = fa.part, reach.first[row], reach.first[row + 1]
+    for place in range(last - first):
+        j = _in_turn(fa.begin[row], place, first, last)
+        its = r[NB * j : NB * j + NB]
+        before = _joined_before(reach, row, j, fa)
+        if before >= 0:
+            take_part(fa.behind[j], r[NB * before : NB * before + NB], its)
+        for i in range(NB):
+            part[i] = 0.0
+        for k in range(NB):
+            _add_ball(part, its[k], fa.inverse[j, k])
+        for k in range(NB):
+            its[k] = part[k]
+            _add(own, -part[k], fa.c[j, k], n)
+
+
+@helper
+def _solve_back(row, reach, fa, r, own, n):
+    """Take from each ball's part what the shared part, in `own`, and the ball after it have of it."""
+    part, first, last = fa.part, reach.first[row], reach.first[row + 1]
+    for place in range(last - first - 1, -1, -1):
+        j = _in_turn(fa.begin[row], place, first, last)
+        its = r[NB * j : NB * j + NB]
+        for i in range(NB):
+            part[i] = its[i]
+        for k in range(n):
+            _add_ball(part, -own[k], fa.across[j, k])
+        for i in range(NB):
+            its[i] = part[i]
+        if fa.joined.size > 0 and fa.joined[j] == 1:
+            after = _in_turn(j, 1, first, last)
+            take_part(fa.ahead[j], r[NB * after : NB * after + NB], its)
+
+
+@helper
 def arrow_solve(bl, fa, r):
     """Solve in place for the right-hand side r, shape (9 Z + n,)."""
-    reach, own, part = bl.reach, fa.tail, fa.part
+    reach, own = bl.reach, fa.tail
     shared = r[NB * fa.inverse.shape[0] :]
     for row in range(reach.width.size):
         n, columns = reach.width[row], reach.columns[row]
         for i in range(n):
             own[i] = shared[columns[i]]
-        for j in range(reach.first[row], reach.first[row + 1]):
-            its = r[NB * j : NB * j + NB]
-            for i in range(NB):
-                part[i] = 0.0
-            for k in range(NB):
-                _add_ball(part, its[k], fa.inverse[j, k])
-            for k in range(NB):
-                its[k] = part[k]
-                _add(own, -part[k], fa.c[j, k], n)
+        _solve_forward(row, reach, fa, r, own, n)
         for i in range(n):
             shared[columns[i]] = own[i]
     if shared.size > 0:
@@ -190,11 +272,4 @@ def arrow_solve(bl, fa, r):
         n, columns = reach.width[row], reach.columns[row]
         for i in range(n):
             own[i] = shared[columns[i]]
-        for j in range(reach.first[row], reach.first[row + 1]):
-            its = r[NB * j : NB * j + NB]
-            for i in range(NB):
-                part[i] = its[i]
-            for k in range(n):
-                _add_ball(part, -own[k], fa.across[j, k])
-            for i in range(NB):
-                its[i] = part[i]
+        _solve_back(row, reach, fa, r, own, n)

@@ -20,6 +20,8 @@ class Blocks(NamedTuple):
     b: Any  # (Z, 9, widest)
     c: Any  # (Z, widest, 9)
     d: Any  # (n_active, n_active)
+    cross: Any  # (Z, 2, 9, 9), without balls that may touch (0, 2, 9, 9): with the balls before and after, see chain
+    beyond: Any  # (6, 9) d(ball force)/d(ball beside it)
     own: Any  # (6, 9) d(ball force)/d(ball)
     to_shared: Any  # (6, 12 places) d(ball force)/d(own bodies)
     from_ball: Any  # (places, 6, 9) d(own body force)/d(ball)
@@ -44,6 +46,8 @@ _BLOCK_TYPES = {
     "b": array3,
     "c": array3,
     "d": array2,
+    "cross": array4,
+    "beyond": array2,
     "own": array2,
     "to_shared": array2,
     "from_ball": array3,
@@ -59,6 +63,11 @@ _BLOCK_TYPES = {
 blocks_t = types.NamedTuple([_BLOCK_TYPES.get(name, array1) for name in Blocks._fields], Blocks)
 
 
+def may_touch(bundle: Any) -> bool:
+    """Tell whether balls may touch each other: those of a row without a cage, where such contacts are followed."""
+    return bool(bundle.system["guides_on"][0]) and not bundle.rows["caged"].all()
+
+
 def make_blocks(bundle: Any) -> Blocks:
     """Allocate the blocks for the tables of a bundle."""
     balls, bodies, n = int(bundle.system["balls"][0]), bundle.bodies.size, bundle.active.size
@@ -72,6 +81,8 @@ def make_blocks(bundle: Any) -> Blocks:
         b=zeros((balls, NB, widest)),
         c=zeros((balls, widest, NB)),
         d=zeros((n, n)),
+        cross=zeros((balls if may_touch(bundle) else 0, 2, NB, NB)),
+        beyond=zeros((6, NB)),
         own=zeros((6, NB)),
         to_shared=zeros((6, NS * places)),
         from_ball=zeros((places, 6, NB)),

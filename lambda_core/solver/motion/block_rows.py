@@ -46,6 +46,15 @@ def ball_block(ball, row, bl, a, b):
 
 
 @helper
+def neighbour_block(row, bl, block):
+    """Turn the slopes of a ball's force with the states of the ball beside it into rows of the first."""
+    for i in range(6):
+        inverse = 1.0 / row.ball_mass if i < 3 else 1.0 / row.ball_inertia
+        for c in range(NB):
+            block[3 + i, c] = bl.beyond[i, c] * inverse
+
+
+@helper
 def force_map(body, now, m):
     """Write d(rate)/d(force, moment) of a body, (12, 6)."""
     m[:, :] = 0.0

@@ -1,11 +1,12 @@
 """Jacobian of the right-hand side in block-arrow form, by the chain rule through the stages.
 
-Each ball couples only to itself and to the bodies:
+Each ball couples to itself and to the bodies:
 
     J = [ [ A_1,           B_1 ],
           [      ...       ... ],
           [ C_1, ..., C_Z,  D  ] ]
 
+Without a cage, balls that touch each other are coupled too, each to those beside it.
 B and C hold the columns and rows of the bodies that the ball touches (:mod:`lambda_core.solver.integrator.reach`).
 
 A contact's wrench depends on the states through nine kinematic numbers; its slope with them is
@@ -19,8 +20,9 @@ import math
 from lambda_core.solver.cage.guide_columns import land_columns, neighbour_columns, pocket_columns
 from lambda_core.solver.contact.raceway_columns import raceway_columns
 from lambda_core.solver.contact.ring_waves import turning_columns
+from lambda_core.solver.integrator.chain import AFTER, BEFORE
 from lambda_core.solver.layout import BPSI, NB, NS, helper
-from lambda_core.solver.motion.block_rows import ball_block, body_rows, force_map, shared_rows
+from lambda_core.solver.motion.block_rows import ball_block, body_rows, force_map, neighbour_block, shared_rows
 from lambda_core.solver.motion.force_elements import drag_force
 from lambda_core.solver.motion.links import link_columns
 from lambda_core.solver.motion.prescribed import fill_shared
@@ -68,9 +70,12 @@ def _guide_columns(balls, j, row, bundle, bl):
     if row.caged == 1:
         return pocket_columns(balls[j], j, row, bundle, bl)
     first, z, i = row.first_ball, row.balls, j - row.first_ball
-    if neighbour_columns(balls[j], balls[first + (i + 1) % z], row, bundle, bl) != 1:
-        return 0
-    return neighbour_columns(balls[j], balls[first + (i + z - 1) % z], row, bundle, bl)
+    for side in (BEFORE, AFTER):
+        beside = balls[first + (i + (1 if side == AFTER else z - 1)) % z]
+        if neighbour_columns(balls[j], beside, row, bundle, bl) != 1:
+            return 0
+        neighbour_block(row, bl, bl.cross[j, side])
+    return 1
 
 
 @helper

@@ -105,6 +105,7 @@ def _mask_ball(j, r, bundle, bl, held, a2, b2, c2, on):
 @allocating_helper
 def mask(bundle, bl, held):
     """Turn the blocks of dy/dt into those of the pseudo-transient system, in place."""
+    bl.cross[:, :, :, :] = 0.0
     active, n, widest = bundle.active, bl.d.shape[0], bl.b.shape[2]
     on = np.zeros(n, dtype=np.int64)
     for k in range(n):

@@ -1,0 +1,106 @@
+"""Balls that touch each other, where no cage keeps them apart: their coupling in the block-arrow matrix.
+
+Blocks X_j,i stand beside the diagonal where ball j touches ball i = j - 1 or j + 1. Balls that touch are a chain, which is
+eliminated from one end to the other (block LU of a tridiagonal matrix: Golub and Van Loan 2013, Matrix Computations,
+4.5.1), every ball behind the one before it:
+
+    A_j <- A_j - X_j,i A_i^-1 X_i,j,   B_j <- B_j - X_j,i A_i^-1 B_i,   C_j <- C_j - C_i A_i^-1 X_i,j.
+
+Without it Newton's iteration of two balls that hit each other converges as slowly as the blow is stiff. Where all balls
+of a row touch, the chain has no end: it is cut between the last ball and the first, and that pair's coupling is left to the
+iteration.
+"""
+
+from __future__ import annotations
+
+from lambda_core.solver.layout import BVT, BVX, NB, helper, rows_helper
+
+BEFORE, AFTER = 0, 1  # places of X_j,j-1 and X_j,j+1 in the blocks of ball j
+
+
+@rows_helper
+def _add(row, factor, other, n):
+    """Add a multiple of the first n entries of another row."""
+    for i in range(n):
+        row[i] += factor * other[i]
+
+
+@helper
+def _touches(block):
+    """Return whether a block of the coupling holds a force."""
+    for i in range(BVX, BVT + 1):
+        for k in range(NB):
+            if block[i, k] != 0.0:
+                return True
+    return False
+
+
+@helper
+def find_chains(bl, first, last, fa):
+    """Mark the balls first..last-1 that are joined to the next one; returns the ball at which a chain begins."""
+    begin = -1
+    for j in range(first, last):
+        after = j + 1 if j + 1 < last else first
+        joined = _touches(bl.cross[j, AFTER]) or _touches(bl.cross[after, BEFORE])
+        fa.joined[j] = 1 if joined else 0
+        if not joined:
+            begin = after
+    if begin < 0:
+        begin, fa.joined[last - 1] = first, 0
+    return begin
+
+
+@helper
+def take_from_block(bl, j, before, gamma, fa, m):
+    """Take from the diagonal block of ball j, transposed in m, what the ball before it has of it."""
+    for i in range(NB):
+        for q in range(NB):
+            f = -gamma * bl.cross[j, BEFORE, i, q]
+            fa.behind[j, i, q] = f
+            if f != 0.0:
+                for k in range(NB):
+                    m[k, i] -= f * fa.ahead[before, q, k]
+
+
+@helper
+def take_from_columns(j, before, fa, m, x, n):
+    """Take from x = A^-1 B of ball j, n columns, what the ball before it has of B; m is its inverse, transposed."""
+    for q in range(NB):
+        for i in range(NB):
+            f = 0.0
+            for k in range(NB):
+                f += m[k, i] * fa.behind[j, k, q]
+            if f != 0.0:
+                for c in range(n):
+                    x[i, c] -= f * fa.across[before, c, q]
+
+
+@helper
+def take_from_rows(before, fa, c, n):
+    """Take from C of a ball, transposed in c, what the ball before it has of it."""
+    for k in range(NB):
+        for q in range(NB):
+            f = fa.ahead[before, q, k]
+            if f != 0.0:
+                _add(c[k], -f, fa.c[before, q], n)
+
+
+@helper
+def write_ahead(bl, j, gamma, fa, m):
+    """Write A_j^-1 X_j,j+1 of a ball that is joined to the next; m is its inverse, transposed."""
+    for i in range(NB):
+        for k in range(NB):
+            total = 0.0
+            for q in range(NB):
+                total -= m[q, i] * gamma * bl.cross[j, AFTER, q, k]
+            fa.ahead[j, i, k] = total
+
+
+@helper
+def take_part(matrix, part, its):
+    """Take a matrix times one ball's part of a solution from another's."""
+    for i in range(NB):
+        total = 0.0
+        for k in range(NB):
+            total += matrix[i, k] * part[k]
+        its[i] -= total

@@ -1,0 +1,85 @@
+"""Balls that touch each other, where there is no cage: their coupling in the Jacobian and in its factors."""
+
+# Numba infers the types of compiled functions.
+# mypy: disable-error-code="no-untyped-def, no-untyped-call"
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from numba import types
+
+from lambda_core.solver import layout as L
+from lambda_core.solver.drivers import right_hand_side as compiling
+from lambda_core.solver.drivers.modes import dense
+from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve
+from lambda_core.solver.integrator.chain import AFTER, BEFORE
+
+from .support import FloatArray, Machine, jostle, machine, rolling
+from .test_jacobian import differences, scaled
+
+_GAMMA = 1e-5  # [s]
+
+
+def touching(m: Machine, pairs: tuple[int, ...], seed: int = 0) -> FloatArray:
+    """Return a state in which each named ball is pressed by a micrometre onto the one after it."""
+    state = jostle(m, rolling(m, 100.0), np.random.default_rng(seed), shift=0.1, motion=1e-3)
+    d, z = m.model.geometry.ball_diameter, m.count
+    state.balls[:, L.BX] = 0.0
+    for j in pairs:
+        one, other = state.balls[j], state.balls[(j + 1) % z]
+        a, b = one[L.BR], other[L.BR]
+        apart = np.arccos((a * a + b * b - (d - 1e-6) ** 2) / (2.0 * a * b))
+        other[L.BPSI] = one[L.BPSI] + apart
+    return m.vector(state)
+
+
+@pytest.mark.parametrize("pairs", [(3, 4), (8,)])
+def test_slopes_of_touching_balls_are_those_of_differences(pairs: tuple[int, ...]) -> None:
+    m = machine("depth.cage=false")
+    y = touching(m, pairs)
+    exact, ours = scaled(m, differences(m, y)), scaled(m, m.jacobian(y))
+    of = np.repeat(np.arange(m.count), L.NB)
+    beside = np.zeros_like(exact, dtype=bool)
+    beside[: of.size, : of.size] = of[:, None] != of[None, :]
+    coupled = {(int(of[i]), int(of[k])) for i, k in zip(*np.nonzero(exact * beside), strict=True)}
+    assert coupled == {p for j in pairs for p in ((j, (j + 1) % m.count), ((j + 1) % m.count, j))}
+    largest = np.abs(exact).max(axis=1, keepdims=True)
+    assert np.all(np.abs(ours - exact)[beside] < np.broadcast_to(0.01 * largest + 1e-3, exact.shape)[beside])
+    assert np.linalg.norm((ours - exact)[beside]) < 3e-3 * np.linalg.norm(exact[beside])
+
+
+def _solve(gamma, r, handle):
+    if arrow_factor(handle.blocks, 1.0, gamma, handle.factors) != 1:
+        return 0
+    arrow_solve(handle.blocks, handle.factors, r)
+    return 1
+
+
+@cache
+def _compiled() -> Any:
+    return compiling.compiled(_solve, types.int64(types.float64, L.array1, compiling.handle_t))
+
+
+@pytest.mark.parametrize("joined", [(), (0,), (2, 3, 4), (7, 8), (0, 1, 3, 8), tuple(range(8)), tuple(range(9))], ids=str)
+def test_chains_of_balls_are_solved_as_one_matrix(joined: tuple[int, ...]) -> None:
+    """Random couplings of a size with the balls' own blocks; a ring of all is cut where its numbers begin."""
+    m, rng = machine("depth.cage=false", "bodies.inner_ring.y=free"), np.random.default_rng(1)
+    m.jacobian(touching(m, ()))
+    blocks = m.context.blocks
+    assert not blocks.cross.any()
+    for j in joined:
+        for ball, side in ((j, AFTER), ((j + 1) % m.count, BEFORE)):
+            blocks.cross[ball, side, 3:] = rng.uniform(-1.0, 1.0, (6, L.NB)) * 0.3 * np.abs(blocks.a[ball, 3:]).max(axis=0)
+    whole = dense(blocks)
+    if len(joined) == m.count:
+        last = L.NB * (m.count - 1)
+        whole[: L.NB, last : last + L.NB] = whole[last : last + L.NB, : L.NB] = 0.0
+    wanted = rng.uniform(-1.0, 1.0, whole.shape[0])
+    handle = compiling.Handle(m.context)
+    matrix = np.eye(whole.shape[0]) - _GAMMA * whole
+    found = matrix @ wanted
+    assert _compiled()(_GAMMA, found, handle._handle) == 1
+    assert found == pytest.approx(wanted, rel=1e-8, abs=1e-8)
