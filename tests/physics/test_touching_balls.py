@@ -63,7 +63,9 @@ def _compiled() -> Any:
     return compiling.compiled(_solve, types.int64(types.float64, L.array1, compiling.handle_t))
 
 
-@pytest.mark.parametrize("joined", [(), (0,), (2, 3, 4), (7, 8), (0, 1, 3, 8), tuple(range(8)), tuple(range(9))], ids=str)
+@pytest.mark.parametrize(
+    "joined", [(), (0,), (2, 3, 4), (7, 8), (0, 1, 3, 8), tuple(range(8)), tuple(range(9))], ids=str
+)
 def test_chains_of_balls_are_solved_as_one_matrix(joined: tuple[int, ...]) -> None:
     """Random couplings of a size with the balls' own blocks; a ring of all is cut where its numbers begin."""
     m, rng = machine("depth.cage=false", "bodies.inner_ring.y=free"), np.random.default_rng(1)
@@ -72,7 +74,9 @@ def test_chains_of_balls_are_solved_as_one_matrix(joined: tuple[int, ...]) -> No
     assert not blocks.cross.any()
     for j in joined:
         for ball, side in ((j, AFTER), ((j + 1) % m.count, BEFORE)):
-            blocks.cross[ball, side, 3:] = rng.uniform(-1.0, 1.0, (6, L.NB)) * 0.3 * np.abs(blocks.a[ball, 3:]).max(axis=0)
+            blocks.cross[ball, side, 3:] = (
+                rng.uniform(-1.0, 1.0, (6, L.NB)) * 0.3 * np.abs(blocks.a[ball, 3:]).max(axis=0)
+            )
     whole = dense(blocks)
     if len(joined) == m.count:
         last = L.NB * (m.count - 1)

@@ -100,7 +100,7 @@ def _pocket_waves(ball, cage, j, row, law, par, bundle, bl):
 
 @helper
 def neighbour_columns(ball, other, row, bundle, bl):
-    """Add the ball-ball contact to the first ball's own slopes; write those with the other ball's states into bl.beyond."""
+    """Add the ball-ball contact to the first ball's own slopes; write those with the other's states into bl.beyond."""
     scratch, viscosity, fm = bundle.scratch[0], row.oil.viscosity, bl.wrenches
     g, out, fault = scratch.guide, scratch.out[:], scratch.fault
     law, par = guide_law(bundle.laws.guides, row.guide_law), part(bundle.par, row.pocket)

@@ -49,7 +49,22 @@ class Factors(NamedTuple):
 
 
 factors_t = types.NamedTuple(
-    [array3, iarray1, array2, array3, array3, array2, iarray1, array2, array1, array1, iarray1, iarray1, array3, array3],
+    [
+        array3,
+        iarray1,
+        array2,
+        array3,
+        array3,
+        array2,
+        iarray1,
+        array2,
+        array1,
+        array1,
+        iarray1,
+        iarray1,
+        array3,
+        array3,
+    ],
     Factors,
 )
 

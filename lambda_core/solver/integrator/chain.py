@@ -1,14 +1,14 @@
 """Balls that touch each other, where no cage keeps them apart: their coupling in the block-arrow matrix.
 
-Blocks X_j,i stand beside the diagonal where ball j touches ball i = j - 1 or j + 1. Balls that touch are a chain, which is
-eliminated from one end to the other (block LU of a tridiagonal matrix: Golub and Van Loan 2013, Matrix Computations,
-4.5.1), every ball behind the one before it:
+Blocks X_j,i stand beside the diagonal where ball j touches ball i = j - 1 or j + 1. Balls that touch are a chain, which
+is eliminated from one end to the other (block LU of a tridiagonal matrix: Golub and Van Loan 2013, Matrix
+Computations, 4.5.1), every ball behind the one before it:
 
     A_j <- A_j - X_j,i A_i^-1 X_i,j,   B_j <- B_j - X_j,i A_i^-1 B_i,   C_j <- C_j - C_i A_i^-1 X_i,j.
 
-Without it Newton's iteration of two balls that hit each other converges as slowly as the blow is stiff. Where all balls
-of a row touch, the chain has no end: it is cut between the last ball and the first, and that pair's coupling is left to the
-iteration.
+Without it Newton's iteration of two balls that hit each other converges as slowly as the blow is stiff. Where all
+balls of a row touch, the chain has no end: it is cut between the last ball and the first, and that pair's coupling is
+left to the iteration.
 """
 
 from __future__ import annotations

@@ -1,10 +1,11 @@
-"""Newton's iteration where balls come to rest: begun at the last speeds, damped, with a Jacobian of every iterate.
+"""Newton's iteration where balls come to rest: begun at the last speeds, damped, with the Jacobian of the iterate.
 
 Friction in a contact at rest is almost a sign function. From a speed on the wrong side of it an undamped iteration
 goes to and fro for ever, in steps of any length. What is solved is M (v - v_0)/gamma = F(v) with a friction that
 opposes v: its residual falls along Newton's direction, and a step of the search along it is taken where it falls
 enough (Armijo 1966, Pacific J. Math. 16, 1; Dennis and Schnabel 1983, Numerical Methods, 6.3). The residual is
-measured by the inertias, in which the balls' places have no part: those are linear in the speeds.
+measured by the inertias, in which the balls' places have no part: those are linear in the speeds. Balls that have next
+to no part in the residual keep their Jacobian, as long as it falls.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from lambda_core.solver.status import Status
 _MAX_ITERATIONS = 20
 _HALVINGS = 8  # of a move, at most
 _FALL = 0.2  # of the squared residual, over the share of the move that is made
+_RESTLESS = 0.01  # share of the squared residual from which a ball's part of the Jacobian is renewed
 
 
 @helper
@@ -60,6 +62,19 @@ def _search(evaluate, t, gamma, residual, bundle, mem):
 
 
 @helper
+def _mark_restless(gamma, residual, bl, mem):
+    """Have the Jacobian renewed for the balls that make most of the squared residual."""
+    mem.count[0].stale = 1
+    mem.count[0].ball_jacobians += 1
+    for j in range(bl.due.size):
+        total = 0.0
+        for i in range(NB * j, NB * j + NB):
+            off = mem.base[i] + gamma * mem.slope[i] - mem.new[i]
+            total += mem.inertia[i] * off * off
+        bl.due[j] = 1 if total > _RESTLESS * residual else 0
+
+
+@helper
 def solve_damped(evaluate, jacobian, t, h, tolerance, closer, bundle, bl, fa, mem):
     """Solve new = base + gamma f(new) as newton.solve_step does; returns a Status: OK, NOT_CONVERGED, REFUSED."""
     count, gamma = mem.count[0], mem.control[0].gamma
@@ -69,9 +84,13 @@ def solve_damped(evaluate, jacobian, t, h, tolerance, closer, bundle, bl, fa, me
     if residual < 0.0:
         return Status.REFUSED
     for iteration in range(_MAX_ITERATIONS):
-        count.stale, count.jacobian_age = 1, 0
-        bl.due[:] = 1
-        count.jacobians += 1
+        whole = count.stale == 1
+        if whole:
+            bl.due[:] = 1
+            count.jacobians += 1
+            count.jacobian_age = 0
+        else:
+            _mark_restless(gamma, residual, bl, mem)
         count.newton_iterations += 1
         if renew(jacobian, t, gamma, bundle, bl, fa, mem) != Status.OK:
             return Status.REFUSED
@@ -87,6 +106,11 @@ def solve_damped(evaluate, jacobian, t, h, tolerance, closer, bundle, bl, fa, me
             residual = _evaluate(evaluate, t, gamma, bundle, mem)
         else:
             residual = _search(evaluate, t, gamma, residual, bundle, mem)
+            if residual < 0.0 and not whole:
+                count.stale = 1
+                for i in range(mem.new.size):
+                    mem.new[i] = mem.last_change[i]
+                residual = _evaluate(evaluate, t, gamma, bundle, mem)
         if residual < 0.0:
             return Status.NOT_CONVERGED
     return Status.NOT_CONVERGED
