@@ -7,71 +7,95 @@ from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
 from lambda_core.case.case import Case
 from lambda_core.case.problems import problems
+from lambda_core.case.shaft import ShaftCase
 from lambda_core.domain.errors import CaseError, Problem
 
+StandIns = Mapping[tuple[str, ...], Any]
+
+_ROUNDS = 20
+STAND_IN = "stand-in"  # a bearing where no other is left
 # Stand-ins for required options that are missing or wrong; problems with them are never shown.
-_STAND_INS: dict[tuple[str, ...], Any] = {
+_SHARED: StandIns = {
     ("name",): "case",
-    ("bearing",): {},
     ("lubricant",): {"name": "FVA3", "temperature": "40 degC"},
     ("lubricant", "name"): "FVA3",
     ("lubricant", "temperature"): "40 degC",
     ("operation",): {"speed": "1000 rpm"},
     ("operation", "speed"): "1000 rpm",
 }
-_ROUNDS = 20
+_PIECES = [{"length": "1 m", "diameter": "40 mm"}]
+_STAND_INS: Mapping[type[BaseModel], StandIns] = {
+    Case: {**_SHARED, ("bearing",): {}},
+    ShaftCase: {
+        **_SHARED,
+        ("shaft",): {"sections": _PIECES},
+        ("shaft", "sections"): _PIECES,
+        ("bearings",): {STAND_IN: {"position": "0 mm"}},
+    },
+}
 
 
 class InvalidCase(CaseError):
     """A case with mistakes of its own; `remainder` is the case without them, if one is left."""
 
-    def __init__(self, source: str, problems: Sequence[Problem], remainder: Case | None) -> None:
+    def __init__(self, source: str, problems: Sequence[Problem], remainder: Any) -> None:
         super().__init__(source, problems)
         self.remainder = remainder
 
     def joined(self, others: Sequence[Problem]) -> CaseError:
         """Return one error with these problems and those of `others` that do not follow from them."""
         known = [problem.where for problem in self.problems]
-        new = [other for other in others if not any(_related(other.where, where) for where in known)]
+        new = [other for other in others if not any(related(other.where, where) for where in known)]
         return CaseError(self.source, [*self.problems, *new])
 
 
-def _related(one: str, other: str) -> bool:
+def related(one: str, other: str) -> bool:
+    """Tell whether one of two paths is the other one or a part of it."""
     return f"{one}.".startswith(f"{other}.") or f"{other}.".startswith(f"{one}.")
 
 
-def invalid_case(source: str, error: ValidationError, data: Mapping[str, Any], folder: Path | None) -> InvalidCase:
-    """Return the error that names every mistake in `data`, with what is left of the case."""
-    return InvalidCase(source, problems(error, Case, data), _remainder(error, data, folder))
+def invalid_case(
+    source: str, error: ValidationError, data: Mapping[str, Any], folder: Path | None, root: type[BaseModel] = Case
+) -> InvalidCase:
+    """Return the error that names every mistake in `data`, with what is left of the case, of one bearing or a shaft."""
+    return InvalidCase(source, problems(error, root, data), _remainder(error, data, folder, root))
 
 
-def _remainder(error: ValidationError, data: Mapping[str, Any], folder: Path | None) -> Case | None:
+def _remainder(
+    error: ValidationError, data: Mapping[str, Any], folder: Path | None, root: type[BaseModel]
+) -> BaseModel | None:
     rest = deepcopy(dict(data))
     for _ in range(_ROUNDS):
         for item in error.errors(include_url=False, include_context=False):
             path = tuple(p for p in item["loc"] if not str(p).startswith("kind:"))
-            _take_out(rest, path[:-1] if item["type"] == "missing" and path not in _STAND_INS else path)
+            _take_out(rest, path, _STAND_INS[root])
         try:
-            return Case.model_validate(rest, context={"folder": folder})
+            return root.model_validate(rest, context={"folder": folder})
         except ValidationError as again:
             error = again
     return None
 
 
-def _take_out(data: dict[str, Any], path: tuple[int | str, ...]) -> None:
-    """Remove what stands at `path` (a whole list for one of its entries), or put its stand-in there."""
+def _take_out(data: dict[str, Any], path: tuple[int | str, ...], stand_ins: StandIns) -> None:
+    """Remove what stands at `path`, or put its stand-in there.
+
+    It is a whole list for one of its entries, and the whole table for an option that is missing in it.
+    """
     table: Any = data
     for depth, key in enumerate(path[:-1]):
         if not isinstance(table, dict) or not isinstance(table.get(key), dict):
             path = path[: depth + 1]
             break
         table = table[key]
-    if path and isinstance(table, dict):
-        if path in _STAND_INS:
-            table[str(path[-1])] = deepcopy(_STAND_INS[path])  # type: ignore[index]
-        else:
-            table.pop(path[-1], None)
+    if not path or not isinstance(table, dict):
+        return
+    if path in stand_ins:
+        table[str(path[-1])] = deepcopy(stand_ins[path])  # type: ignore[index]
+    elif path[-1] in table:
+        table.pop(path[-1])
+    else:
+        _take_out(data, path[:-1], stand_ins)

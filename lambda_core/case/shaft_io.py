@@ -11,7 +11,7 @@ from pydantic import ValidationError
 
 from lambda_core.case.case import NAME_PATTERN
 from lambda_core.case.case_io import case_text, toml_tables
-from lambda_core.case.problems import problems
+from lambda_core.case.salvage import InvalidCase, invalid_case
 from lambda_core.case.shaft import NAMED, TAKEN, ShaftCase
 from lambda_core.domain.errors import CaseError, Problem, UsageError
 
@@ -33,7 +33,7 @@ def shaft_tables(source: str | Path) -> dict[str, Any]:
 
 
 def validate_shaft(data: Mapping[str, Any], source: str = "shaft", folder: Path | None = None) -> ShaftCase:
-    """Check plain tables as the case of a shaft; CaseError with every mistake of them."""
+    """Check plain tables as the case of a shaft; InvalidCase with every mistake of them, and what is left."""
     if "bearing" in data and "bearings" not in data:
         raise CaseError(
             source, [Problem("bearing", f"is one bearing, not a shaft: lambda-bearing quasistatic {source}")]
@@ -42,9 +42,10 @@ def validate_shaft(data: Mapping[str, Any], source: str = "shaft", folder: Path 
     try:
         case = ShaftCase.model_validate(data, context={"folder": folder})
     except ValidationError as error:
-        raise CaseError(source, [*problems(error, ShaftCase, data), *found]) from None
+        wrong = invalid_case(source, error, data, folder, ShaftCase)
+        raise InvalidCase(source, [*wrong.problems, *found], wrong.remainder) from None
     if found:
-        raise CaseError(source, found)
+        raise InvalidCase(source, found, case)
     return case
 
 

@@ -71,6 +71,8 @@ def connections(case: ShaftCase, stand: Places, ledger: Ledger) -> tuple[ShaftSp
     """Return springs, dampers and bushings, along the axes of the case."""
     found = []
     for name, given in case.springs.items():
+        if f"springs.{name}" not in stand.of:
+            continue  # said where places are sought
         place, to = stand.of[f"springs.{name}"], stand.carrier(given.to)
         matrices = []
         for prefix in ("", "damping_"):

@@ -19,7 +19,7 @@ _LOOSE = 1e-9  # of the largest eigenvalue: below, the housing moves without for
 
 def elastic_housing(
     path: Path, bearings: Sequence[MountedBearing], ledger: Ledger
-) -> tuple[FloatArray, FloatArray] | None:
+) -> tuple[FloatArray, FloatArray] | tuple[None, None]:
     """Return stiffness and damping between the outer rings, shape (5 bearings, 5 bearings); None after a problem.
 
     What the rings do not hold, further nodes and modes, follows without force: K_kk - K_ko K_oo^-1 K_ok.
@@ -27,12 +27,13 @@ def elastic_housing(
     Parameters
     ----------
     bearings : sequence of MountedBearing
-        The housing has a node at each of their places; it holds them in their locked degrees of freedom.
+        The housing has a node at each of their places; it holds them in their locked degrees of freedom. Without any
+        the file alone is looked at.
     """
     file = OutsideFile(_WHERE, path, ledger)
     body = file.read()
-    if body is None:
-        return None
+    if body is None or not bearings:
+        return None, None
     rows: list[int] = []
     own: list[int] = []
     for i, bearing in enumerate(bearings):
@@ -50,7 +51,7 @@ def elastic_housing(
     if not rows:
         file.problem("it holds no outer ring: all are free, or sit on springs or in bodies")
     if ledger.problems:
-        return None
+        return None, None
     kept, places = np.array(rows), np.array(own)
     others = np.setdiff1d(np.arange(body.stiffness.shape[0]), kept)
     k = body.stiffness
@@ -59,12 +60,12 @@ def elastic_housing(
         condensed: FloatArray = k[np.ix_(kept, kept)] - k[np.ix_(kept, others)] @ follows
     except np.linalg.LinAlgError:
         file.problem("some of it is held by nothing: its stiffness is singular beside the bearings")
-        return None
+        return None, None
     scale = np.sqrt(np.abs(np.diag(condensed)))
     stretch = np.linalg.eigvalsh(condensed / np.outer(scale, scale))
     if stretch[0] < _LOOSE * stretch[-1]:
         file.problem("the housing is held by nothing: fix it to the ground before it is reduced")
-        return None
+        return None, None
     whole, damping = np.zeros((2, *(len(PLACES) * len(bearings),) * 2))
     whole[np.ix_(places, places)] = 0.5 * (condensed + condensed.T)
     if body.damping is not None:

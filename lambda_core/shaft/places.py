@@ -45,12 +45,18 @@ class Places:
         return self.of[f"{table}.{name}"].body == SHAFT
 
     def carrier(self, name: str) -> int:
-        """Return the number of a body, given by its name or by a marker on it."""
-        return self.carriers[name] if name in self.carriers else self.markers[name].body
+        """Return the number of a body, given by its name or by a marker on it; the ground where nobody knows it."""
+        if name in self.carriers:
+            return self.carriers[name]
+        return self.markers[name].body if name in self.markers else GROUND
 
 
 def places(case: ShaftCase, outside: ElasticBody | None, ledger: Ledger) -> Places:
-    """Return where everything stands; what is wrong with it is noted."""
+    """Return where everything stands; what is wrong with it is noted.
+
+    Where the shaft comes from a file that cannot be read, names that nobody knows may be those of its nodes.
+    """
+    is_blind = outside is None and case.shaft.reduced is not None
     carriers = {"ground": GROUND, "shaft": SHAFT, **{name: i + 1 for i, name in enumerate(case.bodies)}}
     nodes: dict[str, float] = {}
     if outside is not None and outside.names:
@@ -69,6 +75,8 @@ def places(case: ShaftCase, outside: ElasticBody | None, ledger: Ledger) -> Plac
             where = f"{table}.{name}"
             if part.marker is None:
                 found[where] = Place(SHAFT, (part.position, 0.0, 0.0), np.eye(3))
+            elif part.marker not in markers and is_blind:
+                continue
             elif part.marker not in markers:
                 words = unknown_name("marker", part.marker, markers) if markers else "there are no [markers]"
                 ledger.problem(f"{where}.marker", words)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -11,8 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from lambda_core.case.case import merged
 from lambda_core.case.case_io import overridden
 from lambda_core.case.case_writer import tables_toml
+from lambda_core.case.salvage import InvalidCase, related
 from lambda_core.case.shaft import ShaftCase, bearing_tables
 from lambda_core.case.shaft_io import shaft_tables, validate_shaft
 from lambda_core.catalogue.protocol import Catalogue
@@ -28,6 +30,7 @@ from lambda_core.shaft.beside import COMPONENTS, all_loads, connections, refuse_
 from lambda_core.shaft.body_material import body_material
 from lambda_core.shaft.elastic_housing import elastic_housing
 from lambda_core.shaft.fitting import fitting_warnings
+from lambda_core.shaft.follow_ups import independent, is_shape_known
 from lambda_core.shaft.model import SHAFT, MountedBearing, ShaftModel, Unbalance
 from lambda_core.shaft.places import Places, places
 from lambda_core.shaft.reduced_shaft import reduced_shaft
@@ -38,6 +41,7 @@ from lambda_core.system.ledger import Ledger
 from lambda_core.system.time_functions import initial, planned_speed, time_function
 from lambda_core.system.time_laws import refuse_laws
 
+_SLENDEREST = 200  # diameters; elements are as long as thick, and matrices of more take minutes
 Source = str | Path | Mapping[str, Any] | ShaftCase
 
 
@@ -69,14 +73,15 @@ def check_shaft(
     Raises
     ------
     CaseError
-        With every mistake at once: those of the file and those that only catalogue and geometry show.
+        With every mistake at once: those of the file and those that only catalogue and geometry show, of all that the
+        former leave.
     """
     from lambda_core.discovery.manager import registry
 
     if isinstance(source, ShaftCase):
         tables, name, folder = source.written(), source.name, source.folder
     elif isinstance(source, Mapping):
-        tables, name = dict(source), str(source.get("name", "shaft"))
+        tables, name = merged({}, source), str(source.get("name", "shaft"))
     else:
         tables, name, folder = shaft_tables(source), Path(source).name, Path(source).resolve().parent
     tables = overridden(tables, overrides, ShaftCase)
@@ -84,14 +89,15 @@ def check_shaft(
     case: ShaftCase | None = None
     try:
         case = validate_shaft(tables, name, folder)
-    except CaseError as error:
+    except InvalidCase as error:
         found += error.problems
+        case = error.remainder
     with closing(registry().catalogue()) if catalogue is None else nullcontext(catalogue) as opened:
         models = _bearings(tables, folder, opened, found)
         ledger = Ledger(assumptions=list(case.assumptions) if case else [])
-        resolved = _shaft(case, models, opened, ledger) if case else None
+        resolved = _shaft(case, models, opened, ledger, found) if case else None
     if found or ledger.problems or resolved is None:
-        raise CaseError(name, [*found, *(p for p in ledger.problems if p not in found)])
+        raise CaseError(name, [*found, *independent(found, ledger.problems, tables)])
     return replace(resolved, case_toml=tables_toml(_anywhere(tables, folder)))
 
 
@@ -119,29 +125,24 @@ def _bearings(
                 where = problem.where.replace("bodies.cage", f"bearings.{name}.cage")
                 where = f"bearings.{name}{where[7:]}" if where.split(".")[0] == "bearing" else where
                 where = f"bearings.{name}.{where}" if where.split(".")[0] == "elastic" else where
-                if where != "name" and not any(_related(where, known.where) for known in found):
+                if where != "name" and not any(related(where, known.where) for known in found):
                     found.append(Problem(where, problem.message))
     return models
 
 
-def _related(one: str, other: str) -> bool:
-    return f"{one}.".startswith(f"{other}.") or f"{other}.".startswith(f"{one}.")
-
-
 def _shaft(
-    case: ShaftCase, models: Mapping[str, BearingModel], catalogue: Catalogue, ledger: Ledger
+    case: ShaftCase, models: Mapping[str, BearingModel], catalogue: Catalogue, ledger: Ledger, found: Sequence[Problem]
 ) -> ShaftModel | None:
-    """Return the whole; None where a bearing is missing, whose problems are known."""
-    outside = None
+    """Return the whole; None where something is wrong, here or as `found` before, after all else has been looked at."""
+    folder, outside, shape_known = case.folder or Path(), None, is_shape_known(found)
     if case.shaft.reduced is not None:
-        outside = reduced_shaft((case.folder or Path()) / case.shaft.reduced, ledger)
-        if outside is None:
-            return None
+        outside = reduced_shaft(folder / case.shaft.reduced, ledger)
+        shape_known = outside is not None
     stand = places(case, outside, ledger)
-    if ledger.problems:
-        return None
     case = _in_place(case, stand)
-    _check_places(case, stand, outside, ledger)
+    if shape_known:
+        _check_on_shaft(case, stand, outside, ledger)
+    _check_one_place(case, stand, ledger)
     changing = [("operation.speed", case.operation.speed)]
     changing += [
         (f"loads.{key}.{name}", getattr(load, name)) for key, load in case.loads.items() for name in COMPONENTS
@@ -153,24 +154,24 @@ def _shaft(
     discs = _discs(case, catalogue, ledger)
     bodies = rigid_bodies(case, catalogue, ledger)
     springs = connections(case, stand, ledger)
-    if material is None or around is None or ledger.problems or len(models) < len(case.bearings):
-        return None
-    body = _body(case, stand, material, discs) if outside is None else with_discs(outside, discs)
-    growth = around.thermal_expansion * (case.housing.temperature - REFERENCE_TEMPERATURE)
+    strain = around.thermal_expansion * (case.housing.temperature - REFERENCE_TEMPERATURE) if around else 0.0
     bearings = sorted(
         (
-            mounted(name, given, models[name], stand.carrier(given.outer), growth * given.place, ledger)
+            mounted(name, given, models[name], stand.carrier(given.outer), strain * given.place, ledger)
             for name, given in case.bearings.items()
+            if name in models
         ),
         key=lambda one: one.position,
     )
     housing, housing_damping = None, None
     if case.housing.reduced is not None:
-        found = elastic_housing((case.folder or Path()) / case.housing.reduced, bearings, ledger)
-        if found is None:
-            return None
-        housing, housing_damping = found
-    refuse_idle_dampers(bearings, housing, ledger)
+        is_whole = len(bearings) == len(case.bearings) and not ledger.problems
+        housing, housing_damping = elastic_housing(folder / case.housing.reduced, bearings if is_whole else (), ledger)
+    if case.housing.reduced is None or housing is not None:
+        refuse_idle_dampers(bearings, housing, ledger)
+    if found or ledger.problems or material is None or around is None or len(bearings) < len(case.bearings):
+        return None
+    body = _body(case, stand, material, discs) if outside is None else with_discs(outside, discs)
     shared: dict[str, list[str]] = {}
     for name, model in models.items():
         for sentence in model.assumptions:
@@ -223,13 +224,15 @@ def _in_place(case: ShaftCase, stand: Places) -> ShaftCase:
     tables = {}
     for table in ("bearings", "discs", "gears", "loads", "springs"):
         parts = getattr(case, table)
-        at = {name: stand.of[f"{table}.{name}"].point[0] for name in parts}
-        tables[table] = {name: part.model_copy(update={"position": at[name]}) for name, part in parts.items()}
+        at = {name: stand.of[f"{table}.{name}"].point[0] for name in parts if f"{table}.{name}" in stand.of}
+        tables[table] = {
+            name: part.model_copy(update={"position": at[name]}) if name in at else part for name, part in parts.items()
+        }
     return case.model_copy(update=tables)
 
 
-def _check_places(case: ShaftCase, stand: Places, outside: ElasticBody | None, ledger: Ledger) -> None:
-    """Note everything that stands beside the shaft, and bearings in one place."""
+def _check_on_shaft(case: ShaftCase, stand: Places, outside: ElasticBody | None, ledger: Ledger) -> None:
+    """Note everything that stands beyond the ends of the shaft, or off the nodes of one from outside."""
     parts = {f"{path}.position": place.point[0] for path, place in stand.of.items() if place.body == SHAFT}
     parts |= {f"markers.{name}.x": marker.x for name, marker in case.markers.items() if marker.body == "shaft"}
     for name, spring in case.springs.items():
@@ -238,6 +241,11 @@ def _check_places(case: ShaftCase, stand: Places, outside: ElasticBody | None, l
     if case.shaft.drive is not None:
         parts["shaft.drive"] = case.shaft.drive
     length = sum(section.length for section in case.shaft.sections)
+    slender = sum(section.length / section.diameter for section in case.shaft.sections)
+    if slender > _SLENDEREST:
+        ledger.problem(
+            "shaft.sections", f"are {slender:.3g} diameters long, {_SLENDEREST} at most: are lengths and units right?"
+        )
     for where, position in parts.items():
         at = show(position, "length", 6)
         if outside is None and not 0.0 <= position <= length * (1.0 + 1e-12):
@@ -245,8 +253,12 @@ def _check_places(case: ShaftCase, stand: Places, outside: ElasticBody | None, l
         elif outside is not None and not outside.has_node(position):
             nodes = ", ".join(f"{1e3 * x:.6g}" for x in outside.positions)
             ledger.problem(where, f"there is no node at {at}; nodes of the shaft stand at {nodes} mm")
+
+
+def _check_one_place(case: ShaftCase, stand: Places, ledger: Ledger) -> None:
+    """Note bearings in one place."""
     seen: dict[float, str] = {}
-    for name, bearing in case.bearings.items():
+    for name, bearing in ((name, one) for name, one in case.bearings.items() if f"bearings.{name}" in stand.of):
         other = seen.setdefault(round(bearing.place, 7), name)
         if other != name:
             ledger.problem(f"bearings.{name}.position", f'is that of "{other}" too: bearings stand beside each other')
