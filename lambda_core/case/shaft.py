@@ -215,12 +215,14 @@ def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
     given = tables["bearings"][name]
     operation = tables.get("operation")
     speed = operation.get("speed") if isinstance(operation, Mapping) else None
-    bodies = {"bodies": {"cage": given["cage"]}} if "cage" in given else {}
+    # the shaft decides how the inner ring tilts: nothing is to be assumed of a ring that stands alone
+    bodies = {"inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}}
+    bodies |= {"cage": given["cage"]} if "cage" in given else {}
     return {
         "name": name,
         "bearing": {key: value for key, value in given.items() if key in Bearing.model_fields},
         "operation": {} if speed is None else {"speed": speed},
-        **bodies,
+        "bodies": bodies,
         **({"elastic": given["elastic"]} if "elastic" in given else {}),
         **{table: tables[table] for table in SHARED if table in tables},
     }

@@ -33,6 +33,8 @@ def mounted(
         ledger.problem(f"bearings.{name}.takes", 'is required: an angular contact bearing needs "+x" or "-x"')
     if takes and model.geometry.rated_rows > 1:
         ledger.problem(f"bearings.{name}.takes", "leave it out: this bearing takes thrust from both sides")
+    if model.geometry.self_aligning:
+        ledger.assume(f"{name}: a self-aligning bearing follows every tilt of the shaft without resistance")
     play = axial_play(given, model) if takes else 0.0
     shift = growth - takes * (play + (given.preload or 0.0))
     dynamic, static, fatigue = _ratings(name, angle, model, ledger)
