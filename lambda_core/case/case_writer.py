@@ -74,9 +74,10 @@ def tables_toml(tables: Mapping[str, Any], original: str = "") -> str:
 
 
 def _renamed(original: str, tables: Mapping[str, Any]) -> str:
-    """Return a text whose named tables have their new names in their headers, so that their comments stay theirs.
+    """Return a text whose named tables have their new names, so that their comments stay theirs.
 
-    A table is renamed where one of a section goes and one comes that says the same, or they are the only ones.
+    A table is renamed where one of a section goes and one comes that says the same; of the others, where as many come
+    as go, each in its turn: a new name stands where the old one stood.
     """
     text = original
     for section, before in tomllib.loads(original).items():
@@ -85,15 +86,41 @@ def _renamed(original: str, tables: Mapping[str, Any]) -> str:
             continue
         gone = [name for name in before if name not in after and isinstance(before[name], dict)]
         come = [name for name in after if name not in before and isinstance(after[name], Mapping)]
-        for old in gone:
+        pairs = []
+        for old in list(gone):
             alike = [name for name in come if after[name] == before[old]]
-            new = alike[0] if alike else come[0] if len(gone) == len(come) == 1 else None
-            if new is not None:
-                come.remove(new)
-                head = rf"^(\s*\[+\s*{re.escape(section)}\s*\.\s*)(\"?){re.escape(old)}\2(?=\s*[.\]])"
-                key = new if re.fullmatch(r"[\w-]+", new, re.ASCII) else json.dumps(new)
-                text = re.sub(head, lambda found, key=key: found[1] + key, text, flags=re.MULTILINE)  # type: ignore[misc]
+            if alike:
+                pairs.append((old, alike[0]))
+                gone.remove(old)
+                come.remove(alike[0])
+        for old, new in [*pairs, *(zip(gone, come, strict=True) if len(gone) == len(come) else ())]:
+            text = _with_name(text, section, old, new)
     return text
+
+
+def _with_name(text: str, section: str, old: str, new: str) -> str:
+    """Return a text with another name of one table of a section; as it was where that would change anything else."""
+    key = new if re.fullmatch(r"[\w-]+", new, re.ASCII) else json.dumps(new)
+    one = rf"(\"?){re.escape(old)}\2"  # bare or quoted
+    heads = rf"^(\s*\[+\s*{re.escape(section)}\s*\.\s*){one}(?=\s*[.\]])"
+    dotted = rf"^(\s*{re.escape(section)}\s*\.\s*){one}(?=\s*[.=])"
+    changed = text
+    for pattern in (heads, dotted):
+        changed = re.sub(pattern, lambda found: found[1] + key, changed, flags=re.MULTILINE)
+    begin = re.search(rf"^\s*\[\s*{re.escape(section)}\s*\].*$", changed, re.MULTILINE)
+    if begin is not None:  # keys below the section's own header
+        following = re.compile(r"^\s*\[\s*[\w\"'\[]", re.MULTILINE).search(changed, begin.end())
+        end = following.start() if following else len(changed)
+        own = re.sub(
+            rf"^(\s*){one}(?=\s*[.=])", lambda found: found[1] + key, changed[begin.end() : end], flags=re.MULTILINE
+        )
+        changed = changed[: begin.end()] + own + changed[end:]
+    wanted = tomllib.loads(text)
+    wanted[section] = {new if name == old else name: table for name, table in wanted[section].items()}
+    try:
+        return changed if tomllib.loads(changed) == wanted else text
+    except tomllib.TOMLDecodeError:
+        return text
 
 
 def save_case(case: Case, path: str | Path, original: str | None = None) -> None:

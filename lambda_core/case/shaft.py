@@ -23,6 +23,7 @@ from lambda_core.case.shaft_parts import (
     ShaftMarker,
     ShaftSpring,
     held,
+    without_motion,
 )
 from lambda_core.case.signals import SpeedSignal
 from lambda_core.domain.units import (
@@ -111,6 +112,8 @@ class Support(Section):
     damping_z: Damping = option("0 N s/m", "vertical, likewise", ge=0.0)
     damping_tilt_y: AngularDamping = option("0 N m s/rad", "of rotation about y, likewise", ge=0.0)
     damping_tilt_z: AngularDamping = option("0 N m s/rad", "of rotation about z, likewise", ge=0.0)
+
+    _without_motion = field_validator("x", "y", "z", "tilt_y", "tilt_z", mode="before")(without_motion)
 
     @field_validator("x", "y", "z")
     @classmethod

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
+from collections.abc import Mapping
+from typing import Any, Literal
 
 from pydantic import ValidationInfo, field_validator, model_validator
 
@@ -73,6 +74,16 @@ def held(text: str, quantity: str) -> str:
     return folded
 
 
+def without_motion(value: Any) -> Any:
+    """Refuse a motion over time where a degree of freedom is held."""
+    if isinstance(value, Mapping):
+        raise ValueError(
+            'no motion is led here: write "locked", "free" or a stiffness; a shaft is moved by operation.speed, loads '
+            "over time and unbalance"
+        )
+    return value
+
+
 class ShaftBody(Section):
     """A rigid body beside the shaft, a housing: mass and inertia, or a shape; what holds its centre of mass."""
 
@@ -96,6 +107,10 @@ class ShaftBody(Section):
     hold_tilt_x: str = option("free", 'rotation about x: "free", "locked" or a stiffness ("50 N m/mrad")')
     hold_tilt_y: str = option("free", "rotation about y, likewise")
     hold_tilt_z: str = option("free", "rotation about z, likewise")
+
+    _without_motion = field_validator(
+        "hold_x", "hold_y", "hold_z", "hold_tilt_x", "hold_tilt_y", "hold_tilt_z", mode="before"
+    )(without_motion)
 
     @field_validator("hold_x", "hold_y", "hold_z")
     @classmethod

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.elastic.body import ElasticBody
 from lambda_core.shaft.model import GROUND, PLACES, MountedBearing
 from lambda_core.shaft.outside import OutsideFile
 from lambda_core.system.ledger import Ledger
@@ -34,6 +35,7 @@ def elastic_housing(
     body = file.read()
     if body is None or not bearings:
         return None, None
+    _say_left_out(body, ledger)
     rows: list[int] = []
     own: list[int] = []
     for i, bearing in enumerate(bearings):
@@ -74,3 +76,13 @@ def elastic_housing(
         moves[others] = -follows
         damping[np.ix_(places, places)] = moves.T @ body.damping @ moves
     return whole, damping
+
+
+def _say_left_out(body: ElasticBody, ledger: Ledger) -> None:
+    """Say what of the file does not count."""
+    if np.any(body.mass):
+        ledger.assume("the mass of the elastic housing is left out: in motion, in critical speeds and under gravity")
+    if np.any(body.gyroscopic):
+        ledger.assume("the gyroscopic matrix of the elastic housing is left out: it does not turn")
+    if body.lumps:
+        ledger.assume("the lumps of the elastic housing are left out: it has no mass in motion")

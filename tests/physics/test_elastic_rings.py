@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -138,3 +139,30 @@ def test_mistakes(changes: dict[str, object], said: str) -> None:
     with pytest.raises(CaseError) as caught:
         api.check(api.case(CASE).with_(elastic={"outer_ring": changes}))
     assert said in str(caught.value)
+
+
+def test_numbers_of_a_thin_housing(tmp_path: Path) -> None:
+    """The case that `init --machine thin-housing` writes: waves of its 6208's outer ring by ring theory and by hand.
+
+    c_n = sum of Q cos(alpha) cos(n psi)/k_n with k_n = pi E I (n^2 - 1)^2/R^3 + 300 N/um, the case's housing stiffness
+    (Timoshenko, Vibration Problems in Engineering, art. 74, on a Winkler bedding); E = 210 GPa of 100Cr6. The friction
+    of the balls is not in the sum: 1e-3 of the largest.
+    """
+    api.init_case("drive", path=tmp_path / "drive.toml", machine="thin-housing")
+    model = api.check(tmp_path / "drive.toml")
+    found = api.quasistatic(model)
+    (ring,) = (one for one in found.ring_shapes if one.ring == "outer")
+    g = model.geometry
+    inside, outside = 0.5 * g.race_diameter_outer, 0.5 * g.outside_diameter
+    radius, second_moment = 0.5 * (inside + outside), g.width * (outside - inside) ** 3 / 12.0
+    bending = math.pi * 210e9 * second_moment / radius**3
+    outer = [contact for contact in found.contacts if contact.ring == "outer"]
+    push = np.array([c.load_N * math.cos(math.radians(c.contact_angle_deg)) for c in outer])
+    azimuths = np.radians([c.azimuth_deg for c in outer])
+    waves = zip(ring.orders, ring.cosine_um, ring.sine_um, strict=True)
+    largest = max(abs(c) for c in (*ring.cosine_um, *ring.sine_um))
+    for n, cosine, sine in waves:
+        stiffness = bending * (n**2 - 1) ** 2 + 300e6
+        assert cosine == pytest.approx(1e6 * push @ np.cos(n * azimuths) / stiffness, abs=1e-3 * largest)
+        assert sine == pytest.approx(1e6 * push @ np.sin(n * azimuths) / stiffness, abs=1e-3 * largest)
+    assert largest > 0.1

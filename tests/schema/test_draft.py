@@ -222,3 +222,38 @@ def test_a_renamed_table_keeps_its_comments(tmp_path: Path) -> None:
     assert draft.text() == text.replace("bearings.left", "bearings.drive-side")
     draft.set("bearings", "drive-side", "position", value="25 mm")
     assert draft.text() == text.replace("bearings.left", "bearings.drive-side").replace('"20 mm"', '"25 mm"')
+
+
+def test_two_renamed_tables_that_also_change_keep_their_comments() -> None:
+    """Both have new names and new values: each name stands where the old one stood."""
+    text = (
+        'name = "box"\n# the left one\n[bearings.left]\nposition = "20 mm"  # its middle\n'
+        'support.x = "free"  # floats\n'
+        '\n# the right one\n[bearings.right]\nposition = "150 mm"  # also\n'
+    )
+    draft = draft_of(text, None)
+    draft.set("bearings", value={"a": {"position": "21 mm", "support": {"x": "free"}}, "b": {"position": "151 mm"}})
+    new = text.replace("left]", "a]").replace("right]", "b]").replace('"20 mm"', '"21 mm"').replace('"150', '"151')
+    assert draft.text() == new
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '# all\n[markers]\nfoot = { body = "box", x = "1 mm" }  # the foot\n# more\nhead.x = "2 mm"  # the head\n',
+        '[markers]  # all\n"foot".body = "box"  # one\nfoot.x = "1 mm"  # two\n[shaft]\ntwists = true\n',
+        'markers.foot.x = "1 mm"  # the foot\nmarkers.head.x = "2 mm"\n[shaft]\ntwists = true\n',
+        '[markers.foot]  # the foot\nx = "1 mm"\n[shaft]\nfoot = "1 mm"  # no marker\n',
+    ],
+)
+def test_a_table_is_renamed_however_it_is_written(text: str) -> None:
+    """Below the header of its section, inline, dotted, quoted; what else has that name keeps it."""
+    draft = draft_of(text, None)
+    draft.set(
+        "markers", value={"toe" if name == "foot" else name: table for name, table in draft.get("markers").items()}
+    )
+    new = draft.text()
+    assert tomllib.loads(new) == draft.tables
+    if "[markers.foot]" not in text:
+        text = text.replace('"foot"', "foot").replace("foot =", "toe =")
+    assert new == text.replace("foot.", "toe.").replace("markers.foot]", "markers.toe]")

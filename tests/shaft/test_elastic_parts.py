@@ -17,7 +17,11 @@ from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import solve_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.solver import layout as L
-from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.solver.drivers.damping import damping_matrix
+from lambda_core.solver.drivers.dynamics import BearingEngine, initial_state
+from lambda_core.solver.drivers.modes import dense
+from lambda_core.solver.drivers.stiffness import freed, stiffness_at
+from lambda_core.solver.drivers.tables import CAGE as CAGE_BODY
 from lambda_core.solver.entry import core
 
 SOFT = {"housing_stiffness": "100 N/um", "orders": 4}
@@ -133,6 +137,43 @@ def test_kinds_of_bearings_in_a_whole() -> None:
     engine = WholeEngine(check_shaft(changed))
     feels_the_same(engine)
     assert engine.advance(2e-4).ok
+
+
+def test_damping_lets_waves_follow(whole: WholeEngine) -> None:
+    """An inner ring made 200 times as heavy, free along z: the whole Jacobian's damping to 4 %, with its waves.
+
+    As in test_damping.test_a_ring_that_vibrates, where rings are rigid: the eigenvalue near sqrt(k/m), balls and the
+    outer ring's waves moving, against k and c of the matrices at that frequency. With waves at rest another tenth of the damping and more is
+    found.
+    """
+    (found,) = whole.equilibria
+    context = freed(found.context)
+    count, mass = context.model.geometry.balls, 200.0 * context.model.inner_ring.mass
+    context.bundle.bodies["mass"][0] = mass
+    shared = found.context.bundle.shared.copy()
+    shared[found.context.bundle.active] = found.context.shared_part(initial_state(found))
+    kept = found.state[found.state.size - found.context.bundle.states.size :]
+    y = np.concatenate([found.state[: L.NB * count], shared[context.bundle.active], kept])
+    assert core().evaluate(0.0, y, context.bundle, np.zeros(y.size), np.zeros(L.power_count(context.bundle)), 0) == 1
+    assert core().jacobian(0.0, y, context.bundle, context.blocks) == 1
+    matrix = dense(context.blocks)
+    rows = context.bundle.waves
+    bent = [L.NS * int(b) + k for b in rows["body"][rows["ring"] != CAGE_BODY] for k in (L.SY, L.SZ, L.SVY, L.SVZ)]
+    assert len(bent) == 4 * 3  # two to four waves of the outer ring
+    moving = [i for i in range(count * L.NB) if i % L.NB != L.BPSI]
+    moves = [*moving, *(count * L.NB + int(context.blocks.index[k]) for k in (*bent, L.SZ, L.SVZ))]
+    values, vectors = np.linalg.eig(matrix[np.ix_(moves, moves)])
+    guess = np.sqrt(stiffness_at(found.context, freed(found.context), found.state, found.displacement)[2, 2] / mass)
+    near = np.flatnonzero((values.imag > 0.9 * guess) & (values.imag < 1.1 * guess))
+    root = values[near[np.argmax(np.abs(vectors[-1, near]))]]
+    c = damping_matrix(found, float(root.imag))[2, 2]
+    assert root.imag == pytest.approx(guess, rel=0.02)
+    assert -root.real == pytest.approx(0.5 * c / mass, rel=0.04)
+    still = [*moving, *moves[-2:]]  # waves at rest: another stiffness and another damping
+    others = np.linalg.eigvals(matrix[np.ix_(still, still)])
+    stiff = others[(others.imag > 1.05 * guess) & (others.imag < 1.6 * guess)]
+    assert stiff.size
+    assert min(abs(-2.0 * mass * one.real / c - 1.0) for one in stiff) > 0.1
 
 
 def test_balance_of_a_run() -> None:
