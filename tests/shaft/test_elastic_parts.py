@@ -143,8 +143,8 @@ def test_damping_lets_waves_follow(whole: WholeEngine) -> None:
     """An inner ring made 200 times as heavy, free along z: the whole Jacobian's damping to 4 %, with its waves.
 
     As in test_damping.test_a_ring_that_vibrates, where rings are rigid: the eigenvalue near sqrt(k/m), balls and the
-    outer ring's waves moving, against k and c of the matrices at that frequency. With waves at rest another tenth of the damping and more is
-    found.
+    outer ring's waves moving, against k and c of the matrices at that frequency. With waves at
+    rest the damping is another one by a tenth and more.
     """
     (found,) = whole.equilibria
     context = freed(found.context)
