@@ -54,6 +54,7 @@ _CPUID = {
     "avx512vl": (7, 1, 31),
 }
 _WIDE = {"avx512": 0xE6, "avx": 0x6}  # registers that the system must keep for features that begin so
+_LONGEST_STEP = 1e3  # [s] an hour or so of computing
 _CALM = 0.1  # [s] after which a limit that is passed again is told again
 # What it looks at in a contact, to tell limits.
 _LOOKED_AT = (
@@ -72,6 +73,7 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
         "CONTROL_STOP": control(frozen, "stop"),
         "SAMPLES_WAITING": image.place(frozen.memory.count) + _at(COUNT, "samples_waiting"),
         "ITERATIONS": image.place(frozen.memory.count) + _at(COUNT, "newton_iterations"),
+        "LONGEST_STEP": _LONGEST_STEP,
         "MOST_ITERATIONS": MOST_ITERATIONS,
         "MOST_ITERATIONS_PER_SECOND": MOST_ITERATIONS_PER_SECOND,
         "PRESSURE": next(i for i, v in enumerate(variables) if v.name == "bearing.max_pressure"),
@@ -110,7 +112,9 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
         for v in variables
     )
     lines += [f"static const lb_variable lb_variables[] = {{{', '.join(rows)}}};"]
-    lines += [f"static const char *const lb_names[] = {{{', '.join(_quoted(v.name) for v in variables)}}};"]
+    units = [f" {v.unit}" if v.unit not in ("", "1") else "" for v in variables]  # behind a number
+    for name, texts in (("names", [v.name for v in variables]), ("units", units)):
+        lines += [f"static const char *const lb_{name}[] = {{{', '.join(map(_quoted, texts))}}};"]
     return "\n".join(lines) + "\n"
 
 

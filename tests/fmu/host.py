@@ -147,15 +147,16 @@ class Instance:
             self.restore(state, time)
         return status
 
-    def slope(self, unknown: str, known: str) -> float:
-        """Return the directional derivative of an output with an input."""
+    def slope(self, unknown: str, known: str, along: float = 1.0) -> float:
+        """Return the directional derivative of an output with an input; ArithmeticError when the library refuses."""
         u, k = (c.c_uint * 1)(self.unit.references[unknown]), (c.c_uint * 1)(self.unit.references[known])
-        one, along, found = c.c_size_t(1), (c.c_double * 1)(1.0), (c.c_double * 1)()
+        one, seed, found = c.c_size_t(1), (c.c_double * 1)(along), (c.c_double * 1)()
         if self.unit.fmi == 2:
-            status = self.do("GetDirectionalDerivative", u, one, k, one, along, found)
+            status = self.do("GetDirectionalDerivative", u, one, k, one, seed, found)
         else:
-            status = self.do("GetDirectionalDerivative", u, one, k, one, along, one, found, one)
-        assert status == OK, self.said
+            status = self.do("GetDirectionalDerivative", u, one, k, one, seed, one, found, one)
+        if status != OK:
+            raise ArithmeticError(self.said[-1])
         return float(found[0])
 
     @property

@@ -194,15 +194,18 @@ def test_bad_use_is_answered_with_a_sentence(host: Any, exported: Export, tmp_pa
     stranger = host.Instance(unit, token=b"{other}")
     assert not stranger.handle
     assert "export the bearing again" in stranger.said[-1]
+    calls = [stranger.step(STEP), stranger.set(PUSHED, 1.0), stranger.do("Reset"), stranger.do("Terminate")]
+    assert [*calls, stranger.do("ExitInitializationMode")] == [host.ERROR] * 5  # a host that goes on without one
     bearing = host.Instance(unit)
     early = bearing.step(STEP)
     bearing.ready()
     assert bearing.step(STEP) == host.OK
     trials = {
         "between initialisation and the end": early,
-        "inner_ring.force_z is to be nan: a finite number is due": bearing.set(PUSHED, math.nan),
+        "inner_ring.force_z is to be nan N: a finite number is due": bearing.set(PUSHED, math.nan),
         "bearing.loss is no input": bearing.set("bearing.loss", 1.0),
         "a positive, finite length is due": bearing.step(-STEP),
+        "a step of 1e+300 s: 1000 s is the longest at once": bearing.step(1e300),
     }
     bearing.time -= STEP
     trials["but the bearing stands at 0.0001 s: to go back, restore a state"] = bearing.step(STEP)
@@ -215,10 +218,16 @@ def test_bad_use_is_answered_with_a_sentence(host: Any, exported: Export, tmp_pa
     assert set(trials.values()) == {host.ERROR}
     for sentence in trials:
         assert any(sentence in said for said in bearing.said), sentence
+    for along in (math.nan, math.inf):
+        with pytest.raises(ArithmeticError, match=r"a slope along .* of inner_ring.force_z: a finite number is due"):
+            bearing.slope("inner_ring.z", PUSHED, along)
     assert bearing.step(STEP) == host.OK  # none of this has harmed it
     assert bearing.set(PUSHED, 1e300) == host.OK
     assert bearing.step(STEP) == host.ERROR
     assert re.search(r"at t = \S+ s ", bearing.said[-1])
+    assert bearing.do("Terminate") == host.OK
+    assert bearing.set(PUSHED, 0.0) == host.ERROR
+    assert bearing.said[-1] == "the simulation has ended: nothing can be set any more"
 
 
 def test_time_may_begin_anywhere(host: Any, exported: Export, tmp_path: Path) -> None:

@@ -97,7 +97,7 @@ def test_temperature_is_an_input_that_changes_while_the_bearing_turns(host: Any,
 def test_what_cannot_be_is_answered_with_a_sentence(host: Any, unit: Any) -> None:
     bearing = host.Instance(unit)
     assert bearing.set("lubricant.temperature", 273.15 + 90.0) == host.ERROR
-    assert bearing.said[-1] == "lubricant.temperature is to be 363.15: it was exported for 303.15 to 333.15"
+    assert bearing.said[-1] == "lubricant.temperature is to be 363.15 K: it was exported for 303.15 to 333.15 K"
     assert bearing.set("inner_ring.force_x", -1e12) == host.OK
     assert bearing.do("ExitInitializationMode") == host.ERROR
     assert "there is no equilibrium at the start with these inputs" in bearing.said[-1]

@@ -14,6 +14,7 @@ enum { ORIGIN, LOST_BEFORE, TURNED_BEFORE, TORQUE, PHASE, UNSETTLED };
 #define WORK_PER_CALL 500
 
 int lb_say(lb_bearing *b, int status, const char *form, ...) {
+  if (!b) return status;
   char sentence[1024];
   va_list rest;
   va_start(rest, form);
@@ -84,6 +85,7 @@ void lb_reset(lb_bearing *b) {
 double lb_time(lb_bearing *b) { return HOST(b, ORIGIN) + REAL(b, LB_CONTROL_TIME); }
 
 int lb_plan(lb_bearing *b, double start) {
+  if (!b) return LB_ERROR;
   if (HOST(b, PHASE) != LB_CREATED) return lb_say(b, LB_ERROR, "the start time is given before initialisation, not later");
   if (!isfinite(start)) return lb_say(b, LB_ERROR, "the start time %g is no time", start);
   HOST(b, ORIGIN) = start;
@@ -91,6 +93,7 @@ int lb_plan(lb_bearing *b, double start) {
 }
 
 int lb_enter(lb_bearing *b) {
+  if (!b) return LB_ERROR;
   if (HOST(b, PHASE) != LB_CREATED)
     return lb_say(b, LB_ERROR, "initialisation begins right after instantiation or reset, not later");
   HOST(b, PHASE) = LB_INITIALISING;
@@ -106,6 +109,7 @@ static int settle(lb_bearing *b) {
 }
 
 int lb_end(lb_bearing *b) {
+  if (!b) return LB_ERROR;
   HOST(b, PHASE) = LB_ENDED;
   return LB_OK;
 }
@@ -145,6 +149,7 @@ static int look(lb_bearing *b) {
 }
 
 int lb_leave(lb_bearing *b) {
+  if (!b) return LB_ERROR;
   if (HOST(b, PHASE) != LB_INITIALISING)
     return lb_say(b, LB_ERROR, "initialisation has not begun: it cannot end");
   if (settle(b) != LB_OK) return LB_ERROR;
@@ -189,6 +194,7 @@ static const lb_variable *variable(lb_bearing *b, unsigned which) {
 static int given(const lb_variable *v) { return v->kind == LB_INPUT || v->kind == LB_SOURCE || v->kind == LB_VARIED; }
 
 int lb_get(lb_bearing *b, const unsigned *which, size_t count, double *values) {
+  if (!b) return LB_ERROR;
   for (size_t i = 0; i < count; i++) {
     const lb_variable *v = variable(b, which[i]);
     if (!v) return LB_ERROR;
@@ -202,6 +208,7 @@ int lb_get(lb_bearing *b, const unsigned *which, size_t count, double *values) {
 }
 
 int lb_get_counts(lb_bearing *b, const unsigned *which, size_t count, int64_t *values) {
+  if (!b) return LB_ERROR;
   for (size_t i = 0; i < count; i++) {
     if (which[i] >= LB_VARIABLES || lb_variables[which[i]].kind != LB_COUNT) return lb_unknown(b, which[i], "integer");
     values[i] = WORD(b, lb_variables[which[i]].place);
@@ -220,13 +227,17 @@ static void put(lb_bearing *b, const lb_variable *v, double value) {
 
 int lb_set(lb_bearing *b, const unsigned *which, size_t count, const double *values) {
   int varies = 0;
+  if (!b) return LB_ERROR;
+  if (HOST(b, PHASE) == LB_ENDED) return lb_say(b, LB_ERROR, "the simulation has ended: nothing can be set any more");
   for (size_t i = 0; i < count; i++) {
     const lb_variable *v = variable(b, which[i]);
     if (!v) return LB_ERROR;
-    if (!given(v)) return lb_say(b, LB_ERROR, "%s is no input: it cannot be set", lb_names[which[i]]);
-    if (!isfinite(values[i])) return lb_say(b, LB_ERROR, "%s is to be %g: a finite number is due", lb_names[which[i]], values[i]);
+    const char *name = lb_names[which[i]], *unit = lb_units[which[i]];
+    if (!given(v)) return lb_say(b, LB_ERROR, "%s is no input: it cannot be set", name);
+    if (!isfinite(values[i])) return lb_say(b, LB_ERROR, "%s is to be %g%s: a finite number is due", name, values[i], unit);
     if (values[i] < v->lowest || values[i] > v->highest)
-      return lb_say(b, LB_ERROR, "%s is to be %g: it was exported for %g to %g", lb_names[which[i]], values[i], v->lowest, v->highest);
+      return lb_say(b, LB_ERROR, "%s is to be %g%s: it was exported for %g to %g%s", name, values[i], unit, v->lowest,
+                    v->highest, unit);
     varies |= v->kind == LB_VARIED && values[i] != REAL(b, v->place);
   }
   for (size_t i = 0; i < count; i++) put(b, &lb_variables[which[i]], values[i]);
@@ -263,10 +274,12 @@ static int arrive(lb_bearing *b, double until) {
 }
 
 int lb_step(lb_bearing *b, double now, double step) {
+  if (!b) return LB_ERROR;
   double begin = lb_time(b), until = now + step - HOST(b, ORIGIN);
   if (HOST(b, PHASE) != LB_STEPPING) return lb_say(b, LB_ERROR, "a step comes between initialisation and the end");
   if (!(isfinite(now) && isfinite(step) && step > 0.0))
     return lb_say(b, LB_ERROR, "a step from t = %g s by %g s: a positive, finite length is due", now, step);
+  if (step > LB_LONGEST_STEP) return lb_say(b, LB_ERROR, "a step of %g s: %g s is the longest at once", step, LB_LONGEST_STEP);
   if (fabs(now - begin) > 1e-6 * step + 1e-12 * fabs(begin))
     return lb_say(b, LB_ERROR, "a step from t = %.9g s, but the bearing stands at %.9g s: %s", now, begin,
                   now < begin ? "to go back, restore a state" : "steps follow each other without a gap");
@@ -310,9 +323,11 @@ static void shift(lb_bearing *b, const unsigned *knowns, size_t m, const double 
 int lb_slope(lb_bearing *b, const unsigned *unknowns, size_t n, const unsigned *knowns, size_t m, const double *along,
              double *slopes) {
   double by = INFINITY;
+  if (!b) return LB_ERROR;
   for (size_t k = 0; k < m; k++) {
     const lb_variable *v = variable(b, knowns[k]);
     if (!v) return LB_ERROR;
+    if (!isfinite(along[k])) return lb_say(b, LB_ERROR, "a slope along %g of %s: a finite number is due", along[k], lb_names[knowns[k]]);
     if (!given(v)) return lb_say(b, LB_ERROR, "%s is no input: there are no slopes with it", lb_names[knowns[k]]);
     if (along[k] != 0.0) by = fmin(by, v->scale / fabs(along[k]));
   }

@@ -32,6 +32,7 @@ LB_API component fmi2Instantiate(const char *name, int kind, const char *token, 
 
 LB_API status fmi2SetDebugLogging(component c, boolean on, size_t n, const char *const categories[]) {
   (void)n, (void)categories;
+  if (!c) return LB_ERROR;
   ((lb_bearing *)c)->logging = on;
   return LB_OK;
 }
@@ -111,8 +112,8 @@ LB_API status fmi2GetStatus(component c, int what, status *found) {
 }
 LB_API status fmi2GetRealStatus(component c, int what, double *found) {
   if (what != 2) return lb_say(c, LB_DISCARD, "steps are not asynchronous: none is under way");
-  *found = lb_time(c);
-  return LB_OK;
+  if (c) *found = lb_time(c);
+  return c ? LB_OK : LB_ERROR;
 }
 NOTHING_PENDS(Integer, int)
 NOTHING_PENDS(Boolean, boolean)

@@ -37,6 +37,7 @@ LB_API instance fmi3InstantiateScheduledExecution(const char *name, const char *
 
 LB_API status fmi3SetDebugLogging(instance c, bool on, size_t n, const char *const categories[]) {
   (void)n, (void)categories;
+  if (!c) return LB_ERROR;
   ((lb_bearing *)c)->logging = on;
   return LB_OK;
 }
@@ -124,7 +125,7 @@ LB_API status fmi3DoStep(instance c, double now, double step, bool final, bool *
   if (event) *event = false;
   if (end) *end = false;
   if (early) *early = false;
-  if (last) *last = lb_time(c);
+  if (last && c) *last = lb_time(c);
   return done;
 }
 

@@ -39,6 +39,7 @@ LB_API void API(FreeInstance)(void *c) { lb_free(c); }
 LB_API status API(Terminate)(void *c) { return lb_end(c); }
 LB_API status API(ExitInitializationMode)(void *c) { return lb_leave(c); }
 LB_API status API(Reset)(void *c) {
+  if (!c) return LB_ERROR;
   lb_reset(c);
   return LB_OK;
 }
@@ -47,6 +48,7 @@ LB_API status JOIN(API(Get), STATE)(void *c, void **state) { return lb_save(c, s
 LB_API status JOIN(API(Set), STATE)(void *c, void *state) { return lb_restore(c, state); }
 LB_API status JOIN(API(Free), STATE)(void *c, void **state) {
   (void)c;
+  if (!state) return LB_OK; /* the standard: such a call is ignored */
   free(*state);
   *state = NULL;
   return LB_OK;

@@ -15,6 +15,7 @@ void lb_address(unsigned char *image) {
 }
 
 int lb_save(lb_bearing *b, void **state) {
+  if (!b || !state) return lb_say(b, LB_ERROR, "there is no place for a state");
   if (!*state) *state = malloc(LB_IMAGE_SIZE);
   if (!*state) return lb_say(b, LB_ERROR, "there is no memory for a state of %u bytes", (unsigned)LB_IMAGE_SIZE);
   memcpy(*state, b->image, LB_IMAGE_SIZE);
@@ -22,7 +23,7 @@ int lb_save(lb_bearing *b, void **state) {
 }
 
 int lb_restore(lb_bearing *b, const void *state) {
-  if (!state) return lb_say(b, LB_ERROR, "there is no state to restore");
+  if (!b || !state) return lb_say(b, LB_ERROR, "there is no state to restore");
   memcpy(b->image, state, LB_IMAGE_SIZE);
   lb_address(b->image);
   b->stale = 1;
@@ -43,7 +44,7 @@ size_t lb_packed_size(void) { return LB_IMAGE_SIZE + TOKEN_SIZE; }
 
 int lb_pack(lb_bearing *b, const void *state, void *bytes, size_t size) {
   unsigned char *image = (unsigned char *)bytes + TOKEN_SIZE;
-  if (!state || size < lb_packed_size())
+  if (!state || !bytes || size < lb_packed_size())
     return lb_say(b, LB_ERROR, "a state takes %u bytes, not %u", (unsigned)lb_packed_size(), (unsigned)size);
   memset(bytes, 0, TOKEN_SIZE);
   strncpy(bytes, LB_TOKEN, SUM_PLACE - 1);
@@ -59,7 +60,7 @@ int lb_pack(lb_bearing *b, const void *state, void *bytes, size_t size) {
 }
 
 int lb_unpack(lb_bearing *b, const void *bytes, size_t size, void **state) {
-  if (!bytes || size != lb_packed_size() || strncmp(bytes, LB_TOKEN, SUM_PLACE - 1) != 0)
+  if (!bytes || !state || size != lb_packed_size() || strncmp(bytes, LB_TOKEN, SUM_PLACE - 1) != 0)
     return lb_say(b, LB_ERROR, "these bytes are no state of this bearing");
   const unsigned char *image = (const unsigned char *)bytes + TOKEN_SIZE;
   uint64_t sum = check_sum(image);
