@@ -97,6 +97,9 @@ def _check_shaft(case: str, changes: list[str], *, as_json: bool) -> None:
     from lambda_core import api
 
     model = api.check_shaft(case, changes)
+    faults = dict.fromkeys(fault for bearing in model.bearings for fault in api.law_problems(bearing.model))
+    if faults:
+        raise api.CaseError(model.name, list(faults))
     if as_json:
         bearings = {bearing.name: bearing.model.title for bearing in model.bearings}
         found = {"version": 1, "valid": True, "case": model.name, "bearings": bearings}

@@ -15,9 +15,11 @@ from lambda_gui.checking import ShaftChecker
 from lambda_core import api
 from lambda_core.case.case import merged
 from lambda_core.case.case_writer import tables_toml
+from lambda_core.domain.errors import Problem
 from lambda_core.results.limits import warnings
 from lambda_core.shaft.fresh_shaft import fresh_shaft
 from lambda_core.shaft.resolving import check_shaft
+from lambda_core.shaft.whole_file import WholeFile, WholeWriter
 
 
 def tables(**changes: Any) -> dict[str, Any]:
@@ -95,6 +97,28 @@ def test_it_is_said_everywhere(tmp_path: Path, capsys: pytest.CaptureFixture[str
     checker = ShaftChecker()
     assert checker.check(changed, None).warnings == (sentence,)
     checker.close()
+
+
+def test_it_is_said_of_a_run(tmp_path: Path) -> None:
+    """The file of a run keeps the sentences; files of old have none."""
+    arrays = {"lump_positions": np.zeros(2), "bearing_positions": np.zeros(1)}
+    names = {"bearings": ["left"], "bodies": [], "markers": []}
+    texts: dict[str, Any] = {"case": "box", "case_toml": "", "code": "", "speed": 1.0, "drive_torque": 0.0}
+    for name, more, said in (("new.h5", {"warnings": "one\ntwo"}, ["one", "two"]), ("old.h5", {}, [])):
+        WholeWriter.create(tmp_path / name, {**texts, **more}, arrays, names).close()
+        assert WholeFile(tmp_path / name).warnings == said
+
+
+def test_laws_are_tried_out(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As `check` does of one bearing: what is wrong with a plugin's law is said once for all bearings."""
+    monkeypatch.setattr(api, "law_problems", lambda model: (Problem("models.traction", "gives no number"),))
+    (tmp_path / "box.toml").write_text(fresh_shaft("box"))
+    assert main(["check", str(tmp_path / "box.toml")]) == 3
+    said = capsys.readouterr().err.splitlines()
+    assert said[0].endswith("1 error")
+    assert "gives no number" in said[1]
 
 
 def test_far_beyond_limits() -> None:
