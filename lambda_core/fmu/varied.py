@@ -87,6 +87,9 @@ def _read(text: str, written: Mapping[str, Any], case: Case) -> Varied:
     if said is None or isinstance(said, Mapping | list | bool):
         raise UsageError(f"{path} is to vary, but the case does not say what it is at first: add --set {path}=...")
     quantity = _quantity(path, str(low))
+    if not (quantity or _NUMBER.fullmatch(str(said))):
+        unit = _NUMBER.sub("", str(said), count=1).strip()
+        raise UsageError(f"{path} is {said} in the case, its limits have no unit: write {path}={low}..{high} {unit}")
     lowest, highest, start = (_value(path, each, quantity) for each in (low, high, said))
     if not lowest < highest:
         raise UsageError(f"{path} is to vary from {low} to {high}: the first limit has to be below the second")

@@ -163,6 +163,7 @@ def test_options_that_no_curve_follows_are_refused(change: Any, sentence: str) -
         ("lubricant.temperature", "write path=low..high"),
         ("lubricant.temperature=50..90 degC", "which is not between 50 degC and 90 degC"),
         ("lubricant.temperature=90..20 degC", "has to be below"),
+        ("lubricant.temperature=20..90", "is 40 degC in the case, its limits have no unit: write .*=20..90 degC"),
         ("lubricant.temperature=20 degC..90 um", "cannot vary"),
         ("lubricant.temperature=cold..90 degC", "no number with a unit"),
         ("bearing.designation=1..2", "which is not between 1 and 2"),
