@@ -90,7 +90,7 @@ def _on_seat(bearing: MountedBearing, given: ShaftBearing, span: _Span, outline:
         if abs(hollow - given.fits.shaft_bore) > _TOUCHING:
             yield (
                 f"{span.name}: fits.shaft_bore is {_mm(given.fits.shaft_bore)}, but the bore of the shaft there is "
-                f"{_mm(hollow)}: the seat takes the clearance of the former"
+                f"{_mm(hollow)}: the fit is computed with the former"
             )
 
 
