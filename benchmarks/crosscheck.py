@@ -61,7 +61,8 @@ def _percent(share: float) -> str:
 def led_table() -> list[str]:
     """Return the lines of the table with the cage led."""
     lines = [
-        "| case | tolerance | power, reference | ours | CVODE | states, ours | CVODE | unloaded | calls, ours | CVODE |",
+        "| case | tolerance | power, reference | ours | CVODE | states, ours | CVODE | unloaded | calls, ours "
+        "| CVODE |",
         "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for case in LED:

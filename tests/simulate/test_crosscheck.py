@@ -42,8 +42,8 @@ def test_same_trajectory_with_a_locked_cage(case: str, tolerance: float) -> None
 def test_trajectories_at_the_default_tolerance(case: str) -> None:
     """Where the rings' vibrations and creep are hardest to follow.
 
-    Nothing damps the inner ring of the 6319 at 3000 1/min along the load: 11 tolerances in its speed, 5.5 in the shorter
-    steps that dry contacts of unloaded balls take; power is 4e-5 off.
+    Nothing damps the inner ring of the 6319 at 3000 1/min along the load: 11 tolerances in its speed, 5.5 in the
+    shorter steps that dry contacts of unloaded balls take; power is 4e-5 off.
     """
     found = api.cross_check(case, ["solver.duration=50 ms"])
     assert found.tolerance == 1e-3
