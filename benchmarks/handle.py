@@ -32,6 +32,7 @@ def _repeat_jacobian(count, t, handle):
 def _repeat_factor(count, gamma, handle):
     blocks, factors = handle.blocks, handle.factors
     for _ in range(count):
+        blocks.changed[:] = 1
         arrow_factor(blocks, 1.0, gamma, factors)
     return count
 

@@ -38,7 +38,7 @@ def on_a_shaft(single: SolverContext, places: Sequence[float]) -> SolverContext:
         system=system, **tables, active=np.concatenate(active), inputs=inputs, signals=inputs.view(R.SIGNAL),
         scratch=np.zeros(1, R.SCRATCH), shared=now.view(np.float64), bodies_now=now,
         shared_rates=rates.view(np.float64), body_rates=rates, body_wrenches=np.zeros(bodies, R.WRENCH),
-        ball_wrenches=np.zeros(balls, R.WRENCH),
+        contact_wrenches=np.zeros(bodies, R.WRENCH), ball_wrenches=np.zeros(balls, R.WRENCH),
     )  # fmt: skip
     return replace(single, bundle=bundle, scale=together(single, [single.scale] * count))
 
@@ -85,6 +85,7 @@ def _lands(old: L.Bundle, count: int) -> FloatArray:
     for number, land in enumerate(lands):
         i = number // old.lands.size
         land["cage"], land["ring"] = _moved(int(land["cage"]), i), _moved(int(land["ring"]), i)
+        land["row"] += i * old.rows.size
     return lands
 
 

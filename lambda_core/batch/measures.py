@@ -12,8 +12,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.kinematics import cage_speed
 from lambda_core.domain.loading import CARRYING
-from lambda_core.results.convergence import Window, window
-from lambda_core.system.bearing import Solver
+from lambda_core.results.convergence import window_of
 
 if TYPE_CHECKING:
     from lambda_core.batch.responses import DynamicPoint, StaticPoint
@@ -64,18 +63,13 @@ def static_capacitance(point: StaticPoint) -> float:
 # -- dynamic --
 
 
-def _window(result: Result) -> Window:
-    settings = Solver(**{name: float(value) for name, value in result.model["solver"].items()})
-    return window(settings, result.revolutions(), result.integrals()[-1])
-
-
 def _start(result: Result) -> float:
-    return float(_window(result).interval.first[0])
+    return float(window_of(result).interval.first[0])
 
 
 def dynamic_power(point: DynamicPoint) -> float:
     """Mean power dissipated in the averaging window [W]."""
-    interval = _window(point.result).interval
+    interval = window_of(point.result).interval
     return interval.torque() * interval.ratio("relative_angle", "time")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,9 +13,13 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.results.averages import Estimate, Interval, estimate, torque_by_revolution
 from lambda_core.system.bearing import Solver
 
+if TYPE_CHECKING:
+    from lambda_core.results.reader import Result
+
 DISCARDED_AT_LEAST = 1
 AVERAGED_AT_LEAST = 4
 TORQUE_TOLERANCE = 0.01  # 95 % half-width over the mean
+NEGLIGIBLE = 0.1  # of the same of several bearings together: what one may be off by, however little torque it has
 ENERGY_TOLERANCE = 1e-3  # |energy residual|
 
 
@@ -60,8 +65,35 @@ def window(solver: Solver, boundaries: FloatArray, last: FloatArray) -> Window:
     return Window(Interval(boundaries[0], last), Estimate(math.nan, math.nan, 0), 0, 0)
 
 
-def shortfalls(solver: Solver, chosen: Window, residual: float) -> list[str]:
-    """Return a sentence for each condition of convergence, but the end, that is not met."""
+def settings_of(result: Result) -> Solver:
+    """Return the solver's options that a result was computed with."""
+    return Solver(**{name: float(value) for name, value in result.model["solver"].items()})
+
+
+def window_of(result: Result) -> Window:
+    """Return the revolutions that the averages of a result are taken over."""
+    return window(settings_of(result), result.revolutions(), result.integrals()[-1])
+
+
+def _allowed(chosen: Window, together: float) -> float:
+    """Return the largest half-width that a bearing's torque may have, one of several or alone [N m]."""
+    return TORQUE_TOLERANCE * max(abs(chosen.interval.torque()), NEGLIGIBLE * abs(together))
+
+
+def shortfalls(solver: Solver, chosen: Window, residual: float, together: float = 0.0) -> list[str]:
+    """Return a sentence for each condition of convergence, but the end, that is not met.
+
+    Parameters
+    ----------
+    solver : Solver
+    chosen : Window
+    residual : float
+        Energy residual [-].
+    together : float
+        Torque of all bearings of a shaft, of which this is one [N m]: a bearing that hardly bears anything need not be
+        known to a hundredth of its own torque where a thousandth of all is more. Contributions to an uncertainty that
+        are a tenth of what is asked of the sum change none of its digits (JCGM 100:2008, 5.1.2 and 7.2.6).
+    """
     found = []
     if chosen.revolutions and chosen.discarded < DISCARDED_AT_LEAST:
         found.append(f"{chosen.discarded} cage revolutions were discarded, at least {DISCARDED_AT_LEAST} is needed")
@@ -70,7 +102,7 @@ def shortfalls(solver: Solver, chosen: Window, residual: float) -> list[str]:
         found.append(f"{chosen.revolutions} whole cage revolutions were averaged, at least {needed} are needed")
     else:
         torque = chosen.torque
-        if not torque.half_width <= TORQUE_TOLERANCE * abs(chosen.interval.torque()):
+        if not torque.half_width <= _allowed(chosen, together):
             share = torque.half_width / abs(chosen.interval.torque())
             found.append(
                 f"the friction torque is known to {_beyond(100 * share, 100 * TORQUE_TOLERANCE)} % (95 % half-width "
@@ -88,15 +120,30 @@ def _beyond(value: float, limit: float) -> str:
     return next((text for text in texts if abs(float(text)) > limit), f"{value:g}")
 
 
-def revolutions_wanted(solver: Solver, chosen: Window) -> int:
+def shortfalls_together(windows: Sequence[Window]) -> list[str]:
+    """Return a sentence where the torque of several bearings together is not known.
+
+    Their half-widths are added up, not their squares: bearings on one shaft swing together, and how much so is not
+    known (JCGM 100:2008, 5.2.2, note 1, for inputs that are correlated altogether).
+    """
+    width, torque = sum(w.torque.half_width for w in windows), abs(torque_together(windows))
+    if width <= TORQUE_TOLERANCE * torque or not math.isfinite(width):  # who has none says so
+        return []
+    return [
+        f"the friction torque of all bearings is known to {_beyond(100 * width / torque, 100 * TORQUE_TOLERANCE)} % "
+        f"(sum of their half-widths), at most {100 * TORQUE_TOLERANCE:g} % is allowed"
+    ]
+
+
+def revolutions_wanted(solver: Solver, chosen: Window, together: float = 0.0) -> int:
     """Return how many whole cage revolutions the run will take in all, as far as one can tell now.
 
-    The half-width falls with the root of the number of revolutions.
+    The half-width falls with the root of the number of revolutions. `together` is that of :func:`shortfalls`.
     """
     average = max(AVERAGED_AT_LEAST, math.ceil(solver.average_revolutions))
-    mean = abs(chosen.interval.torque())
-    if chosen.revolutions >= average and mean > 0.0 and math.isfinite(chosen.torque.half_width):
-        share = chosen.torque.half_width / mean / TORQUE_TOLERANCE
+    allowed = _allowed(chosen, together)
+    if chosen.revolutions >= average and allowed > 0.0 and math.isfinite(chosen.torque.half_width):
+        share = chosen.torque.half_width / allowed
         average = max(average, math.ceil(chosen.revolutions * share * share))
     return max(DISCARDED_AT_LEAST, math.ceil(solver.discard_revolutions)) + average
 
@@ -105,3 +152,22 @@ def is_converged(solver: Solver, known: Sequence[FloatArray], last: FloatArray) 
     """Tell whether nothing is short of what the solver's options want, from the integrals kept and the last ones."""
     chosen = window(solver, np.stack(known), last)
     return not shortfalls(solver, chosen, Interval(known[0], last).energy_residual())
+
+
+def torque_together(windows: Sequence[Window]) -> float:
+    """Return the torque of several bearings together [N m]."""
+    return sum(chosen.interval.torque() for chosen in windows)
+
+
+def are_converged(
+    solvers: Sequence[Solver],
+    windows: Sequence[Window],
+    known: Sequence[Sequence[FloatArray]],
+    last: Sequence[FloatArray],
+) -> bool:
+    """Tell whether nothing is short of what options want of several bearings on a shaft, each in its window."""
+    together = torque_together(windows)
+    return not shortfalls_together(windows) and not any(
+        shortfalls(solver, chosen, Interval(rows[0], now).energy_residual(), together)
+        for solver, chosen, rows, now in zip(solvers, windows, known, last, strict=True)
+    )

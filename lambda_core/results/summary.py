@@ -18,7 +18,7 @@ from lambda_core.domain.loading import CARRYING, Ring, carries, largest_contact,
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.averages import Interval, finite
 from lambda_core.results.bent import Bent, bent_parts
-from lambda_core.results.convergence import shortfalls, window
+from lambda_core.results.convergence import settings_of, shortfalls, window_of
 from lambda_core.results.currents import Currents, currents_of
 from lambda_core.results.event_rows import EventSeen, ObserverNumber
 from lambda_core.results.followed import FOURTH_POWERS, ITERATION_WORK, Followed, followed
@@ -26,7 +26,7 @@ from lambda_core.results.limits import Grooves, Shoulder, shoulders, tolerance_w
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.watched import events_seen, observed_numbers
-from lambda_core.system.bearing import Solver, kind_of
+from lambda_core.system.bearing import kind_of
 
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
@@ -128,18 +128,16 @@ class Summary(Record):
         return summary_text(self, width, units)
 
 
-def summarise(result: Result) -> Summary:
-    """Compute the summary of a result from its file."""
+def summarise(result: Result, together: float = 0.0) -> Summary:
+    """Compute the summary of a result from its file; `together` is that of :func:`.convergence.shortfalls`."""
     status = result.status()
     if not status.rows.samples or not status.rows.records:
         raise UsageError(f"{result.path} holds no samples yet")
     integrals = result.integrals()
-    settings = Solver(**{name: float(value) for name, value in result.model["solver"].items()})
-    last = integrals[-1]
-    whole = Interval(integrals[0], last)
-    chosen = window(settings, result.revolutions(), last)
+    settings, last = settings_of(result), integrals[-1]
+    whole, chosen = Interval(integrals[0], last), window_of(result)
     residual = whole.energy_residual()
-    reasons = _reasons(status.state, status.message, shortfalls(settings, chosen, residual))
+    reasons = _reasons(status.state, status.message, shortfalls(settings, chosen, residual, together))
     extremes = _Span.of(result, float(chosen.interval.first[0]))
     geometry = result.model["geometry"]
     sizes = float(geometry["ball_diameter"]), float(geometry["pitch_diameter"])

@@ -20,7 +20,7 @@ from lambda_core.domain.files import check_folder
 from lambda_core.laws.kernels import sources_key
 from lambda_core.results.averages import COLUMNS, Interval, boundaries, finite, row
 from lambda_core.results.checkpoint import Checkpoint, Position
-from lambda_core.results.convergence import Window, is_converged, revolutions_wanted, window
+from lambda_core.results.convergence import Window, are_converged, revolutions_wanted, torque_together, window
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.reader import Result
 from lambda_core.results.run_status import Rows, State, Status, this_process
@@ -270,7 +270,7 @@ class _Session:
         """Look whether every bearing has converged."""
         each = list(zip(self._solvers, self._known, self._last, strict=True))
         self._windows = [window(solver, np.stack(known), last) for solver, known, last in each]
-        self._converged = all(is_converged(solver, known, last) for solver, known, last in each)
+        self._converged = are_converged(self._solvers, self._windows, self._known, self._last)
 
     def _collect(self) -> None:
         found = self._engine.samples()
@@ -331,7 +331,8 @@ class _Session:
     def _progress(self) -> Progress:
         now = self._engine.time
         turns = [abs(last[COLUMNS.index("cage_angle")]) / (2.0 * math.pi) for last in self._last]
-        wanted = [revolutions_wanted(solver, w) for solver, w in zip(self._solvers, self._windows, strict=True)]
+        pairs, together = zip(self._solvers, self._windows, strict=True), torque_together(self._windows)
+        wanted = [revolutions_wanted(solver, w, together) for solver, w in pairs]
         slowest = max(range(len(turns)), key=lambda i: wanted[i] / max(turns[i], 1e-9))
         end = self._end
         if not self._ends.duration and turns[slowest] > 0.2:

@@ -52,6 +52,7 @@ from lambda_core.system.time_functions import highest_frequency
 _CAPACITY = 512
 _COUNTERS = (
     "steps", "rejected", "failed", "newton_iterations", "rhs_calls", "jacobians", "ball_jacobians", "factorisations",
+    "rests",
 )  # fmt: skip
 _SHARED = ("pocket", "land", "drag")  # losses that only samples part by bearing
 _WAVES = "support"  # of a bearing of a whole: what damps the waves of its elastic parts, known by samples alone
@@ -328,7 +329,7 @@ class WholeEngine:
         for prefix, group in (("memory", self._memory), ("factors", self._factors)):
             for name, array in zip(group._fields, group, strict=True):
                 parts[f"{prefix}.{name}"] = np.array(array, copy=True)
-        for name in ("a", "b", "c", "d", "cross", "shared", "parts"):
+        for name in ("a", "b", "c", "d", "d_own", "changed", "cross", "shared", "parts"):
             parts[f"blocks.{name}"] = getattr(self._blocks, name).copy()
         parts["sampled"], parts["last"] = self._sampled.copy(), np.array(self._last)
         parts["start"] = np.array([self._last_time, self._start_energy, *self._start_angles])

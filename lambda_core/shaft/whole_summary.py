@@ -12,9 +12,10 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.number_text import NONE, plus_minus
 from lambda_core.domain.wrapping import HEAD, wrapped
 from lambda_core.results.averages import finite
+from lambda_core.results.convergence import shortfalls_together, torque_together, window_of
 from lambda_core.results.reader import Result
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.results.summary import Summary
+from lambda_core.results.summary import Summary, summarise
 
 if TYPE_CHECKING:
     from lambda_core.shaft.whole_file import WholeFile
@@ -28,7 +29,7 @@ class BearingInMotion(Record):
     name: str
     title: str
     file: str = Field(description="its own result, for show, view and every other command")
-    converged: bool
+    converged: bool = Field(description="whether its averages are known as well as the whole needs them")
     friction_torque_Nmm: float | None
     friction_torque_ci_Nmm: float | None = Field(description="95 % confidence half-width")
     power_loss_W: float | None
@@ -91,11 +92,13 @@ class WholeSummary(Record):
 def summarise_whole(found: WholeFile) -> WholeSummary:
     """Compute the summary of a run from its folder."""
     status, results = found.status(), {name: Result(found.bearing(name)) for name in found.bearings}
-    each = {name: result.summary() for name, result in results.items()}
+    windows = [window_of(result) for result in results.values()]
+    each = {name: summarise(result, torque_together(windows)) for name, result in results.items()}
     start = max(_from(result, each[name]) for name, result in results.items())
     channels = found.channels(start)
     bearings = [_bearing(name, i, each[name], channels) for i, name in enumerate(found.bearings)]
-    reasons = [f"{name}: {reason}" for name, one in each.items() for reason in one.reasons]
+    own = [f"{name}: {reason}" for name, one in each.items() for reason in one.reasons]
+    reasons = [*shortfalls_together(windows), *_shared(own, len(each))]
     torques = [one.friction_torque_Nmm for one in each.values()]
     friction = None if None in torques else sum(t for t in torques if t is not None)
     losses = [one.power_loss_W for one in each.values()]
@@ -106,7 +109,7 @@ def summarise_whole(found: WholeFile) -> WholeSummary:
         folder=str(found.folder),
         state=status.state,
         converged=not reasons,
-        reasons=_shared(reasons, len(each)),
+        reasons=reasons,
         speed_rpm=30.0 / math.pi * found.speed,
         bearings=bearings,
         friction_torque_Nmm=friction,

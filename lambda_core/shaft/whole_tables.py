@@ -155,7 +155,9 @@ def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...])
         table=np.zeros(1), active=_active(bodies, parts), inputs=inputs, signals=inputs.view(R.SIGNAL),
         cells=np.zeros_like(first.cells), scratch=np.zeros(1, R.SCRATCH), shared=now.view(np.float64), bodies_now=now,
         shared_rates=rates.view(np.float64), body_rates=rates, body_wrenches=np.zeros(bodies.size, R.WRENCH),
-        ball_wrenches=np.zeros(int(system["balls"][0]), R.WRENCH), states=states, state_rates=np.zeros(states.size),
+        contact_wrenches=np.zeros(bodies.size, R.WRENCH), ball_wrenches=np.zeros(int(system["balls"][0]), R.WRENCH),
+        resting=np.zeros(len(parts), dtype=np.int64), bearing_powers=np.zeros(len(parts), R.RUNNING),
+        states=states, state_rates=np.zeros(states.size),
         state_slopes=np.zeros((states.size, most)), state_pivots=np.zeros(most, dtype=np.int64),
     )  # fmt: skip
 
@@ -185,6 +187,9 @@ def _bodies(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> A
         bodies["mode"][outer] = [*_outer_modes(model, i), R.LOCKED]
         bodies["mode"][cage] = R.FREE
         bodies[list(part.bodies[CAGE + 1 :])] = alone[CAGE + 1 :]
+    bodies["bearing"] = -1
+    for i, part in enumerate(parts):
+        bodies["bearing"][list(part.bodies)] = i
     return bodies
 
 
@@ -233,6 +238,7 @@ def _raceways(part: Part, i: int, begin: int) -> Any:
 def _rows(part: Part, i: int, begin: int) -> Any:
     rows = part.alone.bundle.rows.copy()
     rows["number"] += part.first_row
+    rows["bearing"] = i
     rows["first_ball"] += part.first_ball
     rows["first_raceway"] += part.first_raceway
     rows["waves"] += part.first_wave
@@ -248,6 +254,7 @@ def _lands(part: Part, i: int, begin: int) -> Any:
     lands = part.alone.bundle.lands.copy()
     for land in lands:
         land["cage"], land["ring"] = part.bodies[int(land["cage"])], part.bodies[int(land["ring"])]
+    lands["row"] += part.first_row
     lands["law"] += _OFFSETS["guide_law"] * i
     lands["waves"] += part.first_wave
     lands["parameters"] += begin

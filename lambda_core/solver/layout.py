@@ -183,7 +183,10 @@ class Bundle(NamedTuple):
     shared_rates: Any  # (12 bodies,) its time derivative
     body_rates: Any  # BODY_STATE (bodies,): the same memory
     body_wrenches: Any  # WRENCH (bodies,) of all contacts
+    contact_wrenches: Any  # WRENCH (bodies,): the share of raceways, pockets and lands, where bearings are several
     ball_wrenches: Any  # WRENCH (Z,)
+    resting: Any  # int64 (bearings,): 1 where forces of the last evaluation stand
+    bearing_powers: Any  # RUNNING (bearings,): what pockets, lands, drag and weights of each have of the powers
     states: Any  # (states of contacts,)
     state_rates: Any  # (states of contacts,) their time derivatives
     state_slopes: Any  # (states of contacts, most of one contact): of the rates with the states of the same contact
@@ -222,7 +225,10 @@ _TYPES = {
     "shared_rates": array1,
     "body_rates": table_t(R.BODY_STATE),
     "body_wrenches": table_t(R.WRENCH),
+    "contact_wrenches": table_t(R.WRENCH),
     "ball_wrenches": table_t(R.WRENCH),
+    "resting": iarray1,
+    "bearing_powers": table_t(R.RUNNING),
     "states": array1,
     "state_rates": array1,
     "state_slopes": array2,

@@ -6,7 +6,7 @@ from lambda_core.solver.layout import helper, rows_helper
 
 
 @rows_helper
-def _dot(row, other, n):
+def inner_product(row, other, n):
     """Return the inner product of the first n entries of two rows, summed in any order: terms do not wait."""
     total = 0.0
     for i in range(n):
@@ -15,7 +15,7 @@ def _dot(row, other, n):
 
 
 @rows_helper
-def _take(row, factor, other, n):
+def take_multiple(row, factor, other, n):
     """Take a multiple of the first n entries of another row from a row."""
     for i in range(n):
         row[i] -= factor * other[i]
@@ -41,7 +41,7 @@ def lu_factor(m, pivots):
             f = m[i, k] * inverse
             m[i, k] = f
             if f != 0.0:
-                _take(m[i, k + 1 :], f, m[k, k + 1 :], n - k - 1)
+                take_multiple(m[i, k + 1 :], f, m[k, k + 1 :], n - k - 1)
     return 1
 
 
@@ -54,6 +54,6 @@ def lu_solve(m, pivots, b):
         if row != k:
             b[k], b[row] = b[row], b[k]
     for i in range(1, n):
-        b[i] -= _dot(m[i], b, i)
+        b[i] -= inner_product(m[i], b, i)
     for i in range(n - 1, -1, -1):
-        b[i] = (b[i] - _dot(m[i, i + 1 :], b[i + 1 :], n - i - 1)) / m[i, i]
+        b[i] = (b[i] - inner_product(m[i, i + 1 :], b[i + 1 :], n - i - 1)) / m[i, i]

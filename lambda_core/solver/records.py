@@ -165,12 +165,14 @@ BODY = record(
     ("unbalance", f8),  # [kg m]
     ("moves", i8),  # 0: the body is left out
     ("is_cage", i8),  # 1: it stands still in the quasi-static equilibrium
+    ("bearing", i8),  # whose contacts it has; -1: none
     ("mode", i8, (6,)),  # FREE, LOCKED, PRESCRIBED of x, y, z, tilt_y, tilt_z, spin
     ("stiffness", f8, (6,)),  # of the support to ground [N/m, N m/rad]
     ("damping", f8, (6,)),  # [N s/m, N m s/rad]
 )
 ROW = record(
     ("number", i8),  # its place in the table of rows
+    ("bearing", i8),  # that it belongs to
     ("first_ball", i8),
     ("balls", i8),
     ("first_raceway", i8),  # the raceways that every ball of the row touches
@@ -228,6 +230,7 @@ SLOT = record(
 LAND = record(
     ("cage", i8),  # body
     ("ring", i8),  # body that guides it
+    ("row", i8),  # a row of balls that the cage holds
     ("number", i8),  # of the pair of stations: its row in results
     ("law", i8),  # row of Laws.guides
     ("offset", f8),  # of the station from both bodies' centres, along the axis [m]

@@ -47,7 +47,8 @@ kinds = {
     "system": R.SYSTEM, "bodies": R.BODY, "rows": R.ROW, "raceways": R.RACEWAY, "lands": R.LAND, "links": R.LINK,
     "slots": R.SLOT, "waves": R.WAVE,
     "terms": R.TERM, "inputs": R.INPUTS, "scratch": R.SCRATCH, "bodies_now": R.BODY_STATE, "body_rates": R.BODY_STATE,
-    "ground": R.BODY_STATE, "body_wrenches": R.WRENCH, "ball_wrenches": R.WRENCH,
+    "ground": R.BODY_STATE, "body_wrenches": R.WRENCH, "contact_wrenches": R.WRENCH, "ball_wrenches": R.WRENCH,
+    "bearing_powers": R.RUNNING,
 }
 arrays = {name: given[name] for name in given["arrays"]}
 arrays |= {name: np.frombuffer(given[name].tobytes(), kind).copy() for name, kind in kinds.items()}

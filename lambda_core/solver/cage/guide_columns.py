@@ -203,9 +203,11 @@ def _land_waves(land, cage, ring, law, par, bundle, bl):
 
 
 @helper
-def land_columns(bundle, bl):
-    """Add every land."""
+def land_columns(bundle, row, bl):
+    """Add every land of a row of balls, of all where `row` is -1."""
     for i in range(bundle.lands.size):
+        if row >= 0 and bundle.lands[i].row != row:
+            continue
         if _land_columns(bundle.lands[i], bundle, bl) != 1:
             return 0
     return 1

@@ -130,7 +130,10 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: O
         shared_rates=rates.view(np.float64),
         body_rates=rates,
         body_wrenches=np.zeros(bodies, R.WRENCH),
+        contact_wrenches=np.zeros(bodies, R.WRENCH),
         ball_wrenches=np.zeros(balls, R.WRENCH),
+        resting=np.zeros(1, dtype=np.int64),
+        bearing_powers=np.zeros(1, R.RUNNING),
         **state_arrays(model, tables),
     )
     return SolverContext(model, kernels, oils, frame, bundle, state_scales(model, active))

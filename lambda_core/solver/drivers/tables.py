@@ -194,7 +194,7 @@ def _lands(model: BearingModel, oil: Oil, parameters: _Parameters) -> Any:
         for side in (-1, 1):
             offset = side * (0.5 * model.cage.width)
             ring, facing = (INNER, OUTER)[number], (-1.0, 1.0)[number]
-            stations.append((CAGE, ring, number, 1 + number, offset, oil.viscosity, span, facing, (0, 0)))
+            stations.append((CAGE, ring, 0, number, 1 + number, offset, oil.viscosity, span, facing, (0, 0)))
     return np.array(stations, R.LAND)
 
 

@@ -1,7 +1,8 @@
 """Linear algebra of the block-arrow matrix M = s I - g J: factor and solve in O(Z).
 
-The blocks of a ball hold the columns of its own bodies alone (:mod:`.reach`). What the balls of a row take from the
-Schur complement is summed in a matrix of that size, which is taken out of the whole one and put back.
+The blocks of a ball hold the columns of its own bodies alone (:mod:`.reach`). Where there are several bearings, what
+the balls of a row take from the Schur complement is summed in a matrix of that size, and kept: a row is factored anew
+where its blocks have changed, or are factored for another g by far. Its part of D then has that g, too.
 
 Every product is a sum of multiples of rows: the entries of a row do not wait for one another, as the terms of an inner
 product do. So the ball blocks are kept as inverses, and the other blocks in the order in which they are gone through.
@@ -24,9 +25,13 @@ from lambda_core.solver.integrator.chain import (
     take_part,
     write_ahead,
 )
-from lambda_core.solver.integrator.reach import Reach
+from lambda_core.solver.integrator.condensed import condense, solve_condensed
+from lambda_core.solver.integrator.reach import Reach, is_split
 from lambda_core.solver.layout import NB, array1, array2, array3, helper, iarray1, rows_helper
 from lambda_core.solver.lu import lu_factor, lu_solve
+
+# Relative change of g beyond which what a step divides by it is factored anew; not a tie with one growth of the step.
+REFACTOR = 0.41
 
 
 class Factors(NamedTuple):
@@ -39,7 +44,11 @@ class Factors(NamedTuple):
     c: Any  # (Z, 9, widest): C_j^T, scaled
     schur: Any  # (n, n)
     schur_pivots: Any  # int64 (n,)
-    own: Any  # (widest, widest): what one row of balls has of the Schur complement
+    dense: Any  # (speeds, speeds): the same of speeds alone, where there are several bearings
+    turned: Any  # (speeds, speeds): and its transpose, while it is made
+    own: Any  # (rows, widest, widest): what each row of balls has of the Schur complement
+    gamma: Any  # (rows,): g that each row is factored for
+    packed: Any  # (speeds,): the speeds' part of a right-hand side
     tail: Any  # (widest,): and of the shared part of a right-hand side
     part: Any  # (9,): one ball's part of a solution
     begin: Any  # int64 (rows,): ball of each row that is eliminated first
@@ -48,25 +57,12 @@ class Factors(NamedTuple):
     ahead: Any  # (Z or 0, 9, 9): A_j^-1 X_j,j+1
 
 
-factors_t = types.NamedTuple(
-    [
-        array3,
-        iarray1,
-        array2,
-        array3,
-        array3,
-        array2,
-        iarray1,
-        array2,
-        array1,
-        array1,
-        iarray1,
-        iarray1,
-        array3,
-        array3,
-    ],
-    Factors,
+_TYPES = (
+    dict.fromkeys(("inverse", "across", "c", "own", "behind", "ahead"), array3)
+    | dict.fromkeys(("x", "schur", "dense", "turned"), array2)
+    | dict.fromkeys(("pivots", "schur_pivots", "begin", "joined"), iarray1)
 )
+factors_t = types.NamedTuple([_TYPES.get(name, array1) for name in Factors._fields], Factors)
 
 
 def make_factors(reach: Reach, n: int, coupled: int) -> Factors:
@@ -80,7 +76,11 @@ def make_factors(reach: Reach, n: int, coupled: int) -> Factors:
         np.zeros((balls, NB, widest)),
         np.zeros((n, n)),
         np.zeros(n, dtype=np.int64),
-        np.zeros((widest, widest)),
+        np.zeros((reach.speeds.size, reach.speeds.size)),
+        np.zeros((reach.speeds.size, reach.speeds.size)),
+        np.zeros((reach.width.size, widest, widest)),
+        np.ones(reach.width.size),
+        np.zeros(reach.speeds.size),
         np.zeros(widest),
         np.zeros(NB),
         reach.first[:-1].copy(),
@@ -193,14 +193,33 @@ def _factor_ball(bl, j, before, shift, gamma, fa, own, n):
 
 
 @helper
-def _exchange(schur, columns, own, n, out):
-    """Take the n columns and rows of one row of balls out of the Schur complement, or put them back."""
+def _factor_row(bl, r, shift, gamma, fa, own):
+    """Take the shares of the balls of a row from `own`; returns 0 when a block is singular."""
+    fa.gamma[r], bl.changed[r] = gamma, 0
+    first, last = bl.reach.first[r], bl.reach.first[r + 1]
+    if fa.joined.size > 0:
+        fa.begin[r] = find_chains(bl, first, last, fa)
+    for i in range(last - first):
+        j = _in_turn(fa.begin[r], i, first, last)
+        before = _joined_before(bl.reach, r, j, fa)
+        if _factor_ball(bl, j, before, shift, gamma, fa, own, bl.reach.width[r]) != 1:
+            return 0
+    return 1
+
+
+@helper
+def _add_row(bl, r, shift, gamma, fa):
+    """Add to the Schur complement what the contacts of a row have of it; returns 0 when a block is singular."""
+    own, n, columns = fa.own[r], bl.reach.width[r], bl.reach.columns[r]
+    if bl.changed[r] == 1 or abs(gamma / fa.gamma[r] - 1.0) > REFACTOR:
+        own[:, :] = 0.0
+        if _factor_row(bl, r, shift, gamma, fa, own) != 1:
+            return 0
+    more = gamma - fa.gamma[r]
     for i in range(n):
         for k in range(n):
-            if out:
-                own[i, k] = schur[columns[i], columns[k]]
-            else:
-                schur[columns[i], columns[k]] = own[i, k]
+            fa.schur[columns[i], columns[k]] += own[i, k] + more * bl.d_own[r, i, k]
+    return 1
 
 
 @helper
@@ -211,24 +230,17 @@ def arrow_factor(bl, shift, gamma, fa):
         for k in range(schur.shape[0]):
             schur[i, k] = -gamma * bl.d[i, k]
         schur[i, i] += shift
+    several = is_split(reach, schur.shape[0])
     for r in range(reach.width.size):
-        n, columns = reach.width[r], reach.columns[r]
-        whole = n == schur.shape[0]  # one bearing: nothing to take out
-        own = schur if whole else fa.own
-        if not whole:
-            _exchange(schur, columns, own, n, True)
-        first, last = reach.first[r], reach.first[r + 1]
-        if fa.joined.size > 0:
-            fa.begin[r] = find_chains(bl, first, last, fa)
-        for i in range(last - first):
-            j = _in_turn(fa.begin[r], i, first, last)
-            before = _joined_before(reach, r, j, fa)
-            if _factor_ball(bl, j, before, shift, gamma, fa, own, n) != 1:
+        if several:
+            if _add_row(bl, r, shift, gamma, fa) != 1:
                 return 0
-        if not whole:
-            _exchange(schur, columns, own, n, False)
+        elif _factor_row(bl, r, shift, gamma, fa, schur) != 1:
+            return 0
     if schur.shape[0] == 0:
         return 1
+    if several:
+        return condense(schur, reach, fa.dense, fa.turned, fa.packed, fa.schur_pivots)
     return lu_factor(schur, fa.schur_pivots)
 
 
@@ -281,7 +293,9 @@ def arrow_solve(bl, fa, r):
         _solve_forward(row, reach, fa, r, own, n)
         for i in range(n):
             shared[columns[i]] = own[i]
-    if shared.size > 0:
+    if is_split(reach, shared.size):
+        solve_condensed(fa.schur, reach, fa.dense, fa.packed, fa.schur_pivots, shared)
+    elif shared.size > 0:
         lu_solve(fa.schur, fa.schur_pivots, shared)
     for row in range(reach.width.size):
         n, columns = reach.width[row], reach.columns[row]

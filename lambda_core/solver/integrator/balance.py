@@ -101,8 +101,11 @@ def _work_of_motions(bundle, mem):
 
 @helper
 def _work_of_loads(bundle, mem):
-    """Return what the last Newton correction changes of the power of loads and weights on what is free [W]."""
-    system, move = bundle.system[0], mem.last_move
+    """Return what the last Newton correction changes of the power of loads and weights on what is free [W].
+
+    Of balls of a bearing that rests: all corrections since its powers were computed.
+    """
+    system, move, since = bundle.system[0], mem.last_move, mem.since
     tail, power = NB * system.balls, 0.0
     gx, gy, gz = system.gravity[0], system.gravity[1], system.gravity[2]
     for r in range(bundle.rows.size):
@@ -110,7 +113,7 @@ def _work_of_loads(bundle, mem):
         for j in range(row.first_ball, row.first_ball + row.balls):
             i = NB * j
             c, s = math.cos(mem.new[i + BPSI]), math.sin(mem.new[i + BPSI])
-            along = gx * move[i + BVX] + (gy * c + gz * s) * move[i + BVR] + (gz * c - gy * s) * move[i + BVT]
+            along = gx * since[i + BVX] + (gy * c + gz * s) * since[i + BVR] + (gz * c - gy * s) * since[i + BVT]
             power += row.ball_mass * along
     for i in range(tail, tail + bundle.active.size):
         b, c = bundle.active[i - tail] // NS, bundle.active[i - tail] % NS
@@ -206,13 +209,13 @@ def allowed(mem, h, share, floor):
 def leak_of_iterate(bundle, mem, h):
     """Return the energy that the Newton iteration leaves unaccounted for, over what a step may lose.
 
-    The powers are those of the last iterate: off by the work of its forces on the last correction at most, and by
-    what of the residual's work is unattributed.
+    The powers are those of the last iterate, of bearings that rest of an earlier one: off by the work of its forces
+    on the corrections since at most, and by what of the residual's work is unattributed.
     """
     power, led, _ = _residual_work(bundle, mem)
     off = abs(power - led)
     for i in range(mem.new.size):
-        off += abs(mem.inertia[i] * mem.slope[i] * mem.last_move[i])
+        off += abs(mem.inertia[i] * mem.slope[i] * mem.since[i])
     return h * off / allowed(mem, h, LEAK, _CLOSER * floor_of(mem, h))
 
 

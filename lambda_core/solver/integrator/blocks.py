@@ -22,6 +22,8 @@ class Blocks(NamedTuple):
     d: Any  # (n_active, n_active)
     cross: Any  # (Z, 2, 9, 9), without balls that may touch (0, 2, 9, 9): with the balls before and after, see chain
     beyond: Any  # (6, 9) d(ball force)/d(ball beside it)
+    d_own: Any  # (rows, widest, widest): of D what contacts of each row have, where bearings are several
+    changed: Any  # int64 (rows,): whether blocks of the row are newer than its factors
     own: Any  # (6, 9) d(ball force)/d(ball)
     to_shared: Any  # (6, 12 places) d(ball force)/d(own bodies)
     from_ball: Any  # (places, 6, 9) d(own body force)/d(ball)
@@ -48,6 +50,8 @@ _BLOCK_TYPES = {
     "d": array2,
     "cross": array4,
     "beyond": array2,
+    "d_own": array3,
+    "changed": iarray1,
     "own": array2,
     "to_shared": array2,
     "from_ball": array3,
@@ -83,6 +87,8 @@ def make_blocks(bundle: Any) -> Blocks:
         d=zeros((n, n)),
         cross=zeros((balls if may_touch(bundle) else 0, 2, NB, NB)),
         beyond=zeros((6, NB)),
+        d_own=zeros((reach.width.size, widest, widest)),
+        changed=np.ones(reach.width.size, dtype=np.int64),
         own=zeros((6, NB)),
         to_shared=zeros((6, NS * places)),
         from_ball=zeros((places, 6, NB)),

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve
+from lambda_core.solver.integrator.arrow import REFACTOR, arrow_factor, arrow_solve
+from lambda_core.solver.integrator.resting import follow
 from lambda_core.solver.integrator.state_blocks import solve_states
 from lambda_core.solver.layout import NB, helper
+from lambda_core.solver.motion.bearing_sums import AGAIN
 from lambda_core.solver.status import Status
-
-_REFACTOR = 0.41  # relative change of gamma beyond which M is factored anew; not a tie with one growth of the step
 
 
 @helper
@@ -42,7 +42,7 @@ def renew(jacobian, t, gamma, bundle, bl, fa, mem):
             return Status.REFUSED
         control.factored_gamma = 0.0
         count.stale = 0
-    if abs(gamma / (control.factored_gamma + 1e-300) - 1.0) > _REFACTOR:
+    if abs(gamma / (control.factored_gamma + 1e-300) - 1.0) > REFACTOR:
         count.factorisations += 1
         if arrow_factor(bl, 1.0, gamma, fa) != 1:
             return Status.REFUSED
@@ -52,11 +52,13 @@ def renew(jacobian, t, gamma, bundle, bl, fa, mem):
 
 
 @helper
-def solve_correction(gamma, bundle, bl, fa, mem):
-    """Write the correction of the point evaluated last into mem.change; returns 0 where a matrix is singular."""
+def solve_correction(gamma, want, bundle, bl, fa, mem):
+    """Write the correction of the point evaluated last, with `want`, into mem.change; returns 0 where singular."""
     change, n = mem.change, mem.new.size
     for i in range(n):
         change[i] = mem.base[i] + gamma * mem.slope[i] - mem.new[i]
+    if want == AGAIN:
+        follow(gamma, bundle, bl, fa, mem)
     arrow_solve(bl, fa, change)
     if bundle.states.size > 0 and solve_states(bundle, gamma, change) != 1:
         return 0

@@ -94,11 +94,11 @@ def solve_damped(evaluate, jacobian, t, h, tolerance, closer, bundle, bl, fa, me
         count.newton_iterations += 1
         if renew(jacobian, t, gamma, bundle, bl, fa, mem) != Status.OK:
             return Status.REFUSED
-        if solve_correction(gamma, bundle, bl, fa, mem) != 1:
+        if solve_correction(gamma, 1, bundle, bl, fa, mem) != 1:
             return Status.NOT_CONVERGED
         if norm(mem.change, mem.weight) <= tolerance:
             for i in range(mem.new.size):
-                mem.last_move[i] = mem.change[i]
+                mem.last_move[i], mem.since[i] = mem.change[i], mem.change[i]
                 mem.new[i] += mem.change[i]
             if leak_of_iterate(bundle, mem, h) <= 1.0 or iteration + 1 == _MAX_ITERATIONS:
                 finalise_step(bundle, mem)

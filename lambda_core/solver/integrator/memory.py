@@ -82,6 +82,7 @@ COUNT = np.dtype(
         ("jacobians", np.int64),  # of all balls
         ("ball_jacobians", np.int64),  # of single balls, during an iteration
         ("factorisations", np.int64),
+        ("rests", np.int64),  # of bearings in iterations in which others were evaluated
     ],
     align=True,
 )
@@ -114,6 +115,7 @@ class Memory(NamedTuple):
     change: Any  # (n,)
     last_change: Any  # (n,) Newton correction of the iteration before
     last_move: Any  # (n,) and the move that was made of it
+    since: Any  # (n,) all moves since the forces that stand were computed: of bearings that rest more than the last
     sample_y: Any  # (capacity, n)
     sample_t: Any  # (capacity,)
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 from lambda_core.solver.integrator.balance import finalise_step, leak_of_iterate
 from lambda_core.solver.integrator.correction import norm, renew, shared_norm, solve_correction
 from lambda_core.solver.integrator.damped import solve_damped
+from lambda_core.solver.integrator.resting import forget_moves, let_rest
 from lambda_core.solver.layout import NB, helper
+from lambda_core.solver.motion.bearing_sums import rests
 from lambda_core.solver.status import Status
 
 # Of the error allowed per step, while there is no history. Friction in a contact at rest changes sign within far less:
@@ -48,15 +50,26 @@ def _move(mem, first, last, relax, again):
 
 
 @helper
-def _move_all(bundle, mem, relax, again):
+def _relax(gamma, factored):
+    """Return the share of a correction that is moved: factors of another gamma miss by a known amount."""
+    return 2.0 / (1.0 + gamma / factored)
+
+
+@helper
+def _move_all(bundle, fa, mem, want, again):
     """Move every state by its correction, ball by ball; returns whether a ball's corrections swung to and fro."""
-    tail, moving = NB * bundle.system[0].balls, mem.new.size - bundle.states.size
+    tail, moving, control = NB * bundle.system[0].balls, mem.new.size - bundle.states.size, mem.control[0]
     swung = False
-    for j in range(bundle.system[0].balls):
-        swung |= _move(mem, NB * j, NB * j + NB, relax, again)
-    swung |= _move(mem, tail, moving, relax, again)
+    for r in range(bundle.rows.size):
+        row, relax = bundle.rows[r], _relax(control.gamma, fa.gamma[r])
+        turn = again and not rests(row.bearing, bundle, want)
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            swung |= _move(mem, NB * j, NB * j + NB, relax, turn)
+    swung |= _move(mem, tail, moving, _relax(control.gamma, control.factored_gamma), again)
     if moving < mem.new.size:
         swung |= _move(mem, moving, mem.new.size, 1.0, again)
+    for i in range(mem.new.size):
+        mem.since[i] += mem.last_move[i]
     return swung
 
 
@@ -94,7 +107,8 @@ def solve_step(evaluate, jacobian, t, h, closer, bundle, bl, fa, mem):
     A ball that bounces on a raceway or in its pocket spoils the convergence of all: where it is slow, the Jacobian is
     renewed at the iterate for the balls that change most. A ball that creeps near gross sliding throws Newton's
     iteration to and fro, whatever its Jacobian: it goes by the secant. Where nothing of that helps the iteration is
-    damped (count.careful, see damped.solve_damped). The rates of the running integrals are those of
+    damped (count.careful, see damped.solve_damped). Of several bearings those that hardly move rest (see resting).
+    The rates of the running integrals are those of
     the last iterate, brought to the result by what its residual says; the iteration goes on while they do not account
     for the energy.
     """
@@ -106,24 +120,23 @@ def solve_step(evaluate, jacobian, t, h, closer, bundle, bl, fa, mem):
     if closer == 0:
         for i in range(mem.new.size):
             mem.new[i] = mem.predicted[i]
-    before, limit = 0.0, _MAX_NEWTON
+    before, limit, want = 0.0, _MAX_NEWTON, 1
     for iteration in range(_MAX_NEWTON + _MAX_LOCAL):
         if iteration >= limit:
             return Status.NOT_CONVERGED
         count.rhs_calls += 1
-        if evaluate(t, mem.new, bundle, mem.slope, mem.rates, 1) != Status.OK:
+        if evaluate(t, mem.new, bundle, mem.slope, mem.rates, want) != Status.OK:
             return Status.REFUSED
+        forget_moves(want, bundle, mem)
         if iteration == 0 and count.stale == 1:
             count.jacobians += 1
             count.jacobian_age = 0
         if renew(jacobian, t, gamma, bundle, bl, fa, mem) != Status.OK:
             return Status.REFUSED
         count.newton_iterations += 1
-        if solve_correction(gamma, bundle, bl, fa, mem) != 1:
+        if solve_correction(gamma, want, bundle, bl, fa, mem) != 1:
             return Status.NOT_CONVERGED
-        # A matrix factored for another gamma over- or undershoots by a known amount.
-        relax = 2.0 / (1.0 + gamma / control.factored_gamma)
-        swung = _move_all(bundle, mem, relax, iteration > 0)
+        swung = _move_all(bundle, fa, mem, want, iteration > 0)
         size = norm(change, weight)
         if not size < 1e12:
             return Status.NOT_CONVERGED
@@ -140,5 +153,6 @@ def solve_step(evaluate, jacobian, t, h, closer, bundle, bl, fa, mem):
         if iteration > 0 and size > _SLOW * before:
             _renew_slow(bl, mem, size)
             limit = min(limit + 1, _MAX_NEWTON + _MAX_LOCAL)
+        want = 1 if good else let_rest(tolerance, bundle, bl, mem)
         before = size
     return Status.NOT_CONVERGED

@@ -3,6 +3,9 @@
 A ball touches the raceways of its row and its cage, the waves of all of them and nothing else, so its blocks hold the
 columns of those bodies alone: the *own* bodies of its row. Numbers among them are places; a row with fewer than the
 widest leaves the rest unused.
+
+The rates of positions depend on the state of their own body alone. So positions are eliminated first, each among the
+states of its body (:mod:`.condensed`).
 """
 
 from __future__ import annotations
@@ -12,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import types
 
-from lambda_core.solver.layout import NS, iarray1, iarray2
+from lambda_core.solver.layout import NS, SVX, helper, iarray1, iarray2
 
 
 class Reach(NamedTuple):
@@ -25,9 +28,13 @@ class Reach(NamedTuple):
     width: Any  # int64 (rows,): free states of the own bodies
     columns: Any  # int64 (rows, widest): their positions among all free shared states
     index: Any  # int64 (rows, 12 places): position of each state of the own bodies among their free ones, or -1
+    positions: Any  # int64 (p,): positions and angles among all free shared states
+    ends: Any  # int64 (p,): one behind the last free state of the body of each
+    speeds: Any  # int64 (n - p,): the other ones, those of cages before those of the shaft
+    among: Any  # int64 (n,): place of each state among the speeds, or -1
 
 
-_TYPES = {"first": iarray1, "count": iarray1, "width": iarray1}
+_TYPES = dict.fromkeys(("first", "count", "width", "positions", "ends", "speeds", "among"), iarray1)
 reach_t = types.NamedTuple([_TYPES.get(name, iarray2) for name in Reach._fields], Reach)
 
 
@@ -43,6 +50,12 @@ def _own_bodies(bundle: Any, row: Any) -> list[int]:
     return sorted(touched)
 
 
+@helper
+def is_split(reach, n):
+    """Return whether no row of balls reaches all of n shared states: several bearings share a shaft."""
+    return reach.width[0] != n
+
+
 def make_reach(bundle: Any) -> Reach:
     """Return what each row of the tables in a bundle reaches."""
     own = [_own_bodies(bundle, row) for row in bundle.rows]
@@ -51,6 +64,9 @@ def make_reach(bundle: Any) -> Reach:
     positions[bundle.active] = np.arange(bundle.active.size)
     states = [np.concatenate([NS * body + np.arange(NS) for body in bodies]) for bodies in own]
     free = [positions[of][positions[of] >= 0] for of in states]
+    is_speed, body = bundle.active % NS >= SVX, bundle.active // NS
+    # What few others touch is eliminated first, and leaves the rest as it is: the tables end with cages and waves.
+    speeds = np.flatnonzero(is_speed)[::-1].astype(np.int64)
     found = Reach(
         first=np.array([*bundle.rows["first_ball"], bundle.system["balls"][0]], dtype=np.int64),
         count=np.array([len(bodies) for bodies in own], dtype=np.int64),
@@ -59,7 +75,12 @@ def make_reach(bundle: Any) -> Reach:
         width=np.array([columns.size for columns in free], dtype=np.int64),
         columns=np.zeros((rows, max(columns.size for columns in free)), dtype=np.int64),
         index=np.full((rows, NS * places), -1, dtype=np.int64),
+        positions=np.flatnonzero(~is_speed).astype(np.int64),
+        ends=np.searchsorted(body, body[~is_speed], side="right").astype(np.int64),
+        speeds=speeds,
+        among=np.full(bundle.active.size, -1, dtype=np.int64),
     )
+    found.among[speeds] = np.arange(speeds.size)
     for r, (bodies, of, columns) in enumerate(zip(own, states, free, strict=True)):
         found.bodies[r, : len(bodies)] = bodies
         found.place[r, bodies] = np.arange(len(bodies))

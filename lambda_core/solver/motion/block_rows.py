@@ -106,16 +106,31 @@ def _own_slopes(b, bundle, bl):
 @helper
 def shared_rows(b, bundle, bl):
     """Write the rows of body b in D: its own equations of motion and all forces on it."""
-    d = bl.d
+    d, active = bl.d, bundle.active
     for row in range(NS):
         k = bl.index[NS * b + row]
         if k < 0:
             continue
-        for column in range(bl.index.size):
-            kc = bl.index[column]
-            if kc >= 0:
-                total = 0.0
-                for i in range(6):
-                    total += bl.map[row, i] * bl.shared[b, i, column]
-                d[k, kc] = total
+        for i in range(6):
+            share = bl.map[row, i]
+            if share != 0.0:
+                for c in range(active.size):
+                    d[k, c] += share * bl.shared[b, i, active[c]]
     _own_slopes(b, bundle, bl)
+
+
+@helper
+def own_rows(p, r, bl, d_own):
+    """Add the rows of the body at place p among what contacts of row r have of D."""
+    bodies, index = bl.reach.bodies[r], bl.reach.index[r]
+    b, columns = bodies[p], NS * bl.reach.count[r]
+    for row in range(NS):
+        k = index[NS * p + row]
+        if k < 0:
+            continue
+        for i in range(6):
+            share = bl.map[row, i]
+            if share != 0.0:
+                for c in range(columns):
+                    if index[c] >= 0:
+                        d_own[k, index[c]] += share * bl.shared[b, i, NS * bodies[c // NS] + c % NS]

@@ -24,6 +24,7 @@ from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.contact.ring_waves import push_waves
 from lambda_core.solver.faults import FLUID_DRAG, report
 from lambda_core.solver.layout import cells_of, drag_law, grid_of, guide_law, helper, part, raceway_laws
+from lambda_core.solver.motion.bearing_sums import powers_of_bearing, rests
 from lambda_core.solver.vec import clear, increase
 
 _SPIN_FLOOR = 1e-3  # [rad/s] below which a ball's churning moment fades out
@@ -147,13 +148,17 @@ def land_forces(bundle, running, want):
     g, out, fault = scratch.guide, scratch.out[:], scratch.fault
     for i in range(bundle.lands.size):
         land = bundle.lands[i]
+        bearing = bundle.rows[land.row].bearing
+        if rests(bearing, bundle, want):
+            continue
         cage, ring = bundle.bodies_now[land.cage], bundle.bodies_now[land.ring]
         law, par = guide_law(bundle.laws.guides, land.law), part(bundle.par, land.parameters)
         land_state(cage, ring, land, bundle, g)
         if guide_force(law, par, g, land.viscosity, out, fault, land.number) != 1:
             return 0
-        if want == 1:
-            running.land += guide_loss(law, par, g, land.viscosity, out, scratch.at_rest)
+        if want > 0:
+            own = powers_of_bearing(bundle, bearing, running)
+            own.land += guide_loss(law, par, g, land.viscosity, out, scratch.at_rest)
         land_apply(cage, ring, g, out, bundle.body_wrenches[land.cage], bundle.body_wrenches[land.ring])
         if land.waves[1] > land.waves[0]:
             push_cage(land.waves[0], land.waves[1], 1.0, bundle)

@@ -6,6 +6,15 @@ import math
 
 from lambda_core.solver.contact.ring_waves import turn_waves
 from lambda_core.solver.layout import NB, helper, losses_of, running_of
+from lambda_core.solver.motion.bearing_sums import (
+    AGAIN,
+    add_bearing_powers,
+    clear_again,
+    clear_bearing_powers,
+    keep_contacts,
+    powers_of_bearing,
+    rests,
+)
 from lambda_core.solver.motion.equations import ball_rates, body_rates
 from lambda_core.solver.motion.force_elements import cage_forces, clear_forces, drag_force, land_forces, raceway_forces
 from lambda_core.solver.motion.links import link_forces
@@ -61,12 +70,17 @@ def _move_bodies(bundle, running, want, dydt):
 def _raceways(t, balls, bundle, rates, want):
     """Begin the sums of forces and powers with the raceways' share."""
     losses = losses_of(rates, bundle.raceways.size)
-    clear_forces(bundle)
-    rates[:] = 0.0
+    if want == AGAIN:
+        clear_again(bundle, rates)
+    else:
+        clear_forces(bundle)
+        rates[:] = 0.0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
+        if rests(row.bearing, bundle, want):
+            continue
         for j in range(row.first_ball, row.first_ball + row.balls):
-            if raceway_forces(t, balls[j], j, row, bundle, losses, want) != 1:
+            if raceway_forces(t, balls[j], j, row, bundle, losses, min(want, 1)) != 1:
                 return 0
     return 1
 
@@ -75,7 +89,10 @@ def _raceways(t, balls, bundle, rates, want):
 def _guides(balls, bundle, running, want):
     """Add the forces of pockets and lands."""
     for r in range(bundle.rows.size):
-        if cage_forces(balls, bundle.rows[r], bundle, running, want) != 1:
+        row = bundle.rows[r]
+        if rests(row.bearing, bundle, want):
+            continue
+        if cage_forces(balls, row, bundle, powers_of_bearing(bundle, row.bearing, running), min(want, 1)) != 1:
             return 0
     return land_forces(bundle, running, want)
 
@@ -92,7 +109,8 @@ def evaluate(t, y, bundle, dydt, rates, want):
         Losses of the raceways by mechanism (layout.Losses) [W], then records.RUNNING.
     want : int
         0, 1; or 2: as 1, and the raceways' share of the forces (bundle.ball_wrenches, bundle.body_wrenches) and of
-        `rates` is there already, left by a caller that has gone through them itself.
+        `rates` is there already, left by a caller that has gone through them itself; or 3: as 1, and of bearings that
+        rest (bundle.resting) forces, powers and rates of the last evaluation stand.
 
     Returns
     -------
@@ -105,20 +123,27 @@ def evaluate(t, y, bundle, dydt, rates, want):
     running = running_of(rates)[0]
     if fill_shared(t, y, bundle) != 1:
         return 0
-    if want < 2 and _raceways(t, balls, bundle, rates, want) != 1:
+    if want != 2 and _raceways(t, balls, bundle, rates, want) != 1:
         return 0
-    want = min(want, 1)
+    if want != AGAIN:
+        clear_bearing_powers(bundle)
     if system.guides_on == 1 and _guides(balls, bundle, running, want) != 1:
         return 0
+    keep_contacts(bundle)
     if link_forces(t, bundle, running) != 1:
         return 0
     structure_forces(bundle, running)
     turn_waves(bundle)
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
+        if rests(row.bearing, bundle, want):
+            continue
+        own = powers_of_bearing(bundle, row.bearing, running)
         for j in range(row.first_ball, row.first_ball + row.balls):
-            if _move_ball(balls[j], j, row, bundle, running, want, moved[j]) != 1:
+            if _move_ball(balls[j], j, row, bundle, own, min(want, 1), moved[j]) != 1:
                 return 0
+    want = min(want, 1)
+    add_bearing_powers(bundle, running)
     _move_bodies(bundle, running, want, dydt)
     if want == 1:
         running.input_abs = abs(running.input)

@@ -21,8 +21,16 @@ from lambda_core.solver.cage.guide_columns import land_columns, neighbour_column
 from lambda_core.solver.contact.raceway_columns import raceway_columns
 from lambda_core.solver.contact.ring_waves import turning_columns
 from lambda_core.solver.integrator.chain import AFTER, BEFORE
+from lambda_core.solver.integrator.reach import is_split
 from lambda_core.solver.layout import BPSI, NB, NS, helper
-from lambda_core.solver.motion.block_rows import ball_block, body_rows, force_map, neighbour_block, shared_rows
+from lambda_core.solver.motion.block_rows import (
+    ball_block,
+    body_rows,
+    force_map,
+    neighbour_block,
+    own_rows,
+    shared_rows,
+)
 from lambda_core.solver.motion.force_elements import drag_force
 from lambda_core.solver.motion.links import link_columns
 from lambda_core.solver.motion.prescribed import fill_shared
@@ -114,6 +122,49 @@ def _ball_blocks(balls, j, row, bundle, bl):
     return 1
 
 
+@helper
+def _own_part(r, bundle, bl):
+    """Write what contacts of a row have of D, where rows are on several bearings; returns 1 when well."""
+    reach, d_own = bl.reach, bl.d_own[r]
+    for p in range(reach.count[r]):
+        bl.shared[reach.bodies[r, p], :, :] = 0.0
+    if bundle.system[0].guides_on == 1 and land_columns(bundle, r, bl) != 1:
+        return 0
+    for j in range(reach.first[r], reach.first[r + 1]):
+        _add_part(bl, r, j)
+    d_own[:, :] = 0.0
+    for p in range(reach.count[r]):
+        b = reach.bodies[r, p]
+        if bundle.bodies[b].moves == 1:
+            force_map(bundle.bodies[b], bundle.bodies_now[b], bl.map)
+            own_rows(p, r, bl, d_own)
+    return 1
+
+
+@helper
+def _add_own_part(r, sign, bl):
+    """Add to D what the contacts of a row have of it, times a sign."""
+    columns = bl.reach.columns[r]
+    for i in range(bl.reach.width[r]):
+        for k in range(bl.reach.width[r]):
+            bl.d[columns[i], columns[k]] += sign * bl.d_own[r, i, k]
+
+
+@helper
+def _renew_own_parts(bundle, bl):
+    """Renew in D what contacts have of it, for the rows whose blocks changed; returns 1 when well.
+
+    Where a few balls are due, contacts of one bearing are to blame: the rest of D stands.
+    """
+    for r in range(bundle.rows.size):
+        if bl.changed[r] == 1:
+            _add_own_part(r, -1.0, bl)
+            if _own_part(r, bundle, bl) != 1:
+                return 0
+            _add_own_part(r, 1.0, bl)
+    return 1
+
+
 def jacobian(t, y, bundle, bl):
     """Write the blocks of the balls marked in bl.due at (t, y); call right after `evaluate` at the same point.
 
@@ -124,13 +175,22 @@ def jacobian(t, y, bundle, bl):
     balls = y[: NB * system.balls].view(BALL)
     if fill_shared(t, y, bundle) != 1:
         return 0
+    renewed = 0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         for j in range(row.first_ball, row.first_ball + row.balls):
-            if bl.due[j] == 1 and _ball_blocks(balls, j, row, bundle, bl) != 1:
+            if bl.due[j] == 0:
+                continue
+            bl.changed[r] = 1
+            renewed += 1
+            if _ball_blocks(balls, j, row, bundle, bl) != 1:
                 return 0
+    several = is_split(bl.reach, bl.d.shape[0])
+    if several and renewed < system.balls:
+        bl.due[:] = 1
+        return _renew_own_parts(bundle, bl)
     bl.shared[:, :, :] = 0.0
-    if system.guides_on == 1 and land_columns(bundle, bl) != 1:
+    if not several and system.guides_on == 1 and land_columns(bundle, -1, bl) != 1:
         return 0
     if link_columns(t, bundle, bl) != 1:
         return 0
@@ -139,11 +199,17 @@ def jacobian(t, y, bundle, bl):
     for r in range(bundle.rows.size):
         for j in range(bl.reach.first[r], bl.reach.first[r + 1]):
             bl.due[j] = 1
-            _add_part(bl, r, j)
+            if not several:
+                _add_part(bl, r, j)
     bl.d[:, :] = 0.0
     for b in range(bundle.bodies.size):
         if bundle.bodies[b].moves == 0:
             continue
         force_map(bundle.bodies[b], bundle.bodies_now[b], bl.map)
         shared_rows(b, bundle, bl)
+    if several:
+        for r in range(bundle.rows.size):
+            if _own_part(r, bundle, bl) != 1:
+                return 0
+            _add_own_part(r, 1.0, bl)
     return 1

@@ -1,0 +1,107 @@
+"""Bearings that rest in Newton's later iterations, while another one on the same shaft still iterates.
+
+All bearings of a whole take the same steps, which one of them needs so short; to the others the first correction of
+such a step is nearly nothing. Where a bearing's states have moved by a small part of what the iteration may leave since
+its contacts were computed, they are not computed again: what these moves change of its forces and rates follows from
+its Jacobian, so that rings and balls stay in balance. What is left out is of the second order of the moves, and what
+the Jacobian is out of date by times them: no larger than the moves themselves wherever the iteration converges.
+
+Energy is balanced with the forces and powers that were computed, and the moves since: :mod:`.balance`.
+"""
+
+from __future__ import annotations
+
+import math
+
+from lambda_core.solver.layout import NB, NS, helper
+from lambda_core.solver.lu import inner_product
+from lambda_core.solver.motion.bearing_sums import AGAIN
+
+_LITTLE = 0.3  # of what the iteration may leave, root mean square over the states of the bearing
+
+
+@helper
+def forget_moves(want, bundle, mem):
+    """Begin to add up the moves since this evaluation, of bearings that rest since an earlier one."""
+    since = mem.since
+    if want != AGAIN:
+        since[:] = 0.0
+        return
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        if bundle.resting[row.bearing] == 0:
+            since[NB * row.first_ball : NB * (row.first_ball + row.balls)] = 0.0
+    tail = NB * bundle.system[0].balls
+    for i in range(bundle.active.size):
+        bearing = bundle.bodies[bundle.active[i] // NS].bearing
+        if bearing < 0 or bundle.resting[bearing] == 0:
+            since[tail + i] = 0.0
+
+
+@helper
+def _moved(b, bundle, mem):
+    """Return the root mean square of the moves of bearing b since its evaluation, over the error allowed per step."""
+    total, count, tail = 0.0, 0, NB * bundle.system[0].balls
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        if row.bearing == b:
+            for i in range(NB * row.first_ball, NB * (row.first_ball + row.balls)):
+                x = mem.since[i] * mem.weight[i]
+                total += x * x
+            count += NB * row.balls
+    for i in range(bundle.active.size):
+        if bundle.bodies[bundle.active[i] // NS].bearing == b:
+            x = mem.since[tail + i] * mem.weight[tail + i]
+            total += x * x
+            count += 1
+    return math.sqrt(total / count)
+
+
+@helper
+def let_rest(tolerance, bundle, bl, mem):
+    """Choose the bearings that rest in the next iteration; returns the `want` to evaluate it with.
+
+    None whose Jacobian is to be renewed: that is done where forces are computed. Never one alone, one whose balls touch
+    each other, nor contacts that keep states, which are iterated with slopes of their own.
+    """
+    if bundle.resting.size == 1 or bundle.states.size > 0:
+        return 1
+    for b in range(bundle.resting.size):
+        bundle.resting[b] = 1 if _moved(b, bundle, mem) <= _LITTLE * tolerance else 0
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        if row.caged == 0:
+            bundle.resting[row.bearing] = 0
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            if mem.count[0].stale == 1 and bl.due[j] == 1:
+                bundle.resting[row.bearing] = 0
+    for b in range(bundle.resting.size):
+        mem.count[0].rests += bundle.resting[b]
+    return AGAIN
+
+
+@helper
+def follow(gamma, bundle, bl, fa, mem):
+    """Add to the residual in mem.change what moves of resting bearings change of their rates, by their Jacobian."""
+    since, change, own, tail = mem.since, mem.change, fa.tail, NB * bundle.system[0].balls
+    for r in range(bundle.rows.size):
+        row = bundle.rows[r]
+        if bundle.resting[row.bearing] == 0:
+            continue
+        n, columns = bl.reach.width[r], bl.reach.columns[r]
+        for q in range(n):
+            own[q] = since[tail + columns[q]]
+        for j in range(row.first_ball, row.first_ball + row.balls):
+            _follow_ball(gamma, j, bl, n, columns, own, since, change, tail)
+        for q in range(n):
+            change[tail + columns[q]] += gamma * inner_product(bl.d_own[r, q], own, n)
+
+
+@helper
+def _follow_ball(gamma, j, bl, n, columns, own, since, change, tail):
+    """Add the share of ball j."""
+    its = since[NB * j : NB * j + NB]
+    for i in range(NB):
+        change[NB * j + i] += gamma * (inner_product(bl.a[j, i], its, NB) + inner_product(bl.b[j, i], own, n))
+    for q in range(n):
+        change[tail + columns[q]] += gamma * inner_product(bl.c[j, q], its, NB)

@@ -1,0 +1,70 @@
+"""The Schur complement of several bearings, solved by positions and speeds, against a dense solution."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+# As plain Python: these functions exist inside their compiled callers only.
+PLAIN = """
+import numpy as np
+
+from lambda_core.solver.integrator.condensed import condense, solve_condensed
+from lambda_core.solver.integrator.reach import Reach
+
+NONE, TABLE = np.zeros(0, dtype=np.int64), np.zeros((0, 0), dtype=np.int64)
+
+
+def work(size, n):
+    return np.zeros((size, size)), np.zeros((size, size)), np.zeros(size), np.zeros(n, int)
+
+
+def reach(positions, ends, speeds, among):
+    return Reach(NONE, NONE, TABLE, TABLE, NONE, TABLE, TABLE, positions, np.array(ends), speeds, among)
+
+
+# Three bodies: rates of positions have entries at their own body alone, rates of speeds everywhere.
+rng = np.random.default_rng(0)
+positions, ends, body, begin = [], [], [], 0
+for number, (p, v) in enumerate(((5, 5), (3, 4), (6, 5))):
+    positions += range(begin, begin + p)
+    ends += [begin + p + v] * p
+    body += [number] * (p + v)
+    begin += p + v
+n, at, body = begin, np.array(positions), np.array(body)
+speeds = np.setdiff1d(np.arange(n), at)[::-1].copy()
+among = np.full(n, -1)
+among[speeds] = np.arange(speeds.size)
+matrix = np.eye(n) + 0.3 * rng.normal(size=(n, n))
+matrix[speeds[:, None], at] *= 1e3  # stiffness times a step squared
+own = np.eye(n)[at] + 1e-3 * rng.normal(size=(at.size, n))
+matrix[at] = np.where(body[at][:, None] == body[None, :], own, 0.0)
+matrix[at[0], at[1] : ends[0] - 1] = 0.0  # a translation: one speed
+m, (dense, turned, packed, pivots) = matrix.copy(), work(speeds.size, n)
+where = reach(at, ends, speeds, among)
+assert condense(m, where, dense, turned, packed, pivots) == 1
+for _ in range(2):  # factors are left as they were
+    given = rng.normal(size=n)
+    found, exact = given.copy(), np.linalg.solve(matrix, given)
+    solve_condensed(m, where, dense, packed, pivots, found)
+    off = np.abs(found - exact).max() / np.abs(exact).max()
+    assert off < 1e-10, off
+
+# A position that nothing holds, and speeds that do not differ.
+where = reach(np.array([0]), [2], np.array([1]), np.array([-1, 0]))
+for matrix in ([[0.0, 1.0], [1.0, 1.0]], [[1.0, 1.0], [1.0, 1.0]]):
+    assert condense(np.array(matrix), where, *work(1, 2)) == 0
+"""
+
+
+def test_positions_and_speeds() -> None:
+    """Condensed and dense solutions agree to 1e-10; a singular matrix is seen."""
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", PLAIN],
+        env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr

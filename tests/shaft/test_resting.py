@@ -1,0 +1,100 @@
+"""Bearings that rest while another one iterates: what stands, what is renewed in parts, what it changes of a result."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.shaft.resolving import check_shaft
+from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.solver import layout as L
+from lambda_core.solver import records as R
+from lambda_core.solver.entry import core
+from lambda_core.solver.motion.bearing_sums import AGAIN
+
+from .test_motion import tables
+
+END = 0.015  # [s]
+
+
+@pytest.fixture(scope="module")
+def engine() -> WholeEngine:
+    """Return the gearbox shaft in motion: the 6206 sets the steps, the 6208 rests between them."""
+    found = WholeEngine(check_shaft(tables()))
+    assert found.advance(END).ok
+    return found
+
+
+def test_what_a_resting_bearing_did_last_stands(engine: WholeEngine) -> None:
+    """Where only balls of the other one move, forces and powers are the bits of a whole evaluation."""
+    bundle, y, t = engine._bundle, engine._memory.y.copy(), engine.time
+    one, other = engine.parts
+    moved = y.copy()
+    balls = moved[L.NB * other.first_ball : L.NB * (other.first_ball + other.balls)].view(R.BALL)
+    balls["x"] += 1e-7
+    balls["spin"] *= 1.0 + 1e-6
+
+    def evaluate(state: FloatArray, want: int, into: FloatArray, powers: FloatArray) -> None:
+        assert core().evaluate(t, state, bundle, into, powers, want) == 1
+
+    expected, expected_powers = np.zeros(y.size), np.zeros(L.power_count(bundle))
+    evaluate(moved, 1, expected, expected_powers)
+    found, powers = np.zeros(y.size), np.zeros(L.power_count(bundle))
+    evaluate(y, 1, found, powers)
+    assert not np.array_equal(found, expected)
+    bundle.resting[:] = [1, 0]
+    evaluate(moved, AGAIN, found, powers)
+    assert np.array_equal(found, expected)
+    assert np.array_equal(powers, expected_powers)
+    bundle.resting[:] = [0, 1]  # what moved is left out
+    evaluate(y, AGAIN, found, powers)
+    assert np.array_equal(found, expected)
+    assert one.first_ball == 0
+
+
+def test_a_jacobian_in_parts_is_the_whole_one(engine: WholeEngine) -> None:
+    """Renewed for one ball at the same state; and where that ball has moved, for all others it stays."""
+    bundle, blocks, y, t = engine._bundle, engine._blocks, engine._memory.y.copy(), engine.time
+    dydt, powers = np.zeros(y.size), np.zeros(L.power_count(bundle))
+
+    def jacobian(state: FloatArray, balls: list[int]) -> FloatArray:
+        assert core().evaluate(t, state, bundle, dydt, powers, 1) == 1
+        blocks.due[:] = 0
+        blocks.due[balls] = 1
+        assert core().jacobian(t, state, bundle, blocks) == 1
+        found: FloatArray = blocks.d.copy()
+        return found
+
+    everywhere = list(range(blocks.due.size))
+    whole, size = jacobian(y, everywhere), np.abs(blocks.d).max()
+    assert np.abs(jacobian(y, [3]) - whole).max() < 1e-12 * size
+    moved = y.copy()
+    moved[3 * L.NB] += 1e-7
+    changed = jacobian(moved, [3])
+    assert np.abs(changed - whole).max() > 0.0
+    assert np.abs(changed - jacobian(moved, everywhere)).max() < 1e-9 * size
+
+
+def test_energy_is_balanced_as_well_as_without_it(engine: WholeEngine) -> None:
+    """The same motion with every bearing evaluated every time: the balance closes, ends of iterations are as small."""
+    awake = WholeEngine(check_shaft(tables()))
+    awake._bundle.rows["bearing"], awake._bundle.bodies["bearing"] = 0, 0
+    awake._bundle = awake._bundle._replace(resting=np.zeros(1, dtype=np.int64), bearing_powers=np.zeros(1, R.RUNNING))
+    c = core()
+    awake._handle = c.make_context(
+        c.evaluate_pointer, c.jacobian_pointer, c.advance_pointer, c.observe_pointer, awake._bundle, awake._blocks,
+        awake._factors, awake._memory,
+    )  # fmt: skip
+    assert awake.advance(END).ok
+    counted = engine.statistics()
+    assert awake.statistics()["rests"] == 0
+    assert counted["rests"] > 0.1 * counted["newton_iterations"]
+    left, ends = [], []
+    for found in (engine, awake):
+        one = found.integrals()[0]
+        losses = sum(value for name, value in one.items() if name.startswith("loss."))
+        left.append(abs(one["input"] - losses - one["stored"]) / one["input_abs"])
+        ends.append(found.statistics()["iteration_work"] / one["input_abs"])
+    assert max(left) < 1e-4
+    assert ends[0] < 2.0 * ends[1]
