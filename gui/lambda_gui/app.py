@@ -142,11 +142,14 @@ class BuilderApp(CaseApp):
 
     def action_run_case(self) -> None:
         """Run the case as it stands, saved or not; a shaft moves with all its bearings."""
+        self.builder.when_checked(self._run_case)
+
+    def _run_case(self) -> None:
         builder = self.builder
         model = builder.check.resolved
         if model is None:
             count = len(builder.check.problems)
-            text = f"{count} mistake{'s' * (count != 1)} to mend first: F8" if count else "still checking"
+            text = f"{count} mistake{'s' * (count != 1)} to mend first: F8"
             self.notify(text, severity="warning", timeout=4)
             return
         self._queue_up(model.name, model.case_toml, "shaft" if builder.draft.is_shaft else "run")
@@ -165,6 +168,9 @@ class BuilderApp(CaseApp):
 
     def action_study(self) -> None:
         """Set up a study of the case; the option under the keyboard is the first that varies."""
+        self.builder.when_checked(self._set_up_study)
+
+    def _set_up_study(self) -> None:
         from lambda_gui.rows import Row
         from lambda_gui.study_screen import StudyScreen
 
@@ -181,6 +187,9 @@ class BuilderApp(CaseApp):
 
     def action_duty(self) -> None:
         """Set up a duty cycle of the case."""
+        self.builder.when_checked(self._set_up_duty)
+
+    def _set_up_duty(self) -> None:
         from lambda_gui.duty_screen import DutyScreen
         from lambda_gui.duty_values import COLUMNS
 

@@ -69,9 +69,8 @@ class BuilderScreen(LiveDraft):
     def __init__(self, draft: Draft) -> None:
         super().__init__(draft)
         self._form_timer: Timer | None = None
-        self._wanted: tuple[str, Keys] | None = (
-            None  # node and option that are to have the keyboard once its form stands
-        )
+        # node and option that are to have the keyboard once its form stands
+        self._wanted: tuple[str, Keys] | None = None
 
     # -- layout --
 
@@ -202,7 +201,9 @@ class BuilderScreen(LiveDraft):
         node = tree.node_at(keys) or node_of(Problem(".".join(keys), ""), tree.all_nodes())
         if node is None:
             return
-        if self.form is not None and self.form.node is node and self.form.is_ready:
+        at = tree.cursor_node  # where it has just gone to another node, the form of that one is still to come
+        is_here = at is not None and at.data is node
+        if is_here and self.form is not None and self.form.node is node and self.form.is_ready:
             self.form.show(keys)
             return
         self._wanted = (node.key, keys)

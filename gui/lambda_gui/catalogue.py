@@ -67,6 +67,7 @@ class CatalogueScreen(Screen[Taken | None]):
         self._bearings: list[BearingRow] = []
         self._lubricants: list[LubricantRow] = []
         self._timer: Timer | None = None
+        self._listed = ""  # what the list has been filtered by
 
     def compose(self) -> ComposeResult:
         """Lay out filter, list and details."""
@@ -114,6 +115,7 @@ class CatalogueScreen(Screen[Taken | None]):
     def find(self, keep: str = "") -> None:
         """Fill the list with what matches; `keep` is the name to stay on."""
         text, table = self.query_one(Input).value, self.query_one(DataTable)
+        self._listed = text
         table.clear()
         if self._kind == "bearing":
             self._bearings = self.catalogue.bearings(text, _MOST)
@@ -138,6 +140,11 @@ class CatalogueScreen(Screen[Taken | None]):
     def on_data_table_row_selected(self, event: DataTable.RowSelected) -> None:
         """Take a row that was clicked twice."""
         self.action_take()
+
+    def _catch_up(self) -> None:
+        """Filter now when keys have come faster than the filter."""
+        if self.query_one(Input).value != self._listed:
+            self.find()
 
     @property
     def _row(self) -> BearingRow | LubricantRow | None:
@@ -165,6 +172,7 @@ class CatalogueScreen(Screen[Taken | None]):
 
     def action_move(self, by: int) -> None:
         """Move in the list while the filter keeps the keyboard."""
+        self._catch_up()
         table = self.query_one(DataTable)
         table.move_cursor(row=max(0, min(table.row_count - 1, table.cursor_row + by)))
 
@@ -182,6 +190,7 @@ class CatalogueScreen(Screen[Taken | None]):
 
     def action_take(self) -> None:
         """Take the row into the case."""
+        self._catch_up()
         row = self._row
         if row is None:
             self.app.bell()
@@ -197,6 +206,7 @@ class CatalogueScreen(Screen[Taken | None]):
 
         from lambda_gui.own_row import OwnRow
 
+        self._catch_up()
         row = self._row
         if not isinstance(self.catalogue, SqlCatalogue):
             self.notify("another plugin provides the catalogue: rows cannot be added here", severity="warning")

@@ -173,6 +173,10 @@ class DutyScreen(Screen[None]):
         for line in self.query(PhaseLine):
             line.keep()
 
+    def _written(self) -> list[str]:
+        """Return what stands in the entries."""
+        return [entry.value for entry in self.query(Entry)]
+
     def cycle(self) -> dict[str, object]:
         """Return the cycle as it stands in the form."""
         self._keep()
@@ -191,6 +195,7 @@ class DutyScreen(Screen[None]):
     @work(exclusive=True, group="duty")
     async def _solve(self, cycle: dict[str, object]) -> None:
         self._say("solving every phase ...")
+        solved = self._written()
         shown, colours = self.query_one("#found", Static), self.app.theme_variables
         try:
             found = await self._helper.ask("duty", cycle=cycle, case_toml=self._model.case_toml)
@@ -198,7 +203,7 @@ class DutyScreen(Screen[None]):
             shown.update(Text(str(error), style=colours["error"]))
             return
         table, words = cycle_view(found, self.app.units, colours["warning"])  # type: ignore[attr-defined]
-        shown.set_class(False, "-old")
+        shown.set_class(self._written() != solved, "-old")
         shown.update(Group(table, Text(""), words))
         self.query_one("#sum").scroll_home(animate=False)
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from textual import work
 from textual.screen import Screen
 from textual.timer import Timer
+from textual.worker import get_current_worker
 
 from lambda_core.domain.errors import LambdaError
 from lambda_gui.around import CaseAround
@@ -43,6 +45,8 @@ class LiveDraft(Screen[None]):
         self._estimator = Estimator(self.show_estimate, "shaft" if draft.is_shaft else "estimate")
         self._checker = ShaftChecker() if draft.is_shaft else Checker()
         self._check_timer: Timer | None = None
+        self._changes, self._checked_changes = 0, -1  # how many there were, and when what was checked last began
+        self._after_check: Callable[[], None] | None = None
         self._has_told_faults = False
 
     def begin(self) -> None:
@@ -57,9 +61,23 @@ class LiveDraft(Screen[None]):
 
     def edited(self) -> None:
         """Check a change soon."""
+        self._changes += 1
         if self._check_timer is not None:
             self._check_timer.stop()
         self._check_timer = self.set_timer(_CHECK_AFTER, self._check_now)
+
+    @property
+    def is_checked(self) -> bool:
+        """Whether the last check is of the draft as it stands."""
+        return self._checked_changes == self._changes
+
+    def when_checked(self, then: Callable[[], None]) -> None:
+        """Do something with the draft as it stands: keys may come faster than checks."""
+        if self.is_checked:
+            then()
+        else:
+            self._after_check = then
+            self.notify("checking first", timeout=2)
 
     def catalogue_changed(self) -> None:
         """Look things up anew: rows may have been added."""
@@ -74,12 +92,19 @@ class LiveDraft(Screen[None]):
         """Show an estimate (of a shaft its equilibrium), or what is being done about it."""
         raise NotImplementedError
 
-    @work(thread=True, exclusive=True, group="check")
     def _check_now(self) -> None:
+        # A copy: the draft may change while a thread goes through it.
+        self._check(deepcopy(self.draft.tables), self.draft.folder, self._changes)
+
+    @work(thread=True, exclusive=True, group="check")
+    def _check(self, tables: Mapping[str, Any], folder: Path | None, changes: int) -> None:
+        worker = get_current_worker()
         begin = time.perf_counter()
-        found = self._checker.check(self.draft.tables, self.draft.folder)
+        found = self._checker.check(tables, folder)
         took = time.perf_counter() - begin
-        self.app.call_from_thread(self._checked, found, took)
+        if worker.is_cancelled:  # a newer check has begun, and may have ended before this one
+            return
+        self.app.call_from_thread(self._checked, found, took, changes)
         if not self._has_told_faults:
             self._has_told_faults = True
             self.app.call_from_thread(self._tell_faults, plugin_faults())
@@ -89,15 +114,18 @@ class LiveDraft(Screen[None]):
         for fault in faults:
             self.notify(fault, title="not in use", severity="warning", timeout=12)
 
-    def _checked(self, found: Check, took: float) -> None:
+    def _checked(self, found: Check, took: float, changes: int) -> None:
         # The check may come back while the screen is taken down.
         if not self.is_attached or not self.children:
             return
-        self.check, self.checked_in = found, took
+        self.check, self.checked_in, self._checked_changes = found, took, changes
         self.around.learn(found.values)
         self.show_check()
         if found.resolved is not None:
             self.run_worker(self._estimator.ask(deepcopy(self.draft.tables), self.draft.folder), group="estimate")
+        if self.is_checked and self._after_check is not None:
+            then, self._after_check = self._after_check, None
+            then()
 
     def _keep(self) -> None:
         """Keep unsaved work aside, so that a crash loses seconds."""

@@ -175,12 +175,13 @@ class StudyScreen(Screen[None]):
             self._tell("choose what varies: an option, and its first and last value", "dim")
             return
         try:
-            found = await self._helper.ask("study_cost", study=study, case_toml=self._model.case_toml)
+            found, fault = await self._helper.ask("study_cost", study=study, case_toml=self._model.case_toml), ""
         except LambdaError as error:
-            self._tell(str(error), self.app.theme_variables["error"])
-            return
-        self.is_fine = True
-        self._tell(found, "")
+            found, fault = "", str(error)
+        if study != study_tables(self.values):
+            return  # typed on meanwhile: checked again soon
+        self.is_fine = not fault
+        self._tell(fault or found, self.app.theme_variables["error"] if fault else "")
 
     def _tell(self, text: str, style: str) -> None:
         self.query_one("#cost", Static).update(Text(text, style=style))

@@ -86,7 +86,7 @@ class Browser:
         """Type a text."""
         raise NotImplementedError
 
-    async def until(self, words: str, *, without: str = "\0", seconds: float = 30.0) -> None:
+    async def until(self, words: str, *, without: str = "\0", seconds: float = 200.0) -> None:
         """Read until words stand on the terminal, and others do not."""
         end = time.monotonic() + seconds
         while words not in (shown := self.terminal.text()) or without in shown:
@@ -194,7 +194,7 @@ async def chromium(address: str, folder: Path) -> AsyncIterator[Browser]:
 
 async def _page(session: aiohttp.ClientSession, address: str) -> str:
     """Return the page once the server answers."""
-    end = time.monotonic() + 40.0
+    end = time.monotonic() + 200.0
     while True:
         try:
             async with session.get(address) as answer:

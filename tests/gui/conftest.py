@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,16 +12,15 @@ from lambda_gui.helper import Estimator
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from driving import HAND_WRITTEN
+from driving import HAND_WRITTEN, hear_every_key
 
 
 @pytest.fixture(scope="session", autouse=True)
-def seldom_rubbish() -> Iterator[None]:
-    """Look for rubbish seldom: going through all that these tests have loaded takes a third of their time."""
-    before = gc.get_threshold()
-    gc.set_threshold(100_000, 50, 50)
-    yield
-    gc.set_threshold(*before)
+def keys_are_heard() -> Iterator[None]:
+    """Go on after a key when it has been heard, however slow the machine."""
+    with pytest.MonkeyPatch.context() as patch:
+        hear_every_key(patch)
+        yield
 
 
 @pytest.fixture(autouse=True)

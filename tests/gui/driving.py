@@ -1,19 +1,27 @@
-"""Driving the builder by keyboard."""
+"""Driving the builder by keyboard.
+
+Nothing here takes a time for enough: a key has been heard when nothing is left to do, and what takes time (a check, a
+run, a timer) is waited for by what it does.
+"""
 
 from __future__ import annotations
 
+import asyncio
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
+import pytest
+import textual.app
+import textual.pilot
 from lambda_gui.app import BuilderApp
 from lambda_gui.builder import BuilderScreen
 from lambda_gui.rows import Row
 from lambda_gui.tree import ModelTree
+from textual import constants
+from textual._context import active_app
 from textual.command import CommandList, CommandPalette
-
-if TYPE_CHECKING:
-    from textual.pilot import Pilot
+from textual.pilot import Pilot
+from textual.screen import Screen
 
 HAND_WRITTEN = """\
 # Drive end of the fan.
@@ -38,13 +46,54 @@ speed = "1500 rpm"
 SMALL, LARGE = (80, 24), (160, 48)
 
 
-async def wait_for(pilot: Pilot[None], what: Callable[[], object], seconds: float = 20.0) -> None:
+_LONGEST = 200.0  # nothing takes so long on the slowest machine; pytest's own limit says less [s]
+
+
+async def at_rest(*_: float) -> None:
+    """Let all happen that waits neither for time nor for a thread: messages, callbacks, the picture.
+
+    Textual's own way takes a process that gets little of the processor for one that has nothing to do.
+    """
+    loop, app = asyncio.get_running_loop(), active_app.get()
+    for _ in range(1000):
+        await asyncio.sleep(0)
+        if loop._ready:  # type: ignore[attr-defined]
+            continue
+        if not app.screen_stack or not _is_to_be_drawn(app.screen):
+            return
+        app.screen._on_timer_update()
+    raise AssertionError("there is always something to do")
+
+
+def hear_every_key(patch: pytest.MonkeyPatch) -> None:
+    """Let Textual's pilot go on after a key when it has been heard; what would move is at its end at once."""
+
+    async def screen_at_rest(self: Pilot[None], timeout: float = 0.0) -> bool:
+        await at_rest()
+        return self.app._exception is None
+
+    patch.setattr(textual.app, "wait_for_idle", at_rest)
+    patch.setattr(textual.pilot, "wait_for_idle", at_rest)
+    patch.setattr(Pilot, "_wait_for_screen", screen_at_rest)
+    patch.setattr(constants, "TEXTUAL_ANIMATIONS", "none")
+
+
+def _is_to_be_drawn(screen: Screen[object]) -> bool:
+    if screen.app._batch_count or not screen.is_current:
+        return False
+    required = (screen._layout_required, screen._scroll_required, screen._repaint_required, screen._recompose_required)
+    return any(required) or bool(screen._dirty_widgets) or bool(screen._callbacks)
+
+
+async def wait_for(pilot: Pilot[None], what: Callable[[], object], seconds: float = _LONGEST) -> None:
     """Let the builder work until something is so."""
     end = time.monotonic() + seconds
+    await at_rest()
     while not what():
         if time.monotonic() > end:
             raise AssertionError(f"waited {seconds} s in vain; on screen:\n{screen_text(pilot.app)}")  # type: ignore[arg-type]
-        await pilot.pause(0.03)
+        await asyncio.sleep(0.02)
+        await at_rest()
 
 
 def screen_text(app: BuilderApp) -> str:
@@ -61,12 +110,12 @@ def builder(pilot: Pilot[None]) -> BuilderScreen:
 
 
 async def checked(pilot: Pilot[None]) -> None:
-    """Wait until the case, as it stands, has been checked."""
+    """Wait until the case, as it stands, has been checked, and what was found is shown."""
+    await at_rest()  # what the last key did
     screen = builder(pilot)
-    before = screen.check
     screen.edited()
-    await wait_for(pilot, lambda: screen.check is not before)
-    await pilot.pause(0.05)
+    await wait_for(pilot, lambda: screen.is_checked)
+    await at_rest()
 
 
 async def write(pilot: Pilot[None], text: str) -> None:

@@ -25,9 +25,10 @@ from driving import (
 )
 from lambda_gui import recovery
 from lambda_gui.app import BuilderApp
+from lambda_gui.builder import BuilderScreen
 from lambda_gui.checking import Checker
 from lambda_gui.choice import Choice
-from lambda_gui.dialogs import Ask
+from lambda_gui.dialogs import Ask, AskText
 from lambda_gui.help import HelpScreen
 from lambda_gui.tree import ModelTree
 from textual.pilot import Pilot
@@ -94,12 +95,9 @@ async def test_undo_and_redo_go_through_every_kind_of_row(hand_written: Path) ->
         draft = builder(pilot).draft
         assert draft.get("bearing", "clearance_pick") == "minimum"
         assert draft.get("depth") == {"cage": False, "strips": 21}
-        for _ in range(3):
-            await pilot.press("ctrl+z")
-            await pilot.pause(0.2)
+        await pilot.press(*["ctrl+z"] * 3)
         assert not draft.is_changed()
         await pilot.press("ctrl+y", "ctrl+y")
-        await pilot.pause(0.2)
         assert draft.get("depth") == {"cage": False}
 
 
@@ -108,7 +106,6 @@ async def test_a_load_over_time(hand_written: Path) -> None:
         await checked(pilot)
         await go_to(pilot, "loads.radial")
         await pilot.press("shift+tab", "enter", "down", "enter")  # value, ramp
-        await pilot.pause(0.3)
         draft = builder(pilot).draft
         assert draft.get("loads", "radial") == {"kind": "ramp", "start": "1.5 kN", "end": "1.5 kN"}
         await checked(pilot)
@@ -152,15 +149,12 @@ async def test_a_sum_of_loads_and_a_table_of_points(hand_written: Path) -> None:
         await checked(pilot)
         await go_to(pilot, "loads.axial")
         await pilot.press("shift+tab", "enter", "end", "enter")
-        await pilot.pause(0.3)
         draft = builder(pilot).draft
         assert draft.get("loads", "axial") == {"kind": "sum", "terms": ["200 N"]}
         await pilot.click("#add-term")
-        await pilot.pause(0.3)
         assert draft.get("loads", "axial", "terms") == ["200 N", "0 N"]
         await go_to(pilot, "loads.radial")
         await pilot.press("shift+tab", "enter", *["down"] * 3, "enter")
-        await pilot.pause(0.3)
         assert draft.get("loads", "radial") == {"kind": "table", "points": [["0 s", "1.5 kN"]]}
         await pilot.press("tab", "end", "enter")
         await write(pilot, "1 s, 2 kN")
@@ -176,7 +170,6 @@ async def test_a_ring_is_moved_and_supported(hand_written: Path) -> None:
         builder(pilot).go_to(("bodies", "inner_ring", "x"))
         await wait_for(pilot, lambda: focused_place(pilot) == ("bodies", "inner_ring", "x"))
         await pilot.press("enter", "down", "enter")  # free, free on a support
-        await pilot.pause(0.3)
         await pilot.press("down")
         await write(pilot, "10 N/um")
         assert draft.get("bodies", "inner_ring", "x") == {"mode": "free", "stiffness": "10 N/um"}
@@ -393,7 +386,7 @@ async def test_a_file_changed_elsewhere_is_not_overwritten_silently(hand_written
         await pilot.press("ctrl+s")
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, Ask))
         await pilot.press("enter")  # save under another name
-        await pilot.pause(0.2)
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, AskText))
         await pilot.press("ctrl+a", "ctrl+k")
         await write(pilot, "mine")
         await pilot.press("enter")
@@ -407,14 +400,14 @@ async def test_help_stands_on_every_screen(hand_written: Path) -> None:
         await checked(pilot)
         for way in ((), ("f2",), ("f7",), ("f6",)):
             await pilot.press(*way)
-            await pilot.pause(0.3)
+            assert isinstance(pilot.app.screen, BuilderScreen) != bool(way)
             await pilot.press("f1")
             await wait_for(pilot, lambda: isinstance(pilot.app.screen, HelpScreen))
             assert "Axes and signs" in screen_text(pilot.app)
             await pilot.press("escape")
             if way:
                 await pilot.press("escape")
-            await pilot.pause(0.1)
+            assert isinstance(pilot.app.screen, BuilderScreen)
 
 
 async def test_themes_and_resizing(hand_written: Path) -> None:
@@ -425,5 +418,4 @@ async def test_themes_and_resizing(hand_written: Path) -> None:
         assert pilot.app.theme != dark
         for size in (SMALL, (60, 16), LARGE, (200, 60)):
             await pilot.resize_terminal(*size)
-            await pilot.pause(0.1)
             assert "drive-end.toml" in screen_text(pilot.app)

@@ -118,7 +118,6 @@ async def test_a_row_of_ones_own_begins_as_a_copy(hand_written: Path) -> None:
         await wait_for(pilot, lambda: pilot.app.screen.query_one(DataTable).row_count == 1)
         await pilot.press("f4")
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, OwnRow))
-        await pilot.pause(0.3)
         rows = {row.place.keys: row for row in pilot.app.screen.query(Row)}
         rows[("value", "groove_radius_inner")].write("6.25 mm")
         await pilot.press("ctrl+s")  # refused: nobody knows where the value comes from

@@ -63,7 +63,7 @@ async def test_a_spectrum_is_written_added_up_and_saved(hand_written: Path) -> N
         await wait_for(pilot, lambda: len(screen.query("PhaseLine")) == 2)
         assert [phase.texts["loads.radial"] for phase in screen.phases] == ["4 kN", "1.5 kN"]
         await pilot.press("f5")
-        await wait_for(pilot, lambda: "together" in screen_text(pilot.app), 120.0)
+        await wait_for(pilot, lambda: "together" in screen_text(pilot.app))
         shown = screen_text(pilot.app)
         assert cut_on(pilot.app) == []
         assert "lost in a cycle of 8.00 h" in shown
@@ -85,5 +85,5 @@ async def test_what_is_wrong_with_a_phase_is_said(hand_written: Path) -> None:
         await pilot.press("f4")
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, DutyScreen))
         await pilot.press("tab", "tab", *"4 kg", "f5")
-        await wait_for(pilot, lambda: 'phase "work"' in screen_text(pilot.app), 60.0)
+        await wait_for(pilot, lambda: 'phase "work"' in screen_text(pilot.app))
         assert "loads.radial" in screen_text(pilot.app)

@@ -29,7 +29,6 @@ class Typist:
         """Press keys, one after the other."""
         self.keys += len(keys)
         await self._pilot.press(*keys)
-        await self._pilot.pause(0.05)
 
     async def find(self, begin: str, path: str) -> None:
         """Go to an option by the palette."""
@@ -61,16 +60,16 @@ async def test_from_nothing_to_a_report(work_folder: Path) -> None:
         await person.press("f5")
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, RunScreen))
         queue = pilot.app.queue  # type: ignore[attr-defined]
-        await wait_for(pilot, lambda: queue.runs[0].state not in ("waiting", "running"), 120.0)
+        await wait_for(pilot, lambda: queue.runs[0].state not in ("waiting", "running"))
         assert queue.runs[0].message == "converged"
         await person.press("enter")
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, ResultsScreen))
-        await wait_for(pilot, lambda: pilot.app.screen.chosen(), 60.0)  # type: ignore[attr-defined]
+        await wait_for(pilot, lambda: pilot.app.screen.chosen())  # type: ignore[attr-defined]
         await person.press("t")
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, AskText))
         await person.press("enter")
         page = work_folder / "electric-motor.html"
-        await wait_for(pilot, page.exists, 120.0)
+        await wait_for(pilot, page.exists)
     assert person.keys <= MOST, person.keys
     case = api.case(_written(work_folder))
     assert (case.bearing.designation, case.bearing.clearance) == ("6308", "C3")

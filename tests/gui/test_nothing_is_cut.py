@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import pytest
-from driving import SMALL, builder, checked, screen_text, wait_for
+from driving import SMALL, at_rest, builder, checked, focused_place, screen_text, wait_for
 from lambda_gui.app import BuilderApp
 from lambda_gui.catalogue import CatalogueScreen
 from lambda_gui.choice import Choice, PickList
@@ -48,13 +48,9 @@ def read(pilot: Pilot[None], where: str, within: Widget | None = None) -> list[s
 
 
 async def read_at_rest(pilot: Pilot[None], where: str) -> list[str]:
-    """Return what is cut once everything is laid out: what stays cut for a second and a half."""
-    for _ in range(15):
-        found = read(pilot, where)
-        if not found:
-            break
-        await pilot.pause(0.1)
-    return found
+    """Return what is cut once everything is laid out."""
+    await at_rest()
+    return read(pilot, where)
 
 
 async def read_forms(pilot: Pilot[None], wanted: Callable[[Node], bool]) -> list[str]:
@@ -133,11 +129,10 @@ async def test_an_empty_model_and_what_it_asks(work_folder: Path, size: tuple[in
         await checked(pilot)
         found += read(pilot, "mistakes")
         await pilot.press("f8")
-        await pilot.pause(0.2)
+        await wait_for(pilot, lambda: focused_place(pilot))
         found += read(pilot, "a required field")
         await pilot.press("ctrl+p", *"radial")
         await wait_for(pilot, lambda: "loads.radial_direction" in screen_text(pilot.app))
-        await pilot.pause(0.3)
         found += read(pilot, "palette")
         await pilot.press("escape")
         for question in (
@@ -176,7 +171,6 @@ async def test_the_catalogue(size: tuple[int, int]) -> None:
                 found += read(pilot, f"{screen._kind} {number}")
             await pilot.press("f4")
             await wait_for(pilot, lambda: isinstance(pilot.app.screen, OwnRow))
-            await pilot.pause(0.1)
             found += read(pilot, f"own {screen._kind}")
             await pilot.press("escape")
             await wait_for(pilot, lambda: isinstance(pilot.app.screen, CatalogueScreen))

@@ -99,7 +99,6 @@ async def test_a_case_opened_over_the_results_takes_the_place_of_the_one_below(h
         assert isinstance(app, BuilderApp)
         app.open("other.toml")
         await wait_for(pilot, lambda: builder(pilot).draft.path == Path("other.toml"))
-        await pilot.pause(0.1)
         await checked(pilot)
         assert app.screen is builder(pilot)
 

@@ -29,17 +29,17 @@ async def test_a_view_is_a_picture_or_text(combined_run: Result, hand_written: P
         await checked(pilot)
         await pilot.app.push_screen(ResultsScreen(combined_run.path.parent, combined_run.path))
         views = pilot.app.screen.query_one("#views", OptionList)
-        await wait_for(pilot, lambda: views.option_count > 3, 60.0)
+        await wait_for(pilot, lambda: views.option_count > 3)
         await pilot.press("down")
-        await wait_for(pilot, lambda: pilot.app.screen.query(HalfcellImage), 60.0)
+        await wait_for(pilot, lambda: pilot.app.screen.query(HalfcellImage))
         image = pilot.app.screen.query_one(HalfcellImage)
         room = pilot.app.screen.query_one("#content").size
         await wait_for(pilot, lambda: image.size.width > 20)
         assert image.size.width <= room.width
         assert image.size.height <= room.height
         await pilot.press("p")
-        await wait_for(pilot, lambda: not pilot.app.screen.query(HalfcellImage), 60.0)
-        await wait_for(pilot, lambda: "over azimuth" in screen_text(pilot.app), 60.0)
+        await wait_for(pilot, lambda: not pilot.app.screen.query(HalfcellImage))
+        await wait_for(pilot, lambda: "over azimuth" in screen_text(pilot.app))
 
 
 async def test_other_terminals_say_why_not(combined_run: Result, hand_written: Path) -> None:

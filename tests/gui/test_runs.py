@@ -13,8 +13,9 @@ import pytest
 from driving import LARGE, SMALL, builder, checked, find, go_to, screen_text, wait_for, write
 from lambda_gui import runs
 from lambda_gui.app import BuilderApp
+from lambda_gui.builder import BuilderScreen
 from lambda_gui.catalogue import CatalogueScreen
-from lambda_gui.dialogs import OpenCase
+from lambda_gui.dialogs import AskText, OpenCase
 from lambda_gui.helper import Helper
 from lambda_gui.results_screen import ResultsScreen
 from lambda_gui.run_screen import RunScreen
@@ -77,7 +78,7 @@ async def test_from_an_empty_model_to_a_result_by_keyboard(work_folder: Path) ->
         await write(pilot, "6208 syla")
         await wait_for(pilot, lambda: pilot.app.screen.query_one(DataTable).row_count == 1)
         await pilot.press("enter")
-        await pilot.pause(0.3)
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, BuilderScreen))
         for path, begin, text in (
             ("bearing.clearance", "bearing.cl", "14 um"),
             ("lubricant.name", "lubricant.n", "bode-m"),  # Enter takes the name that is proposed
@@ -92,7 +93,7 @@ async def test_from_an_empty_model_to_a_result_by_keyboard(work_folder: Path) ->
         await checked(pilot)
         assert not builder(pilot).check.problems
         await pilot.press("ctrl+s")
-        await pilot.pause(0.2)
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, AskText))
         await pilot.press("ctrl+a", "ctrl+k")
         await write(pilot, "mine")
         await pilot.press("enter")
@@ -100,11 +101,11 @@ async def test_from_an_empty_model_to_a_result_by_keyboard(work_folder: Path) ->
         await pilot.press("f5")
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, RunScreen))
         queue = pilot.app.queue
-        await wait_for(pilot, lambda: queue.runs[0].state not in ("waiting", "running"), 250.0)
+        await wait_for(pilot, lambda: queue.runs[0].state not in ("waiting", "running"))
         assert queue.runs[0].state == "done", queue.runs[0].message
         await pilot.press("enter")
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, ResultsScreen))
-        await wait_for(pilot, lambda: "friction torque" in screen_text(pilot.app), 60.0)
+        await wait_for(pilot, lambda: "friction torque" in screen_text(pilot.app))
         result = queue.runs[0].result
     written = api.case("mine.toml")
     assert written.loads.axial == 1300.0
@@ -170,9 +171,8 @@ async def test_traces_are_drawn_and_a_resize_in_the_middle_does_no_harm(
         await wait_for(pilot, lambda: pilot.app.queue.runs and len(pilot.app.queue.runs[0].history) > 5)
         for size in (LARGE, (60, 18), SMALL):
             await pilot.resize_terminal(*size)
-            await pilot.pause(0.3)
             assert "drive-end" in screen_text(pilot.app)
-        assert "friction torque [N mm]" in screen_text(pilot.app)
+        await wait_for(pilot, lambda: "friction torque [N mm]" in screen_text(pilot.app))
         assert pilot.app.queue.runs[0].is_active
         await pilot.press("escape")
         await go_to(pilot, "loads.axial")  # a run does not keep one from working
@@ -198,9 +198,9 @@ async def test_a_file_that_is_no_result_is_said(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
         await pilot.press("f6")
-        await wait_for(pilot, lambda: "is not a result file" in screen_text(pilot.app), 60.0)
+        await wait_for(pilot, lambda: "is not a result file" in screen_text(pilot.app))
         Path("broken.h5").unlink()
-        await wait_for(pilot, lambda: "no result files here" in screen_text(pilot.app), 60.0)
+        await wait_for(pilot, lambda: "no result files here" in screen_text(pilot.app))
 
 
 async def test_a_full_disk_loses_nothing(hand_written: Path) -> None:
@@ -217,7 +217,6 @@ async def test_a_full_disk_loses_nothing(hand_written: Path) -> None:
                 pilot.app.queue.add("case", "x" * 100, hand_written.parent)
         finally:
             resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
-        await pilot.pause(0.1)
         assert builder(pilot).draft.is_changed()
         assert hand_written.read_text(encoding="utf-8") == before
         assert [path.name for path in hand_written.parent.iterdir()] == [hand_written.name]
@@ -236,7 +235,7 @@ async def test_a_disk_that_fills_up_during_a_run_is_said(hand_written: Path) -> 
         finally:
             resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
         run = pilot.app.queue.runs[0]
-        await wait_for(pilot, lambda: run.state not in ("waiting", "running"), 250.0)
+        await wait_for(pilot, lambda: run.state not in ("waiting", "running"))
         assert run.state == "failed"
         assert "File too large" in run.message or "cannot write" in run.message
         await wait_for(pilot, lambda: run.message[:30] in screen_text(pilot.app))
@@ -262,7 +261,7 @@ async def test_a_run_does_not_keep_one_from_working(hand_written: Path) -> None:
         await checked(pilot)
         await pilot.press("f5")
         queue = pilot.app.queue
-        await wait_for(pilot, lambda: queue.runs and queue.runs[0].history, 250.0)
+        await wait_for(pilot, lambda: queue.runs and queue.runs[0].history)
         await pilot.press("escape")
         await go_to(pilot, "loads.axial")
         typing = asyncio.create_task(probe())
@@ -274,7 +273,7 @@ async def test_a_run_does_not_keep_one_from_working(hand_written: Path) -> None:
         await pilot.press("f7")
         await wait_for(pilot, lambda: "ball loads" in screen_text(pilot.app) or not queue.active)
         watching = asyncio.create_task(probe())
-        await wait_for(pilot, lambda: not queue.active, 120.0)
+        await wait_for(pilot, lambda: not queue.active)
         watching.cancel()
         assert queue.runs[0].state == "done", queue.runs[0].message
     print(f"longest piece of work: {1e3 * longest:.0f} ms")

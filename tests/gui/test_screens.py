@@ -114,7 +114,7 @@ async def test_all_numbers_that_follow_fit(hand_written: Path, estimates: None) 
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
         derived = pilot.app.screen.query_one(Derived)
-        await wait_for(pilot, lambda: derived.is_current, 240.0)
+        await wait_for(pilot, lambda: derived.is_current)
         for size, last in ((SMALL, "run ≈"), (LARGE, "run takes")):
             await pilot.resize_terminal(*size)
             await wait_for(pilot, lambda last=last: last in screen_text(pilot.app))

@@ -61,7 +61,7 @@ def test_nobody_else_is_served_and_a_port_in_use_is_said(served: str) -> None:
         if not other.startswith("127."):
             assert line.connect_ex((other, port)) != 0
     command = [sys.executable, "-m", "lambda_cli", "gui", "--serve", "--port", str(port)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
     assert done.returncode == 2
     assert "cannot serve" in done.stderr
 
@@ -138,7 +138,7 @@ async def build_and_run(browser: Browser) -> None:
     await browser.press("enter")
     await browser.until("untitled.toml", without="unsaved")
     await browser.press("f5")
-    await browser.until("✔  untitled", seconds=200.0)
+    await browser.until("✔  untitled")
     await browser.press("enter")
     await browser.until("power loss")  # the summary
     await browser.press("down")
@@ -146,7 +146,7 @@ async def build_and_run(browser: Browser) -> None:
     await browser.write("t")
     await browser.until("report into the file")
     await browser.press("enter")
-    await browser.until("untitled.html", seconds=90.0)
+    await browser.until("untitled.html")
 
 
 def saw_to_it(folder: Path) -> None:

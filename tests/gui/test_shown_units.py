@@ -31,7 +31,7 @@ async def test_results_and_numbers_that_follow_are_in_them(combined_run: Result,
         assert " in" in screen_text(pilot.app)
         assert "15.0" not in screen_text(pilot.app)
         await pilot.app.push_screen(ResultsScreen(combined_run.path.parent, combined_run.path))
-        await wait_for(pilot, lambda: "lbf in" in screen_text(pilot.app), 60.0)
+        await wait_for(pilot, lambda: "lbf in" in screen_text(pilot.app))
         shown = " ".join(screen_text(pilot.app).split())
         assert "N mm" not in shown
         assert "degF" in shown

@@ -30,7 +30,7 @@ Timed("6208-axial-1300").run(headless=True, size=(80, 24))
 def test_the_first_picture_stands_within_a_second_and_a_half() -> None:
     taken = []
     for _ in range(2):
-        done = subprocess.run([sys.executable, "-c", FIRST_PAINT], capture_output=True, text=True, timeout=60)
+        done = subprocess.run([sys.executable, "-c", FIRST_PAINT], capture_output=True, text=True, timeout=300)
         assert done.returncode == 0, done.stderr
         taken.append(float(done.stdout.split()[0]))
     assert min(taken) < 1.5  # seconds of the processor: other programs of the machine do not count
@@ -128,7 +128,7 @@ async def test_a_catalogue_that_cannot_be_opened_is_said(hand_written: Path, mon
             await checked(pilot)
             assert "no plugin provides a catalogue" in builder(pilot).check.problems[0].message
             await pilot.press("f2")
-            await pilot.pause(0.2)
+            await wait_for(pilot, lambda: pilot.app._notifications)
             assert pilot.app.is_running
     finally:
         manager.registry.cache_clear()
@@ -141,7 +141,7 @@ def test_without_a_terminal_it_says_what_to_do_instead() -> None:
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=300,
     )
     assert (answer.returncode, answer.stdout) == (2, "")
     assert answer.stderr == "the builder needs a terminal; lambda-bearing gui --serve shows it in a browser\n"

@@ -9,6 +9,7 @@ import pytest
 from driving import LARGE, SMALL, builder, checked, go_to, screen_text, wait_for, write
 from lambda_gui import result_files
 from lambda_gui.app import BuilderApp
+from lambda_gui.dialogs import AskText
 from lambda_gui.results_screen import ResultsScreen
 from lambda_gui.run_screen import RunScreen
 from lambda_gui.study_screen import StudyScreen
@@ -65,7 +66,7 @@ async def form(pilot: Pilot[None], path: str, *, is_fine: bool = True) -> StudyS
     screen = pilot.app.screen
     assert isinstance(screen, StudyScreen)
     if is_fine:
-        await wait_for(pilot, lambda: screen.is_fine, 60.0)
+        await wait_for(pilot, lambda: screen.is_fine)
     return screen
 
 
@@ -76,18 +77,17 @@ async def test_from_an_option_to_its_curve(hand_written: Path) -> None:
         assert not cut_on(pilot.app)
         await pilot.press("down", "down")
         await write(pilot, "3")
-        await wait_for(pilot, lambda: screen.is_fine and "3 points" in screen_text(pilot.app), 60.0)
+        await wait_for(pilot, lambda: screen.is_fine and "3 points" in screen_text(pilot.app))
         await pilot.press("f5")
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, RunScreen))
         queue = pilot.app.queue
-        await wait_for(pilot, lambda: queue.runs[0].state not in ("waiting", "running"), 120.0)
+        await wait_for(pilot, lambda: queue.runs[0].state not in ("waiting", "running"))
         assert queue.runs[0].is_complete, queue.runs[0].message
-        await pilot.pause(0.3)
-        assert "3/3 points" in screen_text(pilot.app)
+        await wait_for(pilot, lambda: "3/3 points" in screen_text(pilot.app))
         assert not cut_on(pilot.app)
         await pilot.press("enter")
         await wait_for(pilot, lambda: isinstance(pilot.app.screen, ResultsScreen))
-        await wait_for(pilot, lambda: "3 points, 3 done" in screen_text(pilot.app), 60.0)
+        await wait_for(pilot, lambda: "3 points, 3 done" in screen_text(pilot.app))
         assert "drive-end-speed/" in screen_text(pilot.app)
         views = pilot.app.screen.query_one(OptionList)
         await wait_for(pilot, lambda: views.option_count > 3)
@@ -104,11 +104,9 @@ async def test_what_is_wrong_is_said_and_nothing_runs(hand_written: Path) -> Non
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         screen = await form(pilot, "loads.radial", is_fine=False)
         await write(pilot, "1 rpm")
-        await wait_for(pilot, lambda: "rpm" in str(screen.query_one("#cost").render()), 60.0)
-        await pilot.pause(0.2)
+        await wait_for(pilot, lambda: "rpm" in str(screen.query_one("#cost").render()))
         assert not screen.is_fine
         await pilot.press("f5")
-        await pilot.pause(0.2)
         assert pilot.app.screen is screen
         assert not pilot.app.queue.runs
 
@@ -117,7 +115,7 @@ async def test_a_study_is_saved_for_the_shell(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await form(pilot, "operation.speed", is_fine=False)
         await pilot.press("ctrl+s")
-        await pilot.pause(0.2)
+        await wait_for(pilot, lambda: isinstance(pilot.app.screen, AskText))
         await pilot.press("enter")
         file = hand_written.with_name("drive-end-speed.toml")
         await wait_for(pilot, file.exists)
@@ -142,7 +140,7 @@ async def test_two_results_say_what_differs(
         views = screen.query_one(OptionList)
         await wait_for(pilot, lambda: views.option_count > 3)
         await pilot.press("tab", "up", "up", "space", "down", "space")
-        await wait_for(pilot, lambda: "static safety" in screen_text(pilot.app) or screen._view == "what differs", 30.0)
+        await wait_for(pilot, lambda: "static safety" in screen_text(pilot.app) or screen._view == "what differs")
         await wait_for(pilot, lambda: "bearing.designation" in screen_text(pilot.app))
         shown = screen_text(pilot.app)
         assert "6319" in shown

@@ -21,13 +21,15 @@ BUILDER = """
 import asyncio, json, sys
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
-from driving import HAND_WRITTEN, LARGE, builder, checked, go_to, screen_text, wait_for, write
+from driving import HAND_WRITTEN, LARGE, builder, checked, go_to, hear_every_key, screen_text, wait_for, write
 from lambda_gui.app import BuilderApp
 from lambda_gui.catalogue import CatalogueScreen
 from lambda_gui.choice import PickList
 from lambda_gui.results_screen import ResultsScreen
 from textual.widgets import DataTable, OptionList
+import pytest
 
+hear_every_key(pytest.MonkeyPatch())
 Path("case.toml").write_text(HAND_WRITTEN, encoding="utf-8")
 seen = {}
 
@@ -52,12 +54,11 @@ async def drive():
         await pilot.press("escape")
         pilot.app.push_screen(ResultsScreen(Path.cwd(), Path("run.h5")))
         await wait_for(pilot, lambda: pilot.app.screen.query("#views"))
-        await pilot.pause(0.3)
         views = pilot.app.screen.query_one("#views", OptionList)
-        await wait_for(pilot, lambda: views.option_count > 5, 60.0)
+        await wait_for(pilot, lambda: views.option_count > 5)
         names = [str(views.get_option_at_index(i).id) for i in range(views.option_count)]
         views.highlighted = next(i for i, name in enumerate(names) if "load-share" in name)
-        await wait_for(pilot, lambda: "Stribeck, no clearance" in screen_text(pilot.app), 60.0)
+        await wait_for(pilot, lambda: "Stribeck, no clearance" in screen_text(pilot.app))
         seen["view"] = screen_text(pilot.app)
 
 asyncio.run(drive())
