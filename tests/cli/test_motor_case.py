@@ -24,11 +24,11 @@ def test_from_nothing_to_a_report(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    begun = time.monotonic()
+    begun = time.process_time()  # what else the machine does not counted
     for command in COMMANDS:
         assert main(command) == 0, capsys.readouterr().err
     assert len(COMMANDS) <= MOST_COMMANDS
-    assert time.monotonic() - begun < MOST_SECONDS
+    assert time.process_time() - begun < MOST_SECONDS
     page = Path("motor.html").read_text(encoding="utf-8")
     for words in ("6308 C3 (SKF)", "power loss", "rating life L10rh", "static safety", "kappa", "Fan"):
         assert words in page

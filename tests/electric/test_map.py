@@ -134,7 +134,7 @@ def test_killed_map_goes_on_to_the_same_bits(alone: Path, tmp_path: Path, warm: 
         f"import os; os.setsid(); {PROGRAM}", "electric-map", CASE, *options, "--folder", str(folder), "--quiet",
         "--executor", "here",
     )  # fmt: skip
-    end = time.monotonic() + 120.0
+    end = time.monotonic() + 400.0
     while not 0 < done(folder) < POINTS and map_.poll() is None:
         assert time.monotonic() < end
         time.sleep(0.01)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 import random
-import time
+import signal
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -64,8 +65,9 @@ def test_a_result_deleted_during_the_run_is_said(warm: Warm, tmp_path: Path) -> 
     process = warm.start(FAKE_RUN, "run", str(path), json.dumps(wanted))
     while not path.exists():
         assert process.poll() is None
-    time.sleep(0.2)
+    os.kill(process.pid, signal.SIGSTOP)  # it must not reach its end before
     path.unlink()
+    os.kill(process.pid, signal.SIGCONT)
     _, errors = process.communicate()
     assert process.returncode == 5
     assert "was deleted, renamed or replaced during the run" in errors

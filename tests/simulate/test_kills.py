@@ -57,6 +57,13 @@ def wait_for_life(path: Path, process: Started) -> None:
         time.sleep(0.01)
 
 
+def wait_for_samples(path: Path, process: Started) -> None:
+    """Wait until there is something to lose."""
+    while not path.exists() or api.result(path).status().rows.samples < 2:
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.01)
+
+
 def is_beginning_of(found: Series, whole: Series) -> None:
     """Check that what a killed run left behind is the beginning of the undisturbed one, bit for bit."""
     for name in set(found) - {"integrals"}:  # the last record may stand between two of the grid
@@ -73,7 +80,9 @@ def kill_and_resume(warm: Warm, path: Path, chance: random.Random, whole: Series
     verb, kills, midway = "run", 0, 0
     for _ in range(KILLS):
         process = start(warm, verb, path)
-        if chance.random() > EARLY:
+        if kills == 0:
+            wait_for_samples(path, process)
+        elif chance.random() > EARLY:
             wait_for_life(path, process)
         time.sleep(chance.uniform(0.0, LONGEST))
         process.kill()

@@ -152,7 +152,7 @@ def test_points_that_cannot_work_are_warned_of(write: Write) -> None:
     assert estimate.points == 6
     assert estimate.warnings
     assert "bearing.clearance = 9000 um: bearing.clearance" in estimate.warnings[0]
-    assert 0.0 < estimate.seconds_per_point < 20.0
+    assert 0.0 < estimate.seconds_per_point < 200.0
     assert estimate.wall_s > 6 * estimate.seconds_per_point / 2
 
 

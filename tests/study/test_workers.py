@@ -103,7 +103,7 @@ def start(warm: Warm) -> Start:
     return started
 
 
-def wait_for(condition: Callable[[], bool], seconds: float = 120.0) -> None:
+def wait_for(condition: Callable[[], bool], seconds: float = 400.0) -> None:
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end, "it did not happen"
@@ -112,6 +112,11 @@ def wait_for(condition: Callable[[], bool], seconds: float = 120.0) -> None:
 
 def files(folder: Path) -> int:
     return len(list((folder / "runs").glob("[!.]*.h5"))) if (folder / "runs").is_dir() else 0
+
+
+def is_under_way(folder: Path) -> bool:
+    """Tell whether a run has written samples: by then it listens to signals."""
+    return any(api.result(path).status().rows.samples > 1 for path in (folder / "runs").glob("[!.]*.h5"))
 
 
 def _further(folder: Path, runs: int, study: Any) -> bool:
@@ -175,7 +180,7 @@ def test_a_lost_worker_loses_no_point(start: Start, write: Write, tmp_path: Path
         workers = children(study.pid)
         assert workers
         os.kill(workers[0], signal.SIGKILL)
-        assert study.wait(timeout=200) is not None
+        assert study.wait(timeout=600) is not None
     finally:
         if study.poll() is None:
             os.killpg(study.pid, signal.SIGKILL)
@@ -193,7 +198,7 @@ def test_workers_do_not_outlive_their_director(start: Start, write: Write, tmp_p
     assert workers
     os.kill(study.pid, signal.SIGKILL)  # the director alone
     study.wait()
-    wait_for(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers), 20.0)
+    wait_for(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers))
     assert api.study_status(folder).pending == 4
 
 
@@ -202,9 +207,9 @@ def test_ctrl_c_stops_the_runs_in_hand_and_begins_no_other(start: Start, write: 
     text = RUNS.format(duration="5 s", speeds=2, loads=2)
     study = start("run", write(text), "--out", str(folder), "--workers", "1")
     wait_for(lambda: files(folder) > 0 or study.poll() is not None)
-    time.sleep(1.0)  # the run is under way
+    wait_for(lambda: is_under_way(folder) or study.poll() is not None)
     os.kill(study.pid, signal.SIGINT)
-    assert study.wait(timeout=100) == 130
+    assert study.wait(timeout=600) == 130
     assert api.study_status(folder).pending == 4
     assert files(folder) == 1  # tasks that waited behind it were not begun
     (path,) = (folder / "runs").glob("[!.]*.h5")

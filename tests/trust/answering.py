@@ -72,7 +72,7 @@ class Answer:
     said: str
 
 
-def _spent(pid: int) -> float:
+def time_of(pid: int) -> float:
     """Return the time of the processor of a process [s]; nothing where it has gone."""
     try:
         fields = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
@@ -90,16 +90,16 @@ def answer(state: State, number: int, folder: Path, environment: dict[str, str])
     assert process.stderr is not None
     while process.poll() is None and state.file and not list(folder.glob(state.file)):
         time.sleep(0.01)
-    from_here = _spent(process.pid) if state.file else 0.0
-    while process.poll() is None and _spent(process.pid) - from_here < state.after:
+    from_here = time_of(process.pid) if state.file else 0.0
+    while process.poll() is None and time_of(process.pid) - from_here < state.after:
         time.sleep(0.01)
     if process.returncode is not None:
         raise RuntimeError(f"{state.name}: ended before the signal: {process.stderr.read()}")
-    before, start = _spent(process.pid), time.monotonic()
+    before, start = time_of(process.pid), time.monotonic()
     process.send_signal(number)
     said = process.stderr.read()
     os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)  # its times can be read until somebody asks for its end
-    wall, spent = time.monotonic() - start, _spent(process.pid) - before
+    wall, spent = time.monotonic() - start, time_of(process.pid) - before
     code = process.wait()
     return Answer(wall, spent, code, said.strip().splitlines()[-1] if said.strip() else "")
 

@@ -128,7 +128,7 @@ def test_c2_3_nothing_is_imported_from_the_working_directory(tmp_path: Path) -> 
     )
     for arguments in (["plugins", "check", "damping"], ["study", "run", "s.toml", "--workers", "2", "--quiet"]):
         done = subprocess.run(
-            [script, *arguments], cwd=tmp_path, capture_output=True, text=True, timeout=250, check=False
+            [script, *arguments], cwd=tmp_path, capture_output=True, text=True, timeout=800, check=False
         )
         assert done.returncode == 0, done.stderr
     assert not (tmp_path / "imported").exists()

@@ -285,7 +285,7 @@ def test_a4_a_slow_import_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
         return package(lambda_methods=Method("fine", "", "none", printing, method_api=1)).load()  # type: ignore[return-value]
 
     (note,) = discover([Source("late", "1.0", "main", load)]).notes
-    assert (note.distribution, "its import took 0." in note.message) == ("late 1.0", True)
+    assert (note.distribution, "its import took " in note.message) == ("late 1.0", True)
 
 
 class Rude(Parameters):

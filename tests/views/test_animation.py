@@ -204,6 +204,6 @@ try:
 except api.UsageError as error:
     print(error)
 """
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=100)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=600)
     assert 'pip install "lambda-bearing[animation]"' in done.stdout
     assert "--out NAME.gif" in done.stdout
