@@ -46,13 +46,19 @@ class Strips(NamedTuple):
     halves: FloatArray  # polynomials over the halves of octaves, 13 coefficients each
 
 
+@functools.cache
+def _gauss() -> tuple[FloatArray, FloatArray]:
+    """Return cos t at 400 Gauss points and their weights: finding them takes twenty times the sum itself."""
+    nodes, weights = np.polynomial.legendre.leggauss(400)
+    return np.cos(0.25 * math.pi * (nodes + 1.0)), weights
+
+
 def strip_sum(q: FloatArray) -> FloatArray:
     """Return the integral of sqrt(1 - s^2) [1 + q^5 (1 - s^2)^5]^-0.1 ds over -1..1.
 
     By 400 Gauss points in t, s = sin t, where the integrand is smooth up to the ellipse's tips.
     """
-    nodes, weights = np.polynomial.legendre.leggauss(400)
-    cosine = np.cos(0.25 * math.pi * (nodes + 1.0))
+    cosine, weights = _gauss()
     strips = cosine**2 * (1.0 + (np.multiply.outer(q, cosine**2)) ** 5) ** -0.1
     found: FloatArray = strips @ (0.5 * math.pi * weights)
     return found
