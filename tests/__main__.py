@@ -13,6 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
 PYTHON = sys.executable
+PACKAGES = ("lambda_core", "plugins", "db", "gui", "cli")
 # Where tests/conftest.py keeps compiled code.
 CACHE = ROOT / ".pytest_cache" / "d" / "lambda-bearing"
 
@@ -25,6 +26,8 @@ def parts(arguments: list[str]) -> dict[str, list[str]]:
         "format": [PYTHON, "-m", "ruff", "format", "--check", "."],
         "mypy": [PYTHON, "-m", "mypy"],
         "layers": [layers],
+        # Read by every program that the tests start, also where nothing writes it while programs run.
+        "bytecode": [PYTHON, "-m", "compileall", "-q", *PACKAGES],
         # Once, before two processes of tests would do it side by side.
         "compile": [PYTHON, "-m", "lambda_cli", "warmup", "--quiet"],
         # One file stays in one process: what a file prepares for its tests is prepared once.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -38,6 +39,15 @@ def own_folders(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPat
         patch.setenv("LAMBDA_BEARING_CACHE", str(request.config.cache.mkdir("lambda-bearing")))
         patch.setenv("LAMBDA_BEARING_DATA", str(root / "data"))
         yield root
+
+
+@pytest.fixture(scope="session", autouse=True)
+def seldom_rubbish() -> Iterator[None]:
+    """Look for rubbish seldom: going through all that tests have loaded takes a third of the time of some."""
+    before = gc.get_threshold()
+    gc.set_threshold(100_000, 50, 50)
+    yield
+    gc.set_threshold(*before)
 
 
 @pytest.fixture
