@@ -107,6 +107,7 @@ def shortfalls(solver: Solver, chosen: Window, residual: float, together: float 
             found.append(
                 f"the friction torque is known to {_beyond(100 * share, 100 * TORQUE_TOLERANCE)} % (95 % half-width "
                 f"over {torque.count} cage revolutions), at most {100 * TORQUE_TOLERANCE:g} % is allowed"
+                + (f", or {100 * NEGLIGIBLE * TORQUE_TOLERANCE:g} % of the torque of all bearings" if together else "")
             )
     if not abs(residual) <= ENERGY_TOLERANCE:
         what = _beyond(residual, ENERGY_TOLERANCE)
