@@ -74,14 +74,14 @@ _ROWS: tuple[tuple[str, Callable[[BearingOnShaft], str]], ...] = (
 def report_text(report: ShaftReport, width: int | None = None) -> str:
     """Return what one equilibrium says: the bearings side by side, then the shaft."""
     names = [bearing.name for bearing in report.bearings]
-    cells = {head: [value(bearing) for bearing in report.bearings] for head, value in _ROWS}
-    wide = max(_COLUMN, 1 + max(len(text) for row in (names, *cells.values()) for text in row))
+    cells = [(head, [value(bearing) for bearing in report.bearings]) for head, value in _ROWS]
+    wide = max(_COLUMN, 1 + max(len(text) for row in (names, *(row for _, row in cells)) for text in row))
     lines = [
         f"{report.case}, {report.speed_rpm:.5g} 1/min",
         "",
         f"{'':<{_HEAD}}" + "".join(f"{n:>{wide}}" for n in names),
     ]
-    table = [f"{head:<{_HEAD}}" + "".join(f"{text:>{wide}}" for text in row) for head, row in cells.items()]
+    table = [f"{head:<{_HEAD}}" + "".join(f"{text:>{wide}}" for text in row) for head, row in cells]
     return "\n".join([*lines, *table, "", *wrapped(_shaft_lines(report), width)])
 
 

@@ -82,6 +82,26 @@ def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) 
     assert "Q_max N" in report.text(80)
     with pytest.raises(api.UsageError, match=r"\.json or \.csv"):
         api.write_stiffness(report, folder / "k.txt")
+    check_text(report)
+
+
+def check_text(report: api.ShaftReport) -> None:
+    """The table for people has every direction of every vector: rows of y and z stand below that of x."""
+    lines = report.text(80).splitlines()
+    vectors = {
+        "force on shaft x N": lambda one: one.force_N,
+        "displacement x um": lambda one: one.displacement_um,
+        "stiffness x N/um": lambda one: [1e-6 * one.stiffness[row][row] for row in range(3)],
+        "damping x N s/m": lambda one: [one.damping[row][row] for row in range(3)],
+        "moment about y N m": lambda one: one.moment_Nm,
+        "misalignment y mrad": lambda one: one.misalignment_mrad,
+    }
+    for head, vector in vectors.items():
+        first = next(number for number, line in enumerate(lines) if line.startswith(head))
+        expected = zip(*(vector(one) for one in report.bearings), strict=True)
+        for offset, values in enumerate(expected):
+            said = [float(text) for text in lines[first + offset].split()[-len(values) :]]
+            assert said == pytest.approx(list(values), rel=6e-3, abs=5e-5), lines[first + offset]
 
 
 def test_every_mistake_at_once(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
