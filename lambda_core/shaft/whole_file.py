@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from datetime import UTC, datetime
@@ -14,9 +15,10 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import Channel
+from lambda_core.domain.errors import UsageError
 from lambda_core.results.checkpoint import Checkpoint, latest
 from lambda_core.results.file_format import STATUS_BYTES
-from lambda_core.results.hdf5 import open_for_reading, reason
+from lambda_core.results.hdf5 import beside, open_for_reading, reason
 from lambda_core.results.opening import ResultError
 from lambda_core.results.run_status import Rows, Status
 from lambda_core.results.writer import DiskError
@@ -78,9 +80,23 @@ class WholeWriter:
 
     @classmethod
     def continued(cls, path: Path, rows: int) -> WholeWriter:
-        """Go on behind the first `rows` samples."""
-        file = h5py.File(path, "r+", libver="latest")
-        return cls(path, file, rows)
+        """Go on behind the first `rows` samples; what came after them is dropped.
+
+        The file is copied first: one whose writer was killed can be read, not written.
+        """
+        made, sampled = beside(path), {channel.name for channel in CHANNELS}
+        try:
+            with open_for_reading(path) as source, h5py.File(made, "w", libver="latest") as target:
+                target.attrs.update(source.attrs)
+                for name, data in source.items():
+                    values = data[:rows] if name in sampled else data[()]
+                    copied = target.create_dataset_like(name, data, shape=np.shape(values), data=values)
+                    copied.attrs.update(data.attrs)
+            os.replace(made, path)
+        except (OSError, RuntimeError, KeyError, ValueError) as error:
+            made.unlink(missing_ok=True)
+            raise UsageError(f"cannot write a copy of {path} beside it: {reason(error)}") from None
+        return cls(path, h5py.File(path, "r+", libver="latest"), rows)
 
     def add(self, samples: Mapping[str, FloatArray]) -> None:
         """Take samples."""

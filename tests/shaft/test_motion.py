@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 import pytest
 from lambda_cli.main import main
@@ -169,14 +172,23 @@ def test_a_shaft_that_twists() -> None:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a folder with a case and a run of 6 ms of it that went on to 9 ms."""
+    """Return a folder with a case and a run of 6 ms of it that went on to 9 ms, as after a kill."""
     found = tmp_path_factory.mktemp("motion")
     (found / "box.toml").write_text(fresh_shaft("box"))
     arguments = ["--set", 'discs.wheel.unbalance="50 g mm"', "--quiet", "--run"]
     part = str(found / "part")
     assert main(["shaft", str(found / "box.toml"), *arguments, "--out", part, "--duration", "6 ms"]) == 5
+    abandon(found / "part" / "shaft.h5")
     assert main(["resume", part, "--quiet", "--duration", "9 ms"]) == 5
     return found
+
+
+def abandon(path: Path) -> None:
+    """Leave a file as a killed writer does: still marked as open, so that HDF5 lets nobody write to it."""
+    kill = "import h5py, os, sys; f = h5py.File(sys.argv[1], 'r+', libver='latest'); f.swmr_mode = True; os._exit(0)"
+    subprocess.run([sys.executable, "-c", kill, str(path)], check=True)
+    with pytest.raises(OSError, match="already open for write"):
+        h5py.File(path, "r+", libver="latest")
 
 
 def test_a_run_says_what_it_found(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
