@@ -42,7 +42,7 @@ def problems(ordinary: dict[str, Any], thermal: dict[str, Any], **more: Any) -> 
             "thermal.links.foot.between",
             "nearest: housing",
         ),
-        ({"links": {"foot": LINK | {"between": ["housing"]}}}, "thermal.links.foot.between", "at least 2"),
+        ({"links": {"foot": LINK | {"between": ["housing"]}}}, "thermal.links.foot.between", "needs 2 at least"),
         ({"links": {"foot": LINK | {"between": ["oil", "oil"]}}}, "thermal.links.foot.between", "two different nodes"),
         ({"links": {"foot": LINK | {"conductance": "2 W"}}}, "thermal.links.foot.conductance", "thermal_conductance"),
         (

@@ -293,7 +293,7 @@ def arrow_solve(bl, fa, r):
         _solve_forward(row, reach, fa, r, own, n)
         for i in range(n):
             shared[columns[i]] = own[i]
-    if is_split(reach, shared.size):
+    if is_split(reach, fa.schur.shape[0]):
         solve_condensed(fa.schur, reach, fa.dense, fa.packed, fa.schur_pivots, shared)
     elif shared.size > 0:
         lu_solve(fa.schur, fa.schur_pivots, shared)
