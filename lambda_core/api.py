@@ -33,7 +33,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.run.shaft_motion import is_shaft_run, shaft_motion_pictures, shaft_result, shaft_resume, shaft_run
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.run.speed_curve import stribeck, stribeck_picture
-    from lambda_core.shaft.export import write_stiffness
+    from lambda_core.shaft.export import stiffness_target, write_stiffness
     from lambda_core.shaft.resolving import check_shaft
     from lambda_core.shaft.ross import ross_rotor
     from lambda_core.shaft.shaft_calls import describe_shaft, init_shaft, is_shaft_file, shaft, shaft_pictures

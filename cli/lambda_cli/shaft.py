@@ -77,6 +77,8 @@ def shaft(
         tell(api.shaft_result(case), as_json=as_json)
         _draw(case, draw)
         return
+    if stiffness is not None:
+        api.stiffness_target(stiffness)
     with talk(progress, quiet) as speaker:
         model = api.check_shaft(case, changes or ())
         found = api.shaft(model, announce=speaker.say)

@@ -8,7 +8,7 @@ import json
 from pathlib import Path
 
 from lambda_core.domain.errors import UsageError
-from lambda_core.domain.files import check_target
+from lambda_core.domain.files import check_folder, check_target
 from lambda_core.shaft.shaft_report import AXES, ShaftReport
 
 _MATRICES = ("stiffness", "housed_stiffness", "damping", "housed_damping")
@@ -71,12 +71,35 @@ def write_stiffness(report: ShaftReport, path: str | Path) -> Path:
     UsageError
         When it ends otherwise, or cannot be written.
     """
+    target, kind = stiffness_target(path)
+    try:
+        target.write_text(stiffness_text(report, kind), encoding="utf-8")
+    except OSError as error:
+        raise UsageError(f'cannot write "{target}": {error.strerror}') from None
+    return target
+
+
+def stiffness_target(path: str | Path) -> tuple[Path, str]:
+    """Return where a stiffness is written, and as what; tried before the work whose result it is to hold.
+
+    Parameters
+    ----------
+    path : path-like
+        Its name ends in .json or .csv.
+
+    Returns
+    -------
+    tuple of (pathlib.Path, str)
+        The file, and "json" or "csv".
+
+    Raises
+    ------
+    UsageError
+        When its name ends otherwise, or nothing can be written there.
+    """
     target = Path(path)
     kind = target.suffix.lstrip(".").lower()
     if kind not in ("json", "csv"):
         raise UsageError(f'"{path}": stiffness is written as .json or .csv')
-    try:
-        check_target(target).write_text(stiffness_text(report, kind), encoding="utf-8")
-    except OSError as error:
-        raise UsageError(f'cannot write "{target}": {error.strerror}') from None
-    return target
+    check_folder(target.absolute().parent, target)
+    return check_target(target), kind

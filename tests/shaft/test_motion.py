@@ -230,6 +230,40 @@ def test_a_run_goes_on_bit_for_bit(folder: Path) -> None:
     assert np.array_equal(first.revolutions(), second.revolutions())
 
 
+def test_a_gear_and_an_unbalance_until_converged(tmp_path: Path) -> None:
+    """The 6208 and 6206 of `init --shaft`: every torque known to 1 %, energy to 1e-3; both as in their equilibrium."""
+    (tmp_path / "box.toml").write_text(fresh_shaft("box"))
+    model = api.check_shaft(tmp_path / "box.toml", ['discs.wheel.unbalance="50 g mm"'])
+    found = api.shaft_run(model, out=tmp_path / "run")
+    assert found.converged, found.reasons
+    assert abs(found.energy_residual) < 1e-3
+    at_rest = {one.name: one for one in api.shaft(model).bearings}
+    for one in found.bearings:
+        assert abs(np.linalg.norm(one.force_N) / np.linalg.norm(at_rest[one.name].force_N) - 1.0) < 0.01
+        assert one.friction_torque_Nmm == pytest.approx(at_rest[one.name].friction_torque_Nmm, rel=0.1)
+
+
+@pytest.mark.slow
+def test_six_bearings_on_one_shaft_until_converged(tmp_path: Path) -> None:
+    """Loaded between all of them, so that every bearing bears a load."""
+    free = {"support": {"x": "free"}}
+    case = {
+        "name": "six",
+        "operation": {"speed": "3000 rpm"},
+        "lubricant": {"name": "FVA3", "temperature": "70 degC"},
+        "shaft": {"sections": [{"length": "600 mm", "diameter": "40 mm"}]},
+        "bearings": {
+            f"b{i}": {"designation": "SKF 6208", "position": f"{50 + 100 * i} mm"} | (free if i else {})
+            for i in range(6)
+        },
+        "loads": {f"pull{i}": {"position": f"{100 + 100 * i} mm", "force_z": "-1000 N"} for i in range(5)},
+    }  # fmt: skip
+    found = api.shaft_run(api.check_shaft(case), out=tmp_path / "run", max_wall=900.0)
+    assert found.converged, found.reasons
+    assert abs(found.energy_residual) < 1e-3
+    assert sum(one.force_N[2] for one in found.bearings) == pytest.approx(5000.0, rel=0.02)
+
+
 def test_what_does_not_go_together(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     case = str(folder / "box.toml")
     for arguments, said in (

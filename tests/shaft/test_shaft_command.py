@@ -104,6 +104,17 @@ def check_text(report: api.ShaftReport) -> None:
             assert said == pytest.approx(list(values), rel=6e-3, abs=5e-5), lines[first + offset]
 
 
+@pytest.mark.parametrize("target", ["k.txt", "/nowhere/k.json", "/proc/k.csv"])
+def test_a_stiffness_that_cannot_be_written_is_said_before_solving(
+    folder: Path, target: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    capsys.readouterr()
+    assert main(["shaft", str(folder / "box.toml"), "--quiet", "--stiffness", target]) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert target in said.err
+
+
 def test_every_mistake_at_once(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "wrong.toml").write_text(WRONG)
     assert main(["check", str(folder / "wrong.toml")]) == 3
