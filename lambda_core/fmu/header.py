@@ -54,6 +54,7 @@ _CPUID = {
     "avx512vl": (7, 1, 31),
 }
 _WIDE = {"avx512": 0xE6, "avx": 0x6}  # registers that the system must keep for features that begin so
+_LOST_STEP = 1e-30  # [s] beside t = 0 shorter ones are numbers still, whose inverse squares are none
 _LONGEST_STEP = 1e3  # [s] an hour or so of computing
 _CALM = 0.1  # [s] after which a limit that is passed again is told again
 # What it looks at in a contact, to tell limits.
@@ -73,6 +74,7 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
         "CONTROL_STOP": control(frozen, "stop"),
         "SAMPLES_WAITING": image.place(frozen.memory.count) + _at(COUNT, "samples_waiting"),
         "ITERATIONS": image.place(frozen.memory.count) + _at(COUNT, "newton_iterations"),
+        "LOST_STEP": _LOST_STEP,
         "LONGEST_STEP": _LONGEST_STEP,
         "MOST_ITERATIONS": MOST_ITERATIONS,
         "MOST_ITERATIONS_PER_SECOND": MOST_ITERATIONS_PER_SECOND,

@@ -163,9 +163,11 @@ def test_states_and_instances(host: Any, exported: Export, tmp_path: Path, fmi: 
     assert first.unpack(bytes_[:-1], begin) == host.ERROR
     assert first.unpack(b"?" * len(bytes_), begin) == host.ERROR
     assert first.said[-1] == "these bytes are no state of this bearing"
-    for place in (64, len(bytes_) // 2, len(bytes_) - 1, 60):  # 60: in the sum itself
+    signs = (64 + 7, 64 + 8 * 900 + 7)  # of two numbers at once
+    for places in ((64,), (len(bytes_) // 2,), (len(bytes_) - 1,), (60,), signs):  # 60: in the sum itself
         damaged = bytearray(bytes_)
-        damaged[place] ^= 0x80
+        for place in places:
+            damaged[place] ^= 0x80
         assert first.unpack(bytes(damaged), begin) == host.ERROR
         assert "damaged on its way" in first.said[-1]
     assert first.do("Reset") == host.OK
@@ -199,12 +201,14 @@ def test_bad_use_is_answered_with_a_sentence(host: Any, exported: Export, tmp_pa
     bearing = host.Instance(unit)
     early = bearing.step(STEP)
     bearing.ready()
+    lost = bearing.step(1e-320)
     assert bearing.step(STEP) == host.OK
     trials = {
         "between initialisation and the end": early,
         "inner_ring.force_z is to be nan N: a finite number is due": bearing.set(PUSHED, math.nan),
         "bearing.loss is no input": bearing.set("bearing.loss", 1.0),
         "a positive, finite length is due": bearing.step(-STEP),
+        "from t = 0 s is lost in rounding": lost,
         "a step of 1e+300 s: 1000 s is the longest at once": bearing.step(1e300),
     }
     bearing.time -= STEP

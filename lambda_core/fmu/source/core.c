@@ -283,7 +283,7 @@ int lb_step(lb_bearing *b, double now, double step) {
   if (fabs(now - begin) > 1e-6 * step + 1e-12 * fabs(begin))
     return lb_say(b, LB_ERROR, "a step from t = %.9g s, but the bearing stands at %.9g s: %s", now, begin,
                   now < begin ? "to go back, restore a state" : "steps follow each other without a gap");
-  if (!(until > REAL(b, LB_CONTROL_TIME)))
+  if (!(until - REAL(b, LB_CONTROL_TIME) > LB_LOST_STEP))
     return lb_say(b, LB_ERROR, "a step of %g s from t = %.9g s is lost in rounding", step, now);
   b->stale = 1;
   int status = arrive(b, until);

@@ -30,12 +30,14 @@ int lb_restore(lb_bearing *b, const void *state) {
   return LB_OK;
 }
 
-/* FNV-1a over words of eight bytes: each step is one-to-one, so that a change of one word is never missed. */
+/* FNV-1a over words of eight bytes: each step is one-to-one, so that a change of one word is never missed. A product
+   carries upwards only; the upper half is brought down, or the signs of two numbers could change unseen. */
 static uint64_t check_sum(const unsigned char *image) {
   uint64_t found = 0xcbf29ce484222325u, word;
   for (size_t i = 0; i < LB_IMAGE_SIZE; i += sizeof word) {
     memcpy(&word, image + i, sizeof word);
     found = (found ^ word) * 0x100000001b3u;
+    found ^= found >> 32;
   }
   return found;
 }
