@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import re
+import shlex
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -80,6 +81,16 @@ def test_a_rotor_on_two_bearings_in_exudyn(example: Callable[[str], Any], tmp_pa
         assert np.array_equal(python.reactions, path.reactions[: len(python.time)])
     assert off[2] < 1e-3
     assert off[8] > 10.0 * off[2]  # a fourth of the step is at least a tenth of the error: order 1.7 and more
+
+
+def test_the_command_in_the_example_exports_its_case(example: Callable[[str], Any]) -> None:
+    """An FMU of another case begins elsewhere, and the rotor falls without a word."""
+    module = example("rotor_in_exudyn")
+    words = shlex.split(re.search(r"``(lambda-bearing .*?)``", module.__doc__, re.DOTALL)[1])  # type: ignore[index]
+    assert words[1:6] == ["export", "fmu", module.CASE, "--couple", "motion"]
+    said, due = (dict(text.split("=") for text in texts) for texts in (words[7::2], module.CHANGES))
+    assert float(said.pop("loads.radial").split()[0]) == pytest.approx(float(due.pop("loads.radial").split()[0]))
+    assert said == due
 
 
 def test_a_step_is_repeated_until_both_sides_agree(exported: Export, example: Callable[[str], Any]) -> None:
