@@ -5,8 +5,7 @@ or later.
 
 The FMU: ``lambda-bearing export fmu 6208-axial-1300 --couple motion --set loads.axial="0 N" --set loads.radial="98.1 N"
 --set gravity.z="0 m/s2" --set solver.duration="1 s" --set solver.accuracy=vibration --set solver.tolerance=1e-4``.
-One of
-another case begins elsewhere, and the rotor falls into its bearings.
+One of another case begins elsewhere, and the rotor falls into its bearings.
 
 Exudyn's trapezoidal rule moves a body in a step by the mean of its speeds at both ends, which is a motion at constant
 acceleration: with this the ring is led, and stands at the end where Exudyn has the shaft, as fast. As often as the rule
