@@ -227,7 +227,7 @@ class BuilderApp(CaseApp):
         if isinstance(self.screen, RunScreen):
             self.screen.follow()
         for screen in self.screen_stack:
-            if isinstance(screen, BuilderScreen) and screen.is_mounted:
+            if isinstance(screen, BuilderScreen) and screen.is_mounted and screen.is_here:
                 screen.refresh_head()
 
     def _run_ended(self, run: QueuedRun) -> None:

@@ -117,6 +117,8 @@ class BuilderScreen(LiveDraft):
 
     async def show_node(self, node: Node) -> None:
         """Put the form of a node in place, in one picture with what is written and what is wrong."""
+        if not self.is_here:
+            return
         if self.form is None or self.form.node is not node:
             form = NodeForm(node, self.draft, self.around)
             async with self.batch():
@@ -125,6 +127,8 @@ class BuilderScreen(LiveDraft):
                 gone = self.query("#right > NodeForm").remove()
                 await self.query_one("#right", Vertical).mount(form, before="#side")
                 await gone
+                if not self.is_here:
+                    return
                 form.reload(self.check.problems)
                 self._show_node_help(node)
                 self.query_one(Sketch).show_node(node)
@@ -244,7 +248,7 @@ class BuilderScreen(LiveDraft):
 
     def show_estimate(self, estimate: Any, say: str) -> None:
         """Show the numbers that follow."""
-        if self.is_attached:
+        if self.is_here:
             self.query_one(Derived).show_estimate(estimate, say)
 
     def action_undo(self) -> None:

@@ -71,6 +71,11 @@ class LiveDraft(Screen[None]):
         """Whether the last check is of the draft as it stands."""
         return self._checked_changes == self._changes
 
+    @property
+    def is_here(self) -> bool:
+        """Whether there is anything to show on: threads and timers also come back while the screen is taken down."""
+        return self.app.is_running and self.is_attached and self in self.app.screen_stack and bool(self.children)
+
     def when_checked(self, then: Callable[[], None]) -> None:
         """Do something with the draft as it stands: keys may come faster than checks."""
         if self.is_checked:
@@ -110,13 +115,14 @@ class LiveDraft(Screen[None]):
             self.app.call_from_thread(self._tell_faults, plugin_faults())
 
     def _tell_faults(self, faults: Sequence[str]) -> None:
+        if not self.is_here:
+            return
         self.app.stands()  # type: ignore[attr-defined]
         for fault in faults:
             self.notify(fault, title="not in use", severity="warning", timeout=12)
 
     def _checked(self, found: Check, took: float, changes: int) -> None:
-        # The check may come back while the screen is taken down.
-        if not self.is_attached or not self.children:
+        if not self.is_here:
             return
         self.check, self.checked_in, self._checked_changes = found, took, changes
         self.around.learn(found.values)

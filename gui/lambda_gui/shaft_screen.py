@@ -66,7 +66,7 @@ class ShaftScreen(BuilderScreen):
     def show_estimate(self, estimate: Any, say: str) -> None:
         """Show what the shaft does."""
         super().show_estimate(estimate, say)
-        if self.is_attached and estimate is not None:
+        if self.is_here and estimate is not None:
             self.query_one(ShaftSketch).show_report(estimate)
 
     def action_answer(self) -> None:

@@ -19,6 +19,7 @@ from lambda_gui.rows import Row
 from lambda_gui.tree import ModelTree
 from textual import constants
 from textual._context import active_app
+from textual.app import App
 from textual.command import CommandList, CommandPalette
 from textual.pilot import Pilot
 from textual.screen import Screen
@@ -72,6 +73,14 @@ def hear_every_key(patch: pytest.MonkeyPatch) -> None:
         await at_rest()
         return self.app._exception is None
 
+    shutdown = App._shutdown
+
+    async def as_when_a_person_quits(self: App[None]) -> None:
+        self._exit = True  # what App.exit says first, to all who come back late
+        self.workers.cancel_all()
+        await shutdown(self)
+
+    patch.setattr(App, "_shutdown", as_when_a_person_quits)
     patch.setattr(textual.app, "wait_for_idle", at_rest)
     patch.setattr(textual.pilot, "wait_for_idle", at_rest)
     patch.setattr(Pilot, "_wait_for_screen", screen_at_rest)

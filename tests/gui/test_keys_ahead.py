@@ -15,6 +15,7 @@ from lambda_gui.builder import BuilderScreen
 from lambda_gui.catalogue import CatalogueScreen
 from lambda_gui.checking import Check, Checker
 from lambda_gui.duty_screen import DutyScreen
+from lambda_gui.forms import NodeForm
 from lambda_gui.helper import Helper
 from lambda_gui.study_screen import StudyScreen
 
@@ -185,3 +186,21 @@ async def test_a_cycle_typed_on_leaves_its_sums_those_of_another(
         await wait_for(pilot, lambda: len(answers.asked) == 2)
         await answers.answer(1)
         assert not found.has_class("-old")
+
+
+async def test_a_check_that_comes_back_while_the_screen_goes(
+    hand_written: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    came_back = []
+
+    def gone(form: NodeForm) -> None:  # its own parts are gone already, the screen still stands
+        screen = form.screen
+        assert isinstance(screen, BuilderScreen)
+        screen.app._exit = False  # ended by its host, not by a person
+        screen._checked(screen.check, 0.0, 0)
+        came_back.append(form)
+
+    monkeypatch.setattr(NodeForm, "on_unmount", gone, raising=False)
+    async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
+        await checked(pilot)
+    assert came_back
