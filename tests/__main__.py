@@ -1,6 +1,6 @@
 """Everything that must hold, in one command: ``python -m tests [arguments of pytest]``.
 
-Style, types, layers, then the tests on two processes. Each part runs whatever the others said.
+Style, types and layers beside compiling, then the tests on two processes. Each part runs whatever the others said.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import os
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -16,37 +17,58 @@ PYTHON = sys.executable
 PACKAGES = ("lambda_core", "plugins", "db", "gui", "cli")
 # Where tests/conftest.py keeps compiled code.
 CACHE = ROOT / ".pytest_cache" / "d" / "lambda-bearing"
+LOOKING = {
+    "ruff": [PYTHON, "-m", "ruff", "check", "."],
+    "format": [PYTHON, "-m", "ruff", "format", "--check", "."],
+    "mypy": [PYTHON, "-m", "mypy"],
+    "layers": [str(Path(PYTHON).parent / "lint-imports")],
+}
+# Once, before two processes of tests would do it side by side.
+COMPILING = {
+    "bytecode": [PYTHON, "-m", "compileall", "-q", *PACKAGES],
+    "compile": [PYTHON, "-m", "lambda_cli", "warmup", "--quiet"],
+}
+COLLECTING = {"collect": [PYTHON, "-m", "pytest", "--collect-only", "-qq"]}
+# One file stays in one process: what a file prepares for its tests is prepared once.
+TESTING = {"pytest": [PYTHON, "-m", "pytest", "-n", "2", "--dist", "loadfile", "--no-loadscope-reorder"]}
 
 
-def parts(arguments: list[str]) -> dict[str, list[str]]:
-    """Return the commands by name."""
-    layers = str(Path(PYTHON).parent / "lint-imports")
-    return {
-        "ruff": [PYTHON, "-m", "ruff", "check", "."],
-        "format": [PYTHON, "-m", "ruff", "format", "--check", "."],
-        "mypy": [PYTHON, "-m", "mypy"],
-        "layers": [layers],
-        # Read by every program that the tests start, also where nothing writes it while programs run.
-        "bytecode": [PYTHON, "-m", "compileall", "-q", *PACKAGES],
-        # Once, before two processes of tests would do it side by side.
-        "compile": [PYTHON, "-m", "lambda_cli", "warmup", "--quiet"],
-        # One file stays in one process: what a file prepares for its tests is prepared once.
-        "pytest": [PYTHON, "-m", "pytest", "-n", "2", "--dist", "loadfile", *arguments],
-    }
+def environment() -> dict[str, str]:
+    """Return the environment of every part."""
+    # Every process of pytest rewrites assertions, its own and those of its plugins, unless it finds that done.
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    # One thread each, as the program itself has it: two processes share two cores.
+    return kept | {"LAMBDA_BEARING_CACHE": str(CACHE), "OPENBLAS_NUM_THREADS": "1"}
+
+
+def run(parts: dict[str, list[str]], *, is_shown: bool = False) -> list[str]:
+    """Run parts one after the other; return those that failed. What passes without being shown is told in a line."""
+    failed = []
+    pipe = None if is_shown else subprocess.PIPE
+    for name, command in parts.items():
+        print(f"== {name}: {' '.join(command[command[0] == PYTHON :])}", flush=True)
+        start = time.monotonic()
+        done = subprocess.run(
+            command, cwd=ROOT, env=environment(), check=False, text=True,
+            stdin=subprocess.DEVNULL, stdout=pipe, stderr=None if is_shown else subprocess.STDOUT,
+        )  # fmt: skip
+        took = f"{time.monotonic() - start:.0f} s"
+        if done.returncode == 0:
+            print(f"== {name}: ok in {took}", flush=True)
+        else:
+            print(f"{done.stdout or ''}== {name}: FAILED ({done.returncode}) in {took}", flush=True)
+            failed.append(name)
+    return failed
 
 
 def main() -> int:
     """Run every part; the exit code is 0 only if all of them passed."""
-    failed = []
-    for name, command in parts(sys.argv[1:]).items():
-        print(f"== {name}: {' '.join(command[1:] if name != 'layers' else command)}", flush=True)
-        start = time.monotonic()
-        # One thread each, as the program itself has it: two processes share two cores.
-        environment = os.environ | {"LAMBDA_BEARING_CACHE": str(CACHE), "OPENBLAS_NUM_THREADS": "1"}
-        code = subprocess.run(command, cwd=ROOT, env=environment, stdin=subprocess.DEVNULL, check=False).returncode
-        print(f"== {name}: {'ok' if code == 0 else f'FAILED ({code})'} in {time.monotonic() - start:.0f} s", flush=True)
-        if code != 0:
-            failed.append(name)
+    is_first = not any(ROOT.glob("tests/*/__pycache__/*-pytest-*.pyc"))
+    with ThreadPoolExecutor() as beside:
+        looking = beside.submit(run, LOOKING | (COLLECTING if is_first else {}))
+        compiling = beside.submit(run, COMPILING)
+    failed = looking.result() + compiling.result()
+    failed += run({name: [*command, *sys.argv[1:]] for name, command in TESTING.items()}, is_shown=True)
     if failed:
         print(f"failed: {', '.join(failed)}", file=sys.stderr)
     return 1 if failed else 0
