@@ -220,7 +220,7 @@ class BuilderApp(CaseApp):
             self.push_screen(RunScreen(self.queue, shown))
 
     def _poll_runs(self) -> None:
-        if not self.queue.poll():
+        if not self.is_running or not self.queue.poll():
             return
         from lambda_gui.run_screen import RunScreen
 

@@ -14,6 +14,7 @@ from textual.widgets import DataTable, Footer, Input, Static
 
 from lambda_core.domain.errors import LambdaError
 from lambda_gui.details import bearing_text, lubricant_text
+from lambda_gui.presence import is_here
 from lambda_gui.sketch import drawn
 from lambda_gui.taken import Kind, Taken, bearing_taken
 
@@ -155,6 +156,8 @@ class CatalogueScreen(Screen[Taken | None]):
     def _show_details(self) -> None:
         from lambda_db.drawing import section_of
 
+        if not is_here(self):
+            return
         row, about, drawing = self._row, self.query_one("#about", Static), self.query_one("#drawing", Static)
         drawing.display = self._kind == "bearing"
         if row is None:

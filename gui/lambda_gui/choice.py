@@ -19,6 +19,8 @@ from textual.widget import Widget
 from textual.widgets import OptionList, Static
 from textual.widgets.option_list import Option
 
+from lambda_gui.presence import is_here
+
 
 @dataclass(frozen=True)
 class Entry:
@@ -78,6 +80,8 @@ class PickList(ModalScreen[str | None]):
         self.call_after_refresh(self._place)
 
     def _place(self) -> None:
+        if not is_here(self):
+            return
         box = self.query_one(Vertical)
         width, height = box.outer_size
         x = max(0, min(self._at.x - 2, self.size.width - width))

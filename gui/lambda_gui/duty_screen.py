@@ -20,6 +20,7 @@ from lambda_gui.entry import Entry
 from lambda_gui.helper import Helper
 from lambda_gui.new_files import save_beside
 from lambda_gui.option_help import OptionHelp
+from lambda_gui.presence import is_here
 from lambda_gui.rows import Rows
 
 if TYPE_CHECKING:
@@ -96,7 +97,7 @@ class DutyScreen(Screen[None]):
         self._draft, self._model = draft, model
         self._usual = {TIME: FIRST_TIME} | usual
         self.phases = [Phase({NAME: "work", TIME: FIRST_TIME})]
-        self._helper = Helper(self._say)
+        self._helper = Helper(self._say, lambda: is_here(self))
 
     def compose(self) -> ComposeResult:
         """Lay out the spectrum over what comes of it."""
@@ -185,8 +186,7 @@ class DutyScreen(Screen[None]):
     # -- what comes of it --
 
     def _say(self, text: str) -> None:
-        if self.is_attached:
-            self.query_one("#found", Static).update(Text(text, style="dim italic"))
+        self.query_one("#found", Static).update(Text(text, style="dim italic"))
 
     def action_solve(self) -> None:
         """Solve every phase."""

@@ -13,6 +13,7 @@ from lambda_core.domain.unit_systems import UnitSystem
 from lambda_gui.dialogs import AskText
 from lambda_gui.helper import Helper
 from lambda_gui.new_files import save_new
+from lambda_gui.presence import is_here
 
 SUMMARY, DIFFERENCES = "summary", "what differs"  # words, no pictures
 
@@ -29,12 +30,8 @@ class ExportScreen(Screen[None]):
     def __init__(self, folder: Path) -> None:
         super().__init__()
         self._folder = folder
-        self._helper = Helper(self._say)
+        self._helper = Helper(self.say, lambda: is_here(self))
         self._view = SUMMARY
-
-    def _say(self, text: str) -> None:
-        if self.is_attached:
-            self.say(text)
 
     @property
     def _units(self) -> UnitSystem:

@@ -26,23 +26,36 @@ class Helper:
     ----------
     say : callable
         Called with a sentence about what is being done.
+    is_wanted : callable, optional
+        Tells whether anybody is left to be told: nothing is said to a screen that is being taken down.
     """
 
-    def __init__(self, say: Callable[[str], None]) -> None:
-        self._say = say
+    def __init__(self, say: Callable[[str], None], is_wanted: Callable[[], bool] = lambda: True) -> None:
+        self._say, self._is_wanted = say, is_wanted
         self._process: asyncio.subprocess.Process | None = None
         self._turn = asyncio.Lock()
         self._deaths = 0
         self._is_closed = False
 
     async def ask(self, work: str, **arguments: Any) -> Any:
-        """Have something done and return it.
+        """Have something done and return it; who is not there any more is cancelled instead.
 
         Raises
         ------
         LambdaError
             With a sentence: of the work itself, or about the process.
         """
+        try:
+            found = await self._answer(work, **arguments)
+        except LambdaError:
+            if self._is_closed or not self._is_wanted():
+                raise asyncio.CancelledError from None
+            raise
+        if not self._is_wanted():
+            raise asyncio.CancelledError
+        return found
+
+    async def _answer(self, work: str, **arguments: Any) -> Any:
         async with self._turn:
             process = await self._started()
             assert process.stdin is not None
@@ -55,10 +68,9 @@ class Helper:
                     kind, content = pickle.loads(await process.stdout.readexactly(size))
                     if kind != "say":
                         break
-                    self._say(content)
+                    if self._is_wanted():
+                        self._say(content)
             except (OSError, asyncio.IncompleteReadError):
-                if self._is_closed:  # by its owner, who is gone: nobody is there to be told
-                    raise asyncio.CancelledError from None
                 self._deaths += 1
                 raise LambdaError(f"the helper process has ended while it did this: {work}") from None
             except asyncio.CancelledError:

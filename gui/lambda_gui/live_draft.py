@@ -17,6 +17,7 @@ from lambda_core.domain.errors import LambdaError
 from lambda_gui.around import CaseAround
 from lambda_gui.checking import Check, Checker, ShaftChecker, plugin_faults
 from lambda_gui.helper import Estimator
+from lambda_gui.presence import is_here
 from lambda_gui.recovery import Keeper
 
 if TYPE_CHECKING:
@@ -73,8 +74,8 @@ class LiveDraft(Screen[None]):
 
     @property
     def is_here(self) -> bool:
-        """Whether there is anything to show on: threads and timers also come back while the screen is taken down."""
-        return self.app.is_running and self.is_attached and self in self.app.screen_stack and bool(self.children)
+        """Whether there is anything to show on."""
+        return is_here(self)
 
     def when_checked(self, then: Callable[[], None]) -> None:
         """Do something with the draft as it stands: keys may come faster than checks."""

@@ -21,6 +21,7 @@ from lambda_gui.charts import lines_of, notes_text, shape_of, widget_for
 from lambda_gui.dialogs import AskText
 from lambda_gui.export import DIFFERENCES, SUMMARY, ExportScreen
 from lambda_gui.pictures import NONE_HERE
+from lambda_gui.presence import is_here
 from lambda_gui.result_files import is_shaft_run, is_study, named, results_in, stamp_of
 from lambda_gui.summary_view import summary_view
 from lambda_gui.table_views import differences_view, study_view
@@ -119,6 +120,8 @@ class ResultsScreen(ExportScreen):
 
     def say(self, words: str = "") -> None:
         """Write over the content what is shown, and what is being done."""
+        if not is_here(self):
+            return
         names = "  ".join(path.name for path in self.chosen())
         text = Text(names or "no result files here", style="bold")
         self.query_one("#title", Static).update(text.append(f"\n{words}", style="dim not bold"))
@@ -335,6 +338,8 @@ class ResultsScreen(ExportScreen):
         content = self.query_one("#content", VerticalScroll)
         async with self.batch():
             await content.remove_children()
+            if not is_here(self):
+                return
             await content.mount(*widgets)
         for widget in widgets:
             if isinstance(widget, Static):

@@ -13,6 +13,7 @@ from textual.widgets import DataTable, Footer, Static
 
 from lambda_core.domain.number_text import plus_minus
 from lambda_gui.derived import duration
+from lambda_gui.presence import is_here
 from lambda_gui.traces import CageTrace, LoadTrace, TorqueTrace, Trace
 
 if TYPE_CHECKING:
@@ -87,8 +88,8 @@ class RunScreen(Screen[None]):
 
     def follow(self) -> None:
         """Show what is new."""
-        if not self.query(DataTable) or not (table := self.query_one(DataTable)).columns:
-            return  # the screen is still being laid out
+        if not is_here(self) or not (table := self.query_one(DataTable)).columns:
+            return  # the screen is still being laid out, or goes
         if table.row_count != len(self._queue.runs):
             at = table.cursor_row
             table.clear()
@@ -106,6 +107,8 @@ class RunScreen(Screen[None]):
         self._draw()
 
     def _draw(self) -> None:
+        if not is_here(self):
+            return
         run = self.run_shown
         state = self.query_one("#state", Static)
         self.query_one("#plots").display = run is not None and bool(run.history)

@@ -21,6 +21,7 @@ from lambda_gui.helper import Helper
 from lambda_gui.new_files import save_beside
 from lambda_gui.option_help import OptionHelp
 from lambda_gui.places import Held
+from lambda_gui.presence import is_here
 from lambda_gui.rows import Edited, Row, Rows, Surroundings
 from lambda_gui.study_values import ASKED, MODES, POINTS, Values, card, card_of, first_values, studied, study_tables
 
@@ -78,7 +79,7 @@ class StudyScreen(Screen[None]):
         super().__init__()
         self._draft, self._model = draft, model
         self.values: Values = first_values(model.name, path, written)
-        self._helper = Helper(self._say)
+        self._helper = Helper(self._say, lambda: is_here(self))
         self._timer: Timer | None = None
         self.is_fine = False
 
@@ -165,8 +166,7 @@ class StudyScreen(Screen[None]):
     # -- what it takes --
 
     def _say(self, text: str) -> None:
-        if self.is_attached:
-            self.query_one("#cost", Static).update(Text(text, style="dim italic"))
+        self._tell(text, "dim italic")
 
     @work(exclusive=True, group="check")
     async def _check(self) -> None:
