@@ -28,6 +28,7 @@ from lambda_core.results.event_rows import (
     event_rows,
     observer_rows,
 )
+from lambda_core.results.objects import attach, describe, scales_along, scales_in, texts_of
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.run_status import Rows
 from lambda_core.system.bearing import BearingModel
@@ -100,20 +101,21 @@ def _dimensions(file: h5py.File, model: BearingModel, channels: Sequence[Channel
 
 def _series(group: h5py.Group, channels: Sequence[Channel], along: str) -> None:
     """Create one growing dataset per channel; the one called `along` is the growing dimension."""
-    root = group.file
-    ordered = sorted(channels, key=lambda channel: channel.name != along)
-    for channel in ordered:
-        shape = tuple(root[dim].size for dim in channel.dims)
+    root, first = group.file, None
+    dims = {dim: root[dim] for dim in dict.fromkeys(dim for channel in channels for dim in channel.dims)}
+    sizes = {dim: labels.size for dim, labels in dims.items()}
+    for channel in sorted(channels, key=lambda channel: channel.name != along):
+        shape = tuple(sizes[dim] for dim in channel.dims)
         data = group.create_dataset(
             channel.name, (0, *shape), np.float64, maxshape=(None, *shape), chunks=(ROWS, *shape)
         )
-        data.attrs["units"] = channel.unit
-        data.attrs["long_name"] = channel.meaning
+        describe(data, {"units": channel.unit, "long_name": channel.meaning})
         if channel.name == along:
             data.make_scale(along)
+            first = data
             continue
-        for axis, scale in enumerate((group[along], *(root[dim] for dim in channel.dims))):
-            data.dims[axis].attach_scale(scale)
+        for axis, scale in enumerate((first, *(dims[dim] for dim in channel.dims))):
+            attach(data, axis, scale)
 
 
 def _inputs(group: h5py.Group, provenance: Provenance) -> None:
@@ -144,7 +146,7 @@ def _table(group: h5py.Group, name: str, columns: Sequence[str], rows: Sequence[
     index.make_scale("row")
     for column in columns:
         data = table.create_dataset(column, data=np.array([row[column] for row in rows], dtype=object), dtype=_TEXT)
-        data.dims[0].attach_scale(index)
+        attach(data, 0, index)
 
 
 def read_table(group: h5py.Group) -> list[dict[str, str]]:
@@ -178,17 +180,19 @@ def chunk_bytes(item: h5py.Dataset) -> int:
 def size(source: h5py.File, rows: Rows) -> int:
     """Return an upper bound of the bytes that a copy with the first `rows` rows takes, metadata aside."""
     total = 0
-
-    def visit(name: str, item: object) -> None:
-        nonlocal total
+    for name, item in _objects(source).items():
         if grows(item):
-            assert isinstance(item, h5py.Dataset)
             total += math.ceil(rows_of(name, rows) / ROWS) * chunk_bytes(item)
         elif isinstance(item, h5py.Dataset):
             total += 2 * item.nbytes + 4096
-
-    source.visititems(visit)
     return total + total // 100
+
+
+def _objects(file: h5py.File) -> dict[str, Any]:
+    """Return every group and dataset of a file by its path."""
+    found: dict[str, Any] = {}
+    file.visititems(found.__setitem__)
+    return found
 
 
 Stop = Callable[[], bool]
@@ -226,44 +230,37 @@ def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool, stop:
         When `stop` says so.
     """
     target.attrs.update(source.attrs)
-    scales: list[str] = []
-    attached: list[tuple[str, list[str]]] = []
-
-    def visit(name: str, item: Any) -> None:
+    objects, copies = _objects(source), {}
+    for name, item in objects.items():
         if isinstance(item, h5py.Group):
-            group = target.require_group(name)
-            group.attrs.update(item.attrs)
-            return
-        _copy_dataset(name, item, target, rows, compress, stop)
-        if item.is_scale:
-            scales.append(name)
+            target.require_group(name).attrs.update(item.attrs)
         else:
-            attached.append((name, [dim[0].name if len(dim) else "" for dim in item.dims]))
-
-    source.visititems(visit)
-    for name in scales:
-        target[name].make_scale(Path(name).name)
-    for name, dims in attached:
-        for axis, scale in enumerate(dims):
+            copies[name] = _copy_dataset(name, item, target, rows, compress, stop)
+    scales = scales_in(objects)
+    for name in scales.values():
+        copies[name].make_scale(Path(name).name)
+    for name, copied in copies.items():
+        for axis, scale in enumerate(scales_along(objects[name], scales)):
             if scale:
-                target[name].dims[axis].attach_scale(target[scale])
+                attach(copied, axis, copies[scale])
 
 
-def _copy_dataset(name: str, item: h5py.Dataset, target: h5py.File, rows: Rows, compress: bool, stop: Stop) -> None:
+def _copy_dataset(
+    name: str, item: h5py.Dataset, target: h5py.File, rows: Rows, compress: bool, stop: Stop
+) -> h5py.Dataset:
+    packing = {"compression": "gzip", "compression_opts": 4, "shuffle": True} if compress else {}
     if not grows(item):
-        options = {"maxshape": item.maxshape, "chunks": item.chunks} if item.chunks else {}
+        options = {"maxshape": item.maxshape, "chunks": item.chunks, **packing} if item.chunks else {}
         data = target.create_dataset(name, data=item[()], dtype=item.dtype, **options)
     else:
         count = rows_of(name, rows)
         shape = (count, *item.shape[1:])
         chunk = (min(ROWS, max(count, 1)) if compress else ROWS, *item.chunks[1:])
-        packing = {"compression": "gzip", "compression_opts": 4, "shuffle": True} if compress else {}
         data = target.create_dataset(name, shape, item.dtype, maxshape=item.maxshape, chunks=chunk, **packing)
         for start in range(0, count, ROWS):
             if stop():
                 raise InterruptedError("asked to stop")
             end = min(start + ROWS, count)
             data[start:end] = item[start:end]
-    for key in ("units", "long_name"):
-        if key in item.attrs:
-            data.attrs[key] = item.attrs[key]
+    describe(data, texts_of(item, ("units", "long_name")))
+    return data

@@ -17,6 +17,7 @@ from lambda_core.domain.printable import printable
 from lambda_core.results import file_format as layout
 from lambda_core.results.averages import INTEGRALS
 from lambda_core.results.hdf5 import open_for_reading, reason
+from lambda_core.results.objects import scales_along, scales_in
 from lambda_core.system.bearing import ResolvedValue
 
 
@@ -76,11 +77,13 @@ def check_alone(file: h5py.File) -> None:
 
 def channels_of(file: h5py.File) -> Iterator[Channel]:
     """Yield the channels of a file: everything in its root that grows."""
-    for name, item in file.items():
+    items = dict(file.items())
+    scales = scales_in(items)
+    for name, item in items.items():
         if layout.grows(item):
             item.id.get_num_chunks()  # a damaged index raises here; read through, it would fill the memory
-            dims = tuple(Path(dim[0].name).name for dim in item.dims if len(dim))
-            yield Channel(name, tuple(d for d in dims if d != "time"), item.attrs["units"], item.attrs["long_name"])
+            dims = tuple(dim for dim in scales_along(item, scales) if dim not in ("", "time"))
+            yield Channel(name, dims, item.attrs["units"], item.attrs["long_name"])
 
 
 def labels_of(data: h5py.Dataset) -> tuple[int, ...] | tuple[str, ...]:

@@ -6,8 +6,10 @@ import json
 import math
 import platform
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, fields, is_dataclass
 from datetime import UTC, datetime
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -25,6 +27,16 @@ _LIBRARIES = ("numpy", "scipy", "numba", "llvmlite", "h5py", "pydantic")
 _APART = ("values", "assumptions", "case_toml", "plugins", "mounting", "thermal", "contradictions")
 
 
+@cache
+def _of_libraries() -> dict[str, str]:
+    """Return the versions of what is installed: looked up on disk, once for all runs of a process."""
+    found = {}
+    for name in _LIBRARIES:
+        with suppress(PackageNotFoundError):
+            found[name] = version(name)
+    return found
+
+
 @dataclass(frozen=True)
 class Provenance:
     """The fixed part of a result file."""
@@ -35,13 +47,8 @@ class Provenance:
 
     def versions(self) -> dict[str, str]:
         """Return versions of the program, Python, the libraries, and the platform."""
-        found = {"lambda-bearing": __version__, "python": platform.python_version(), "platform": platform.platform()}
-        for name in _LIBRARIES:
-            try:
-                found[name] = version(name)
-            except PackageNotFoundError:
-                continue
-        return found
+        ours = {"lambda-bearing": __version__, "python": platform.python_version(), "platform": platform.platform()}
+        return ours | _of_libraries()
 
     def laws(self) -> list[dict[str, str]]:
         """Return one row per force element, or film of the circuit, and role: the model and its parameters."""
