@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import gc
+import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -98,17 +99,28 @@ def warm(own_folders: Path) -> Iterator[Warm]:
 
 
 @pytest.fixture(scope="session")
-def radial_run(tmp_path_factory: pytest.TempPathFactory) -> Result:
-    """Run the 6319 under radial load until it has converged: what views and reports are drawn from."""
-    from lambda_core import api
+def once(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, Callable[[Path], object]], Path]:
+    """Return a function that has a folder filled, once for all processes of this session; nobody changes it later."""
+    from made_once import CAN_SHARE, made_once
 
-    return api.run("6319-cp10-1500", out=tmp_path_factory.mktemp("radial") / "radial.h5")
+    base = tmp_path_factory.getbasetemp()
+    shared = base.parent if CAN_SHARE and "PYTEST_XDIST_WORKER" in os.environ else base
+    return lambda name, fill: made_once(shared / "once" / name, fill)
 
 
 @pytest.fixture(scope="session")
-def combined_run(tmp_path_factory: pytest.TempPathFactory) -> Result:
+def radial_run(once: Callable[[str, Callable[[Path], object]], Path]) -> Result:
+    """Run the 6319 under radial load until it has converged: what views and reports are drawn from."""
+    from lambda_core import api
+
+    return api.result(once("radial", lambda to: api.run("6319-cp10-1500", out=to / "radial.h5")) / "radial.h5")
+
+
+@pytest.fixture(scope="session")
+def combined_run(once: Callable[[str, Callable[[Path], object]], Path]) -> Result:
     """Run the 6208 for a short time under axial and radial load: every ball loaded, contact angles of 15 degrees."""
     from lambda_core import api
 
     changes = ["loads.radial=0.4 kN", "solver.duration=0.05 s"]
-    return api.run("6208-axial-1300", changes, out=tmp_path_factory.mktemp("combined") / "combined.h5")
+    folder = once("combined", lambda to: api.run("6208-axial-1300", changes, out=to / "combined.h5"))
+    return api.result(folder / "combined.h5")

@@ -46,17 +46,20 @@ def c_compiler() -> tuple[str, ...]:
 
 
 @pytest.fixture(scope="session")
-def exported(c_compiler: tuple[str, ...], tmp_path_factory: pytest.TempPathFactory) -> Callable[[int, str], Path]:
+def exported(
+    c_compiler: tuple[str, ...], once: Callable[[str, Callable[[Path], object]], Path]
+) -> Callable[[int, str], Path]:
     """Return a function that gives the FMU of a version and a coupling."""
-    folder, made = tmp_path_factory.mktemp("fmu"), dict[tuple[int, str], Path]()
 
     def export(fmi: int, couple: str) -> Path:
-        if (fmi, couple) not in made:
-            out = folder / f"{couple}{fmi}.fmu"
-            vary = VARIED if (fmi, couple) == (2, "force") else ()
-            changes = CHANGES + (CIRCUIT if (fmi, couple) == (3, "force") else ())
+        vary = VARIED if (fmi, couple) == (2, "force") else ()
+        changes = CHANGES + (CIRCUIT if (fmi, couple) == (3, "force") else ())
+        name = f"{couple}{fmi}"
+
+        def fill(folder: Path) -> None:
+            out = folder / f"{name}.fmu"
             api.export_fmu(CASE, changes, out=out, fmi=fmi, couple=couple, vary=vary, processor="native")  # type: ignore[arg-type]
-            made[fmi, couple] = out
-        return made[fmi, couple]
+
+        return once(f"fmu-{name}", fill) / f"{name}.fmu"
 
     return export
