@@ -9,6 +9,7 @@ import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from lambda_plugins.views.panels import draw_panel
 from lambda_plugins.views.style import INK, RC, SOFT
@@ -33,6 +34,14 @@ class HouseFigure(Figure):
         buffer = BytesIO()
         self.savefig(buffer, format="png")
         return buffer.getvalue()
+
+    def draw(self, renderer: Any) -> None:
+        """Draw the figure; when matplotlib draws it to nowhere before it writes one, find the layout alone."""
+        layout = self.get_layout_engine()
+        if isinstance(layout, ConstrainedLayoutEngine) and self.canvas.is_saving():
+            layout.execute(self)
+        else:
+            super().draw(renderer)
 
     def savefig(self, fname: Any, **options: Any) -> None:
         """Write the figure; an SVG carries no date, so that equal data give equal files."""
