@@ -129,7 +129,7 @@ class FromProgram:
 
 
 class FromUnit:
-    """The bearing of an exported FMU, through FMPy."""
+    """The bearing of an exported FMU, through FMPy; `named` are value references by name."""
 
     def __init__(self, tolerance: float, folder: str) -> None:
         from fmpy import extract, read_model_description
@@ -139,6 +139,7 @@ class FromUnit:
         api.export_fmu(CASE, changes(tolerance), out=file, couple="motion", processor="native")
         about = read_model_description(str(file))
         named = {variable.name: variable.valueReference for variable in about.modelVariables}
+        self.named = named
         self._given = [named[f"inner_ring.{axis}{more}"] for more in ("", "_rate", "_acceleration") for axis in _AXES]
         self._answer = [named[f"inner_ring.reaction_force_{axis}"] for axis in _AXES]
         self._unit: Any = FMU2Slave(

@@ -15,6 +15,7 @@ from lambda_core.domain.elements import BODIES
 from lambda_core.fmu.circuit_image import Circuit, circuit
 from lambda_core.fmu.curves import Constant, constants
 from lambda_core.fmu.image import Image, host_words
+from lambda_core.fmu.led_rings import LedRings, led_rings
 from lambda_core.fmu.starting import Start, prepare_start
 from lambda_core.fmu.varied import Varied
 from lambda_core.laws.jit.portable import REAL, WORD, Entry
@@ -73,6 +74,8 @@ class Frozen:
     losses : int
         How many of the running integrals are losses.
     circuit : Circuit, optional
+    led : LedRings, optional
+        For slopes of reactions, where the host leads the rings.
     """
 
     model: BearingModel
@@ -91,6 +94,7 @@ class Frozen:
     constants: list[Constant]
     losses: int
     circuit: Circuit | None
+    led: LedRings | None
 
     def moves(self, body: str) -> bool:
         """Tell whether a body is there and can move."""
@@ -101,10 +105,6 @@ class Frozen:
     def of_row(self, rows: Any, row: int, field: str) -> int:
         """Return the place of a field in a row of a table."""
         return self.image.place(rows) + row * int(rows.itemsize) + int(rows.dtype.fields[field][1])
-
-    def of_totals(self, name: str) -> int:
-        """Return the place of a field of records.TOTALS."""
-        return self.image.place(self.scratch.extra) + int(R.TOTALS.fields[name][1])  # type: ignore[index]
 
     def integral(self, name: str) -> int:
         """Return the place of a running integral of records.RUNNING."""
@@ -148,6 +148,7 @@ def freeze(
     memory.control["sample_interval"] = math.inf
     bundle, host = context.bundle, host_words(_HOST_WORDS + len(options))
     host[_HOST_WORDS:] = [option.start for option in options]
+    led = led_rings(context, given) if couple == "motion" else None
     electric = circuit(model, scratch.contacts.size // scratch.contacts.shape[-1], announce)
     now = memory.control.view(np.float64)[:1]  # the field "time" is the first one
     sections = [
@@ -162,11 +163,12 @@ def freeze(
         ("host", L.array1, host),
         *begin.sections(),
         *(electric.sections() if electric else ()),
+        *(led.sections() if led else ()),
     ]
     kinds = observe_sig.args[-len(scratch._fields) :]
     sections += [(name, kind, array) for name, kind, array in zip(scratch._fields, kinds, scratch, strict=True)]
     pointers = [kernel.pointer for kernel in context.kernels.compiled.values()]
-    image = Image(sections, bundle.laws, pointers)
+    image = Image(sections, bundle.laws, pointers, led.workspaces() if led else ())
     at = image.sections
     advance = core.advance_finely_pointer if memory.stages.size else core.advance_pointer
     steps = tuple(at[name] for name in ("bundle", "blocks", "factors", "memory"))
@@ -180,6 +182,7 @@ def freeze(
         ),
         begin.entry(at),
         *((electric.entry(image),) if electric else ()),
+        *((led.entry(at, core),) if led else ()),
     )
     fault = bundle.scratch
     wrenches = bundle.body_wrenches.view(np.float64)
@@ -212,6 +215,7 @@ def freeze(
         followed,
         losses=scratch.rates.shape[-1] - L.BESIDE_LOSSES,
         circuit=electric,
+        led=led,
     )
 
 

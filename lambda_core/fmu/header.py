@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from lambda_core.domain.channels import RINGS
+from lambda_core.domain.channels import RINGS, SHORTED
 from lambda_core.domain.loading import CARRYING
 from lambda_core.electric import columns as columns_of_march
 from lambda_core.electric.contacts import VACUUM_PERMITTIVITY
@@ -69,6 +69,7 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
     image, fault = frozen.image, frozen.image.place(frozen.fault) + _at(R.SCRATCH, "fault")
     numbers = {
         "IMAGE_SIZE": image.size,
+        "KEPT_SIZE": image.kept,
         "HOST": image.place(frozen.host),
         "CONTROL_TIME": control(frozen, "time"),
         "CONTROL_STOP": control(frozen, "stop"),
@@ -96,6 +97,7 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
         **_limit_numbers(frozen),
         **_start_numbers(frozen),
         **_circuit_numbers(frozen),
+        **_slope_numbers(frozen),
     }
     needed = _needed()
     lines = ['#include "token.h"']
@@ -108,9 +110,10 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
     lines += [f"static const uint32_t lb_relocations[][2] = {{{_pairs(image.relocations)}}};"]
     lines += [f"static const uint32_t lb_fixes[][2] = {{{_pairs(image.fixes)}}};"]
     lines += [f"static const char *const lb_roles[] = {{{', '.join(map(_quoted, ROLES))}}};"]
-    lines += [*_limit_tables(frozen), *_start_tables(frozen), *_curves(frozen)]
+    lines += [*_limit_tables(frozen), *_start_tables(frozen), *_slope_table(frozen), *_curves(frozen)]
     rows = (
-        f"{{{v.kind:d},{v.place},{v.count},{v.stride},{v.scale!r},{v.begin},{_real(v.limits[0])},{_real(v.limits[1])}}}"
+        f"{{{v.kind:d},{v.place},{v.count},{v.stride},{v.scale!r},{v.begin},{_real(v.limits[0])},{_real(v.limits[1])},"
+        f"{v.axis},{v.turn!r}}}"
         for v in variables
     )
     lines += [f"static const lb_variable lb_variables[] = {{{', '.join(rows)}}};"]
@@ -131,6 +134,7 @@ def _limit_numbers(frozen: Frozen) -> dict[str, object]:
         **places,
         "HIGHEST_PRESSURE": highest_pressure(grooves.kind),
         "THINNEST_FILM": THINNEST_FILM,
+        "SHORTED_BELOW": SHORTED,
         "CALM": _CALM,
         "CARRYING": CARRYING,
         "LEAST_SHARE": grooves.least_share,
@@ -219,6 +223,29 @@ def _circuit_numbers(frozen: Frozen) -> dict[str, object]:
         "BALL_PERMITTIVITY": repr(film.ball_permittivity or 0.0),
         "VACUUM_PERMITTIVITY": repr(VACUUM_PERMITTIVITY),
     }
+
+
+def _slope_numbers(frozen: Frozen) -> dict[str, object]:
+    """Return the numbers of slopes of reactions by the solver's Jacobian, where the host leads the rings."""
+    led, image = frozen.led, frozen.image
+    if led is None:
+        return {"SLOPES": 0}
+    kept = led.bundle.states
+    return {
+        "SLOPES": 1,
+        "SLOPE_STATE": image.place(led.state),
+        "SLOPE_MATRIX": image.place(led.blocks.shared),
+        "SLOPE_WIDTH": led.blocks.shared.shape[-1],
+        "SHARED": image.place(frozen.scratch.shared),
+        "CONTACT_STATES": image.place(frozen.memory.y, frozen.memory.y.size - kept.size),
+        "CONTACT_STATES_SIZE": kept.nbytes,
+    }
+
+
+def _slope_table(frozen: Frozen) -> list[str]:
+    """Return the entries of the shared state that the Jacobian of a led bearing counts as free."""
+    states = ", ".join(map(str, frozen.led.bundle.active)) if frozen.led else ""
+    return [f"static const unsigned lb_slope_states[] = {{{states}}};"] if states else []
 
 
 def _given_places(frozen: Frozen) -> Iterable[tuple[str, int]]:

@@ -32,9 +32,13 @@ class Image:
         Arrays among them that hold addresses of functions.
     pointers : sequence of Pointer
         The functions that these addresses are of.
+    workspaces : sequence of array
+        Arrays whose numbers are forgotten: they stand at the end, behind what a saved state is.
 
     Attributes
     ----------
+    size, kept : int
+        Of the image, and of what a state has of it [bytes].
     sections : dict of str to int
         Place of each argument [bytes].
     relocations : list of (int, int)
@@ -46,7 +50,11 @@ class Image:
     """
 
     def __init__(
-        self, sections: Sequence[tuple[str, Any, Any]], tables: Sequence[Any], pointers: Sequence[Pointer]
+        self,
+        sections: Sequence[tuple[str, Any, Any]],
+        tables: Sequence[Any],
+        pointers: Sequence[Pointer],
+        workspaces: Sequence[Any] = (),
     ) -> None:
         self._words: list[int] = []
         self._arrays: list[tuple[int, Any]] = []  # word that holds its address, array
@@ -57,7 +65,7 @@ class Image:
         for name, kind, value in sections:
             self.sections[name] = 8 * len(self._words)
             self._flatten(kind, value)
-        self._places, self.size = self._laid_out()
+        self._places, self.kept, self.size = self._laid_out({_address(array) for array in workspaces})
         self.relocations = [(8 * word, self.place(array)) for word, array in self._arrays]
         by_address = {pointer.__wrapper_address__(): pointer for pointer in pointers}
         for table in tables:
@@ -108,14 +116,19 @@ class Image:
         if len(self._words) - begin != words_of(kind):
             raise TypeError(f"{kind} has {words_of(kind)} words in this Numba, not {len(self._words) - begin}")
 
-    def _laid_out(self) -> tuple[list[tuple[int, int, int]], int]:
-        """Return runs of memory (begin, end, place in the image), views of one memory together, and the size."""
-        size = _up(8 * len(self._words))
+    def _laid_out(self, last: set[int]) -> tuple[list[tuple[int, int, int]], int, int]:
+        """Return runs of memory (begin, end, place in the image), views of one memory together, and both sizes.
+
+        Runs that begin at the addresses `last` stand at the end.
+        """
+        size = kept = _up(8 * len(self._words))
         runs = []
-        for begin, end in _merged(sorted(_extent(array) for _, array in self._arrays)):
+        merged = list(_merged(sorted(_extent(array) for _, array in self._arrays)))
+        for begin, end in sorted(merged, key=lambda run: run[0] in last):
             runs.append((begin, end, size))
             size += _up(end - begin)
-        return runs, size
+            kept = kept if begin in last else size
+        return runs, kept, size
 
 
 def _address(array: Any) -> int:

@@ -118,7 +118,8 @@ def build(parts: Parts, interface: str, folder: Path, name: str, platform: str) 
         (folder / file).write_bytes(content)
     library = folder / f"{name}.{PLATFORMS[platform].suffix}"
     sources = [
-        SOURCES / f"{file}.c" for file in ("core", "limits", "states", "circuit", "follow", "start", interface, *own)
+        SOURCES / f"{file}.c"
+        for file in ("core", "limits", "states", "circuit", "follow", "slopes", "start", interface, *own)
     ]
     sources += [MEMORY_SOURCE, *(folder / file for file in parts.objects[platform])]
     options = (*_OPTIONS, *(_OWN_MATHEMATICS if own else ()))

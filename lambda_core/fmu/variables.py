@@ -14,6 +14,7 @@ from typing import Literal
 from lambda_core.domain.elements import BODIES, DOFS, SPIN
 from lambda_core.electric.columns import T_ARC, T_DISCHARGES
 from lambda_core.fmu.frozen import Frozen
+from lambda_core.fmu.led_rings import TILT_STATES, axis_of
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.integrator.memory import CONTROL, COUNT
@@ -32,6 +33,8 @@ class Kind(IntEnum):
     COUNT = 7
     VARIED = 8  # an option that constants follow
     SOURCE = 9  # an input that moves nothing
+    CAPACITANCE = 10  # of the balls that do not connect the rings by touching metal
+    SHORTED = 11  # how many do
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,8 @@ class Variable:
     start: float = 0.0
     limits: tuple[float, float] = (-math.inf, math.inf)
     tunable: bool = False  # a parameter of the host, not an input
+    axis: int = -1  # in the matrix of slopes: of a reaction its row, of a motion its column
+    turn: float = 1.0  # sign there
 
     @property
     def causality(self) -> Literal["independent", "input", "output", "parameter"]:
@@ -68,8 +73,6 @@ class Variable:
 
 _STEPS = {"m": 1e-9, "rad": 1e-8, "m/s": 1e-6, "rad/s": 1e-5, "N": 1.0, "N m": 1e-2, "m/s2": 1.0, "rad/s2": 1.0}
 _TITLES = {"x": "along the shaft", "y": "horizontal", "z": "vertical"}
-# Of a coordinate: its place in a state, the sign there, and the same of its rate.
-_TILTS = {"tilt_y": (L.SAZ, -1.0, L.SWY), "tilt_z": (L.SAY, 1.0, L.SWZ)}
 
 
 def variables(frozen: Frozen) -> list[Variable]:
@@ -106,8 +109,11 @@ def _inputs(frozen: Frozen) -> Iterator[Variable]:
                 start = float(frozen.terms[row][field])
                 full = name if field == "value" else f"{name}_{field}"
                 text = _input_text(name, field)
-                step = _STEPS[unit]
-                yield Variable(full, text, unit, Kind.INPUT, place, scale=step, begin=begin, start=start)
+                axis, turn = axis_of(name, field)
+                yield Variable(
+                    full, text, unit, Kind.INPUT, place,
+                    scale=_STEPS[unit], begin=begin, start=start, axis=axis, turn=turn,
+                )  # fmt: skip
 
 
 def _varied(frozen: Frozen) -> Iterator[Variable]:
@@ -150,7 +156,7 @@ def _places(frozen: Frozen) -> Iterator[Variable]:
             if dof == SPIN:
                 yield Variable(f"{body}.spin", f"speed of the {title}", unit, Kind.VALUE, begin + 8 * L.SSIGMA)
                 continue
-            at, sign, slope = _TILTS.get(dof, (axis, 1.0, L.SVX + axis))
+            at, sign, slope = TILT_STATES.get(dof, (axis, 1.0, L.SVX + axis))
             yield Variable(f"{body}.{dof}", f"{dof} of the {title}", unit, Kind.VALUE, begin + 8 * at, scale=sign)
             text = f"rate of the {dof} of the {title}"
             yield Variable(f"{body}.{dof}_rate", text, rate, Kind.VALUE, begin + 8 * slope)
@@ -164,7 +170,8 @@ def _reactions(frozen: Frozen) -> Iterator[Variable]:
             for a, axis in enumerate("xyz"):
                 text = f"{kind} of the bearing on the {BODIES[ring]}, {axis} ({_TITLES[axis]})"  # type: ignore[index]
                 unit = "N" if kind == "force" else "N m"
-                yield Variable(f"{ring}.reaction_{kind}_{axis}", text, unit, Kind.VALUE, begin + 8 * (3 * k + a))
+                name, row = f"{ring}.reaction_{kind}_{axis}", 3 * k + a
+                yield Variable(name, text, unit, Kind.VALUE, begin + 8 * row, axis=6 * b + row)
 
 
 def _bearing(frozen: Frozen) -> Iterator[Variable]:
@@ -183,8 +190,10 @@ def _bearing(frozen: Frozen) -> Iterator[Variable]:
     yield of_contacts("max_pressure", "largest contact pressure", "Pa", Kind.GREATEST)
     yield of_contacts("film_minimum", "smallest film of all contacts", "m", Kind.LEAST)
     yield of_contacts("film_parameter", "smallest film parameter Lambda of all contacts", "1", Kind.LEAST)
-    capacitance = frozen.of_totals("capacitance")
-    yield Variable("bearing.capacitance", "capacitance between the rings", "F", Kind.VALUE, capacitance)
+    text = "capacitance between the rings; balls that connect them are left out"
+    yield Variable("bearing.capacitance", text, "F", Kind.CAPACITANCE, 0)
+    text = "balls that connect the rings: metal touches metal on both"
+    yield Variable("bearing.shorted", text, "1", Kind.SHORTED, 0)
     integrals = frozen.image.place(frozen.memory.integrals)
     text = "energy lost to friction since the start"
     yield Variable("bearing.energy_lost", text, "J", Kind.SUM, integrals, frozen.losses, 8)

@@ -242,50 +242,6 @@ def test_time_may_begin_anywhere(host: Any, exported: Export, tmp_path: Path) ->
     assert late.get(["bearing.load"]) == early.get(["bearing.load"])
 
 
-def test_slopes_are_those_of_the_reactions(host: Any, exported: Export, tmp_path: Path) -> None:
-    """The stiffness at fixed balls: from slopes as from a step of the ring, and stiff against it."""
-    unit = unit_of(host, exported, tmp_path, 2, "motion")
-    bearing = host.Instance(unit).ready()
-    (x,), names = bearing.get(["inner_ring.x"]), ["inner_ring.reaction_force_x", "outer_ring.reaction_force_x"]
-    slope = bearing.slope(names[0], "inner_ring.x")
-    before = bearing.get(names)
-    assert bearing.get(["inner_ring.x"]) == [x]
-    assert 1e-5 < x < 1e-3  # [m]
-    bearing.set("inner_ring.x", x + 2e-8)
-    after = bearing.get(names)
-    assert slope == pytest.approx((after[0] - before[0]) / 2e-8, rel=2e-2)
-    assert slope < -1e7
-    assert after[1] == before[1]  # the balls stand where they stood
-    assert bearing.slope("bearing.loss", "inner_ring.y_acceleration") == 0.0
-
-
-def test_slopes_with_rates_are_those_of_this_instant(host: Any, exported: Export, tmp_path: Path) -> None:
-    """After a step without setting anew: central differences about the motion as it goes on, by set and restore."""
-    unit = unit_of(host, exported, tmp_path, 2, "motion")
-    bearing, force, rate, acceleration = host.Instance(unit).ready(), "inner_ring.reaction_force_x", 1e-3, 5.0
-    (x,) = bearing.get(["inner_ring.x"])
-    for name, value in (("x", x), ("x_rate", rate), ("x_acceleration", acceleration)):
-        assert bearing.set(f"inner_ring.{name}", value) == host.OK
-    assert bearing.step(STEP) == host.OK
-    now = {
-        "inner_ring.x": x + rate * STEP + 0.5 * acceleration * STEP**2,
-        "inner_ring.x_rate": rate + acceleration * STEP,
-        "inner_ring.x_acceleration": acceleration,
-    }
-    before = bearing.get(unit.named("output"))
-    for known, by in (("inner_ring.x_rate", 1e-6), ("inner_ring.x", 1e-9)):
-        found, forces = bearing.slope(force, known), []
-        for side in (1, -1):
-            state = bearing.save()
-            for name, value in now.items():
-                bearing.set(name, value + side * by * (name == known))
-            forces += bearing.get([force])
-            bearing.restore(state, bearing.time)
-        assert found == pytest.approx((forces[0] - forces[1]) / (2.0 * by), rel=1e-4)
-        assert found < 0.0
-    assert bearing.get(unit.named("output")) == before
-
-
 def test_what_no_bearing_takes_ends_with_a_sentence(host: Any, exported: Export, tmp_path: Path) -> None:
     """A force in other units: steps of picoseconds lead nowhere, however long a step is asked for."""
     unit = unit_of(host, exported, tmp_path)

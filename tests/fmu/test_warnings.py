@@ -73,6 +73,29 @@ def test_a_film_thinner_than_the_roughness_is_told(host: Any, exported: Export, 
     assert len(bearing.said) == count
 
 
+def test_metal_that_touches_is_no_infinite_capacitor(host: Any, exported: Export, tmp_path: Path) -> None:
+    """Balls in mixed friction on both rings connect these: counted as the contacts of a run are, told, left out."""
+    bearing = host.Instance(host.Unit(exported(2, "force"), tmp_path))
+    pushed = (("inner_ring.spin", 44.0), ("inner_ring.force_z", -4000.0))
+    assert [bearing.set(*each) for each in pushed] == [host.OK] * 2
+    assert bearing.ready().step(STEP) == host.OK
+    changes = ("operation.speed=44 rad/s", "loads.radial=4000 N")
+    step = api.iterate(CASE, (*CHANGES, *changes), exact=True).step_to(STEP)
+    series = (1.0 / step["capacitance"].reshape(-1, 2)).sum(axis=1)
+    count = int((series == 0.0).sum())
+    assert 0 < count < series.size
+    assert step["bearing_capacitance"] == float("inf")
+    found = bearing.get(["bearing.capacitance", "bearing.shorted"])
+    assert found == pytest.approx([(1.0 / series[series > 0.0]).sum(), count], rel=1e-2)
+    said = [text for text in bearing.said if "metal touches metal on both rings of" in text]
+    assert [re.findall(r"of (\d) balls? \(Lambda below 2\.03\)", text) for text in said] == [[str(count)]]
+    assert bearing.set("inner_ring.spin", -1e155) == host.OK  # what no law refuses and no number holds
+    with pytest.raises(AssertionError, match=r"bearing\.loss is -?nan with these inputs; are loads in N"):
+        bearing.get(["bearing.loss"])
+    assert bearing.set("inner_ring.spin", 44.0) == host.OK
+    assert bearing.get(["bearing.shorted"]) == [count]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("designation", "axial", "push", "kinds"),

@@ -8,9 +8,6 @@
 
 #include "image.h"
 
-/* Numbers of the host that belong to a state. */
-enum { ORIGIN, LOST_BEFORE, TURNED_BEFORE, TORQUE, PHASE, UNSETTLED };
-#define HOST(b, which) REAL(b, LB_HOST + 8 * (which))
 #define WORK_PER_CALL 500
 
 int lb_say(lb_bearing *b, int status, const char *form, ...) {
@@ -114,7 +111,7 @@ int lb_end(lb_bearing *b) {
   return LB_OK;
 }
 
-static int refused(lb_bearing *b) {
+int lb_refused(lb_bearing *b) {
   int64_t role = WORD(b, LB_FAULT_ROLE), ball = WORD(b, LB_FAULT_BALL);
   if (role < 0 || role >= (int64_t)(sizeof lb_roles / sizeof *lb_roles))
     return lb_say(b, LB_ERROR, "at t = %.9g s the forces of the bearing are not finite", lb_time(b));
@@ -139,11 +136,27 @@ static double extreme(lb_bearing *b, const lb_variable *v) {
   return found;
 }
 
-static int look(lb_bearing *b) {
+/* Contacts of a ball with one ring are side by side, its rings in a row (solver/sampling.py); metal that touches has no
+   capacitance, which is infinite there. */
+double lb_capacitance(lb_bearing *b, unsigned *shorted) {
+  double total = 0.0;
+  *shorted = 0;
+  for (unsigned j = 0; j < LB_BALLS; j++) {
+    double rings[2] = {0.0, 0.0};
+    for (unsigned k = 0; k < LB_CONTACTS_OF_A_BALL; k++) rings[lb_contact_ring[k]] += SAMPLE(j, k, CAPACITANCE);
+    if (isinf(rings[0]) && isinf(rings[1]))
+      ++*shorted;
+    else
+      total += 1.0 / (1.0 / rings[0] + 1.0 / rings[1]);
+  }
+  return total;
+}
+
+int lb_look(lb_bearing *b) {
   if (!b->stale) return LB_OK;
   if (settle(b) != LB_OK) return LB_ERROR;
-  if (lb_observe(b->image) != LB_STATUS_OK) return refused(b);
-  b->stale = 0;
+  if (lb_observe(b->image) != LB_STATUS_OK) return lb_refused(b);
+  b->stale = 0, b->sloped = 0;
   lb_tell_limits(b);
   return LB_OK;
 }
@@ -154,7 +167,7 @@ int lb_leave(lb_bearing *b) {
     return lb_say(b, LB_ERROR, "initialisation has not begun: it cannot end");
   if (settle(b) != LB_OK) return LB_ERROR;
 #if LB_CIRCUIT
-  if (look(b) != LB_OK) return LB_ERROR;
+  if (lb_look(b) != LB_OK) return LB_ERROR;
   lb_take(b);
 #endif
   HOST(b, PHASE) = LB_STEPPING;
@@ -168,12 +181,15 @@ static double torque(lb_bearing *b) {
 }
 
 static double value(lb_bearing *b, const lb_variable *v) {
+  unsigned shorted;
   switch (v->kind) {
     case LB_TIME: return lb_time(b);
     case LB_SUM: return v->scale * sum(b, v->place, v->count, v->stride);
     case LB_LEAST:
     case LB_GREATEST: return extreme(b, v);
     case LB_TORQUE: return torque(b);
+    case LB_CAPACITANCE: return lb_capacitance(b, &shorted);
+    case LB_SHORTED: return lb_capacitance(b, &shorted), shorted;
     case LB_INPUT:
     case LB_SOURCE:
     case LB_VARIED: return REAL(b, v->place);
@@ -185,24 +201,27 @@ int lb_unknown(lb_bearing *b, unsigned which, const char *kind) {
   return lb_say(b, LB_ERROR, "there is no %s variable with the value reference %u", kind, which);
 }
 
-static const lb_variable *variable(lb_bearing *b, unsigned which) {
+const lb_variable *lb_real(lb_bearing *b, unsigned which) {
   int known = which < LB_VARIABLES && lb_variables[which].kind != LB_COUNT;
   if (!known) lb_unknown(b, which, "real");
   return known ? &lb_variables[which] : NULL;
 }
 
-static int given(const lb_variable *v) { return v->kind == LB_INPUT || v->kind == LB_SOURCE || v->kind == LB_VARIED; }
+int lb_given(const lb_variable *v) { return v->kind == LB_INPUT || v->kind == LB_SOURCE || v->kind == LB_VARIED; }
 
 int lb_get(lb_bearing *b, const unsigned *which, size_t count, double *values) {
   if (!b) return LB_ERROR;
   for (size_t i = 0; i < count; i++) {
-    const lb_variable *v = variable(b, which[i]);
+    const lb_variable *v = lb_real(b, which[i]);
     if (!v) return LB_ERROR;
-    if (v->kind != LB_TIME && !given(v)) {
-      int status = look(b);
+    if (v->kind != LB_TIME && !lb_given(v)) {
+      int status = lb_look(b);
       if (status != LB_OK) return status;
     }
     values[i] = value(b, v);
+    if (!isfinite(values[i]))
+      return lb_say(b, LB_ERROR, "at t = %.9g s %s is %g with these inputs; are loads in N, places in m, speeds in rad/s?",
+                    lb_time(b), lb_names[which[i]], values[i]);
   }
   return LB_OK;
 }
@@ -230,10 +249,10 @@ int lb_set(lb_bearing *b, const unsigned *which, size_t count, const double *val
   if (!b) return LB_ERROR;
   if (HOST(b, PHASE) == LB_ENDED) return lb_say(b, LB_ERROR, "the simulation has ended: nothing can be set any more");
   for (size_t i = 0; i < count; i++) {
-    const lb_variable *v = variable(b, which[i]);
+    const lb_variable *v = lb_real(b, which[i]);
     if (!v) return LB_ERROR;
     const char *name = lb_names[which[i]], *unit = lb_units[which[i]];
-    if (!given(v)) return lb_say(b, LB_ERROR, "%s is no input: it cannot be set", name);
+    if (!lb_given(v)) return lb_say(b, LB_ERROR, "%s is no input: it cannot be set", name);
     if (!isfinite(values[i])) return lb_say(b, LB_ERROR, "%s is to be %g%s: a finite number is due", name, values[i], unit);
     if (values[i] < v->lowest || values[i] > v->highest)
       return lb_say(b, LB_ERROR, "%s is to be %g%s: it was exported for %g to %g%s", name, values[i], unit, v->lowest,
@@ -248,7 +267,7 @@ int lb_set(lb_bearing *b, const unsigned *which, size_t count, const double *val
 /* Iterations that lead nowhere: what a host gave was in other units, or its coupling runs away. */
 static int astray(lb_bearing *b, double until, int64_t spent) {
   b->stale = 1;
-  double pressure = look(b) == LB_OK ? extreme(b, &lb_variables[LB_PRESSURE]) : NAN;
+  double pressure = lb_look(b) == LB_OK ? extreme(b, &lb_variables[LB_PRESSURE]) : NAN;
   return lb_say(b, LB_ERROR,
                 "at t = %.9g s, on the way to %.9g s, %lld iterations are spent (contact pressure %.3g GPa): forces or motions "
                 "that no bearing takes; are loads in N, places in m, speeds in rad/s?",
@@ -262,7 +281,7 @@ static int arrive(lb_bearing *b, double until) {
   while (REAL(b, LB_CONTROL_TIME) < until) {
     int64_t status = lb_advance(b->image, until, WORK_PER_CALL);
     WORD(b, LB_SAMPLES_WAITING) = 0;
-    if (status == LB_STATUS_REFUSED) return refused(b);
+    if (status == LB_STATUS_REFUSED) return lb_refused(b);
     if (status == LB_STATUS_STEP_TOO_SMALL)
       return lb_say(b, LB_ERROR, "at t = %.9g s the integrator's step fell below the smallest one allowed", lb_time(b));
     int64_t spent = WORD(b, LB_ITERATIONS) - before;
@@ -293,59 +312,8 @@ int lb_step(lb_bearing *b, double now, double step) {
   HOST(b, TORQUE) = angle > 0.0 ? (lost - HOST(b, LOST_BEFORE)) / angle : 0.0;
   HOST(b, LOST_BEFORE) = lost, HOST(b, TURNED_BEFORE) = turned;
 #if LB_CIRCUIT
-  return look(b) == LB_OK ? lb_conduct(b) : LB_ERROR;
+  return lb_look(b) == LB_OK ? lb_conduct(b) : LB_ERROR;
 #else
   return LB_OK;
 #endif
-}
-
-/* An input goes on with its derivatives since it was set: say the same from here on, and slopes are those of now. */
-static void anchor(lb_bearing *b, const lb_variable *v) {
-  unsigned row = v->begin - LB_TERM_BEGIN;
-  double *value = &REAL(b, row + LB_TERM_VALUE), *rate = &REAL(b, row + LB_TERM_RATE);
-  double acceleration = REAL(b, row + LB_TERM_ACCELERATION), passed = REAL(b, LB_CONTROL_TIME) - REAL(b, v->begin);
-  *value += passed * (*rate + 0.5 * passed * acceleration);
-  *rate += passed * acceleration;
-  REAL(b, v->begin) = REAL(b, LB_CONTROL_TIME);
-}
-
-static void shift(lb_bearing *b, const unsigned *knowns, size_t m, const double *along, double by) {
-  int varies = 0;
-  for (size_t k = 0; k < m; k++) {
-    if (lb_variables[knowns[k]].kind == LB_INPUT) anchor(b, &lb_variables[knowns[k]]);
-    REAL(b, lb_variables[knowns[k]].place) += by * along[k];
-    varies |= lb_variables[knowns[k]].kind == LB_VARIED;
-  }
-  if (varies) lb_follow(b);
-  b->stale = 1;
-}
-
-int lb_slope(lb_bearing *b, const unsigned *unknowns, size_t n, const unsigned *knowns, size_t m, const double *along,
-             double *slopes) {
-  double by = INFINITY;
-  if (!b) return LB_ERROR;
-  for (size_t k = 0; k < m; k++) {
-    const lb_variable *v = variable(b, knowns[k]);
-    if (!v) return LB_ERROR;
-    if (!isfinite(along[k])) return lb_say(b, LB_ERROR, "a slope along %g of %s: a finite number is due", along[k], lb_names[knowns[k]]);
-    if (!given(v)) return lb_say(b, LB_ERROR, "%s is no input: there are no slopes with it", lb_names[knowns[k]]);
-    if (along[k] != 0.0) by = fmin(by, v->scale / fabs(along[k]));
-  }
-  for (size_t i = 0; i < n; i++) slopes[i] = 0.0;
-  if (!isfinite(by)) return LB_OK;
-  if (settle(b) != LB_OK) return LB_ERROR;
-  /* Central differences about the state as it stands, which a copy brings back to the last bit. */
-  void *state = NULL;
-  int status = lb_save(b, &state);
-  for (int side = 1; side >= -1 && status == LB_OK; side -= 2) {
-    shift(b, knowns, m, along, side * by);
-    for (size_t i = 0; i < n && status == LB_OK; i++) {
-      double found;
-      status = lb_get(b, unknowns + i, 1, &found);
-      slopes[i] += side * found / (2.0 * by);
-    }
-    if (state) lb_restore(b, state);
-  }
-  free(state);
-  return status;
 }

@@ -12,9 +12,9 @@
 
 enum { LB_OK, LB_WARNING, LB_DISCARD, LB_ERROR, LB_FATAL }; /* as FMI 2 and 3 number them */
 enum { LB_CREATED, LB_INITIALISING, LB_STEPPING, LB_ENDED };
-#define LB_EVENTS 8 /* limits that are told: see limits.c */
+#define LB_EVENTS 9 /* limits that are told: see limits.c */
 /* What a variable is: see variables.py. */
-enum { LB_TIME, LB_INPUT, LB_VALUE, LB_LEAST, LB_GREATEST, LB_SUM, LB_TORQUE, LB_COUNT, LB_VARIED, LB_SOURCE };
+enum { LB_TIME, LB_INPUT, LB_VALUE, LB_LEAST, LB_GREATEST, LB_SUM, LB_TORQUE, LB_COUNT, LB_VARIED, LB_SOURCE, LB_CAPACITANCE, LB_SHORTED };
 
 typedef struct {
   int kind;
@@ -22,11 +22,14 @@ typedef struct {
   double scale;                  /* of an input: by how much it is changed for a slope */
   unsigned begin;         /* of an input: place of the time at which it was given */
   double lowest, highest; /* of an option that varies */
+  int axis;               /* in the matrix of slopes: of a reaction its row, of a motion its column, or -1 */
+  double turn;            /* sign there */
 } lb_variable;
 
 typedef struct lb_bearing {
   unsigned char *memory, *image; /* the image begins at a line of the processor's cache */
   int stale;                     /* outputs are to be computed before they are read */
+  int sloped;                    /* the matrix of slopes belongs to them */
   double looked, seen[LB_EVENTS]; /* when limits were looked at last, and each was last beyond [s] */
   char *name;
   void *host;    /* what the host wants back with each sentence */

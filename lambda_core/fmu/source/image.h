@@ -26,10 +26,21 @@ extern int64_t lb_advance(unsigned char *image, double until, int64_t work);
 extern int64_t lb_observe(unsigned char *image);
 extern int64_t lb_static(unsigned char *image, int64_t iterations);
 extern int64_t lb_march(unsigned char *image);
+extern int64_t lb_jacobian(unsigned char *image, double time);
 
 #define REAL(b, place) (*(double *)((b)->image + (place)))
 #define WORD(b, place) (*(int64_t *)((b)->image + (place)))
+/* What was observed last of a contact of a ball. */
+#define SAMPLE(j, k, name) REAL(b, LB_CONTACTS + LB_CONTACT_SIZE * (LB_CONTACTS_OF_A_BALL * (j) + (k)) + LB_CONTACT_##name)
+/* Numbers of the host that belong to a state. */
+enum { ORIGIN, LOST_BEFORE, TURNED_BEFORE, TORQUE, PHASE, UNSETTLED };
+#define HOST(b, which) REAL(b, LB_HOST + 8 * (which))
 
+const lb_variable *lb_real(lb_bearing *b, unsigned which); /* or NULL, and it has been said */
+int lb_given(const lb_variable *v);                        /* whether a host sets it */
+int lb_look(lb_bearing *b);    /* bring what can be read to the state as it stands */
+double lb_capacitance(lb_bearing *b, unsigned *shorted); /* [F] of the balls that short nothing; how many do */
+int lb_refused(lb_bearing *b); /* say which law refused; an error */
 void lb_address(unsigned char *image); /* give it the addresses of where it stands */
 void lb_follow(lb_bearing *b); /* bring constants to the values of the options */
 int lb_settle(lb_bearing *b);  /* find the equilibrium at the start; an error where there is none */

@@ -2,9 +2,8 @@
    after LB_CALM seconds without it. */
 #include "image.h"
 
-#define SAMPLE(j, k, name) REAL(b, LB_CONTACTS + LB_CONTACT_SIZE * (LB_CONTACTS_OF_A_BALL * (j) + (k)) + LB_CONTACT_##name)
 #define DEGREES (180.0 / 3.14159265358979323846)
-enum { PRESSURE, FILM, HIGH, LOW = HIGH + 2, RIDGE = LOW + 2 }; /* events; from HIGH on one for each ring */
+enum { PRESSURE, FILM, HIGH, LOW = HIGH + 2, RIDGE = LOW + 2, SHORT = RIDGE + 2 }; /* events; HIGH, LOW and RIDGE one for each ring */
 
 static const char *const rings[] = {"inner", "outer"};
 
@@ -74,6 +73,13 @@ void lb_tell_limits(lb_bearing *b) {
            "at t = %.9g s the contact pressure of %.3g GPa is beyond %g GPa, where steel yields (ISO 76): the contact laws "
            "are elastic",
            lb_time(b), 1e-9 * pressure, 1e-9 * LB_HIGHEST_PRESSURE);
+  unsigned shorted;
+  lb_capacitance(b, &shorted);
+  if (shorted && begins(b, SHORT))
+    lb_say(b, LB_WARNING,
+           "at t = %.9g s metal touches metal on both rings of %u ball%s (Lambda below %g): the rings are connected there, and "
+           "bearing.capacitance is that of the other balls",
+           lb_time(b), shorted, shorted > 1 ? "s" : "", LB_SHORTED_BELOW);
   if (film < LB_THINNEST_FILM && begins(b, FILM))
     lb_say(b, LB_WARNING,
            "at t = %.9g s the film parameter Lambda of %.2g at ball %u on the %s ring is below %g: the film is thinner than "
