@@ -96,6 +96,7 @@ class Warm:
     def __init__(self, folder: Path, env: Mapping[str, str] | None = None) -> None:
         self._address = str(folder / "warm")
         self._own = dict(env or {})
+        self._environment = dict(os.environ)  # of the session; that of a test may be its own
         self.path = folder / "bin"
         self.path.mkdir()
         self._server: subprocess.Popen[str] | None = None
@@ -112,7 +113,7 @@ class Warm:
             # sys.path, which each process gives up for its own folder, would be the first of PYTHONPATH.
             self._server = subprocess.Popen(
                 [sys.executable, __file__, self._address, *(() if self._own else ("run",))],
-                env=os.environ | self._own | {"OPENBLAS_NUM_THREADS": "1", "PYTHONSAFEPATH": ""},
+                env=self._environment | self._own | {"OPENBLAS_NUM_THREADS": "1", "PYTHONSAFEPATH": ""},
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 text=True,

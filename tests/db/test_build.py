@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 from lambda_db.catalogue import open_catalogue
@@ -16,12 +18,26 @@ from lambda_db.seed_files import BUILT_IN, fingerprint
 
 from lambda_core.domain.errors import CatalogueError
 
+if TYPE_CHECKING:
+    from warm import Warm
+
 
 @pytest.fixture
 def cache(tmp_path: Path, user_folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder = tmp_path / "cache"
     monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(folder))
     return folder
+
+
+@pytest.fixture
+def built(user_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return the built database, alone in a cache of this test; it comes from the cache of all tests."""
+    open_catalogue().close()
+    (found,) = cache_folder().glob(f"catalogue-{fingerprint([BUILT_IN])}-*.sqlite")
+    folder = tmp_path / "cache"
+    folder.mkdir()
+    monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(folder))
+    return Path(shutil.copy(found, folder))
 
 
 def test_built_once_and_named_by_the_seeds(cache: Path) -> None:
@@ -62,17 +78,15 @@ def one_number_changed(content: bytes) -> bytes:
 
 @pytest.mark.parametrize("damage", [nothing_left, cut_short, pages_lost, one_number_changed])
 def test_c3_a_damaged_cache_of_the_catalogue_is_built_again(
-    damage: Callable[[bytes], bytes], cache: Path, caplog: pytest.LogCaptureFixture
+    damage: Callable[[bytes], bytes], built: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    open_catalogue().close()
-    (built,) = cache.iterdir()
     whole = built.read_bytes()
     built.write_bytes(damage(whole))
     catalogue = open_catalogue()
     assert catalogue.bearing("6208", "SKF")
     assert "is damaged; building it again" in caplog.text
     catalogue.close()
-    (again,) = cache.iterdir()
+    (again,) = built.parent.iterdir()
     assert len(again.read_bytes()) == len(whole)
 
 
@@ -101,9 +115,9 @@ def test_only_the_last_databases_are_kept(cache: Path) -> None:
 FIRST_USE = "from lambda_db.catalogue import open_catalogue; print(len(open_catalogue().bearings(limit=1000)))"
 
 
-def test_four_first_uses_at_once(cache: Path) -> None:
-    command = [sys.executable, "-c", FIRST_USE]
-    running = [subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(4)]
+def test_four_first_uses_at_once(cache: Path, warm: Warm) -> None:
+    warm.ready()
+    running = [warm.start(FIRST_USE) for _ in range(4)]
     assert [(*process.communicate(), process.returncode) for process in running] == [("751\n", "", 0)] * 4
     assert [path.suffix for path in cache.iterdir()] == [".sqlite"]
 

@@ -6,10 +6,9 @@ import contextlib
 import os
 import shutil
 import sqlite3
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 from lambda_db import user
@@ -18,6 +17,9 @@ from lambda_db.paths import user_database
 from lambda_db.transfer import add_row, export_rows
 
 from lambda_core.domain.errors import CatalogueError
+
+if TYPE_CHECKING:
+    from warm import Warm
 
 ROW: dict[str, object] = {
     "designation": "6208",
@@ -98,13 +100,10 @@ for i in range(25):
 """
 
 
-def test_four_processes_adding_rows_lose_none(user_folder: Path, tmp_path: Path) -> None:
+def test_four_processes_adding_rows_lose_none(user_folder: Path, tmp_path: Path, warm: Warm) -> None:
     """Started together on an empty folder: the core database is built and the user's created in the same moment."""
-    environment = os.environ | {"LAMBDA_BEARING_CACHE": str(tmp_path / "cache")}
-    command = [sys.executable, "-c", WRITER]
-    running = [
-        subprocess.Popen([*command, str(n)], env=environment, stderr=subprocess.PIPE, text=True) for n in range(4)
-    ]
+    warm.ready()
+    running = [warm.start(WRITER, str(n), env={"LAMBDA_BEARING_CACHE": str(tmp_path / "cache")}) for n in range(4)]
     outcomes = [(process.communicate()[1], process.returncode) for process in running]
     assert outcomes == [("", 0)] * 4
     catalogue = open_catalogue()

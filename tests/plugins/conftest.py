@@ -80,7 +80,11 @@ class Installation:
 
     def program(self, *arguments: str, **environment: str) -> Answer:
         """Run ``lambda-bearing`` in a process of its own that sees the packages."""
-        process = self.warm.start(PROGRAM, *arguments, env=environment)
+        return self.forked(PROGRAM, *arguments, **environment)
+
+    def forked(self, code: str, *arguments: str, **environment: str) -> Answer:
+        """Run Python code in a process of its own that begins with everything imported."""
+        process = self.warm.start(code, *arguments, env=environment)
         out, said = process.communicate()
         assert "Traceback" not in said, said
         return Answer(process.returncode, out, said)
