@@ -17,7 +17,7 @@ from lambda_gui.app import BuilderApp
 from lambda_gui.builder import BuilderScreen
 from lambda_gui.rows import Row
 from lambda_gui.tree import ModelTree
-from textual import constants
+from textual import constants, events
 from textual._context import active_app
 from textual.app import App
 from textual.command import CommandList, CommandPalette
@@ -153,10 +153,13 @@ async def move_to(pilot: Pilot[None], key: str) -> None:
 
 
 async def find(pilot: Pilot[None], path: str, begin: str = "") -> None:
-    """Go to an option by keyboard: type its name, or the beginning of it, into the command palette."""
+    """Go to an option by keyboard: put its name, or the beginning of it, into the command palette, as a paste does.
+
+    Typed letter by letter, each letter is a search of all options.
+    """
     await pilot.press("ctrl+p")
-    await wait_for(pilot, lambda: isinstance(pilot.app.screen, CommandPalette))
-    await write(pilot, begin or path)
+    await wait_for(pilot, lambda: isinstance(pilot.app.screen, CommandPalette) and pilot.app.focused is not None)
+    pilot.app.post_message(events.Paste(begin or path))
     hits = pilot.app.screen.query_one(CommandList)
     await wait_for(pilot, lambda: hits.option_count and path in str(hits.get_option_at_index(0).prompt))
     await pilot.press("enter")

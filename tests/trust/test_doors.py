@@ -126,7 +126,7 @@ def test_c2_3_nothing_is_imported_from_the_working_directory(tmp_path: Path) -> 
         '[[parameters]]\npath = "loads.axial"\nvalues = ["1 kN", "2 kN"]\n',
         encoding="utf-8",
     )
-    for arguments in (["plugins", "check", "damping"], ["study", "run", "s.toml", "--workers", "2", "--quiet"]):
+    for arguments in (["plugins", "check", "damping"], ["study", "run", "s.toml", "--workers", "1", "--quiet"]):
         done = subprocess.run(
             [script, *arguments], cwd=tmp_path, capture_output=True, text=True, timeout=800, check=False
         )
