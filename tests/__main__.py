@@ -1,6 +1,6 @@
 """Everything that must hold, in one command: ``python -m tests [arguments of pytest]``.
 
-Style, types and layers beside compiling, then the tests on two processes. Each part runs whatever the others said.
+Style, types and layers beside compiling, then the tests on three processes. Each part runs whatever the others said.
 """
 
 from __future__ import annotations
@@ -23,21 +23,22 @@ LOOKING = {
     "mypy": [PYTHON, "-m", "mypy"],
     "layers": [str(Path(PYTHON).parent / "lint-imports")],
 }
-# Once, before two processes of tests would do it side by side.
+# Once, before the processes of tests would do it side by side.
 COMPILING = {
     "bytecode": [PYTHON, "-m", "compileall", "-q", *PACKAGES],
     "compile": [PYTHON, "-m", "lambda_cli", "warmup", "--quiet"],
 }
 COLLECTING = {"collect": [PYTHON, "-m", "pytest", "--collect-only", "-qq"]}
-# One file stays in one process: what a file prepares for its tests is prepared once.
-TESTING = {"pytest": [PYTHON, "-m", "pytest", "-n", "2", "--dist", "loadfile", "--no-loadscope-reorder"]}
+# One file stays in one process: what a file prepares for its tests is prepared once. A seventh of the time tests wait
+# (for programs, timers, helpers): one process more than the two cores of CI.
+TESTING = {"pytest": [PYTHON, "-m", "pytest", "-n", "3", "--dist", "loadfile", "--no-loadscope-reorder"]}
 
 
 def environment() -> dict[str, str]:
     """Return the environment of every part."""
     # Every process of pytest rewrites assertions, its own and those of its plugins, unless it finds that done.
     kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
-    # One thread each, as the program itself has it: two processes share two cores.
+    # One thread each, as the program itself has it: the processes share the cores.
     return kept | {"LAMBDA_BEARING_CACHE": str(CACHE), "OPENBLAS_NUM_THREADS": "1"}
 
 

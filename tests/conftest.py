@@ -27,6 +27,25 @@ TIMED = (
     "tests/trust/test_signals.py",
 )
 
+# What takes longest comes first: one file of half a minute at the end keeps one process while the others are done.
+LONGEST = (
+    "tests/docs/test_examples.py",
+    "tests/fmu/test_fmu.py",
+    "tests/study/test_workers.py",
+    "tests/gui/test_nothing_is_cut.py",
+    "tests/gui/test_builder.py",
+    "tests/gui/test_runs.py",
+    "tests/gui/test_studies.py",
+    "tests/attacks/test_short.py",
+    "tests/plugins/",
+    "tests/gui/",
+    "tests/simulate/",
+    "tests/trust/",
+    "tests/electric/",
+    "tests/db/",
+    "tests/physics/",
+)
+
 # Helpers of all tests are modules beside this file.
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -38,7 +57,8 @@ if TYPE_CHECKING:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Give tests with a timing of their own a second try."""
+    """Put the longest files first, and give tests with a timing of their own a second try."""
+    items.sort(key=lambda item: [not item.nodeid.startswith(name) for name in LONGEST])
     for item in items:
         if item.nodeid.startswith(TIMED):
             item.add_marker(pytest.mark.flaky(reruns=1))
