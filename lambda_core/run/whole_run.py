@@ -64,7 +64,7 @@ def launch_whole(
         old.unlink()
     channels, writers, status = _channels(engine), [], Status(process=this_process())
     for i, own in enumerate(channels):
-        provenance = Provenance(_alone(engine, i), _keys(engine, i))
+        provenance = Provenance(bearing_alone(engine, i), _keys(engine, i))
         name = engine.parts[i].bearing.name
         writers.append(ResultWriter.create(folder / f"{name}.h5", provenance, own, status, force=force))
     texts = {"case": model.name, "case_toml": model.case_toml, "code": _code(engine)}
@@ -146,7 +146,7 @@ def _code(engine: WholeEngine) -> str:
     return hashlib.sha256("\n".join(keys).encode() + numbers).hexdigest()
 
 
-def _alone(engine: WholeEngine, i: int) -> BearingModel:
+def bearing_alone(engine: WholeEngine, i: int) -> BearingModel:
     """Return a bearing as its own result says it: under the load that it has in the equilibrium of the whole."""
     model, reaction = engine.parts[i].bearing.model, engine.start.reactions[i]
     name = engine.parts[i].bearing.name

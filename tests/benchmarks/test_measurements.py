@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from benchmarks import whole
 from benchmarks.__main__ import main
 from benchmarks.accuracy import Outcome, trajectory_totals
 from benchmarks.cases import BALLS, MIDDLE, with_balls, without_samples
@@ -74,3 +75,19 @@ def test_the_command_answers_in_json(capsys: pytest.CaptureFixture[str]) -> None
     assert all(milliseconds > 0.0 for row in section["tables"][0]["rows"] for milliseconds in row[1:])
     assert data["targets"][0]["unit"] == "ms"
     assert data["machine"]["versions"]
+
+
+def test_a_whole_stands_beside_its_bearings(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(whole, "_MILLISECONDS_QUICK", 10)
+    assert main(["--quick", "--json", "whole"]) == 0
+    (section,) = json.loads(capsys.readouterr().out)["sections"]
+    (table,), (target,) = section["tables"], section["targets"]
+    rows = {row[0]: dict(zip(table["columns"], row, strict=True)) for row in table["rows"]}
+    assert list(rows) == ["whole", "left", "right"]
+    for name, row in rows.items():
+        of_all = (2 if name == "whole" else 1) * row["Newton iterations"]
+        assert row["bearings evaluated"] == of_all - row["rests"] >= row["steps"] > 0
+    assert rows["whole"]["rests"] > 0 == rows["left"]["rests"]
+    assert target["reached"] == pytest.approx(rows["whole"]["ms"] / (rows["left"]["ms"] + rows["right"]["ms"]))

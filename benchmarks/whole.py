@@ -1,0 +1,76 @@
+"""What a shaft in its bearings costs, over the sum of its bearings run alone under the loads that they have there."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Mapping
+
+from benchmarks.tables import Cell, Section, Table, Target
+from benchmarks.timing import Effort, now, sum_of_minima
+from lambda_core.run.whole_run import bearing_alone
+from lambda_core.shaft.fresh_shaft import fresh_shaft
+from lambda_core.shaft.resolving import check_shaft
+from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.solver.drivers.dynamics import BearingEngine
+from lambda_core.system.checking import check
+
+CHANGES = ("discs.wheel.unbalance=50 g mm",)  # of the case that `init --shaft` writes
+MOST = 1.3  # times the sum
+_PIECES = 20
+_MILLISECONDS, _MILLISECONDS_QUICK = 200, 40
+_REPEATS = 5
+_COUNTED = ("steps", "newton_iterations", "rests", "jacobians", "ball_jacobians", "factorisations")
+WHOLE = "whole"
+Engine = WholeEngine | BearingEngine
+Passage = tuple[tuple[float, ...], Mapping[str, float]]  # time of each piece [s], counters
+
+
+def starts(changes: tuple[str, ...] = CHANGES) -> dict[str, Callable[[], Engine]]:
+    """Return how the whole and each of its bearings alone are started, by name."""
+    model = check_shaft(tomllib.loads(fresh_shaft("whole")), changes)
+    first = WholeEngine(model)
+    found: dict[str, Callable[[], Engine]] = {WHOLE: lambda: WholeEngine(model)}
+    for i, part in enumerate(first.parts):
+        alone = check(tomllib.loads(bearing_alone(first, i).case_toml))
+        found[part.bearing.name] = lambda alone=alone: BearingEngine(alone)  # type: ignore[misc]
+    return found
+
+
+def passage(engine: Engine, duration: float) -> Passage:
+    """Integrate for `duration` [s]: samples wait in the buffer, nothing of Python but a call for each piece."""
+    pieces = []
+    for k in range(_PIECES):
+        began = now()
+        done = engine.advance(duration * (k + 1) / _PIECES)
+        pieces.append(now() - began)
+        if not done.ok:
+            raise RuntimeError(done.message)
+    return tuple(pieces), engine.statistics()
+
+
+def measure(effort: Effort) -> Section:
+    """Time the whole and its bearings in turn, piece by piece; of each piece the shortest repeat counts."""
+    duration = 1e-3 * effort.pick(_MILLISECONDS_QUICK, _MILLISECONDS)
+    ways = starts()
+    found: dict[str, list[Passage]] = {name: [] for name in ways}
+    for _ in range(effort.pick(effort.repeats, _REPEATS)):
+        for name, start in ways.items():
+            found[name].append(passage(start(), duration))
+    seconds = {name: sum_of_minima([pieces for pieces, _ in passages]) for name, passages in found.items()}
+    bearings, rows = len(ways) - 1, []
+    for name, passages in found.items():
+        counts = [int(passages[0][1].get(key, 0)) for key in _COUNTED]
+        evaluated = counts[1] * (bearings if name == WHOLE else 1) - counts[2]
+        cells: tuple[Cell, ...] = (name, *counts, evaluated, 1e3 * seconds[name], 1e6 * seconds[name] / evaluated)
+        rows.append(cells)
+    table = Table(
+        f"A whole and its bearings alone, 6208 and 6206, {1e3 * duration:.0f} ms",
+        (
+            "what", "steps", "Newton iterations", "rests", "Jacobians", "of single balls", "factorisations",
+            "bearings evaluated", "ms", "us per bearing evaluated",
+        ),
+        tuple(rows),
+        ("The shaft of `init --shaft` with 50 g mm at its wheel; alone under the loads of the whole's equilibrium.",),
+    )  # fmt: skip
+    ratio = seconds[WHOLE] / sum(value for name, value in seconds.items() if name != WHOLE)
+    return Section("whole", (table,), (Target("a whole over the sum of its bearings", "-", ratio, MOST),))
