@@ -329,7 +329,7 @@ class WholeEngine:
         for prefix, group in (("memory", self._memory), ("factors", self._factors)):
             for name, array in zip(group._fields, group, strict=True):
                 parts[f"{prefix}.{name}"] = np.array(array, copy=True)
-        for name in ("a", "b", "c", "d", "d_own", "changed", "cross", "shared", "parts"):
+        for name in ("a", "b", "c", "d", "d_own", "changed", "newer", "cross", "shared", "parts"):
             parts[f"blocks.{name}"] = getattr(self._blocks, name).copy()
         parts["sampled"], parts["last"] = self._sampled.copy(), np.array(self._last)
         parts["start"] = np.array([self._last_time, self._start_energy, *self._start_angles])

@@ -76,6 +76,26 @@ def test_a_jacobian_in_parts_is_the_whole_one(engine: WholeEngine) -> None:
     assert np.abs(changed - jacobian(moved, everywhere)).max() < 1e-9 * size
 
 
+def test_factors_of_single_balls_are_those_of_the_whole_row() -> None:
+    """After partial renewals inverses belong to their blocks, and a row's part of the Schur complement is the sum."""
+    engine = WholeEngine(check_shaft(tables()))
+    assert engine.advance(END).ok
+    assert engine.statistics()["ball_jacobians"] > 50.0
+    factors, blocks = engine._factors, engine._blocks
+    for r, row in enumerate(engine._bundle.rows):
+        balls = range(int(row["first_ball"]), int(row["first_ball"] + row["balls"]))
+        n, gamma = int(blocks.reach.width[r]), float(factors.gamma[r])
+        share = np.zeros((n, n))
+        for j in balls:
+            assert blocks.newer[j] == 0
+            whole = np.eye(L.NB) - gamma * blocks.a[j]
+            assert np.abs(factors.inverse[j].T @ whole - np.eye(L.NB)).max() < 1e-7
+            across = factors.inverse[j].T @ (-gamma * blocks.b[j][:, :n])
+            assert np.allclose(factors.across[j, :n].T, across, rtol=1e-7, atol=1e-9 * np.abs(across).max())
+            share += gamma * blocks.c[j, :n] @ across
+        assert np.abs(factors.own[r, :n, :n] - share).max() < 1e-9 * np.abs(share).max()
+
+
 def test_energy_is_balanced_as_well_as_without_it(engine: WholeEngine) -> None:
     """The same motion with every bearing evaluated every time: the balance closes, ends of iterations are as small."""
     awake = WholeEngine(check_shaft(tables()))

@@ -32,6 +32,7 @@ from lambda_core.solver.lu import lu_factor, lu_solve
 
 # Relative change of g beyond which what a step divides by it is factored anew; not a tie with one growth of the step.
 REFACTOR = 0.41
+_ALIKE = 0.05  # likewise, up to which single balls of a row are factored for the g of the others
 
 
 class Factors(NamedTuple):
@@ -204,6 +205,42 @@ def _factor_row(bl, r, shift, gamma, fa, own):
         before = _joined_before(bl.reach, r, j, fa)
         if _factor_ball(bl, j, before, shift, gamma, fa, own, bl.reach.width[r]) != 1:
             return 0
+        bl.newer[j] = 0
+    return 1
+
+
+@helper
+def _give_back(j, fa, own, n):
+    """Add to `own` again what ball j has taken from it."""
+    x, across, c = fa.x, fa.across[j], fa.c[j]
+    for k in range(NB):
+        for q in range(n):
+            x[k, q] = across[q, k]
+    for i in range(n):
+        for k in range(NB):
+            if c[k, i] != 0.0:
+                _add(own[i], c[k, i], x[k], n)
+
+
+@helper
+def _few_are_newer(r, bl):
+    """Return whether giving back and taking again is less than factoring the whole row."""
+    newer = 0
+    for j in range(bl.reach.first[r], bl.reach.first[r + 1]):
+        newer += bl.newer[j]
+    return 2 * newer <= bl.reach.first[r + 1] - bl.reach.first[r]
+
+
+@helper
+def _renew_row(bl, r, shift, fa, own):
+    """Factor the balls of a row anew whose blocks have changed, for the g of the others; returns 0 when singular."""
+    n, bl.changed[r] = bl.reach.width[r], 0
+    for j in range(bl.reach.first[r], bl.reach.first[r + 1]):
+        if bl.newer[j] == 1:
+            _give_back(j, fa, own, n)
+            if _factor_ball(bl, j, -1, shift, fa.gamma[r], fa, own, n) != 1:
+                return 0
+            bl.newer[j] = 0
     return 1
 
 
@@ -211,7 +248,11 @@ def _factor_row(bl, r, shift, gamma, fa, own):
 def _add_row(bl, r, shift, gamma, fa):
     """Add to the Schur complement what the contacts of a row have of it; returns 0 when a block is singular."""
     own, n, columns = fa.own[r], bl.reach.width[r], bl.reach.columns[r]
-    if bl.changed[r] == 1 or abs(gamma / fa.gamma[r] - 1.0) > REFACTOR:
+    apart = abs(gamma / fa.gamma[r] - 1.0)
+    if bl.changed[r] == 1 and apart <= _ALIKE and fa.joined.size == 0 and _few_are_newer(r, bl):
+        if _renew_row(bl, r, shift, fa, own) != 1:
+            return 0
+    elif bl.changed[r] == 1 or apart > REFACTOR:
         own[:, :] = 0.0
         if _factor_row(bl, r, shift, gamma, fa, own) != 1:
             return 0

@@ -24,6 +24,7 @@ class Blocks(NamedTuple):
     beyond: Any  # (6, 9) d(ball force)/d(ball beside it)
     d_own: Any  # (rows, widest, widest): of D what contacts of each row have, where bearings are several
     changed: Any  # int64 (rows,): whether blocks of the row are newer than its factors
+    newer: Any  # int64 (Z,): whether blocks of the ball are newer than its factors
     own: Any  # (6, 9) d(ball force)/d(ball)
     to_shared: Any  # (6, 12 places) d(ball force)/d(own bodies)
     from_ball: Any  # (places, 6, 9) d(own body force)/d(ball)
@@ -52,6 +53,7 @@ _BLOCK_TYPES = {
     "beyond": array2,
     "d_own": array3,
     "changed": iarray1,
+    "newer": iarray1,
     "own": array2,
     "to_shared": array2,
     "from_ball": array3,
@@ -89,6 +91,7 @@ def make_blocks(bundle: Any) -> Blocks:
         beyond=zeros((6, NB)),
         d_own=zeros((reach.width.size, widest, widest)),
         changed=np.ones(reach.width.size, dtype=np.int64),
+        newer=np.ones(balls, dtype=np.int64),
         own=zeros((6, NB)),
         to_shared=zeros((6, NS * places)),
         from_ball=zeros((places, 6, NB)),

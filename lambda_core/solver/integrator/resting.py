@@ -1,10 +1,10 @@
 """Bearings that rest in Newton's later iterations, while another one on the same shaft still iterates.
 
 All bearings of a whole take the same steps, which one of them needs so short; to the others the first correction of
-such a step is nearly nothing. Where a bearing's states have moved by a small part of what the iteration may leave since
-its contacts were computed, they are not computed again: what these moves change of its forces and rates follows from
-its Jacobian, so that rings and balls stay in balance. What is left out is of the second order of the moves, and what
-the Jacobian is out of date by times them: no larger than the moves themselves wherever the iteration converges.
+such a step is nearly nothing. Where a bearing's states have moved by no more than the iteration may leave, root mean
+square, since its contacts were computed, they are not computed again: what these moves change of its forces and rates
+follows from its Jacobian, so that rings and balls stay in balance. What is left out is of the second order of the
+moves, and what the Jacobian is out of date by times them: less than the moves wherever the iteration converges.
 
 Energy is balanced with the forces and powers that were computed, and the moves since: :mod:`.balance`.
 """
@@ -16,8 +16,6 @@ import math
 from lambda_core.solver.layout import NB, NS, helper
 from lambda_core.solver.lu import inner_product
 from lambda_core.solver.motion.bearing_sums import AGAIN
-
-_LITTLE = 0.3  # of what the iteration may leave, root mean square over the states of the bearing
 
 
 @helper
@@ -67,7 +65,7 @@ def let_rest(tolerance, bundle, bl, mem):
     if bundle.resting.size == 1 or bundle.states.size > 0:
         return 1
     for b in range(bundle.resting.size):
-        bundle.resting[b] = 1 if _moved(b, bundle, mem) <= _LITTLE * tolerance else 0
+        bundle.resting[b] = 1 if _moved(b, bundle, mem) <= tolerance else 0
     for r in range(bundle.rows.size):
         row = bundle.rows[r]
         if row.caged == 0:

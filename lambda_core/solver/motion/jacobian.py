@@ -181,7 +181,7 @@ def jacobian(t, y, bundle, bl):
         for j in range(row.first_ball, row.first_ball + row.balls):
             if bl.due[j] == 0:
                 continue
-            bl.changed[r] = 1
+            bl.changed[r], bl.newer[j] = 1, 1
             renewed += 1
             if _ball_blocks(balls, j, row, bundle, bl) != 1:
                 return 0
