@@ -97,7 +97,8 @@ class BuilderScreen(LiveDraft):
         self._show_head()
 
     def _show_head(self) -> None:
-        self.query_one(Head).show(self.draft, self.check, self.app.run_words())  # type: ignore[attr-defined]
+        warned, running = len(self.query_one(Derived).warnings()), self.app.run_words()  # type: ignore[attr-defined]
+        self.query_one(Head).show(self.draft, self.check, warned, running)
 
     def _recolour(self) -> None:
         self._show_head()
@@ -250,6 +251,7 @@ class BuilderScreen(LiveDraft):
         """Show the numbers that follow."""
         if self.is_here:
             self.query_one(Derived).show_estimate(estimate, say)
+            self._show_head()
 
     def action_undo(self) -> None:
         """Take the last change back and show where it was."""

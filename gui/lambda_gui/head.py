@@ -20,11 +20,13 @@ class Head(Static):
     Head { height: 1; width: 1fr; background: $panel; padding: 0 1; }
     """
 
-    def show(self, draft: Draft, check: Check, running: str) -> None:
+    def show(self, draft: Draft, check: Check, beyond: int, running: str) -> None:
         """Say how the case stands.
 
         Parameters
         ----------
+        beyond : int
+            How many warnings there are: of the case, and of what is solved of it.
         running : str
             A few words about the runs that are going on.
         """
@@ -38,7 +40,6 @@ class Head(Static):
         if count:
             right.append(f"▲ {count} mistake{'s' * (count > 1)}  F8", style=colours["error"])
         elif check.resolved is not None:
-            beyond = len(check.warnings)
             right.append("ready", style=colours["warning" if beyond else "success"])
             if beyond:
                 right.append(f", ▲ {beyond} warning{'s' * (beyond > 1)}  F8", style=colours["warning"])

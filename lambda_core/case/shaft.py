@@ -25,7 +25,7 @@ from lambda_core.case.shaft_parts import (
     held,
     without_motion,
 )
-from lambda_core.case.signals import SpeedSignal
+from lambda_core.case.signals import AngleSignal, LengthSignal, SpeedSignal
 from lambda_core.domain.units import (
     AngularDamping,
     Damping,
@@ -112,6 +112,11 @@ class Support(Section):
     damping_z: Damping = option("0 N s/m", "vertical, likewise", ge=0.0)
     damping_tilt_y: AngularDamping = option("0 N m s/rad", "of rotation about y, likewise", ge=0.0)
     damping_tilt_z: AngularDamping = option("0 N m s/rad", "of rotation about z, likewise", ge=0.0)
+    motion_x: LengthSignal | None = option(None, "where a locked ring is led, beside its drawn place, over time: axial")
+    motion_y: LengthSignal | None = option(None, "horizontal, likewise")
+    motion_z: LengthSignal | None = option(None, "vertical, likewise")
+    motion_tilt_y: AngleSignal | None = option(None, "rotation about y, likewise: a seat that is not in line")
+    motion_tilt_z: AngleSignal | None = option(None, "rotation about z, likewise")
 
     _without_motion = field_validator("x", "y", "z", "tilt_y", "tilt_z", mode="before")(without_motion)
 
@@ -124,6 +129,15 @@ class Support(Section):
     @classmethod
     def _rotation(cls, text: str) -> str:
         return held(text, "angular_stiffness")
+
+    @field_validator("motion_x", "motion_y", "motion_z", "motion_tilt_y", "motion_tilt_z")
+    @classmethod
+    def _leads_what_is_locked(cls, motion: Any, info: ValidationInfo) -> Any:
+        dof = str(info.field_name).removeprefix("motion_")
+        how = info.data.get(dof, "locked")
+        if motion is not None and how != "locked":
+            raise ValueError(f'needs support.{dof} = "locked", not "{how}": a ring that is led does not give way')
+        return motion
 
 
 class ShaftBearing(Bearing, Placed):

@@ -24,7 +24,12 @@ from lambda_core.domain.units import (
     Stiffness,
     Unbalance,
     parse,
+    show,
 )
+
+# Stiffness and damping at most, in SI: a cube of steel of a metre has 2e11 N/m; where one part is 1e20 as stiff as
+# others, these are lost in rounding.
+LARGEST = 1e15
 
 
 class Placed(Section):
@@ -71,6 +76,8 @@ def held(text: str, quantity: str) -> str:
         raise ValueError(f'{error}; or write "locked" or "free"') from None
     if value <= 0.0:
         raise ValueError(f'"{text}": a stiffness must be greater than 0; or write "free"')
+    if value > LARGEST:
+        raise ValueError(f'"{text}": a stiffness must be at most {show(LARGEST, quantity)}; or write "locked"')
     return folded
 
 
@@ -79,7 +86,7 @@ def without_motion(value: Any) -> Any:
     if isinstance(value, Mapping):
         raise ValueError(
             'no motion is led here: write "locked", "free" or a stiffness; a shaft is moved by operation.speed, loads '
-            "over time and unbalance"
+            "over time, unbalance and seats that are led (bearings.NAME.support.motion_x and so on)"
         )
     return value
 
@@ -172,18 +179,20 @@ class ShaftSpring(Placed):
     to: str = option(
         "ground", "what it holds its place to: ground, shaft, one of [bodies], or a marker there", min_length=1
     )
-    x: Stiffness = option("0 N/m", "stiffness along the shaft", ge=0.0)
-    y: Stiffness = option("0 N/m", "horizontal", ge=0.0)
-    z: Stiffness = option("0 N/m", "vertical", ge=0.0)
-    tilt_x: AngularStiffness = option("0 N m/rad", "against rotation about x; not of the shaft, which turns", ge=0.0)
-    tilt_y: AngularStiffness = option("0 N m/rad", "against rotation about y", ge=0.0)
-    tilt_z: AngularStiffness = option("0 N m/rad", "against rotation about z", ge=0.0)
-    damping_x: Damping = option("0 N s/m", "damping along the shaft", ge=0.0)
-    damping_y: Damping = option("0 N s/m", "horizontal", ge=0.0)
-    damping_z: Damping = option("0 N s/m", "vertical", ge=0.0)
-    damping_tilt_x: AngularDamping = option("0 N m s/rad", "of rotation about x; not of the shaft", ge=0.0)
-    damping_tilt_y: AngularDamping = option("0 N m s/rad", "of rotation about y", ge=0.0)
-    damping_tilt_z: AngularDamping = option("0 N m s/rad", "of rotation about z", ge=0.0)
+    x: Stiffness = option("0 N/m", "stiffness along the shaft", ge=0.0, le=LARGEST)
+    y: Stiffness = option("0 N/m", "horizontal", ge=0.0, le=LARGEST)
+    z: Stiffness = option("0 N/m", "vertical", ge=0.0, le=LARGEST)
+    tilt_x: AngularStiffness = option(
+        "0 N m/rad", "against rotation about x; not of the shaft, which turns", ge=0.0, le=LARGEST
+    )
+    tilt_y: AngularStiffness = option("0 N m/rad", "against rotation about y", ge=0.0, le=LARGEST)
+    tilt_z: AngularStiffness = option("0 N m/rad", "against rotation about z", ge=0.0, le=LARGEST)
+    damping_x: Damping = option("0 N s/m", "damping along the shaft", ge=0.0, le=LARGEST)
+    damping_y: Damping = option("0 N s/m", "horizontal", ge=0.0, le=LARGEST)
+    damping_z: Damping = option("0 N s/m", "vertical", ge=0.0, le=LARGEST)
+    damping_tilt_x: AngularDamping = option("0 N m s/rad", "of rotation about x; not of the shaft", ge=0.0, le=LARGEST)
+    damping_tilt_y: AngularDamping = option("0 N m s/rad", "of rotation about y", ge=0.0, le=LARGEST)
+    damping_tilt_z: AngularDamping = option("0 N m s/rad", "of rotation about z", ge=0.0, le=LARGEST)
 
 
 class PointLoad(Placed):

@@ -39,6 +39,7 @@ LAYOUT = 1
 LAYOUT_ATTRIBUTE = "lambda_bearing_layout"
 STATUS = "status"
 STATUS_BYTES = 8192
+SHAFT_RUN, SHAFT_BEARING = "shaft_run", "shaft_bearing"  # attributes of a bearing's result in a shaft's run
 SLOTS = "restart/slots"
 INTEGRALS_GROUP = "integrals"
 REVOLUTIONS_GROUP = "revolutions"
@@ -69,6 +70,8 @@ def create(file: h5py.File, provenance: Provenance, channels: Sequence[Channel])
     file.attrs["case"] = model.name
     file.attrs["headline"] = "\n".join(headline(model))
     file.attrs["created"] = provenance.created()
+    if provenance.part_of is not None:
+        file.attrs[SHAFT_RUN], file.attrs[SHAFT_BEARING] = provenance.part_of
     file.attrs["frames"] = "x shaft axis, y horizontal, z up; azimuth from +y towards +z; SI units"
     _dimensions(file, model, channels)
     _series(file, channels, "time")

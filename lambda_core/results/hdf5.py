@@ -14,6 +14,7 @@ import h5py
 
 from lambda_core.domain.errors import UsageError
 from lambda_core.results import file_format as layout
+from lambda_core.results.integrity import is_cut
 from lambda_core.results.run_status import Rows, exists
 
 _LOOKS = 24  # pauses of 1 ns and twice as long each time: 17 ms in all, a writer takes less
@@ -25,6 +26,8 @@ def open_for_reading(path: Path) -> h5py.File:
     try:
         return h5py.File(path, "r")
     except (OSError, RuntimeError):
+        if path.is_file() and is_cut(path):
+            raise OSError("it is cut: its end is missing") from None
         access = h5py.h5p.create(h5py.h5p.FILE_ACCESS)
         access.set_libver_bounds(h5py.h5f.LIBVER_EARLIEST, h5py.h5f.LIBVER_LATEST)
         _look_again(access, _LOOKS)

@@ -20,6 +20,9 @@ from lambda_core.system.bearing import Geometry, Solver
 _SIGNATURE = b"GCOL\x01\x00\x00\x00"  # with version and reserved bytes
 _SIZE = struct.Struct("<Q")
 _OBJECT = struct.Struct("<HHIQ")  # index, references, reserved, size
+_HDF5 = b"\x89HDF\r\n\x1a\n"
+_SUPERBLOCK = 48  # [byte], as much of it as is read
+_END, _END_OF_OLD = 28, 40  # place of the address of the file's end, versions 2 and 3; 0 and 1
 _WORDS = ("series", "arrangement")  # what a geometry says in words
 _LOOKED_AT = 64 << 20  # [byte] from the beginning: a run writes its texts before its samples
 
@@ -55,6 +58,21 @@ def _ends(data: mmap.mmap, start: int) -> bool:
             return False
         place += step
     return True
+
+
+def is_cut(path: Path) -> bool:
+    """Tell whether a file is shorter than the end that stands in its superblock.
+
+    What is behind the end of a file HDF5 reads as zeros where another process might still be writing. Whoever flushes
+    makes the file as long before the superblock says so (HDF5 File Format Specification, II.A).
+    """
+    with path.open("rb") as stream:
+        head = stream.read(_SUPERBLOCK)
+        size = stream.seek(0, 2)
+    if len(head) < _SUPERBLOCK or not head.startswith(_HDF5):
+        return False
+    end = _SIZE.unpack_from(head, _END_OF_OLD if head[len(_HDF5)] < 2 else _END)[0]
+    return bool(size < end)
 
 
 def check_model(model: Any) -> None:

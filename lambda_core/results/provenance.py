@@ -44,6 +44,7 @@ class Provenance:
     model: BearingModel
     kernel_keys: Mapping[str, str]  # "element/role/model", or a part of the core -> hash of the code
     rating: Rating | None = None  # what standards and catalogues say of the equilibrium that it starts from
+    part_of: tuple[str, str] | None = None  # of a shaft's run: its mark, and the bearing's name there
 
     def versions(self) -> dict[str, str]:
         """Return versions of the program, Python, the libraries, and the platform."""

@@ -184,7 +184,13 @@ def summarise(result: Result, together: float = 0.0) -> Summary:
         warnings=[
             *result.case_warnings,
             *tolerance_warning(settings.tolerance),
-            *warnings(_highest_pressure(result), edges, extremes.largest_tilt, kind_of(result.model["geometry"])),
+            *warnings(
+                _highest_pressure(result),
+                edges,
+                extremes.largest_tilt,
+                kind_of(result.model["geometry"]),
+                on_shaft=result.part_of is not None,
+            ),
         ],
         energy_residual=finite(residual),
         iteration_residual=_iteration_residual(status.statistics, whole),

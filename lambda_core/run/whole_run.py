@@ -9,6 +9,7 @@ import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
+from uuid import uuid4
 
 import numpy as np
 
@@ -16,13 +17,12 @@ from lambda_core.case.case_writer import tables_toml
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError, UsageError
-from lambda_core.domain.files import check_folder
+from lambda_core.domain.files import check_folder, held
 from lambda_core.laws.kernels import sources_key
 from lambda_core.results.averages import COLUMNS, Interval, boundaries, finite, row
 from lambda_core.results.checkpoint import Checkpoint, Position
 from lambda_core.results.convergence import Window, are_converged, revolutions_wanted, torque_together, window
 from lambda_core.results.provenance import Provenance
-from lambda_core.results.reader import Result
 from lambda_core.results.run_status import Rows, State, Status, this_process
 from lambda_core.results.writer import ResultWriter
 from lambda_core.run.progress import Progress, Report, StopRequest, stop_request
@@ -60,14 +60,21 @@ def launch_whole(
             f"{len(engine.parts)} bearings, {engine.shaft.positions.size} lumps of the shaft, {engine.states} states"
         )
     folder.mkdir(exist_ok=True)
+    with held(folder):
+        return _launch(engine, folder, ends, report, force=force)
+
+
+def _launch(engine: WholeEngine, folder: Path, ends: Ends, report: Report | None, *, force: bool) -> WholeFile:
+    """Begin the results of a run in its folder, and drive it."""
+    model = engine.model
     for old in folder.glob("*.h5") if force else ():
         old.unlink()
-    channels, writers, status = _channels(engine), [], Status(process=this_process())
+    channels, writers, status, run = _channels(engine), [], Status(process=this_process()), uuid4().hex
     for i, own in enumerate(channels):
-        provenance = Provenance(bearing_alone(engine, i), _keys(engine, i))
         name = engine.parts[i].bearing.name
+        provenance = Provenance(bearing_alone(engine, i), _keys(engine, i), part_of=(run, name))
         writers.append(ResultWriter.create(folder / f"{name}.h5", provenance, own, status, force=force))
-    texts = {"case": model.name, "case_toml": model.case_toml, "code": _code(engine)}
+    texts = {"case": model.name, "case_toml": model.case_toml, "code": _code(engine), "run": run}
     texts["warnings"] = "\n".join(model.warnings)
     whole = WholeWriter.create(
         folder / WHOLE,
@@ -88,6 +95,14 @@ def resume_whole(
 ) -> WholeFile:
     """Go on with a run from its last checkpoint, bit for bit as if it had not been interrupted."""
     found = WholeFile(path)
+    with held(found.folder):
+        return _resume(found, model, ends, report, announce)
+
+
+def _resume(
+    found: WholeFile, model: ShaftModel, ends: Ends, report: Report | None, announce: Callable[[str], None] | None
+) -> WholeFile:
+    """Go on in a folder that is held."""
     status = found.status()
     if status.alive():
         raise UsageError(f"{found.path} is still being written by process {status.process['pid']}")
@@ -103,8 +118,9 @@ def resume_whole(
         raise UsageError(f"{found.folder} is finished: nothing is left to do; a longer --duration continues it")
     running, writers, known = Status(process=this_process(), wall=position.wall), [], []
     last: list[FloatArray] = []
+    results = found.results()
     for part, own, count in zip(engine.parts, _channels(engine), revolutions, strict=True):
-        result = Result(found.bearing(part.bearing.name))
+        result = results[part.bearing.name]
         known.append(list(result.revolutions()[:count]))
         last.append(result.integrals()[position.rows.records - 1])
         rows = Rows(position.rows.samples, position.rows.records, int(count))

@@ -22,11 +22,12 @@ from lambda_core.shaft.structure import carried
 from lambda_core.solver.drivers.held_ring import POSE
 from lambda_core.system.bearing import TimeFunction
 from lambda_core.system.ledger import Ledger
-from lambda_core.system.time_functions import added, initial, scaled, time_function
+from lambda_core.system.time_functions import added, initial, peak, scaled, time_function
 
 COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
 _DOFS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
 _ROUNDING = 1e-9
+_FAR_BEYOND = 1000.0  # times the static ratings: pressures ten times those that dent it
 
 
 def rigid_bodies(case: ShaftCase, catalogue: Catalogue, ledger: Ledger) -> tuple[RigidBody, ...]:
@@ -115,6 +116,28 @@ def all_loads(
     for name, forces in gears.items():
         found[body.rows(case.gears[name].place)] += [*forces.force, *forces.moment]
     return found, tuple((row, added(*functions)) for row, functions in varying.items())
+
+
+def refuse_far_beyond(
+    case: ShaftCase, gears: Mapping[str, GearForces], bearings: Sequence[MountedBearing], ledger: Ledger
+) -> None:
+    """Note gears and loads that no contact law was made for, before balls are pressed through rings."""
+    static = sum(bearing.static_rating for bearing in bearings)
+    sizes = {
+        f"gears.{name}.{'torque' if case.gears[name].power is None else 'power'}": (max(map(abs, forces.force)), "N")
+        for name, forces in gears.items()
+    }
+    for name, load in case.loads.items():
+        for component in COMPONENTS:
+            unit = "N" if component.startswith("force") else "N m"
+            sizes[f"loads.{name}.{component}"] = (peak(time_function(getattr(load, component))), unit)
+    for where, (size, unit) in sizes.items():
+        if not size <= _FAR_BEYOND * static:
+            ledger.problem(
+                where,
+                f"acts with {size:.3g} {unit}, more than {_FAR_BEYOND:.0f} times the {1e-3 * static:.3g} kN that all "
+                "bearings together bear at rest (C_0): is the unit right?",
+            )
 
 
 def refuse_idle_dampers(bearings: Sequence[MountedBearing], housing: FloatArray | None, ledger: Ledger) -> None:

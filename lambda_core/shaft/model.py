@@ -29,12 +29,15 @@ class Seating:
         Of a spring on the outer ring along x [N].
     damping : tuple of 5 floats
         Of the seat [N s/m, N m s/rad].
+    lead : tuple of 5 TimeFunction
+        `shift` over time, which is its value at t = 0.
     """
 
     stiffness: tuple[float, ...]
     shift: tuple[float, ...]
     force: float = 0.0
     damping: tuple[float, ...] = (0.0,) * 5
+    lead: tuple[TimeFunction, ...] = (ZERO,) * 5
 
 
 @dataclass(frozen=True)

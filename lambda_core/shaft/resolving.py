@@ -26,15 +26,23 @@ from lambda_core.domain.units import show
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import Disc, ElasticBody, shaft_body, with_discs
 from lambda_core.elastic.sections import BodyMaterial, RoundSection
-from lambda_core.shaft.beside import COMPONENTS, all_loads, connections, refuse_idle_dampers, rigid_bodies
+from lambda_core.shaft.beside import (
+    COMPONENTS,
+    all_loads,
+    connections,
+    refuse_far_beyond,
+    refuse_idle_dampers,
+    rigid_bodies,
+)
 from lambda_core.shaft.body_material import body_material
 from lambda_core.shaft.elastic_housing import elastic_housing
 from lambda_core.shaft.fitting import fitting_warnings
 from lambda_core.shaft.follow_ups import independent, is_shape_known
-from lambda_core.shaft.model import SHAFT, MountedBearing, ShaftModel, Unbalance
+from lambda_core.shaft.model import GROUND, SHAFT, MountedBearing, ShaftModel, Unbalance
 from lambda_core.shaft.places import Places, places
 from lambda_core.shaft.reduced_shaft import reduced_shaft
-from lambda_core.shaft.seating import mounted
+from lambda_core.shaft.seating import mounted, refuse_motion
+from lambda_core.solver.drivers.held_ring import POSE
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.checking import check
 from lambda_core.system.ledger import Ledger
@@ -147,6 +155,10 @@ def _shaft(
     changing += [
         (f"loads.{key}.{name}", getattr(load, name)) for key, load in case.loads.items() for name in COMPONENTS
     ]
+    for key, bearing in case.bearings.items():
+        motions = [f"motion_{dof}" for dof in POSE]
+        changing += [(f"bearings.{key}.support.{name}", getattr(bearing.support, name)) for name in motions]
+        refuse_motion(key, bearing, case.housing.reduced is not None or stand.carrier(bearing.outer) != GROUND, ledger)
     refuse_laws(changing, ledger)
     material = body_material(case.shaft.material, "shaft.material", catalogue, ledger)
     around = body_material(case.housing.material, "housing.material", catalogue, ledger)
@@ -163,6 +175,8 @@ def _shaft(
         ),
         key=lambda one: one.position,
     )
+    if len(bearings) == len(case.bearings):
+        refuse_far_beyond(case, gears, bearings, ledger)
     housing, housing_damping = None, None
     if case.housing.reduced is not None:
         is_whole = len(bearings) == len(case.bearings) and not ledger.problems

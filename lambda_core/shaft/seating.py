@@ -9,9 +9,10 @@ from lambda_core.domain.ratings import dynamic_rating, fatigue_load_limit, stati
 from lambda_core.domain.units import parse
 from lambda_core.shaft.model import GROUND, LOCKED, MountedBearing, Seating
 from lambda_core.solver.drivers.held_ring import POSE
-from lambda_core.system.bearing import BearingModel
+from lambda_core.system.bearing import BearingModel, TimeFunction
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.resolve_clearance import picked
+from lambda_core.system.time_functions import added, initial, time_function
 
 _SIGN = {"+x": 1, "-x": -1, None: 0}
 
@@ -36,7 +37,9 @@ def mounted(
     if model.geometry.self_aligning:
         ledger.assume(f"{name}: a self-aligning bearing follows every tilt of the shaft without resistance")
     play = axial_play(given, model) if takes else 0.0
-    shift = growth - takes * (play + (given.preload or 0.0))
+    drawn = TimeFunction.constant(growth - takes * (play + (given.preload or 0.0)))
+    motions = [time_function(getattr(given.support, f"motion_{dof}")) for dof in POSE]
+    lead = (added(drawn, motions[0]), *motions[1:])
     dynamic, static, fatigue = _ratings(name, angle, model, ledger)
     return MountedBearing(
         name=name,
@@ -45,9 +48,10 @@ def mounted(
         carrier=carrier,
         seating=Seating(
             stiffness=_seat(name, given, model, carrier, ledger),
-            shift=(shift, 0.0, 0.0, 0.0, 0.0),
+            shift=tuple(map(initial, lead)),
             force=-takes * (given.preload_force or 0.0),
             damping=tuple(getattr(given.support, f"damping_{dof}") for dof in POSE),
+            lead=lead,
         ),
         takes=takes,
         nominal_angle=angle,
@@ -55,6 +59,18 @@ def mounted(
         static_rating=static,
         fatigue_limit=fatigue,
     )
+
+
+def refuse_motion(name: str, given: ShaftBearing, is_carried: bool, ledger: Ledger) -> None:
+    """Note motions of a ring that something else decides; `is_carried`: by a body or an elastic housing."""
+    for dof in POSE:
+        where = f"bearings.{name}.support.motion_{dof}"
+        if getattr(given.support, f"motion_{dof}") is None:
+            continue
+        if is_carried:
+            ledger.problem(where, "a ring is led only where it sits in the ground, without an elastic housing")
+        elif dof == "x" and given.preload_force is not None:
+            ledger.problem(where, "preload_force has the ring slide along x: one of them")
 
 
 def axial_play(given: ShaftBearing, model: BearingModel) -> float:

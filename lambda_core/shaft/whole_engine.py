@@ -18,6 +18,8 @@ from lambda_core.shaft.whole_markers import MarkerMotion, motions
 from lambda_core.shaft.whole_samples import WholeSamples
 from lambda_core.shaft.whole_start import load_terms, start_state, state_sizes
 from lambda_core.shaft.whole_tables import (
+    SIGNS,
+    STATES,
     Part,
     all_free,
     beside_bodies,
@@ -93,7 +95,8 @@ class WholeEngine:
         self._memory = memory.make_memory(start, scales, tolerance, self._bundle, _CAPACITY)
         self.sample_interval = min(map(_usual_interval, self.equilibria))
         control, count = self._memory.control, self._memory.count
-        frequency = highest_frequency(model.speed_over_time, *(function for _, function in model.varying))
+        led = [model.speed_over_time, *(lead for part in self.parts for lead in part.bearing.seating.lead)]
+        frequency = highest_frequency(*led, *(function for _, function in model.varying))
         control["longest_step"] = min(
             *(min(part.bearing.model.solver.max_step, longest_step(part.alone)) for part in self.parts),
             1.0 / (STEPS_PER_PERIOD * frequency) if frequency else math.inf,
@@ -106,7 +109,7 @@ class WholeEngine:
             c.evaluate_pointer, c.jacobian_pointer, c.advance_pointer, c.observe_pointer, self._bundle, self._blocks,
             self._factors, self._memory,
         )  # fmt: skip
-        self._changes = any(term.kind != "constant" for term in model.speed_over_time.terms)
+        self._changes = any(term.kind != "constant" for function in led for term in function.terms)
         self._drained: list[WholeSamples] = []
         self._sampled = np.zeros((len(self.parts), len(_SHARED) + 5))  # integrals of what only samples say
         self._last: list[FloatArray] = []  # their rates at the last sample
@@ -205,27 +208,22 @@ class WholeEngine:
     def _bodies(self, states: FloatArray, times: FloatArray) -> FloatArray:
         """Return the whole shared state of samples, shape (n, 12 bodies)."""
         bundle = self._bundle
+        if self._changes:
+            return np.array([self._shared(float(t), y) for t, y in zip(times, states, strict=True)])
         flat = np.zeros((len(states), bundle.shared.size))
-        bodies = flat.view(R.BODY_STATE)
-        bodies["spin"][:, lump_bodies(self.shaft)] = self._speeds(states, times)[:, None]
-        for part in self.parts:
-            for dof, value in enumerate(part.bearing.seating.shift[:3]):
-                bodies["position"][:, part.bodies[OUTER], dof] = value  # where it is free its state comes over it
+        flat.view(R.BODY_STATE)["spin"][:, lump_bodies(self.shaft)] = self.model.speed
+        for part in self.parts:  # where it is free its state comes over it
+            flat[:, L.NS * part.bodies[OUTER] + STATES] = SIGNS * part.bearing.seating.shift
         tail = L.NB * int(bundle.system["balls"][0])
         flat[:, bundle.active] = states[:, tail : tail + bundle.active.size]
         return flat
 
-    def _speeds(self, states: FloatArray, times: FloatArray) -> FloatArray:
-        """Return the speed of the shaft at samples, shape (n,) [rad/s]."""
-        if not self._changes:
-            return np.full(times.size, self.model.speed)
-        found, bundle = np.zeros(times.size), self._bundle
-        slope, rates = np.zeros(self.states), np.zeros(L.power_count(bundle))
-        for i, t in enumerate(times):
-            if self._core.evaluate(float(t), np.ascontiguousarray(states[i]), bundle, slope, rates, 0) != 1:
-                raise SolverError(self._fault())
-            found[i] = bundle.bodies_now["spin"][0]
-        return found
+    def _shared(self, t: float, state: FloatArray) -> FloatArray:
+        """Return the whole shared state at a sample, with what is led."""
+        bundle, slope, rates = self._bundle, np.zeros(self.states), np.zeros(L.power_count(self._bundle))
+        if self._core.evaluate(t, np.ascontiguousarray(state), bundle, slope, rates, 0) != 1:
+            raise SolverError(self._fault())
+        return np.asarray(bundle.shared.copy())
 
     def _observe(
         self, part: Part, times: FloatArray, states: FloatArray, flat: FloatArray

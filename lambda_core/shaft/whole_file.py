@@ -20,6 +20,7 @@ from lambda_core.results.checkpoint import Checkpoint, latest
 from lambda_core.results.file_format import STATUS_BYTES
 from lambda_core.results.hdf5 import beside, open_for_reading, reason
 from lambda_core.results.opening import ResultError
+from lambda_core.results.reader import Result
 from lambda_core.results.run_status import Rows, Status
 from lambda_core.results.writer import DiskError
 
@@ -156,7 +157,7 @@ class WholeFile:
         with self._opened() as file:
             self.case, self.case_toml = str(file.attrs["case"]), str(file.attrs["case_toml"])
             self.speed, self.drive_torque = float(file.attrs["speed"]), float(file.attrs["drive_torque"])
-            self.code = str(file.attrs["code"])
+            self.code, self._run = str(file.attrs["code"]), str(file.attrs.get("run", ""))  # results of old have none
             self.warnings = str(file.attrs.get("warnings", "")).splitlines()  # results of old have none
             names = {what: [str(n) for n in file[what].asstr()[()]] if what in file else [] for what in NAMED}
             self.bearings, self.bodies, self.markers = names["bearings"], names["bodies"], names["markers"]
@@ -171,6 +172,23 @@ class WholeFile:
     def bearing(self, name: str) -> Path:
         """Return the result of a bearing."""
         return self.folder / f"{name}.h5"
+
+    def results(self) -> dict[str, Result]:
+        """Return the result of every bearing by name.
+
+        Raises
+        ------
+        ResultError
+            When one is missing, damaged, or of another bearing or run.
+        """
+        found = {name: Result(self.bearing(name)) for name in self.bearings}
+        for name, result in found.items():
+            run, bearing = result.part_of or ("", "")
+            if self._run and run != self._run:
+                raise ResultError(f"{result.path} is not of the run that {self.path} is of: the folder was mixed up")
+            if self._run and bearing != name:
+                raise ResultError(f'{result.path} is the result of "{bearing}", not of "{name}": it was renamed')
+        return found
 
     def status(self) -> Status:
         """Return what the run has reached."""

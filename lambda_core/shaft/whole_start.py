@@ -70,9 +70,9 @@ def load_terms(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -
     for part in parts:
         outer, seating = part.bodies[OUTER], part.bearing.seating
         add_terms(load_signals(outer)[0], TimeFunction.constant(seating.force), rows, table)
-        for dof, (stiffness, shift) in enumerate(zip(seating.stiffness, seating.shift, strict=True)):
+        for dof, (stiffness, lead) in enumerate(zip(seating.stiffness, seating.lead, strict=True)):
             if math.isinf(stiffness) and (model.housing is None or part.bearing.carrier != GROUND):
-                add_terms(motion_signal(outer, dof), TimeFunction.constant(shift), rows, table)
+                add_terms(motion_signal(outer, dof), lead, rows, table)
         for body, wave in zip(part.bodies[CAGE + 1 :], part.alone.bundle.bodies[CAGE + 1 :], strict=True):
             for signal, gravity in zip(load_signals(body)[:3], model.gravity, strict=True):  # bends no ring
                 add_terms(signal, TimeFunction.constant(-float(wave["mass"]) * gravity), rows, table)

@@ -13,11 +13,11 @@ from lambda_core.domain.number_text import NONE, plus_minus
 from lambda_core.domain.wrapping import HEAD, wrapped
 from lambda_core.results.averages import finite
 from lambda_core.results.convergence import shortfalls_together, torque_together, window_of
-from lambda_core.results.reader import Result
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Summary, summarise
 
 if TYPE_CHECKING:
+    from lambda_core.results.reader import Result
     from lambda_core.shaft.whole_file import WholeFile
 
 _HEAD, _COLUMN = 24, 14
@@ -91,7 +91,7 @@ class WholeSummary(Record):
 
 def summarise_whole(found: WholeFile) -> WholeSummary:
     """Compute the summary of a run from its folder."""
-    status, results = found.status(), {name: Result(found.bearing(name)) for name in found.bearings}
+    status, results = found.status(), found.results()
     windows = [window_of(result) for result in results.values()]
     each = {name: summarise(result, torque_together(windows)) for name, result in results.items()}
     start = max(_from(result, each[name]) for name, result in results.items())

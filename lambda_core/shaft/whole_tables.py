@@ -197,11 +197,11 @@ def _outer_modes(model: ShaftModel, i: int) -> list[int]:
     """Return how an outer ring is held: springs and elastic housings tie it, and it is free between them."""
     seating, carrier = model.bearings[i].seating, model.bearings[i].carrier
     found = []
-    for stiffness, shift in zip(seating.stiffness, seating.shift, strict=True):
+    for stiffness, lead in zip(seating.stiffness, seating.lead, strict=True):
         if math.isfinite(stiffness) or (model.housing is not None and carrier == GROUND):
             found.append(R.FREE)
         else:
-            found.append(R.PRESCRIBED if shift else R.LOCKED)
+            found.append(R.PRESCRIBED if lead.terms else R.LOCKED)
     return found
 
 

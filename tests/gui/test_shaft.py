@@ -178,6 +178,33 @@ async def test_a_shaft_file_keeps_its_comments_and_says_what_it_does(work_folder
     assert [line for line in after if line not in before] == ['position = "149 mm"']
 
 
+@pytest.mark.usefixtures("answered")
+async def test_the_head_counts_the_warnings_of_the_answer_too(work_folder: Path) -> None:
+    """Both say the same number: what does not fit on the shaft, and what loads of the equilibrium are too much."""
+    api.init_shaft("box")
+    async with BuilderApp("box.toml").run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        screen = builder(pilot)
+        screen.draft.set("bearings", "left", "designation", value="SKF 6209")  # a bore of 45 mm on 40 mm
+        await checked(pilot)
+        derived = pilot.app.screen.query_one(Derived)
+        await wait_for(pilot, lambda: derived.is_current)
+        before = len(derived.warnings())
+        assert before > 0
+        await wait_for(pilot, lambda: f"▲ {before} warning" in head(pilot))
+        found = report()
+        found.bearings[0].warnings.extend(["too much", "far too much"])
+        screen.show_estimate(found, "")
+        assert len(derived.warnings()) == before + 2
+        await wait_for(pilot, lambda: f"▲ {before + 2} warnings  F8" in head(pilot))
+        await wait_for(pilot, lambda: f"▲ {before + 2} warnings: F8" in screen_text(pilot.app))  # type: ignore[arg-type]
+
+
+def head(pilot: Pilot[None]) -> str:
+    """Return the line over the model."""
+    return screen_text(pilot.app).splitlines()[0]  # type: ignore[arg-type]
+
+
 def test_pieces_of_a_list_come_and_go_with_their_comments() -> None:
     text = '[shaft]\n[[shaft.sections]]\nlength = "1 mm" # one\n\n[[shaft.sections]]\nlength = "2 mm" # two\n'
     from lambda_core.case.draft import draft_of

@@ -98,3 +98,26 @@ def test_what_of_a_housing_is_left_out_is_said(tmp_path: Path) -> None:
     write_reduced(quiet, tmp_path / "housing.json")
     model = check_shaft(tables(housing={"reduced": "housing.json"}), folder=tmp_path)
     assert not any("elastic housing" in sentence for sentence in model.assumptions)
+
+
+@pytest.mark.parametrize(
+    ("changes", "where", "said"),
+    [
+        ({"springs": {"s": {"position": "85 mm", "z": "1e30 N/m"}}}, "springs.s.z", "1e+15 N/m"),
+        ({"springs": {"s": {"position": "85 mm", "damping_y": "1e30 N s/m"}}}, "springs.s.damping_y", "1e+15 N s/m"),
+        ({"bearings": {"left": {"support": {"y": "1e30 N/m"}}}}, "bearings.left.support.y", 'or write "locked"'),
+        ({"gears": {"wheel": {"power": "1e300 kW"}}}, "gears.wheel.power", "more than 1000 times the"),
+        (
+            {"loads": {"belt": {"position": "5 mm", "force_z": "-1e12 N"}}},
+            "loads.belt.force_z",
+            "acts with 1e+12 N, more than 1000 times the",
+        ),
+    ],
+)
+def test_what_no_part_bears_is_refused_at_once(changes: dict[str, Any], where: str, said: str) -> None:
+    """Rounding ate the other parts of such a structure, and balls were pressed through rings for a minute."""
+    with pytest.raises(api.CaseError) as found:
+        check_shaft(tables(**changes))
+    (problem,) = found.value.problems
+    assert problem.where == where
+    assert said in problem.message

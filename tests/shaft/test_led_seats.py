@@ -1,0 +1,106 @@
+"""Seats that are led: a shaft carried along stays as it is; in motion it follows, and energy is balanced."""
+
+from __future__ import annotations
+
+import tomllib
+from typing import Any
+
+import numpy as np
+import pytest
+
+from lambda_core import api
+from lambda_core.case.case import merged
+from lambda_core.shaft.fresh_shaft import fresh_shaft
+from lambda_core.shaft.resolving import check_shaft
+from lambda_core.shaft.shaft_equilibrium import solve_shaft
+from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.solver.drivers.tables import OUTER
+
+
+def tables(left: dict[str, Any], right: dict[str, Any], **changes: Any) -> dict[str, Any]:
+    """Return the case that init writes with seats that are led."""
+    seats = {"left": {"support": left}, "right": {"support": right}}
+    return merged(tomllib.loads(fresh_shaft("box")), {"bearings": seats, **changes})
+
+
+def test_a_shaft_that_is_carried_along_stays_as_it_is() -> None:
+    """Both seats on one rigid carrier that moves by 20 um and turns by 0.2 mrad: the same reactions, second order."""
+    angle, y, z = 2e-4, 2e-5, -1e-5  # about z [rad], [m]
+    model = check_shaft(tomllib.loads(fresh_shaft("box")))
+    places = {bearing.name: bearing.position for bearing in model.bearings}
+    seats = [
+        {"motion_y": f"{y + angle * places[name]:.12g} m", "motion_z": f"{z} m", "motion_tilt_z": f"{angle} rad"}
+        for name in ("left", "right")
+    ]
+    seats[0]["motion_x"] = "3 um"
+    at_rest, carried = solve_shaft(model), solve_shaft(check_shaft(tables(*seats)))
+    assert carried.reactions == pytest.approx(at_rest.reactions, rel=2e-3, abs=0.5)
+    moved = (carried.displacement - at_rest.displacement).reshape(-1, 6)
+    assert moved[:, 0] == pytest.approx(3e-6, abs=2e-8)
+    assert moved[:, 1] == pytest.approx(y + angle * model.body.positions, abs=2e-8)
+    assert moved[:, 2] == pytest.approx(z, abs=2e-8)
+    assert moved[:, 5] == pytest.approx(angle, rel=1e-3)
+
+
+def test_a_seat_out_of_line_loads_its_bearing() -> None:
+    """Half a milliradian between both seats is what the rings are tilted by, less what the shaft bends."""
+    report = api.shaft(check_shaft(tables({}, {"motion_tilt_y": "0.5 mrad"})))
+    at_rest = api.shaft(check_shaft(tables({}, {})))
+    (one,), (other,) = ([b for b in found.bearings if b.name == "right"] for found in (report, at_rest))
+    assert one.misalignment_mrad[0] - other.misalignment_mrad[0] == pytest.approx(-0.5, rel=0.1)
+    assert abs(one.moment_Nm[0]) > 5.0 * abs(other.moment_Nm[0])
+
+
+def test_a_shaft_follows_seats_that_move() -> None:
+    """Both go up by 20 um in 4 ms while the right one is shaken along x at 250 Hz."""
+    up = {"kind": "ramp", "start": "0 um", "end": "20 um", "start_time": "0 s", "end_time": "4 ms"}
+    shaken = {"kind": "harmonic", "amplitude": "2 um", "frequency": "250 Hz"}
+    right = {"x": "locked", "motion_x": shaken, "motion_z": up}
+    engine = WholeEngine(check_shaft(tables({"x": "free", "motion_z": up}, right)))
+    still = WholeEngine(check_shaft(tables({"x": "free"}, {"x": "locked"})))
+    assert engine.advance(8e-3).ok
+    assert still.advance(8e-3).ok
+    moved, alike = engine.samples(), still.samples()
+    assert moved is not None
+    assert alike is not None
+    t = moved.whole["time"]
+    rings = [samples["body_position"][:, OUTER] for samples in moved.each]
+    assert rings[0][:, 2] == pytest.approx(np.minimum(t / 4e-3, 1.0) * 2e-5, abs=1e-12)
+    assert rings[1][:, 0] == pytest.approx(2e-6 * np.sin(2.0 * np.pi * 250.0 * t), abs=1e-12)
+    speed = moved.each[1]["body_velocity"][:, OUTER, 0]
+    assert speed == pytest.approx(2e-6 * 500.0 * np.pi * np.cos(500.0 * np.pi * t), abs=1e-9)
+    late = t > 6e-3
+    risen = moved.whole["shaft_position"][late, :, 2].mean(axis=0) - alike.whole["shaft_position"][
+        alike.whole["time"] > 6e-3, :, 2
+    ].mean(axis=0)
+    assert risen == pytest.approx(2e-5, abs=1e-6)
+    row = engine.integrals()[0]
+    losses = sum(value for name, value in row.items() if name.startswith("loss"))
+    assert abs(row["input"] - losses - row["stored"]) < 1e-3 * row["input_abs"]
+
+
+def test_what_cannot_be_led() -> None:
+    """Each at its path: a ring that gives way, one in a body, one on a preload spring, a course by a law."""
+    box = {"x": "85 mm", "mass": "9 kg", "polar_inertia": "1 kg m2", "transverse_inertia": "1 kg m2"}
+    for changes, where, said in (
+        (tables({"y": "free", "motion_y": "1 um"}, {}), "support.motion_y", 'needs support.y = "locked", not "free"'),
+        (
+            merged(tables({"motion_y": "1 um"}, {}, bodies={"box": box}), {"bearings": {"left": {"outer": "box"}}}),
+            "support.motion_y",
+            "only where it sits in the ground",
+        ),
+        (
+            merged(tables({"motion_x": "1 um"}, {}), {"bearings": {"left": {"takes": "+x", "preload_force": "100 N"}}}),
+            "support.motion_x",
+            "preload_force has the ring slide",
+        ),
+        (
+            tables({"motion_z": {"kind": "law", "law": "chirp", "amplitude": "1 um"}}, {}),
+            "support.motion_z.law",
+            "is no law yet",
+        ),
+    ):
+        with pytest.raises(api.CaseError) as found:
+            check_shaft(changes)
+        problems = {problem.where: problem.message for problem in found.value.problems}
+        assert said in problems[f"bearings.left.{where}"], problems

@@ -1,0 +1,81 @@
+"""The folder of a shaft's run: cut, mixed up, in use by two; what a bearing's own result says of its shaft."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+import h5py
+import pytest
+from lambda_cli.main import main
+
+from lambda_core.domain.files import held
+from lambda_core.results.reader import Result
+from lambda_core.shaft.fresh_shaft import fresh_shaft
+from lambda_core.system import operating_limits
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a run of a millisecond."""
+    found = tmp_path_factory.mktemp("folder")
+    (found / "box.toml").write_text(fresh_shaft("box"))
+    arguments = ["--run", "--quiet", "--out", str(found / "run"), "--duration", "1 ms"]
+    assert main(["shaft", str(found / "box.toml"), *arguments]) == 5
+    return found / "run"
+
+
+@pytest.fixture
+def run(made: Path, tmp_path: Path) -> Path:
+    """Return a copy to spoil."""
+    return Path(shutil.copytree(made, tmp_path / "run"))
+
+
+@pytest.mark.parametrize("share", [0.05, 0.5, 0.99])
+@pytest.mark.parametrize("name", ["shaft.h5", "left.h5"])
+def test_a_cut_file_is_seen(name: str, share: float, run: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """HDF5 reads what is missing as zeros where it takes the file for one that another process still writes."""
+    file = run / name
+    os.truncate(file, int(share * file.stat().st_size))
+    capsys.readouterr()
+    for command in (["show", str(run)], ["resume", str(run), "--quiet", "--duration", "2 ms"]):
+        assert main(command) == 2
+        said = capsys.readouterr()
+        assert f"{name} cannot be read: it is cut: its end is missing" in " ".join(said.err.split())
+        assert not said.out
+
+
+def test_results_in_each_other_s_place(run: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (run / "left.h5").rename(run / "old")
+    (run / "right.h5").rename(run / "left.h5")
+    (run / "old").rename(run / "right.h5")
+    for command in (["show", str(run)], ["resume", str(run), "--quiet", "--duration", "2 ms"]):
+        assert main(command) == 2
+        assert 'left.h5 is the result of "right", not of "left"' in " ".join(capsys.readouterr().err.split())
+
+
+def test_a_result_of_another_run(run: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with h5py.File(run / "right.h5", "r+") as file:
+        file.attrs["shaft_run"] = "another"
+    assert main(["show", str(run)]) == 2
+    assert "right.h5 is not of the run that" in " ".join(capsys.readouterr().err.split())
+
+
+def test_a_folder_goes_on_once(run: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A second one that comes before the first has marked its files is refused, and nothing is lost."""
+    pytest.importorskip("fcntl")
+    again = ["resume", str(run), "--quiet", "--duration", "1.2 ms"]
+    with held(run):
+        assert main(again) == 2
+        assert "is in use: another process writes into it" in " ".join(capsys.readouterr().err.split())
+    assert main(again) == 5
+
+
+def test_a_bearing_on_a_shaft_names_no_option_of_one_bearing(made: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    said = "more than it takes"
+    monkeypatch.setitem(operating_limits._TILTS, "deep groove", (1e-12, said))
+    result = Result(made / "left.h5")
+    assert result.part_of is not None
+    (warning,) = (one for one in result.summary().warnings if said in one)
+    assert "bodies." not in warning
