@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort, now, sum_of_minima
-from lambda_core.run.whole_run import bearing_alone
+from lambda_core.run.whole_provenance import bearing_alone
 from lambda_core.shaft.fresh_shaft import fresh_shaft
 from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.whole_engine import WholeEngine

@@ -18,6 +18,7 @@ import h5py
 import numpy as np
 
 from lambda_core.domain.channels import DIMENSIONS, Channel
+from lambda_core.domain.printable import printable
 from lambda_core.results.averages import INTEGRALS
 from lambda_core.results.circuit_rows import CIRCUIT, CIRCUIT_GROUP, DISCHARGES, DISCHARGES_GROUP
 from lambda_core.results.event_rows import (
@@ -90,6 +91,12 @@ def create(file: h5py.File, provenance: Provenance, channels: Sequence[Channel])
     )
     status = file.create_dataset(STATUS, (), f"S{STATUS_BYTES}")
     status.attrs["long_name"] = "state of the run, rows that are complete, statistics, wall time; JSON"
+
+
+def part_of(file: h5py.File) -> tuple[str, str] | None:
+    """Return the mark of the shaft's run that a result is part of, and its bearing there; None of one bearing's own."""
+    run, bearing = (printable(str(file.attrs.get(name, ""))) for name in (SHAFT_RUN, SHAFT_BEARING))
+    return (run, bearing) if run else None
 
 
 def _dimensions(file: h5py.File, model: BearingModel, channels: Sequence[Channel]) -> None:

@@ -74,8 +74,7 @@ class Result:
             self.title, self.headline, self.case, self.created = (
                 printable(str(file.attrs[name])) for name in ("title", "headline", "case", "created")
             )
-            marks = [str(file.attrs.get(name, "")) for name in (layout.SHAFT_RUN, layout.SHAFT_BEARING)]
-            self.part_of = (marks[0], marks[1]) if marks[0] else None
+            self.part_of = layout.part_of(file)
             self._channels = {channel.name: channel for channel in channels_of(file)}
             dims = dict.fromkeys(dim for channel in self._channels.values() for dim in channel.dims)
             self._labels = {dim: labels_of(file[dim]) for dim in dims}

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 import time
-import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,12 +12,10 @@ from uuid import uuid4
 
 import numpy as np
 
-from lambda_core.case.case_writer import tables_toml
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.files import check_folder, held
-from lambda_core.laws.kernels import sources_key
 from lambda_core.results.averages import COLUMNS, Interval, boundaries, finite, row
 from lambda_core.results.checkpoint import Checkpoint, Position
 from lambda_core.results.convergence import Window, are_converged, revolutions_wanted, torque_together, window
@@ -27,12 +24,10 @@ from lambda_core.results.run_status import Rows, State, Status, this_process
 from lambda_core.results.writer import ResultWriter
 from lambda_core.run.progress import Progress, Report, StopRequest, stop_request
 from lambda_core.run.record_times import RECORDS_PER_REVOLUTION, next_multiple
+from lambda_core.run.whole_provenance import bearing_alone, channels_of_bearings, code_of, kernel_keys
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.shaft.whole_file import WHOLE, WholeFile, WholeWriter
-from lambda_core.solver.code_files import physics_sources
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
-from lambda_core.system.bearing import BearingModel, TimeFunction
-from lambda_core.system.state_channels import result_channels
 
 if TYPE_CHECKING:
     from lambda_core.shaft.model import ShaftModel
@@ -69,12 +64,12 @@ def _launch(engine: WholeEngine, folder: Path, ends: Ends, report: Report | None
     model = engine.model
     for old in folder.glob("*.h5") if force else ():
         old.unlink()
-    channels, writers, status, run = _channels(engine), [], Status(process=this_process()), uuid4().hex
+    channels, writers, status, run = channels_of_bearings(engine), [], Status(process=this_process()), uuid4().hex
     for i, own in enumerate(channels):
         name = engine.parts[i].bearing.name
-        provenance = Provenance(bearing_alone(engine, i), _keys(engine, i), part_of=(run, name))
+        provenance = Provenance(bearing_alone(engine, i), kernel_keys(engine, i), part_of=(run, name))
         writers.append(ResultWriter.create(folder / f"{name}.h5", provenance, own, status, force=force))
-    texts = {"case": model.name, "case_toml": model.case_toml, "code": _code(engine), "run": run}
+    texts = {"case": model.name, "case_toml": model.case_toml, "code": code_of(engine), "run": run}
     texts["warnings"] = "\n".join(model.warnings)
     whole = WholeWriter.create(
         folder / WHOLE,
@@ -110,7 +105,7 @@ def _resume(
     if checkpoint is None:
         raise UsageError(f"{found.path} holds no checkpoint: start the run anew")
     engine = WholeEngine(model, announce)
-    if _code(engine) != found.code:
+    if code_of(engine) != found.code:
         raise UsageError(f"{found.path} cannot go on: the code or the case has changed since")
     engine.restore({k: v for k, v in checkpoint.state.items() if not k.startswith("rows")})
     position, revolutions = checkpoint.position, checkpoint.state["rows"].astype(int)
@@ -119,7 +114,7 @@ def _resume(
     running, writers, known = Status(process=this_process(), wall=position.wall), [], []
     last: list[FloatArray] = []
     results = found.results()
-    for part, own, count in zip(engine.parts, _channels(engine), revolutions, strict=True):
+    for part, own, count in zip(engine.parts, channels_of_bearings(engine), revolutions, strict=True):
         result = results[part.bearing.name]
         known.append(list(result.revolutions()[:count]))
         last.append(result.integrals()[position.rows.records - 1])
@@ -143,45 +138,6 @@ def _folder(model: ShaftModel, out: Path | None, force: bool) -> Path:
         raise UsageError(f"{folder} exists: choose another folder with --out, or overwrite it with --force")
     check_folder(folder.absolute().parent, folder)
     return folder
-
-
-def _channels(engine: WholeEngine) -> list[tuple]:  # type: ignore[type-arg]
-    return [result_channels(part.alone.model) for part in engine.parts]
-
-
-def _keys(engine: WholeEngine, i: int) -> dict[str, str]:
-    return {**engine.parts[i].alone.kernels.keys(), "core": sources_key(*physics_sources())}
-
-
-def _code(engine: WholeEngine) -> str:
-    """Return what has to be the same for a run to go on: code, laws, and what the whole starts from."""
-    import hashlib
-
-    keys = [f"{key}={value}" for i in range(len(engine.parts)) for key, value in sorted(_keys(engine, i).items())]
-    numbers = engine.fingerprint()
-    return hashlib.sha256("\n".join(keys).encode() + numbers).hexdigest()
-
-
-def bearing_alone(engine: WholeEngine, i: int) -> BearingModel:
-    """Return a bearing as its own result says it: under the load that it has in the equilibrium of the whole."""
-    model, reaction = engine.parts[i].bearing.model, engine.start.reactions[i]
-    name = engine.parts[i].bearing.name
-    force = tuple(TimeFunction.constant(-float(f)) for f in reaction[:3])
-    inner = dataclasses.replace(model.inner_ring, force=force)  # type: ignore[arg-type]
-    shaft = engine.model.name
-    tables = tomllib.loads(model.case_toml)
-    tables["name"] = f"{shaft}-{name}"
-    loads = zip(("force_x", "force_y", "force_z"), reaction[:3], strict=True)
-    tables["loads"] = {"inner_ring": {key: f"{-float(f):.6g} N" for key, f in loads}}
-    tables["bodies"] = {**tables.get("bodies", {}), "inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}}
-    note = (
-        f"a bearing of the shaft {shaft}: its rings move with shaft and housing, energy is balanced for the whole; "
-        "its case here is that of the bearing alone under the load at the start"
-    )
-    return dataclasses.replace(
-        model, name=f"{shaft}-{name}", title=f"{model.title}, {name} of {shaft}", inner_ring=inner,
-        case_toml=tables_toml(tables), assumptions=(*model.assumptions, note),
-    )  # fmt: skip
 
 
 class _Session:
