@@ -99,7 +99,7 @@ def test_summary_counts_what_was_written(run: Result) -> None:
 
 
 def test_report_has_a_section(run: Result, tmp_path: Path) -> None:
-    page = api.report(run.path, tmp_path / "r.html").read_text()
+    page = api.report(run.path, tmp_path / "r.html", appendices=["tables"]).read_text()
     assert "bearing currents" in page
     assert "discharges through the bearing" in page
 

@@ -21,7 +21,7 @@ def boxes(figure: Any) -> dict[str, Any]:
 
 
 def collisions(figure: Any) -> list[str]:
-    """Return the pairs of texts that lie on each other by more than a pixel."""
+    """Draw a figure; return the pairs of texts that lie on each other by more than a pixel."""
     figure.canvas.draw()
     clashes = []
     for (one, a), (other, b) in combinations(boxes(figure).items(), 2):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from collisions import collisions
 
 from lambda_core import api
 from lambda_core.discovery.manager import discover, registry
@@ -31,7 +32,7 @@ def drawn(data: ViewData) -> Any:
 def test_every_view_is_drawn(radial_run: Result, name: str) -> None:
     data = data_of(registry().view(name), radial_run, {})
     figure = drawn(data)
-    figure.canvas.draw()
+    assert not collisions(figure)
     pixels = np.asarray(figure.canvas.buffer_rgba())[:, :, :3].astype(float)
     assert (pixels.min(axis=2) < 200).mean() > 0.005, "an empty picture"
     # Nothing sticks out: the outermost pixels are background.
