@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from lambda_core.solver.entry import core
+
 LAW = """
 from law_package import middle
 from lambda_core.laws.law import law_of
@@ -83,6 +85,25 @@ class Package:
 @pytest.fixture
 def package(tmp_path: Path) -> Package:
     return Package(tmp_path)
+
+
+LOADED = """
+from lambda_core.solver.entry import build
+(found,) = build("wrench").overloads.values()
+library, symbol = found.library, found.fndesc.llvm_cfunc_wrapper_name
+address = library.get_pointer_to_function(symbol)
+assert address
+assert library._shared_module is None, "LLVM's code was read"
+assert library.get_pointer_to_function("nobody") == 0
+assert symbol in [each.name for each in library._get_module_for_linking().functions if not each.is_declaration]
+assert library.get_pointer_to_function(symbol) == address
+"""
+
+
+def test_a_part_of_the_solver_comes_from_its_machine_code_alone() -> None:
+    core()  # whatever is compiled anew is on disk then
+    done = subprocess.run([sys.executable, "-c", LOADED], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
 
 
 def test_second_process_loads_from_disk(package: Package) -> None:

@@ -10,13 +10,16 @@ import functools
 import hashlib
 import io
 import os
+import pickle
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import llvmlite.binding as llvm  # type: ignore[import-untyped]
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile, _CacheLocator
+from numba.core.codegen import JitEngine
 from numba.core.registry import cpu_target
 from numba.core.runtime.nrt import rtsys
 
@@ -25,8 +28,13 @@ KNOWN = all(
     for kind, names in (
         (FunctionCache, ("_load_overload", "_guard_against_spurious_io_errors")),
         (IndexDataCacheFile, ("_load_index", "_load_data", "_open_for_write", "_data_path")),
+        (CompileResultCacheImpl, ("rebuild",)),
+        (JitEngine, ("is_symbol_defined", "_load_defined_symbols")),
     )
     for name in names
+)
+_LARGE = 200_000  # bytes of LLVM's code that are worth while to leave unread: parts of the solver, no laws
+    200_000  # bytes of LLVM's code from which on it is worth while to leave it unread: parts of the solver, no laws
 )
 
 
@@ -76,13 +84,14 @@ class _SealedFiles(IndexDataCacheFile):
     """Files of a cache that end in a hash of what they hold: machine code with a flipped bit would end the process."""
 
     def _load_index(self) -> Any:
-        return super()._load_index() if _sealed(Path(self._index_path)) else {}
+        return {} if _unsealed(Path(self._index_path)) is None else super()._load_index()
 
     def _load_data(self, name: str) -> Any:
         path = Path(self._data_path(name))
-        if not _sealed(path):
+        held = _unsealed(path)
+        if held is None:
             raise FileNotFoundError(path)  # which counts as a miss: it is compiled, and written over
-        return super()._load_data(name)
+        return pickle.loads(held)
 
     @contextlib.contextmanager
     def _open_for_write(self, filepath: str) -> Iterator[io.BytesIO]:
@@ -92,20 +101,64 @@ class _SealedFiles(IndexDataCacheFile):
             stream.write(held.getvalue() + hashlib.sha256(held.getvalue()).digest())
 
 
-def _sealed(path: Path) -> bool:
-    """Tell whether a file is there and ends in the hash of what stands before it."""
+def _unsealed(path: Path) -> memoryview | None:
+    """Return what a file holds before the hash at its end; None where there is no file, or the hash is of another."""
     try:
-        content = path.read_bytes()
+        content = memoryview(path.read_bytes())
     except OSError:
-        return False
+        return None
     size = hashlib.sha256().digest_size
-    return hashlib.sha256(content[:-size]).digest() == content[-size:]
+    held, seal = content[:-size], content[-size:]
+    return held if hashlib.sha256(held).digest() == seal else None
+
+
+class _Results(CompileResultCacheImpl):
+    """Rebuilds what was compiled from its machine code alone.
+
+    Beside it Numba keeps LLVM's code, for functions that are to be compiled and call this one. Reading it takes half of
+    the time that the solver takes to load; here it is read when somebody asks for it.
+    """
+
+    def rebuild(self, target_context: Any, payload: Any) -> Any:
+        (name, kind, data), described, *rest = payload
+        if kind != "object" or len(data[1]) < _LARGE:
+            return super().rebuild(target_context, payload)
+        machine_code, code = data
+        engine = target_context.codegen()._engine
+        # The ways in for Python and for C, which are asked for at once, stand among the names of the machine code, too.
+        wrappers = (described.llvm_cpython_wrapper_name, described.llvm_cfunc_wrapper_name)
+        found_there = {symbol for symbol in wrappers if f"\0{symbol}\0".encode() in machine_code}
+        if wrappers[0] not in found_there:  # another form of machine code
+            return super().rebuild(target_context, payload)
+        engine._defined_symbols |= found_there
+        found = super().rebuild(target_context, ((name, kind, (machine_code, _nothing())), described, *rest))
+        library = found.library
+        library._shared_module = None
+
+        def read() -> Any:
+            if library._shared_module is None:
+                library._shared_module = llvm.parse_bitcode(code)
+                engine._load_defined_symbols(library._shared_module)
+            return library._shared_module
+
+        def pointer(symbol: str) -> Any:
+            if not engine.is_symbol_defined(symbol):
+                read()
+            return type(library).get_pointer_to_function(library, symbol)
+
+        library._get_module_for_linking, library.get_pointer_to_function = read, pointer
+        return found
+
+
+@functools.cache
+def _nothing() -> bytes:
+    return bytes(llvm.parse_assembly("").as_bitcode())
 
 
 def attach(dispatcher: Any, function: Callable[..., Any], folder: Path, on_miss: Callable[[], None]) -> None:
     """Give a dispatcher a cache for `function` in `folder` that calls `on_miss` before compiling."""
     locator = type("FolderLocator", (_FolderLocator,), {"folder": folder})
-    implementation = type("FolderCacheImpl", (CompileResultCacheImpl,), {"_locator_classes": [locator]})
+    implementation = type("FolderCacheImpl", (_Results,), {"_locator_classes": [locator]})
 
     class FolderCache(FunctionCache):
         _impl_class = implementation
