@@ -34,8 +34,6 @@ KNOWN = all(
     for name in names
 )
 _LARGE = 200_000  # bytes of LLVM's code that are worth while to leave unread: parts of the solver, no laws
-    200_000  # bytes of LLVM's code from which on it is worth while to leave it unread: parts of the solver, no laws
-)
 
 
 class _FolderLocator(_CacheLocator):
