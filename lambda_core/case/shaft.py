@@ -23,6 +23,7 @@ from lambda_core.case.shaft_parts import (
     ShaftMarker,
     ShaftSpring,
     held,
+    leads_what_is_locked,
     without_motion,
 )
 from lambda_core.case.signals import AngleSignal, LengthSignal, SpeedSignal
@@ -133,11 +134,7 @@ class Support(Section):
     @field_validator("motion_x", "motion_y", "motion_z", "motion_tilt_y", "motion_tilt_z")
     @classmethod
     def _leads_what_is_locked(cls, motion: Any, info: ValidationInfo) -> Any:
-        dof = str(info.field_name).removeprefix("motion_")
-        how = info.data.get(dof, "locked")
-        if motion is not None and how != "locked":
-            raise ValueError(f'needs support.{dof} = "locked", not "{how}": a ring that is led does not give way')
-        return motion
+        return leads_what_is_locked(motion, info, "")
 
 
 class ShaftBearing(Bearing, Placed):

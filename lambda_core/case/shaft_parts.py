@@ -10,7 +10,7 @@ from pydantic import ValidationInfo, field_validator, model_validator
 
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import MaterialChoice
-from lambda_core.case.signals import ForceSignal, MomentSignal
+from lambda_core.case.signals import AngleSignal, ForceSignal, LengthSignal, MomentSignal
 from lambda_core.domain.units import (
     Angle,
     AngularDamping,
@@ -86,9 +86,18 @@ def without_motion(value: Any) -> Any:
     if isinstance(value, Mapping):
         raise ValueError(
             'no motion is led here: write "locked", "free" or a stiffness; a shaft is moved by operation.speed, loads '
-            "over time, unbalance and seats that are led (bearings.NAME.support.motion_x and so on)"
+            "over time, unbalance, and what is locked where it is led (motion_x and so on, beside this option)"
         )
     return value
+
+
+def leads_what_is_locked(motion: Any, info: ValidationInfo, prefix: str) -> Any:
+    """Refuse a motion_DOF of what is not locked in that degree of freedom, by the option of the same name."""
+    dof = prefix + str(info.field_name).removeprefix("motion_")
+    how = info.data.get(dof, "locked")
+    if motion is not None and how != "locked":
+        raise ValueError(f'needs {dof} = "locked", not "{how}": what is led does not give way')
+    return motion
 
 
 class ShaftBody(Section):
@@ -114,6 +123,13 @@ class ShaftBody(Section):
     hold_tilt_x: str = option("free", 'rotation about x: "free", "locked" or a stiffness ("50 N m/mrad")')
     hold_tilt_y: str = option("free", "rotation about y, likewise")
     hold_tilt_z: str = option("free", "rotation about z, likewise")
+    motion_x: LengthSignal | None = option(
+        None, "where a locked centre is led beside its drawn place, over time: axial"
+    )
+    motion_y: LengthSignal | None = option(None, "horizontal, likewise")
+    motion_z: LengthSignal | None = option(None, "vertical, likewise")
+    motion_tilt_y: AngleSignal | None = option(None, "rotation about y, likewise")
+    motion_tilt_z: AngleSignal | None = option(None, "rotation about z, likewise")
 
     _without_motion = field_validator(
         "hold_x", "hold_y", "hold_z", "hold_tilt_x", "hold_tilt_y", "hold_tilt_z", mode="before"
@@ -128,6 +144,11 @@ class ShaftBody(Section):
     @classmethod
     def _rotation(cls, text: str) -> str:
         return held(text, "angular_stiffness")
+
+    @field_validator("motion_x", "motion_y", "motion_z", "motion_tilt_y", "motion_tilt_z")
+    @classmethod
+    def _leads_what_is_locked(cls, motion: Any, info: ValidationInfo) -> Any:
+        return leads_what_is_locked(motion, info, "hold_")
 
     @model_validator(mode="after")
     def _has_a_mass(self) -> ShaftBody:

@@ -59,7 +59,8 @@ def _rigid(name: str, given: ShaftBody, catalogue: Catalogue, ledger: Ledger) ->
             f"{show(transverse, 'inertia', 4)}",
         )
     hold = [_hold(getattr(given, f"hold_{dof}"), dof) for dof in _DOFS]
-    return RigidBody(name, (given.x, given.y, given.z), mass, polar, transverse, tuple(hold), extent)
+    lead = tuple(time_function(getattr(given, f"motion_{dof}", None)) for dof in _DOFS)  # nothing is led about x
+    return RigidBody(name, (given.x, given.y, given.z), mass, polar, transverse, tuple(hold), extent, lead)
 
 
 def _hold(text: str, dof: str) -> float:

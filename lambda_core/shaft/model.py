@@ -8,6 +8,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.gear_forces import GearForces
 from lambda_core.elastic.body import ElasticBody
 from lambda_core.system.bearing import ZERO, BearingModel, TimeFunction
+from lambda_core.system.time_functions import initial
 
 PLACES = (0, 1, 2, 4, 5)  # of a pose (solver.drivers.held_ring) among the six rows of a node
 # [N/m] of a seat that is locked in a body that moves: a hundred to a thousand times as stiff as a bearing
@@ -101,6 +102,12 @@ class RigidBody:
     transverse_inertia: float  # about y and about z [kg m2]
     hold: tuple[float, ...]  # stiffness of what holds the centre, six; inf where locked, 0 where free [N/m, N m/rad]
     extent: tuple[float, float, float]  # length, width, height of its shape, zeros where there is none [m]
+    lead: tuple[TimeFunction, ...] = (ZERO,) * 6  # where it is led, what is locked of it [m, rad]
+
+    @property
+    def shift(self) -> tuple[float, ...]:
+        """Where it is led at t = 0 [m, rad]."""
+        return tuple(map(initial, self.lead))
 
 
 @dataclass(frozen=True)

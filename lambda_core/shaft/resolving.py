@@ -159,6 +159,8 @@ def _shaft(
         motions = [f"motion_{dof}" for dof in POSE]
         changing += [(f"bearings.{key}.support.{name}", getattr(bearing.support, name)) for name in motions]
         refuse_motion(key, bearing, case.housing.reduced is not None or stand.carrier(bearing.outer) != GROUND, ledger)
+    for key, rigid in case.bodies.items():
+        changing += [(f"bodies.{key}.motion_{dof}", getattr(rigid, f"motion_{dof}")) for dof in POSE]
     refuse_laws(changing, ledger)
     material = body_material(case.shaft.material, "shaft.material", catalogue, ledger)
     around = body_material(case.housing.material, "housing.material", catalogue, ledger)

@@ -115,6 +115,7 @@ class _Whole:
             ties[np.ix_(own, own)] += model.housing
         self.linear += self.moves.T @ ties @ self.moves
         self.given = self.moves.T @ (given + ties @ self.start)
+        self.start[rows.bodies :] = np.ravel([body.shift for body in model.bodies])
         self.free = np.setdiff1d(np.arange(count), held)
         # of every bearing, how its inner ring moves against its outer one, shape (bearings, 5, unknowns)
         self.reach = np.zeros((len(rings), len(POSE), count))
@@ -129,8 +130,7 @@ class _Whole:
         arms[rows.bodies :].reshape(-1, NODE)[:, 3:] = length
         self.arms = arms
         loads = np.abs(model.loads + model.weight) / np.concatenate([arms[: self.size], arms[rows.bodies :]])
-        preloads = [abs(b.seating.force) for b in model.bearings]
-        self.scale = max(float(loads.max()), *preloads, 1.0)
+        self.scale = max(float(loads.max()), *(abs(b.seating.force) for b in model.bearings), 1.0)
         self.carried = 0.0  # largest reaction of a bearing at the last state [N]
 
     def poses(self, q: FloatArray) -> FloatArray:

@@ -18,6 +18,8 @@ from lambda_core.shaft.whole_markers import MarkerMotion, motions
 from lambda_core.shaft.whole_samples import WholeSamples
 from lambda_core.shaft.whole_start import load_terms, start_state, state_sizes
 from lambda_core.shaft.whole_tables import (
+    LUMP_SIGNS,
+    LUMP_STATES,
     SIGNS,
     STATES,
     Part,
@@ -95,7 +97,8 @@ class WholeEngine:
         self._memory = memory.make_memory(start, scales, tolerance, self._bundle, _CAPACITY)
         self.sample_interval = min(map(_usual_interval, self.equilibria))
         control, count = self._memory.control, self._memory.count
-        led = [model.speed_over_time, *(lead for part in self.parts for lead in part.bearing.seating.lead)]
+        seats = [lead for part in self.parts for lead in part.bearing.seating.lead]
+        led = [model.speed_over_time, *seats, *(lead for body in model.bodies for lead in body.lead)]
         frequency = highest_frequency(*led, *(function for _, function in model.varying))
         control["longest_step"] = min(
             *(min(part.bearing.model.solver.max_step, longest_step(part.alone)) for part in self.parts),
@@ -214,6 +217,8 @@ class WholeEngine:
         flat.view(R.BODY_STATE)["spin"][:, lump_bodies(self.shaft)] = self.model.speed
         for part in self.parts:  # where it is free its state comes over it
             flat[:, L.NS * part.bodies[OUTER] + STATES] = SIGNS * part.bearing.seating.shift
+        for number, rigid in zip(beside_bodies(self.model, self.shaft), self.model.bodies, strict=True):
+            flat[:, L.NS * number + LUMP_STATES] = LUMP_SIGNS * rigid.shift
         tail = L.NB * int(bundle.system["balls"][0])
         flat[:, bundle.active] = states[:, tail : tail + bundle.active.size]
         return flat

@@ -9,7 +9,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.beam import NODE
 from lambda_core.shaft.lumps import LumpedShaft, unbalance_of_lumps
-from lambda_core.shaft.model import GROUND, ShaftModel
+from lambda_core.shaft.model import GROUND, PLACES, ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState
 from lambda_core.shaft.whole_tables import (
     LUMP_SIGNS,
@@ -67,6 +67,9 @@ def load_terms(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -
         add_terms(signal, TimeFunction.constant(float(value)), rows, table)
     for body in led_bodies(model, shaft):
         add_terms(motion_signal(int(body), _SPIN), model.speed_over_time, rows, table)
+    for number, rigid in zip(beside_bodies(model, shaft), model.bodies, strict=True):
+        for dof, place in enumerate(PLACES):
+            add_terms(motion_signal(int(number), dof), rigid.lead[place], rows, table)
     for part in parts:
         outer, seating = part.bodies[OUTER], part.bearing.seating
         add_terms(load_signals(outer)[0], TimeFunction.constant(seating.force), rows, table)

@@ -176,8 +176,9 @@ def _bodies(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> A
         own = bodies[number]
         own["mass"], own["polar_inertia"] = rigid.mass, rigid.polar_inertia
         own["transverse_inertia"] = rigid.transverse_inertia
-        hold = np.array(rigid.hold)[[*PLACES, 3]]  # the turn about x comes last
-        own["mode"] = np.where(np.isfinite(hold), R.FREE, R.LOCKED)
+        dofs = (*PLACES, 3)  # the turn about x comes last
+        fixed = [R.PRESCRIBED if rigid.lead[dof].terms else R.LOCKED for dof in dofs]
+        own["mode"] = np.where(np.isfinite([rigid.hold[dof] for dof in dofs]), R.FREE, fixed)
     for i, part in enumerate(parts):
         inner, outer, cage = part.bodies[: CAGE + 1]
         alone = part.alone.bundle.bodies
