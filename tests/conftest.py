@@ -56,6 +56,16 @@ if TYPE_CHECKING:
     from lambda_core.results.reader import Result
 
 
+def pytest_configure() -> None:
+    """Look for rubbish seldom: going through all that tests have loaded takes a third of the time of some."""
+    gc.set_threshold(100_000, 50, 50)
+
+
+def pytest_collection_finish() -> None:
+    """Take what has been collected as there to stay."""
+    gc.freeze()
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Put the longest files first, and give tests with a timing of their own a second try."""
     items.sort(key=lambda item: [not item.nodeid.startswith(name) for name in LONGEST])
@@ -77,15 +87,6 @@ def own_folders(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPat
         patch.setenv("LAMBDA_BEARING_CACHE", str(request.config.cache.mkdir("lambda-bearing")))
         patch.setenv("LAMBDA_BEARING_DATA", str(root / "data"))
         yield root
-
-
-@pytest.fixture(scope="session", autouse=True)
-def seldom_rubbish() -> Iterator[None]:
-    """Look for rubbish seldom: going through all that tests have loaded takes a third of the time of some."""
-    before = gc.get_threshold()
-    gc.set_threshold(100_000, 50, 50)
-    yield
-    gc.set_threshold(*before)
 
 
 @pytest.fixture
