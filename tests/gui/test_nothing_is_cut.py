@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 import pytest
 from driving import SMALL, at_rest, builder, checked, focused_place, screen_text, wait_for
 from lambda_gui.app import BuilderApp
 from lambda_gui.catalogue import CatalogueScreen
-from lambda_gui.choice import Choice, PickList
+from lambda_gui.choice import Choice, Entry, PickList
 from lambda_gui.dialogs import Ask, AskText, OpenCase
 from lambda_gui.help import ABOUT, HelpScreen
 from lambda_gui.outline import Node
@@ -21,6 +21,7 @@ from lambda_gui.tree import ModelTree
 from reading import cut_on
 from textual.geometry import Offset
 from textual.pilot import Pilot
+from textual.screen import Screen
 from textual.widget import Widget
 from textual.widgets import DataTable, Input, OptionList, Static
 
@@ -59,7 +60,7 @@ async def read_forms(pilot: Pilot[None], wanted: Callable[[Node], bool]) -> list
     for line in list(tree._tree_nodes.values()):
         line.expand()
     await pilot.pause()
-    found, lists = read(pilot, "tree"), set[tuple[str, ...]]()
+    found, lists = read(pilot, "tree"), dict[tuple[str, ...], tuple[str, Sequence[Entry]]]()
     for node in filter(wanted, tree.all_nodes()):
         await screen.show_node(node)
         await pilot.pause()
@@ -67,22 +68,23 @@ async def read_forms(pilot: Pilot[None], wanted: Callable[[Node], bool]) -> list
         assert str(screen.form.query_one(".title", Static).visual) == node.heading
         found += read(pilot, node.key, screen.form)
         for choice in screen.query(Choice):
-            labels = tuple(entry.label for entry in choice.entries)
-            if labels in lists:
-                continue
-            lists.add(labels)
-            found += await read_list(pilot, choice, f"{node.key}, a list")
+            lists.setdefault(tuple(entry.label for entry in choice.entries), (f"{node.key}, a list", choice.entries))
+    await pilot.app.push_screen(Screen())  # a form below would be drawn with each of the lists
+    for where, entries in lists.values():
+        found += await read_list(pilot, entries, where)
+    pilot.app.pop_screen()
     assert not screen.draft.is_changed()  # nothing changes by looking
     return found
 
 
-async def read_list(pilot: Pilot[None], choice: Choice, where: str) -> list[str]:
-    """Open the list of a choice at the entry with most to say."""
-    most = max(choice.entries, key=lambda entry: len(entry.help))
-    await pilot.app.push_screen(PickList(choice.entries, most.value, Offset(60, 10)))
+async def read_list(pilot: Pilot[None], entries: Sequence[Entry], where: str) -> list[str]:
+    """Open a list at the entry with most to say."""
+    most = max(entries, key=lambda entry: len(entry.help))
+    await pilot.app.push_screen(PickList(entries, most.value, Offset(60, 10)))
     await pilot.pause()
+    assert isinstance(pilot.app.screen, PickList)
     found = read(pilot, f"{where}, {most.label}")
-    pilot.app.pop_screen()
+    await pilot.app.pop_screen()
     return found
 
 
