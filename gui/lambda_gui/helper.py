@@ -51,13 +51,16 @@ class Helper:
             if self._is_closed or not self._is_wanted():
                 raise asyncio.CancelledError from None
             raise
-        if not self._is_wanted():
+        if self._is_closed or not self._is_wanted():
             raise asyncio.CancelledError
         return found
 
     async def _answer(self, work: str, **arguments: Any) -> Any:
         async with self._turn:
             process = await self._started()
+            if self._is_closed:  # while it was being started
+                await self._stop()
+                raise asyncio.CancelledError
             assert process.stdin is not None
             assert process.stdout is not None
             try:

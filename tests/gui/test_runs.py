@@ -8,6 +8,7 @@ import resource
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from driving import LARGE, SMALL, builder, checked, find, go_to, screen_text, wait_for, write
@@ -57,7 +58,7 @@ def fake_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[i
     return steps
 
 
-def settle(queue: api.RunQueue, run: api.QueuedRun, seconds: float = 30.0) -> None:
+def settle(queue: api.RunQueue, run: api.QueuedRun, seconds: float = 200.0) -> None:
     """Poll until a run has ended."""
     end = time.monotonic() + seconds
     while run.state in ("waiting", "running"):
@@ -164,7 +165,7 @@ def test_a_run_outlives_the_builder(work_folder: Path, fake_program: Callable[[i
 async def test_traces_are_drawn_and_a_resize_in_the_middle_does_no_harm(
     hand_written: Path, fake_program: Callable[[int], None]
 ) -> None:
-    fake_program(400)
+    fake_program(4000)  # for longer than anything below takes
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)
         await pilot.press("f5")
@@ -307,7 +308,23 @@ async def test_who_waits_for_a_helper_that_is_closed_is_cancelled() -> None:
     """The screen that asked is gone: an error would have nowhere to be shown."""
     helper = Helper(lambda text: None)
     waiting = asyncio.create_task(helper.ask("views", subject="result"))
-    await asyncio.sleep(0.1)
+    while helper._process is None:
+        await asyncio.sleep(0.01)
     await helper.close()
     with pytest.raises(asyncio.CancelledError):
         await waiting
+
+
+async def test_a_helper_that_is_closed_while_it_starts_leaves_no_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    started, start = [], asyncio.create_subprocess_exec
+
+    async def slowly(*command: str, **options: Any) -> asyncio.subprocess.Process:
+        await helper.close()
+        started.append(await start(*command, **options))
+        return started[0]
+
+    monkeypatch.setattr(asyncio, "create_subprocess_exec", slowly)
+    helper = Helper(lambda text: None)
+    with pytest.raises(asyncio.CancelledError):
+        await helper.ask("views", subject="result")
+    assert started[0].returncode is not None
