@@ -16,7 +16,7 @@ from lambda_core.fmu.frozen import Frozen
 from lambda_core.fmu.header import header_text
 from lambda_core.fmu.variables import Variable
 from lambda_core.laws.jit.emission import Target
-from lambda_core.laws.jit.portable import MEMORY_SOURCE, data_code, object_codes
+from lambda_core.laws.jit.portable import MEMORY_SOURCE, data_code, fuses, object_codes
 from lambda_core.laws.kernels import cache_folder
 
 SOURCES = Path(__file__).parent / "source"
@@ -122,7 +122,7 @@ def build(parts: Parts, interface: str, folder: Path, name: str, platform: str) 
         for file in ("core", "limits", "states", "circuit", "follow", "slopes", "start", interface, *own)
     ]
     sources += [MEMORY_SOURCE, *(folder / file for file in parts.objects[platform])]
-    options = (*_OPTIONS, *(_OWN_MATHEMATICS if own else ()))
+    options = (*_OPTIONS, *(_OWN_MATHEMATICS if own else ()), *(("-DLB_FUSED",) if own and fuses() else ()))
     whole = [*command, *options, f"-I{folder}", *map(str, sources), "-o", str(library), "-lm"]
     done = subprocess.run(whole, capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False)
     if done.returncode != 0:

@@ -71,7 +71,7 @@ def export_fmu(
     platforms : iterable of str
         Systems that the FMU has a library for: "linux", "windows", "linux-arm", "mac-arm", "mac-intel". All but Linux
         are built by the compiler of the extra ``fmu``; with one of them functions of mathematics are the program's
-        own, and every operation is rounded for itself: all have the same bits.
+        own, and which products and sums are rounded as one is the same for all: all have the same bits.
     processor : str
         The least processor of x86-64 that runs it: "x86-64-v3" (default), "x86-64-v2", "x86-64-v4", or "native".
     force : bool

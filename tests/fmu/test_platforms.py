@@ -25,11 +25,17 @@ HERE = Path(__file__).parent
 CASE, CHANGES = "6208-axial-1300", ("solver.duration=0.2 s",)
 
 
-@pytest.fixture(scope="module")
-def mathematics(c_compiler: tuple[str, ...], tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
+@pytest.fixture(scope="module", params=["rounded", "fused"])
+def mathematics(
+    request: pytest.FixtureRequest, c_compiler: tuple[str, ...], tmp_path_factory: pytest.TempPathFactory
+) -> ctypes.CDLL:
     """Return the elementary functions as a library of their own."""
     library = tmp_path_factory.mktemp("mathematics") / "own.so"
     options = ["-O3", "-shared", "-fPIC", "-ffp-contract=off", "-fno-builtin", "-fno-math-errno"]
+    if request.param == "fused":
+        if "fma" not in features():
+            pytest.skip("this processor has no fused products")
+        options.append("-DLB_FUSED")
     command = [*c_compiler, *options, str(SOURCES / "mathematics.c"), "-o", str(library)]
     subprocess.run(command, check=True)
     return ctypes.CDLL(str(library))

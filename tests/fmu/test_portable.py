@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ctypes
+import re
 import subprocess
 from pathlib import Path
 from typing import Any
 
+import llvmlite.binding as llvm  # type: ignore[import-untyped]
 import numba
 import numpy as np
 import pytest
@@ -16,7 +18,7 @@ from lambda_core.domain.roles import ROLES
 from lambda_core.electric.electrified import of_model
 from lambda_core.electric.film_laws import film_laws
 from lambda_core.fmu.image import Image
-from lambda_core.laws.jit.emission import Target
+from lambda_core.laws.jit.emission import Target, exact
 from lambda_core.laws.jit.machine_code import Pointer, role_signature
 from lambda_core.laws.jit.portable import MEMORY_SOURCE, REAL, Entry, object_codes
 from lambda_core.laws.jit.unstable import know_pointers
@@ -76,3 +78,44 @@ def test_a_law_behind_a_pointer_runs_in_a_library(c_compiler: tuple[str, ...], t
     status = call(data.ctypes.data, 3e-7)
     found = data[image.place(out) :][:16].view(np.float64)
     assert (status, *found) == pytest.approx(expected, rel=1e-15 if alike else 0.0, abs=0.0)
+
+
+_SUMS = """
+define double @it(double %a, double %b, double %c, <2 x double> %v, ptr %to) {
+  %p = fmul contract double %a, %b
+  %q = fmul reassoc contract double %b, %c
+  %".r" = fmul contract double %a, %c
+  %kept = fmul double %a, %a
+  %w = fmul contract <2 x double> %v, <double 2.0, double 3.0>
+  %1 = fadd contract double %p, %c
+  %2 = fsub reassoc nsz contract double %1, %q
+  %3 = fsub contract double %".r", 1.0
+  %4 = fadd contract double %3, %2
+  %5 = fmul contract double %4, %4
+  %6 = fadd contract double %5, %5
+  %7 = fadd contract double %6, %kept
+  %8 = fadd contract <2 x double> <double 1.0, double 5.0>, %w
+  store <2 x double> %8, ptr %to
+  ret double %7
+}
+"""
+
+
+def test_products_and_sums_are_fused_where_it_is_written() -> None:
+    """One product for one sum, on either side; what says nothing, and what two sums use, is rounded for itself."""
+    whole = exact(llvm.parse_assembly(_SUMS), fused=True)
+    whole.verify()
+    lines = [line.strip() for line in str(whole).splitlines()]
+    calls = [re.sub(r"\s+", " ", line) for line in lines if "call " in line]
+    assert [line.partition(" = ")[2] for line in calls] == [
+        "call double @llvm.fma.f64(double %a, double %b, double %c)",
+        "call double @llvm.fma.f64(double %lb.2, double %c, double %1)",
+        "call double @llvm.fma.f64(double %a, double %c, double %lb.3)",
+        "call <2 x double> @llvm.fma.v2f64(<2 x double> %v, <2 x double> <double 2.000000e+00, double 3.000000e+00>, "
+        "<2 x double> <double 1.000000e+00, double 5.000000e+00>)",
+    ]
+    assert {"%lb.2 = fneg double %b", "%lb.3 = fneg double 1.000000e+00"} <= set(lines)
+    assert "%6 = fadd double %5, %5" in lines
+    assert "%7 = fadd double %6, %kept" in lines
+    assert "contract" not in str(whole)
+    assert "llvm.fma" not in str(exact(llvm.parse_assembly(_SUMS), fused=False))

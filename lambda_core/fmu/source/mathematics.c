@@ -2,7 +2,8 @@
 
    Written from textbook formulas: reduction of the argument, Taylor and Gregory series until they are below rounding, and
    sums and products of two doubles where one is not enough (Muller, Elementary Functions, 3rd ed. 2016, ch. 4, 9 and
-   11; Dekker 1971, Numer. Math. 18, 224). No product and sum may be fused here: compile with -ffp-contract=off.
+   11; Dekker 1971, Numer. Math. 18, 224). No product and sum may be fused here but those that say so, which are in all
+   libraries of a file or in none: compile with -ffp-contract=off, and with -DLB_FUSED where processors have it.
    Errors are below one unit in the last place of exp, log, sin, cos and atan2, two of the others; the test says so. */
 #include <stdint.h>
 
@@ -18,6 +19,17 @@ static const double ARC[9][2] = {/* atan(i/8) */
 
 #define INFINITY __builtin_inf()
 #define NAN __builtin_nan("")
+
+#if defined(LB_FUSED) && defined(__clang__) && defined(__x86_64__)
+#pragma clang attribute push(__attribute__((target("fma"))), apply_to = function)
+#elif defined(LB_FUSED) && defined(__x86_64__)
+#pragma GCC target("fma")
+#endif
+#ifdef LB_FUSED
+#define FUSED(a, b, c) __builtin_fma(a, b, c)
+#else
+#define FUSED(a, b, c) ((a) * (b) + (c))
+#endif
 
 typedef struct {
   double high, low;
@@ -43,13 +55,20 @@ static two sum(double a, double b) { /* Knuth */
   double s = a + b, c = s - a;
   return (two){s, (a - (s - c)) + (b - c)};
 }
+#ifdef LB_FUSED
+static two product(double a, double b) {
+  double g = a * b;
+  return (two){g, FUSED(a, b, -g)};
+}
+#else
 static two product(double a, double b) { /* Dekker; below 2^995 */
   double p = 134217729.0 * a, q = 134217729.0 * b, c = p - (p - a), d = q - (q - b), e = a - c, f = b - d, g = a * b;
   return (two){g, ((c * d - g) + c * f + e * d) + e * f};
 }
+#endif
 static two times(two a, two b) {
   two p = product(a.high, b.high);
-  p.low += a.high * b.low + a.low * b.high;
+  p.low += FUSED(a.high, b.low, a.low * b.high);
   return sum(p.high, p.low);
 }
 static two plus(two a, two b) {
@@ -63,8 +82,8 @@ static const double ODD[] = {1.0 / 3, 1.0 / 5, 1.0 / 7, 1.0 / 9, 1.0 / 11, 1.0 /
                              1.0 / 21, 1.0 / 23, 1.0 / 25, 1.0 / 27};
 static double series(double z, const double *c) { /* twelve terms, in two chains that run beside each other */
   double w = z * z, even = c[10], odd = c[11];
-  for (int i = 8; i >= 0; i -= 2) even = even * w + c[i], odd = odd * w + c[i + 1];
-  return even + z * odd;
+  for (int i = 8; i >= 0; i -= 2) even = FUSED(even, w, c[i]), odd = FUSED(odd, w, c[i + 1]);
+  return FUSED(z, odd, even);
 }
 
 /* exp(x) - 1 over |x| < 0.35, of a sum. */
@@ -150,14 +169,14 @@ static double sine(two y) {
   static const double c[] = {1.0 / 355687428096000.0, -1.0 / 1307674368000.0, 1.0 / 6227020800.0, -1.0 / 39916800.0,
                              1.0 / 362880.0, -1.0 / 5040.0, 1.0 / 120.0};
   double x = y.high, z = x * x, p = -1.0 / 121645100408832000.0;
-  for (int i = 0; i < 7; i++) p = p * z + c[i];
+  for (int i = 0; i < 7; i++) p = FUSED(p, z, c[i]);
   return x + (x * z * (p * z - 1.0 / 6.0) + y.low * (1.0 - 0.5 * z));
 }
 static double cosine(two y) {
   static const double c[] = {-1.0 / 6402373705728000.0, 1.0 / 20922789888000.0, -1.0 / 87178291200.0,
                              1.0 / 479001600.0, -1.0 / 3628800.0, 1.0 / 40320.0, -1.0 / 720.0, 1.0 / 24.0};
   double z = y.high * y.high, h = 0.5 * z, w = 1.0 - h, p = 1.0 / 2432902008176640000.0;
-  for (int i = 0; i < 8; i++) p = p * z + c[i];
+  for (int i = 0; i < 8; i++) p = FUSED(p, z, c[i]);
   return w + (((1.0 - w) - h) + (z * z * p - y.high * y.low));
 }
 void sincos(double x, double *s, double *c) {
@@ -262,3 +281,6 @@ double hypot(double x, double y) {
   if (a > 0x1p500 || b < 0x1p-500) return a * root(1.0 + (b / a) * (b / a));
   return root(a * a + b * b);
 }
+#if defined(LB_FUSED) && defined(__clang__) && defined(__x86_64__)
+#pragma clang attribute pop
+#endif

@@ -81,6 +81,11 @@ def features() -> frozenset[str]:
     return frozenset(name for name, has in llvm.get_host_cpu_features().items() if has)
 
 
+def fuses() -> bool:
+    """Tell whether code for several systems rounds products and sums as one: where the least processor can."""
+    return "fma" in features()
+
+
 def words_of(kind: Any) -> int:
     """Return how many words of eight bytes a value takes that is handed to compiled code."""
     context = cpu_target.target_context
@@ -160,7 +165,7 @@ def _alone(pointer: Pointer, name: str, *, alike: bool) -> Any:
     if not alike:
         return part
     _refuse_unlike(part)
-    return exact(part)
+    return exact(part, fused=fuses())
 
 
 def _refuse_unlike(whole: Any) -> None:
