@@ -85,7 +85,7 @@ class Solver(Section):
     tolerance: float = option(1e-3, "error tolerance per step, on the absolute scales of the states", gt=0.0, le=0.1)
     accuracy: Literal["auto", "averages", "vibration"] = option(
         "auto",
-        "what has to be true: averages (loss, speeds, loads), or vibrations too, at two to four times the cost; "
+        "what has to be true: averages (loss, speeds, loads), or vibrations too, at four to eight times the cost; "
         "auto: vibrations where a raceway is not nominal or something shakes faster than the shaft turns",
     )
     resolve: Frequency | None = option(

@@ -16,7 +16,7 @@ from lambda_core.system.bearing import Solver
 
 FOURTH_POWERS = "steps_to_the_fourth"  # of the statistics of a run: sum of the fourth powers of its steps [s4]
 ITERATION_WORK = "iteration_work"  # of the same: work of early ends of Newton's iteration, counted positive [J]
-_FASTEST = math.pi  # w h from which on a step sees nothing of a swing
+_FASTEST = math.pi  # w h from which on a step sees nothing of a swing's frequency
 
 
 class Swing(Record):
@@ -76,7 +76,8 @@ def added(angle: float, *, fine: bool) -> tuple[float, float]:
 
     The swing u' = i w u becomes u_n = rho^n, with the principal root rho of the formula at z = i w h (Hairer and Wanner
     1996, Solving ODEs II, IV.3, V.1): arg(rho)/(w h) is the frequency over w, -ln|rho|/(w h) the damping ratio. For
-    small w h that is (w h)^3/4 and -(w h)^2/3 of BDF2. A step that is half a period or longer sees no swing.
+    small w h that is (w h)^3/4 and -(w h)^2/3 of BDF2. Of a step that is half a period or longer the damping still
+    holds; the frequency is lost, a shift of -1.
 
     Parameters
     ----------
@@ -85,7 +86,7 @@ def added(angle: float, *, fine: bool) -> tuple[float, float]:
     fine : bool
         ESDIRK4(3)6L[2]SA; otherwise BDF2, in equal steps.
     """
-    angle = min(max(angle, 1e-9), _FASTEST)
+    angle = max(angle, 1e-9)
     z = 1j * angle
     if fine:
         ones = np.ones(STAGES)
@@ -93,7 +94,7 @@ def added(angle: float, *, fine: bool) -> tuple[float, float]:
     else:
         # (3/2 - z) rho^2 - 2 rho + 1/2 = 0
         root = (2.0 + cmath.sqrt(1.0 + 2.0 * z)) / (3.0 - 2.0 * z)
-    return -math.log(abs(root)) / angle, cmath.phase(root) / angle - 1.0
+    return -math.log(abs(root)) / angle, (cmath.phase(root) / angle if angle < _FASTEST else 0.0) - 1.0
 
 
 def followed(settings: Solver, status: Status, time: float) -> Followed | None:

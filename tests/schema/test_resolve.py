@@ -379,6 +379,27 @@ def test_solver_defaults_follow_the_cage() -> None:
     assert averages.resolve == 0.0
 
 
+def test_what_undoes_the_following_of_vibrations_is_said() -> None:
+    """Longer steps than it needs are not taken; samples that are too far apart are; endless files are refused."""
+
+    def said(words: str, **tables: object) -> list[str]:
+        found = model_of("6319-cp10-3000", **tables)
+        assert found.solver.max_step <= 1.0 / (6.0 * 2000.0)
+        return [text for text in found.assumptions if words in text]
+
+    followed = {"accuracy": "vibration"}
+    assert said("solver.max_step would lose", solver={**followed, "max_step": "1 ms"})
+    assert not said("solver.max_step would lose", solver={**followed, "max_step": "1 us"})
+    (folds,) = said("at wrong places", solver=followed, output={"interval": "1 ms"})
+    assert "up to 500 Hz" in folds
+    assert "up to 2 kHz" in folds
+    assert not said("at wrong places", solver=followed, output={"interval": "0.1 ms"})
+    with pytest.raises(
+        CaseError, match=r"solver\.resolve +makes .* samples of 5 s; at most 1e\+07: 390.625 kHz or lower"
+    ):
+        model_of("6319-cp10-3000", solver={"resolve": "1e9 kHz", "duration": "5 s"})
+
+
 def test_vibrations_are_followed_where_they_are_the_answer() -> None:
     """Something shakes faster than the shaft turns (50 Hz), or a raceway is not nominal; and where a case says so."""
 

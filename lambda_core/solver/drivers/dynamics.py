@@ -36,6 +36,7 @@ from lambda_core.solver.integrator.tableau import STAGES
 from lambda_core.solver.sampling import CONTACT_CHANNELS
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import max_speed
+from lambda_core.system.resolve_solver import SAMPLES_PER_PERIOD
 from lambda_core.system.state_channels import result_channels
 
 _CAPACITY = 512
@@ -51,7 +52,6 @@ _COUNTERS = (
 )
 _BUFFER = ("sample_t", "sample_y")  # of the memory
 _MUCH_FASTER = 1.5  # a planned cage speed over that at the start, from which on it counts
-_SAMPLES_PER_PERIOD = 2.56  # of the highest frequency that is followed; what spectrum analysers take (ISO 13373-2)
 _SPIN_FOR_SAMPLES = 1.0  # [rad/s] slowest cage speed that the default sampling interval is made for
 
 
@@ -127,7 +127,7 @@ class BearingEngine:
         """Return the time between samples where none is asked for [s]."""
         interval = 2.0 * math.pi / self._cage_speed() / SAMPLES_PER_REVOLUTION
         resolve = self.model.solver.resolve
-        return min(interval, 1.0 / (_SAMPLES_PER_PERIOD * resolve)) if resolve else interval
+        return min(interval, 1.0 / (SAMPLES_PER_PERIOD * resolve)) if resolve else interval
 
     def _cage_speed(self) -> float:
         """Return the cage speed that samples are spaced for [rad/s]: the start's, or a much faster planned one."""

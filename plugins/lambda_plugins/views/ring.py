@@ -62,6 +62,9 @@ def ring_spectrum(run: RunData, options: Options) -> ViewData:
     time, place = run["time"][rows], run["body_position"][rows, BODY["inner"]]
     marks = speeds(run, span).frequencies()
     limit = _WIDTH * max(marks.values())
+    vibrations = run.summary().vibrations
+    if vibrations is not None:
+        limit = max(limit, vibrations.resolve_Hz)
     series = []
     for index, (axis, role) in enumerate(zip(DIMENSIONS["axis"], ("cage", "outer", "inner"), strict=True)):
         if np.ptp(place[:, index]) > _STILL:
