@@ -35,7 +35,8 @@ No force brings the azimuth of such a ball back, so that errors of either integr
 """
 _BETWEEN = """
 The bounds are 0.02 % of the power and 10 tolerances. The power meets it in every row, within 0.012 %. At the default
-tolerance of 1e-3 the states meet it but for the 6319 at 3000 1/min, 10.8 (the test holds 15): the speed of its inner ring along the load,
+tolerance of 1e-3 the states meet it but for the 6319 at 3000 1/min, 10.8 (the test holds 15): the speed of its
+inner ring along the load,
 in a vibration at 970 Hz that hardly anything damps, and which steps as long as those of oiled balls follow less
 closely; `agree` is false there. `solver.accuracy = "vibration"` is for what follows such vibrations. In units of the
 tolerance the distance grows as the tolerance shrinks, since the error of a method of second order falls with its 2/3
