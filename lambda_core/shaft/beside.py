@@ -27,6 +27,7 @@ from lambda_core.system.time_functions import added, initial, peak, scaled, time
 COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")
 _DOFS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
 _ROUNDING = 1e-9
+_FARTHEST = 0.1  # [m, rad] that anything is led: seats and housings move by micrometres, milliradians
 _FAR_BEYOND = 1000.0  # times the static ratings: pressures ten times those that dent it
 
 
@@ -60,7 +61,17 @@ def _rigid(name: str, given: ShaftBody, catalogue: Catalogue, ledger: Ledger) ->
         )
     hold = [_hold(getattr(given, f"hold_{dof}"), dof) for dof in _DOFS]
     lead = tuple(time_function(getattr(given, f"motion_{dof}", None)) for dof in _DOFS)  # nothing is led about x
+    for dof, motion in zip(_DOFS, lead, strict=True):
+        refuse_far(f"bodies.{name}.motion_{dof}", dof, motion, ledger)
     return RigidBody(name, (given.x, given.y, given.z), mass, polar, transverse, tuple(hold), extent, lead)
+
+
+def refuse_far(where: str, dof: str, motion: TimeFunction, ledger: Ledger) -> None:
+    """Note a motion of a seat or a body that goes farther than any does."""
+    if not peak(motion) <= _FARTHEST:
+        quantity = "angle" if dof.startswith("tilt") else "length"
+        far, most = show(peak(motion), quantity, 3), show(_FARTHEST, quantity)
+        ledger.problem(where, f"goes to {far}, at most {most}: is the unit right?")
 
 
 def _hold(text: str, dof: str) -> float:

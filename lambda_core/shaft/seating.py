@@ -7,6 +7,7 @@ import math
 from lambda_core.case.shaft import ShaftBearing
 from lambda_core.domain.ratings import dynamic_rating, fatigue_load_limit, static_rating
 from lambda_core.domain.units import parse
+from lambda_core.shaft.beside import refuse_far
 from lambda_core.shaft.model import GROUND, LOCKED, MountedBearing, Seating
 from lambda_core.solver.drivers.held_ring import POSE
 from lambda_core.system.bearing import BearingModel, TimeFunction
@@ -64,9 +65,10 @@ def mounted(
 def refuse_motion(name: str, given: ShaftBearing, is_carried: bool, ledger: Ledger) -> None:
     """Note motions of a ring that something else decides; `is_carried`: by a body or an elastic housing."""
     for dof in POSE:
-        where = f"bearings.{name}.support.motion_{dof}"
-        if getattr(given.support, f"motion_{dof}") is None:
+        where, motion = f"bearings.{name}.support.motion_{dof}", getattr(given.support, f"motion_{dof}")
+        if motion is None:
             continue
+        refuse_far(where, dof, time_function(motion), ledger)
         if is_carried:
             ledger.problem(where, "a ring is led only where it sits in the ground, without an elastic housing")
         elif dof == "x" and given.preload_force is not None:

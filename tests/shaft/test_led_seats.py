@@ -129,6 +129,12 @@ def test_what_cannot_be_led() -> None:
     box = {"x": "85 mm", "mass": "9 kg", "polar_inertia": "1 kg m2", "transverse_inertia": "1 kg m2"}
     for changes, where, said in (
         (tables({"y": "free", "motion_y": "1 um"}, {}), "support.motion_y", 'needs y = "locked", not "free"'),
+        (tables({"motion_y": "1e6 mm"}, {}), "support.motion_y", "at most 100 mm: is the unit right?"),
+        (
+            tables({}, {}, bodies={"box": {**box, "hold_tilt_y": "locked", "motion_tilt_y": "9 deg"}}),
+            "bodies.box.motion_tilt_y",
+            "at most",
+        ),
         (
             merged(tables({"motion_y": "1 um"}, {}, bodies={"box": box}), {"bearings": {"left": {"outer": "box"}}}),
             "support.motion_y",
