@@ -72,6 +72,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.nodeid.startswith(TIMED):
             item.add_marker(pytest.mark.flaky(reruns=1))
+        else:  # what another test left behind is found wherever the collector comes by
+            item.add_marker(pytest.mark.flaky(reruns=1, only_rerun=["PytestUnraisableExceptionWarning"]))
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import json
 import os
 import pickle
 import sys
+from asyncio.subprocess import DEVNULL, PIPE, Process, SubprocessStreamProtocol
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from lambda_core.domain.errors import LambdaError
 
 # The matrices are small: threads that wait for each other on them take ten times the processor time of one.
 _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+_AHEAD = 1 << 16  # of an answer, what is read before it is asked for [bytes]
 _STARTS = 3  # a process that keeps dying is not started for ever
 
 
@@ -32,7 +33,8 @@ class Helper:
 
     def __init__(self, say: Callable[[str], None], is_wanted: Callable[[], bool] = lambda: True) -> None:
         self._say, self._is_wanted = say, is_wanted
-        self._process: asyncio.subprocess.Process | None = None
+        self._process: Process | None = None
+        self._transport: asyncio.SubprocessTransport | None = None
         self._turn = asyncio.Lock()
         self._deaths = 0
         self._is_closed = False
@@ -57,6 +59,8 @@ class Helper:
 
     async def _answer(self, work: str, **arguments: Any) -> Any:
         async with self._turn:
+            if self._is_closed:  # while it waited for its turn
+                raise asyncio.CancelledError
             process = await self._started()
             if self._is_closed:  # while it was being started
                 await self._stop()
@@ -84,19 +88,25 @@ class Helper:
         self._deaths = 0
         return content
 
-    async def _started(self) -> asyncio.subprocess.Process:
+    async def _started(self) -> Process:
         if self._process is not None and self._process.returncode is None:
             return self._process
         if self._deaths == _STARTS:
             raise LambdaError("the helper process has ended several times and is not started again")
-        pipe, null = asyncio.subprocess.PIPE, asyncio.subprocess.DEVNULL
+        loop = asyncio.get_running_loop()
         command = (sys.executable, "-P", "-m", "lambda_gui.helper_process")
         try:
-            self._process = await asyncio.create_subprocess_exec(
-                *command, stdin=pipe, stdout=pipe, stderr=null, env=os.environ | _ONE_THREAD
+            self._transport, protocol = await loop.subprocess_exec(
+                lambda: SubprocessStreamProtocol(limit=_AHEAD, loop=loop),
+                *command,
+                stdin=PIPE,
+                stdout=PIPE,
+                stderr=DEVNULL,
+                env=os.environ | _ONE_THREAD,
             )
         except OSError as error:
             raise LambdaError(f"the helper process cannot be started: {error.strerror}") from None
+        self._process = Process(self._transport, protocol, loop)
         return self._process
 
     async def close(self) -> None:
@@ -105,10 +115,10 @@ class Helper:
         await self._stop()
 
     async def _stop(self) -> None:
+        transport, self._transport = self._transport, None
         process, self._process = self._process, None
-        if process is not None and process.returncode is None:
-            with contextlib.suppress(ProcessLookupError):
-                process.kill()
+        if transport is not None and process is not None:
+            transport.close()  # at once: it also kills, and who waits below may be cancelled before the program's end
             await process.wait()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -43,6 +44,21 @@ def quiet_estimator(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPa
         return
 
     monkeypatch.setattr(Estimator, "ask", ask)
+
+
+@pytest.fixture(autouse=True)
+def no_process_is_left(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Find here what a test leaves running: the collector finds it in some later test, of anything."""
+    begun, begin = [], asyncio.base_events.BaseEventLoop.subprocess_exec
+
+    async def remember(self: asyncio.base_events.BaseEventLoop, *what: Any, **options: Any) -> Any:
+        transport, protocol = await begin(self, *what, **options)
+        begun.append(transport)
+        return transport, protocol
+
+    monkeypatch.setattr(asyncio.base_events.BaseEventLoop, "subprocess_exec", remember)
+    yield
+    assert [transport for transport in begun if not transport.is_closing()] == []
 
 
 @pytest.fixture

@@ -316,15 +316,31 @@ async def test_who_waits_for_a_helper_that_is_closed_is_cancelled() -> None:
 
 
 async def test_a_helper_that_is_closed_while_it_starts_leaves_no_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    started, start = [], asyncio.create_subprocess_exec
+    started, start = [], asyncio.base_events.BaseEventLoop.subprocess_exec
 
-    async def slowly(*command: str, **options: Any) -> asyncio.subprocess.Process:
+    async def slowly(self: asyncio.base_events.BaseEventLoop, *what: Any, **options: Any) -> Any:
         await helper.close()
-        started.append(await start(*command, **options))
+        started.append(await start(self, *what, **options))
         return started[0]
 
-    monkeypatch.setattr(asyncio, "create_subprocess_exec", slowly)
+    monkeypatch.setattr(asyncio.base_events.BaseEventLoop, "subprocess_exec", slowly)
     helper = Helper(lambda text: None)
     with pytest.raises(asyncio.CancelledError):
         await helper.ask("views", subject="result")
-    assert started[0].returncode is not None
+    assert started[0][0].get_returncode() is not None
+
+
+async def test_who_ends_a_helper_and_is_cancelled_leaves_no_process() -> None:
+    """The builder ends while a screen ends its helper: what is left would be closed on a loop that is not there."""
+    helper = Helper(lambda text: None)
+    waiting = asyncio.create_task(helper.ask("views", subject="result"))
+    while helper._process is None:
+        await asyncio.sleep(0.01)
+    transport, closing = helper._transport, asyncio.create_task(helper.close())
+    await asyncio.sleep(0)
+    for task in (waiting, closing):
+        task.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await closing
+    assert transport is not None
+    assert transport.is_closing()
