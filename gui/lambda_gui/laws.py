@@ -48,8 +48,9 @@ def _gist(role: str, name: str) -> str:
 
 def law_card(node: Node) -> FieldCard:
     """Return the card of the choice of a role's model."""
-    table = table_model(Case, node.law_places[0][:-1])
-    return field_card(table, "law") if ROLES[node.role].section else field_card(Models, node.role)
+    if not ROLES[node.role].section:
+        return field_card(Models, node.role)
+    return field_card(table_model(Case, node.law_places[0][:-1]), "law")
 
 
 def law_choice_row(draft: Draft, node: Node, around: Surroundings) -> ChoiceRow:

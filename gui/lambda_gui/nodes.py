@@ -64,7 +64,7 @@ class Node:
     section : Named or None
         Of a section of named tables, and of each table in it: what they are.
     table : tuple
-        Where that section, or that table, is written.
+        Where that section, or that table, is written; of a role, the bearing whose law it is where there are several.
     """
 
     key: str
@@ -110,7 +110,7 @@ class Node:
         if ROLES[self.role].section:
             base = (ROLES[self.role].section, self.role)
             return (*base, "law"), (*base, "parameters")
-        base = ("forces", self.element) if self.element else ()
+        base = (*self.table, "forces", self.element) if self.element else ()
         return (*base, "models", self.role), (*base, "parameters", self.role)
 
 

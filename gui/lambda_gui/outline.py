@@ -120,29 +120,35 @@ def _forces(names: Names) -> Node:
         kind="roles",
         children=[_role("", role) for role in MOTION_ROLES],
     )
-    nodes = [every]
-    for element, title in ELEMENTS.items():
-        roles = [role.name for role in MOTION_ROLES.values() if element in role.elements]
-        nodes.append(
-            Node(
-                f"forces.{element}",
-                title,
-                f"{about(Case, ('forces', element), own=False)}: models of its own before the general ones",
-                kind="roles",
-                element=element,
-                children=[_role(element, role) for role in roles],
-            )
-        )
-    nodes.append(_named("elements", names))
+    nodes = [every, *force_elements(), _named("elements", names)]
     return Node("forces", "Force elements", "every contact and the model that fills each role", children=nodes)
 
 
-def _role(element: str, role: str) -> Node:
-    key = f"forces.{element}.{role}" if element else f"models.{role}"
-    title = role.replace("_", " ")
-    heading = f"{ELEMENTS.get(element, 'All elements')} · {title}"
-    told = ROLES[role].summary
-    return Node(key, title, told, kind="role", role=role, element=element, heading=heading, short=SHORT.get(role, ""))
+def force_elements(bearing: Keys = ()) -> list[Node]:
+    """Return a node for every force element with its roles below, of the case's bearing or of one among several.
+
+    Parameters
+    ----------
+    bearing : tuple of str
+        Where one among several is written.
+    """
+    nodes = []
+    for element, title in ELEMENTS.items():
+        words = f"{about(Case, ('forces', element), own=False)}: models of its own before the general ones"
+        roles = [_role(element, role.name, bearing) for role in MOTION_ROLES.values() if element in role.elements]
+        key = ".".join((*bearing, "forces", element))
+        nodes.append(Node(key, title, words, kind="roles", element=element, children=roles))
+    return nodes
+
+
+def _role(element: str, role: str, bearing: Keys = ()) -> Node:
+    key = ".".join((*bearing, "forces", element, role)) if element else f"models.{role}"
+    title, told = role.replace("_", " "), ROLES[role].summary
+    heading = " · ".join((*bearing[1:], ELEMENTS.get(element, "All elements"), title))
+    return Node(
+        key, title, told, kind="role", role=role, element=element, heading=heading, short=SHORT.get(role, ""),
+        table=bearing,
+    )  # fmt: skip
 
 
 def _loads() -> Node:

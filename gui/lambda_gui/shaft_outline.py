@@ -8,7 +8,7 @@ from lambda_core.api import InlineMaterial, ShaftCase
 from lambda_core.domain.option_tree import members, model_at
 from lambda_core.domain.roles import MOTION_ROLES, ROLES
 from lambda_gui.nodes import Group, Keys, Named, Names, Node, about, form_node, plain_fields, table_model
-from lambda_gui.outline import SHORT
+from lambda_gui.outline import SHORT, force_elements
 
 if TYPE_CHECKING:
     from lambda_core.api import Draft
@@ -114,9 +114,11 @@ def _named(section: str, names: tuple[str, ...]) -> Node:
                     table=table, heading=f"{what.one} {name}")  # fmt: skip
         node.groups += [
             Group(_title(inner), (*table, inner), tuple(_options((*table, inner))))
-            for inner in _tables(table) if inner not in below
+            for inner in _tables(table) if inner not in below and inner != "forces"
         ]  # fmt: skip
         node.children = _below(table, node.key, heading=f"{name} · ")
+        if section == "bearings":
+            node.children.append(_own_laws(table))
         nodes.append(node)
     return Node(section, what.title, what.about, children=nodes, kind="named", section=what, table=(section,))
 
@@ -129,6 +131,12 @@ def _below(table: Keys, key: str, heading: str = "") -> list[Node]:
         node.heading = f"{heading}{title[:1].lower() + title[1:]}" if heading else title
         nodes.append(node)
     return nodes
+
+
+def _own_laws(bearing: Keys) -> Node:
+    words = "models of this bearing alone, by contact, before those of every bearing: a defect in one of its raceways"
+    key = ".".join((*bearing, "forces"))
+    return Node(key, "Laws of its own", words, children=force_elements(bearing))
 
 
 def _laws() -> Node:

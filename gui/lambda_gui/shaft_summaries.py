@@ -22,6 +22,7 @@ _TELL = {
     "lubricant": ("name", "temperature"),
     "housing": ("temperature", "reduced"),
     "life": ("contamination",),
+    "solver": ("duration", "accuracy"),
 }
 
 

@@ -25,7 +25,8 @@ def summary(node: Node, draft: Draft, around: CaseAround) -> str:
         return of_shaft(node, draft, around)
     if node.kind == "role":
         written = draft.get(*node.law_places[0])
-        return str(written or around.resolved(node.law_places[0]) or DEFAULT_MODELS[node.role])
+        shared = draft.get("models", node.role) if node.table else None
+        return str(written or around.resolved(node.law_places[0]) or shared or DEFAULT_MODELS[node.role])
     if key == "case":
         return _text(draft.get("name"))
     if key == "bearing":

@@ -10,7 +10,7 @@ from pydantic import PrivateAttr, ValidationInfo, field_validator, model_validat
 
 from lambda_core.case.case import NAME_PATTERN
 from lambda_core.case.elastic import Elastic
-from lambda_core.case.modelling import Models, Parameters
+from lambda_core.case.modelling import Forces, Models, Parameters, Solver
 from lambda_core.case.motion import CageShape, Gravity
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, Surface
@@ -36,7 +36,9 @@ from lambda_core.domain.units import (
     Temperature,
 )
 
-SHARED = ("lubricant", "materials", "surface", "models", "parameters", "gravity")  # tables of the case of every bearing
+# tables of the case of every bearing
+SHARED = ("lubricant", "materials", "surface", "models", "parameters", "gravity", "solver")
+OWN = ("elastic", "forces")  # tables of one of them
 NAMED = ("bearings", "markers", "bodies", "discs", "loads", "gears", "springs")  # tables of named parts
 # Names that are there already; a bearing's result stands beside that of the whole, shaft.h5
 TAKEN = {"bearings": ("shaft",), "markers": ("shaft", "ground"), "bodies": ("shaft", "ground")}
@@ -155,6 +157,7 @@ class ShaftBearing(Bearing, Placed):
     support: Support = option({}, "how the housing holds the outer ring")
     cage: CageShape = option({}, "cage, as bodies.cage in the case of one bearing")
     elastic: Elastic = option({}, "parts of the bearing that bend, as elastic in the case of one bearing")
+    forces: Forces = option({}, "models of its own by force element, as forces in the case of one bearing: a defect")
 
     @model_validator(mode="after")
     def _sits(self) -> ShaftBearing:
@@ -207,6 +210,7 @@ class ShaftCase(Section):
     life: ShaftLife = option({}, "what modified rating lives need")
     models: Models = option({}, "model by role, for every bearing")
     parameters: Parameters = option({}, "parameters by role, for every bearing")
+    solver: Solver = option({}, "integrator and averages, in motion")
     _folder: Path | None = PrivateAttr(default=None)
 
     @model_validator(mode="after")
@@ -237,6 +241,6 @@ def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
         "bearing": {key: value for key, value in given.items() if key in Bearing.model_fields},
         "operation": {} if speed is None else {"speed": speed},
         "bodies": bodies,
-        **({"elastic": given["elastic"]} if "elastic" in given else {}),
+        **{table: given[table] for table in OWN if table in given},
         **{table: tables[table] for table in SHARED if table in tables},
     }

@@ -38,9 +38,10 @@ def shaft_run(
     force : bool
         Overwrite what a run left in `out`.
     duration : float, optional
-        Simulated time [s]; by default until the friction torque of every bearing is known to 1 % (95 % confidence).
+        Simulated time [s]; by default the case's, or until the friction torque of every bearing is known to 1 % (95 %
+        confidence).
     max_wall : float, optional
-        Stop after this wall time [s].
+        Stop after this wall time [s]; by default the case's.
     progress, announce : callable, optional
         Called some ten times a second; with a sentence before what takes a while.
 
@@ -60,7 +61,8 @@ def shaft_run(
     from lambda_core.shaft.whole_summary import summarise_whole
 
     model = source if isinstance(source, ShaftModel) else check_shaft(source, overrides)
-    ends, folder = Ends(duration or 0.0, max_wall or math.inf), None if out is None else Path(out)
+    ends = Ends(duration or model.solver.duration, max_wall or model.solver.max_wall)
+    folder = None if out is None else Path(out)
     return summarise_whole(launch_whole(model, folder, ends, force=force, report=progress, announce=announce))
 
 
@@ -97,7 +99,7 @@ def shaft_resume(
     from lambda_core.shaft.whole_summary import summarise_whole
 
     model = check_shaft(toml_tables(WholeFile(folder).case_toml, str(folder)))
-    ends = Ends(duration or 0.0, max_wall or math.inf)
+    ends = Ends(duration or model.solver.duration, max_wall or math.inf)
     return summarise_whole(resume_whole(Path(folder), model, ends, report=progress, announce=announce))
 
 

@@ -269,7 +269,8 @@ class _Session:
         if self._before:  # the integrator's own counters go on from the checkpoint
             counters = self._engine.statistics()
         wall = self._wall + time.perf_counter() - self._started
-        return Status(state, message, wall=wall, statistics=counters, process=this_process())
+        modes = tuple(self._engine.modes()) if state != "running" else ()
+        return Status(state, message, wall=wall, statistics=counters, modes=modes, process=this_process())
 
     def _flush(self, state: State, message: str) -> None:
         self._collect()

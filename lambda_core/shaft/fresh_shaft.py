@@ -97,6 +97,13 @@ polar_inertia = "4500 kg mm2"
 
 [life]
 contamination = 0.6            # e_C of ISO 281, for the modified life
+
+# In motion: vibrations in place of averages, chosen by itself where a raceway has a defect.
+# [bearings.right.forces.ball_outer]
+# models = { surface = "defect" }
+# [solver]
+# accuracy = "vibration"
+# resolve = "2 kHz"
 """
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.gear_forces import GearForces
 from lambda_core.elastic.body import ElasticBody
-from lambda_core.system.bearing import ZERO, BearingModel, TimeFunction
+from lambda_core.system.bearing import ZERO, BearingModel, Solver, TimeFunction
 from lambda_core.system.time_functions import initial
 
 PLACES = (0, 1, 2, 4, 5)  # of a pose (solver.drivers.held_ring) among the six rows of a node
@@ -174,6 +174,17 @@ class ShaftModel:
     housing_damping: FloatArray | None = None
     warnings: tuple[str, ...] = ()
     case_toml: str = ""  # the case, complete: it runs again as it stands
+
+    @property
+    def led(self) -> list[TimeFunction]:
+        """Everything that leads shaft, seats and bodies over time."""
+        seats = [lead for mounted in self.bearings for lead in mounted.seating.lead]
+        return [self.speed_over_time, *seats, *(lead for body in self.bodies for lead in body.lead)]
+
+    @property
+    def solver(self) -> Solver:
+        """Settings of the integrator, but for those that each bearing has of its own: longest step and time."""
+        return self.bearings[0].model.solver
 
     @property
     def spring_places(self) -> tuple[float, ...]:

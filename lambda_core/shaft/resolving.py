@@ -15,7 +15,7 @@ from lambda_core.case.case import merged
 from lambda_core.case.case_io import overridden
 from lambda_core.case.case_writer import tables_toml
 from lambda_core.case.salvage import InvalidCase, related
-from lambda_core.case.shaft import ShaftCase, bearing_tables
+from lambda_core.case.shaft import OWN, ShaftCase, bearing_tables
 from lambda_core.case.shaft_io import shaft_tables, validate_shaft
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
@@ -42,6 +42,7 @@ from lambda_core.shaft.model import GROUND, SHAFT, MountedBearing, ShaftModel, U
 from lambda_core.shaft.places import Places, places
 from lambda_core.shaft.reduced_shaft import reduced_shaft
 from lambda_core.shaft.seating import mounted, refuse_motion
+from lambda_core.shaft.settings import with_settings
 from lambda_core.solver.drivers.held_ring import POSE
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.checking import check
@@ -104,6 +105,8 @@ def check_shaft(
         models = _bearings(tables, folder, opened, found)
         ledger = Ledger(assumptions=list(case.assumptions) if case else [])
         resolved = _shaft(case, models, opened, ledger, found) if case else None
+    if case is not None and resolved is not None:
+        resolved = with_settings(case, resolved, ledger)
     if found or ledger.problems or resolved is None:
         raise CaseError(name, [*found, *independent(found, ledger.problems, tables)])
     return replace(resolved, case_toml=tables_toml(_anywhere(tables, folder)))
@@ -132,7 +135,7 @@ def _bearings(
             for problem in error.problems:
                 where = problem.where.replace("bodies.cage", f"bearings.{name}.cage")
                 where = f"bearings.{name}{where[7:]}" if where.split(".")[0] == "bearing" else where
-                where = f"bearings.{name}.{where}" if where.split(".")[0] == "elastic" else where
+                where = f"bearings.{name}.{where}" if where.split(".")[0] in OWN else where
                 if where != "name" and not any(related(where, known.where) for known in found):
                     found.append(Problem(where, problem.message))
     return models

@@ -35,13 +35,14 @@ from lambda_core.solver import records as R
 from lambda_core.solver.drivers.compiled_laws import Announce
 from lambda_core.solver.drivers.engine import (
     FIRST_STEP,
-    SAMPLES_PER_REVOLUTION,
     SMALLEST_STEP,
     WORK_PER_CALL,
     Advance,
     drive,
+    usual_interval,
 )
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
+from lambda_core.solver.drivers.modes import ring_modes
 from lambda_core.solver.drivers.observation import Scratch, channels_of
 from lambda_core.solver.drivers.ring_values import losses_of_raceways
 from lambda_core.solver.drivers.surface_steps import longest_step
@@ -50,8 +51,7 @@ from lambda_core.solver.entry import core
 from lambda_core.solver.integrator import memory
 from lambda_core.solver.integrator.arrow import make_factors
 from lambda_core.solver.integrator.blocks import make_blocks
-from lambda_core.system.resolve_solver import STEPS_PER_PERIOD
-from lambda_core.system.time_functions import highest_frequency
+from lambda_core.solver.integrator.tableau import STAGES
 
 _CAPACITY = 512
 _COUNTERS = (
@@ -94,25 +94,23 @@ class WholeEngine:
         start = start_state(model, self.shaft, self.parts, self._bundle.active, self.start, self.equilibria)
         scales = state_sizes(model, self.shaft, self.parts, self._bundle)
         tolerance = min(part.bearing.model.solver.tolerance for part in self.parts)
-        self._memory = memory.make_memory(start, scales, tolerance, self._bundle, _CAPACITY)
-        self.sample_interval = min(map(_usual_interval, self.equilibria))
+        resolve, stages = model.solver.resolve, STAGES if model.solver.resolve else 0
+        self._memory = memory.make_memory(start, scales, tolerance, self._bundle, _CAPACITY, stages=stages)
+        self.sample_interval = usual_interval(max(1.0, *(abs(found.orbit) for found in self.equilibria)), resolve)
         control, count = self._memory.control, self._memory.count
-        seats = [lead for part in self.parts for lead in part.bearing.seating.lead]
-        led = [model.speed_over_time, *seats, *(lead for body in model.bodies for lead in body.lead)]
-        frequency = highest_frequency(*led, *(function for _, function in model.varying))
         control["longest_step"] = min(
-            *(min(part.bearing.model.solver.max_step, longest_step(part.alone)) for part in self.parts),
-            1.0 / (STEPS_PER_PERIOD * frequency) if frequency else math.inf,
+            min(part.bearing.model.solver.max_step, longest_step(part.alone)) for part in self.parts
         )
         control["step"] = np.minimum(FIRST_STEP, control["longest_step"])
         control["shortest_step"], control["sample_interval"] = SMALLEST_STEP, self.sample_interval
         count["stale"] = 1
         c = self._core
+        advance = c.advance_finely_pointer if stages else c.advance_pointer
         self._handle = c.make_context(
-            c.evaluate_pointer, c.jacobian_pointer, c.advance_pointer, c.observe_pointer, self._bundle, self._blocks,
+            c.evaluate_pointer, c.jacobian_pointer, advance, c.observe_pointer, self._bundle, self._blocks,
             self._factors, self._memory,
         )  # fmt: skip
-        self._changes = any(term.kind != "constant" for function in led for term in function.terms)
+        self._changes = any(term.kind != "constant" for function in model.led for term in function.terms)
         self._drained: list[WholeSamples] = []
         self._sampled = np.zeros((len(self.parts), len(_SHARED) + 5))  # integrals of what only samples say
         self._last: list[FloatArray] = []  # their rates at the last sample
@@ -261,7 +259,8 @@ class WholeEngine:
             self._last.append(rates[0])
         steps = np.diff(np.concatenate([[self._last_time], channels["time"]]))[:, None]
         around = np.concatenate([self._last[i][None], rates])
-        self._sampled[i] += (0.5 * steps * (around[1:] + around[:-1])).sum(axis=0)
+        grown = np.concatenate([self._sampled[i][None], 0.5 * steps * (around[1:] + around[:-1])])
+        self._sampled[i] = np.add.accumulate(grown)[-1]  # one after the other: the same bits in blocks of any length
         self._last[i] = rates[-1]
 
     # -- running integrals --
@@ -326,6 +325,10 @@ class WholeEngine:
         steps, rest = self._memory.control["fourth_powers"][0], running(self._memory.integrals)["iteration"]
         return {**counted, "steps_to_the_fourth": float(steps), "iteration_work": float(rest)}
 
+    def modes(self) -> list[tuple[float, float]]:
+        """Return frequency [Hz] and damping ratio of the slowest modes of shaft, rings and bodies at `time`."""
+        return ring_modes(self._bundle, self._blocks, self._memory.inertia, lowest=True)
+
     def state(self) -> dict[str, NDArray[np.float64]]:
         """Return everything that a continuation needs."""
         parts: dict[str, NDArray[np.float64]] = {}
@@ -352,8 +355,3 @@ class WholeEngine:
         self._sampled, self._last = state["sampled"].copy(), list(state["last"])
         self._last_time, self._start_energy = float(state["start"][0]), float(state["start"][1])
         self._start_angles = state["start"][2:].copy()
-
-
-def _usual_interval(found: Equilibrium) -> float:
-    """Return 1/100 of a turn of the cage [s]."""
-    return 2.0 * math.pi / max(abs(found.orbit), 1.0) / SAMPLES_PER_REVOLUTION

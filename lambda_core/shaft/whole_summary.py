@@ -13,6 +13,7 @@ from lambda_core.domain.number_text import NONE, plus_minus
 from lambda_core.domain.wrapping import HEAD, wrapped
 from lambda_core.results.averages import finite
 from lambda_core.results.convergence import shortfalls_together, torque_together, window_of
+from lambda_core.results.followed import Followed
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import Summary, summarise
 
@@ -82,6 +83,7 @@ class WholeSummary(Record):
     wall_s: float = Field(description="wall time of the integration")
     wall_per_simulated_second: float | None = Field(description="wall time over simulated time")
     solver_statistics: dict[str, float] = Field(description="counters of the integrator")
+    vibrations: Followed | None = Field(default=None, description="how far vibrations can be believed")
     warnings: list[str] = Field(default=[], description="what cannot stand on the shaft as it is drawn")
 
     def text(self, width: int | None = None) -> str:
@@ -123,6 +125,7 @@ def summarise_whole(found: WholeFile) -> WholeSummary:
         wall_s=status.wall,
         wall_per_simulated_second=finite(status.wall / first.simulated_s) if first.simulated_s > 0.0 else None,
         solver_statistics=first.solver_statistics,
+        vibrations=first.vibrations,
         warnings=found.warnings,
     )
 
@@ -231,6 +234,7 @@ def _text(found: WholeSummary, width: int | None) -> str:
             for name, one in (*found.bodies.items(), *found.markers.items())
         ),
         f"{'energy residual':<{HEAD}}{residual} of input",
+        *([f"{'vibrations':<{HEAD}}{found.vibrations.sentence()}"] if found.vibrations else []),
         f"{'wall time':<{HEAD}}{found.wall_s:.2f} s for {found.simulated_s:.4g} s",
         *(f"{'WARNING':<{HEAD}}{warning}" for warning in found.warnings),
         *(f"{'WARNING':<{HEAD}}{b.name}: {warning}" for b in bearings for warning in b.warnings),

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 from lambda_core.case.case import Case
+from lambda_core.case.modelling import Solver
 from lambda_core.domain.units import show
-from lambda_core.system.bearing import ChosenLaw, Geometry, Solver
+from lambda_core.system.bearing import ChosenLaw, Geometry
+from lambda_core.system.bearing import Solver as SolverSettings
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.time_functions import highest_frequency, peak, time_function
 from lambda_core.system.time_laws import signals_of
@@ -34,16 +37,37 @@ OVER_EXCITATION = 2.0  # frequency that is followed over the highest that is exc
 
 def resolve_solver(
     case: Case, geometry: Geometry, laws: Mapping[str, Mapping[str, ChosenLaw]], ledger: Ledger, *, is_static: bool
-) -> Solver:
+) -> SolverSettings:
     """Return the settings of the integrator; what stands against them becomes a problem."""
-    given, turn = case.solver, cage_period(case, geometry)
+    given, fastest = case.solver, [peak(time_function(signal)) for signal in _spins(case)]
+    turn = cage_period(geometry, *fastest)
     if math.isinf(turn) and given.duration is None and not is_static:
         ledger.problem("solver.duration", "is required where nothing turns at first: averages need turns of the cage")
+    frequency = highest_frequency(*(time_function(signal) for _, signal in signals_of(case)))
+    why = surface_of_its_own(laws) or excited_faster(frequency, max(fastest))
+    resolve = resolution(given, frequency, why, ledger, is_silent=is_static)
+    found = settings(given, turn, frequency, resolve, ledger)
+    if not is_static:
+        end_in_sight(given, case.output.interval, found.duration or found.max_duration, turn, ledger)
+        _say_what_folds(case, resolve or frequency, ledger)
+    return found
+
+
+def settings(given: Solver, turn: float, frequency: float, resolve: float, ledger: Ledger) -> SolverSettings:
+    """Return the settings of the integrator.
+
+    Parameters
+    ----------
+    given : Solver
+        What the case says.
+    turn : float
+        Shortest turn of the cage [s]; inf at rest.
+    frequency, resolve : float
+        Highest one that excites, and that is followed, 0 for averages [Hz].
+    """
     longest = given.max_duration or (LONGEST_RUN * turn if math.isfinite(turn) else given.duration or 0.0)
     if given.duration is not None and given.max_duration is not None and given.duration > given.max_duration:
         ledger.problem("solver.duration", f"is longer than solver.max_duration, {show(given.max_duration, 'time')}")
-    frequency = highest_frequency(*(time_function(signal) for _, signal in signals_of(case)))
-    resolve = _resolve(case, frequency, laws, ledger, is_static=is_static)
     if resolve:
         largest = min(turn / FINE_STEPS_PER_CAGE_TURN, 1.0 / (FINE_STEPS_PER_PERIOD * resolve))
     else:
@@ -53,10 +77,7 @@ def resolve_solver(
         largest = (given.duration or 1.0) / STEPS_PER_CAGE_TURN
     if resolve and given.max_step is not None and given.max_step > largest:
         ledger.assume(f"steps are at most {show(largest, 'time')}: solver.max_step would lose what is to be followed")
-    if not is_static:
-        _end_in_sight(case, given.duration or longest, turn, ledger)
-        _say_what_folds(case, resolve or frequency, ledger)
-    return Solver(
+    return SolverSettings(
         tolerance=given.tolerance,
         duration=given.duration or 0.0,
         max_duration=max(longest, given.duration or 0.0),
@@ -68,15 +89,21 @@ def resolve_solver(
     )
 
 
-def _resolve(
-    case: Case, frequency: float, laws: Mapping[str, Mapping[str, ChosenLaw]], ledger: Ledger, *, is_static: bool
-) -> float:
+def resolution(given: Solver, frequency: float, why: str, ledger: Ledger, *, is_silent: bool) -> float:
     """Return the highest frequency that is to be followed [Hz], 0 where averages are the answer; says what it chose.
 
     Vibrations are the answer where the case asks for them, has a raceway that is not nominal, or is excited faster
     than the shaft turns.
+
+    Parameters
+    ----------
+    given : Solver
+        What the case says.
+    frequency : float
+        Highest one that excites [Hz].
+    why : str
+        What makes vibrations the answer where the case does not say, or nothing.
     """
-    given, why = case.solver, _shaken(case, frequency, laws)
     if given.accuracy == "averages":
         if given.resolve is not None:
             ledger.problem("solver.resolve", 'needs solver.accuracy = "vibration": averages follow no frequency')
@@ -88,7 +115,7 @@ def _resolve(
         ledger.problem(
             "solver.resolve", f"is {show(resolve, 'frequency')}: the case is excited at {show(frequency, 'frequency')}"
         )
-    if is_static or (given.accuracy == "vibration" and given.resolve is not None):
+    if is_silent or (given.accuracy == "vibration" and given.resolve is not None):
         return resolve
     until = f"vibrations are followed up to {show(resolve, 'frequency')}"
     chosen = f", since {why}" if given.accuracy == "auto" and given.resolve is None else ""
@@ -97,25 +124,32 @@ def _resolve(
     return resolve
 
 
-def _shaken(case: Case, frequency: float, laws: Mapping[str, Mapping[str, ChosenLaw]]) -> str:
-    """Return what makes vibrations the answer, or nothing."""
+def surface_of_its_own(laws: Mapping[str, Mapping[str, ChosenLaw]]) -> str:
+    """Return which raceway of a bearing is not nominal, in words, or nothing."""
     for element, roles in laws.items():
         if "surface" in roles and roles["surface"].model.name != "none":
             return f"{element} has a surface of its own, {roles['surface'].model.name}"
-    turning = max(peak(time_function(case.operation.speed)), peak(time_function(case.bodies.outer_ring.spin.motion)))
-    if frequency > turning / (2.0 * math.pi):
+    return ""
+
+
+def excited_faster(frequency: float, speed: float) -> str:
+    """Return what is excited faster [Hz] than anything turns [rad/s], in words, or nothing."""
+    if frequency > speed / (2.0 * math.pi):
         return f"the bearing is excited at {show(frequency, 'frequency')}"
     return ""
 
 
-def cage_period(case: Case, geometry: Geometry) -> float:
-    """Return the duration of one epicyclic turn of the cage at the highest planned speed [s]; inf at rest.
+def _spins(case: Case) -> tuple[Any, Any]:
+    """Return the planned speeds of both rings."""
+    return case.operation.speed, case.bodies.outer_ring.spin.motion
+
+
+def cage_period(geometry: Geometry, inner: float, outer: float = 0.0) -> float:
+    """Return the duration of one epicyclic turn of the cage at the highest planned speeds [rad/s]; inf at rest [s].
 
     omega_c = (Omega_i (1 - D_w/d_m) + Omega_o (1 + D_w/d_m))/2, contact angle 0.
     """
     ratio = geometry.ball_diameter / geometry.pitch_diameter
-    inner = peak(time_function(case.operation.speed))
-    outer = peak(time_function(case.bodies.outer_ring.spin.motion))
     speed = 0.5 * (inner * (1.0 - ratio) + outer * (1.0 + ratio))
     return 2.0 * math.pi / speed if speed > 0.0 else math.inf
 
@@ -130,26 +164,36 @@ def _say_what_folds(case: Case, highest: float, ledger: Ledger) -> None:
         )
 
 
-def _end_in_sight(case: Case, end: float, turn: float, ledger: Ledger) -> None:
-    """Refuse what no machine finishes: too long a time, too many steps or samples in it."""
+def end_in_sight(given: Solver, interval: float | None, end: float, turn: float, ledger: Ledger) -> None:
+    """Refuse what no machine finishes: too long a time, too many steps or samples in it.
+
+    Parameters
+    ----------
+    given : Solver
+        What the case says.
+    interval : float or None
+        Between samples, where it is given [s].
+    end, turn : float
+        Simulated time, and a turn of the cage [s].
+    """
     if end > MOST_TIME:
-        key = "duration" if case.solver.duration is not None else "max_duration"
+        key = "duration" if given.duration is not None else "max_duration"
         slow = f": one turn of the cage takes {show(turn, 'time')}" if math.isfinite(turn) else ""
         ledger.problem(
             f"solver.{key}", f"is {show(end, 'time')}, at most {show(MOST_TIME, 'time')} are simulated{slow}"
         )
         return
     counted = (
-        ("solver.max_step", case.solver.max_step, MOST_STEPS, "steps"),
-        ("output.interval", case.output.interval, MOST_SAMPLES, "samples"),
+        ("solver.max_step", given.max_step, MOST_STEPS, "steps"),
+        ("output.interval", interval, MOST_SAMPLES, "samples"),
     )
-    for place, interval, most, what in counted:
-        if interval is not None and end > most * interval:
+    for place, length, most, what in counted:
+        if length is not None and end > most * length:
             ledger.problem(
-                place, f"makes {end / interval:.2g} {what} of {show(end, 'time')}; at most {most:.0e}: "
+                place, f"makes {end / length:.2g} {what} of {show(end, 'time')}; at most {most:.0e}: "
                 f"{show(end / most, 'time')} or longer, or a shorter solver.duration",
             )  # fmt: skip
-    resolve = case.solver.resolve
+    resolve = given.resolve
     if resolve is not None and SAMPLES_PER_PERIOD * resolve * end > MOST_SAMPLES:
         made = SAMPLES_PER_PERIOD * resolve * end
         allowed = 0.99 * resolve * MOST_SAMPLES / made  # rounded, it is still allowed

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from driving import LARGE, SMALL, builder, checked, focused_place, move_to, screen_text, wait_for, write
+from driving import LARGE, SMALL, builder, checked, focused_place, go_to, move_to, screen_text, wait_for, write
 from lambda_gui.app import BuilderApp
 from lambda_gui.derived import Derived
 from lambda_gui.entries import rename
@@ -24,6 +24,7 @@ from lambda_core import api
 from lambda_core.case.draft import draft_of
 from lambda_core.case.shaft import ShaftCase
 from lambda_core.domain.option_tree import option_paths
+from lambda_core.domain.roles import ROLES
 from lambda_core.shaft.fresh_shaft import fresh_shaft
 
 NAMES = {
@@ -96,8 +97,16 @@ def test_every_option_of_a_shaft_has_exactly_one_place() -> None:
     for section, (name,) in NAMES.items():
         table = ShaftCase.model_fields[section].annotation.__args__[1] if section in named else None  # type: ignore
         for path in option_paths(table) if table is not None else ():
+            if path.startswith("forces.") and (path.endswith("parameters") or not has_role(path)):
+                continue  # parameters stand under their role
             place = f"{section}.{name}.{path}"  # a material is one option, its properties are none
             assert place in shown or place.rpartition(".")[0] in shown, path
+
+
+def has_role(path: str) -> bool:
+    """Tell whether a role stands on its force element at all."""
+    _, element, _, *role = path.split(".")
+    return not role or element in ROLES[role[0]].elements
 
 
 async def from_tree(pilot: Pilot[None], key: str, place: tuple[str, ...]) -> None:
@@ -146,6 +155,24 @@ async def test_a_shaft_from_nothing_by_keys(work_folder: Path) -> None:
         ]
         draft.save(work_folder / "mine.toml")
     assert len(api.check_shaft(work_folder / "mine.toml").bearings) == 2
+
+
+@pytest.mark.usefixtures("answered")
+async def test_a_defect_in_one_bearing_is_chosen_in_the_tree(work_folder: Path) -> None:
+    """The law of one contact of one bearing, and nothing for the others."""
+    (node,) = (node for node in nodes() if node.key == "bearings.b.forces.ball_outer.surface")
+    assert node.heading == "b · Ball - outer · surface"
+    api.init_shaft("box")
+    laws = [item.name for item in api.plugins().items if item.kind == "model" and item.role == "surface"]
+    async with BuilderApp("box.toml").run_test(size=LARGE) as pilot:
+        await checked(pilot)
+        await go_to(pilot, "bearings.right.forces.ball_outer.models.surface")
+        await pilot.press("enter", *["down"] * (1 + laws.index("defect")), "enter")
+        await checked(pilot)
+        draft = builder(pilot).draft
+        assert draft.get("bearings", "right", "forces") == {"ball_outer": {"models": {"surface": "defect"}}}
+        assert draft.get("bearings", "left", "forces") is None
+        assert not builder(pilot).check.problems
 
 
 @pytest.mark.usefixtures("answered")

@@ -16,11 +16,11 @@ from lambda_core.solver import records as R
 from lambda_core.solver.drivers.compiled_laws import Announce
 from lambda_core.solver.drivers.engine import (
     FIRST_STEP,
-    SAMPLES_PER_REVOLUTION,
     SMALLEST_STEP,
     WORK_PER_CALL,
     Advance,
     drive,
+    usual_interval,
 )
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, solve
 from lambda_core.solver.drivers.given import make_room
@@ -36,7 +36,6 @@ from lambda_core.solver.integrator.tableau import STAGES
 from lambda_core.solver.sampling import CONTACT_CHANNELS
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import max_speed
-from lambda_core.system.resolve_solver import SAMPLES_PER_PERIOD
 from lambda_core.system.state_channels import result_channels
 
 _CAPACITY = 512
@@ -110,7 +109,7 @@ class BearingEngine:
             capacity,
             stages=STAGES if model.solver.resolve else 0,
         )
-        self.sample_interval = model.output.interval or self._usual_interval()
+        self.sample_interval = model.output.interval or usual_interval(self._cage_speed(), model.solver.resolve)
         control, count = self._memory.control, self._memory.count
         control["longest_step"] = min(model.solver.max_step, longest_step(self._context))
         control["step"] = np.minimum(FIRST_STEP, control["longest_step"])
@@ -122,12 +121,6 @@ class BearingEngine:
         self._start_angles = self._angles()
         self._start_energy = self._stored(0.0, start)
         self._drained: list[dict[str, FloatArray]] = []
-
-    def _usual_interval(self) -> float:
-        """Return the time between samples where none is asked for [s]."""
-        interval = 2.0 * math.pi / self._cage_speed() / SAMPLES_PER_REVOLUTION
-        resolve = self.model.solver.resolve
-        return min(interval, 1.0 / (SAMPLES_PER_PERIOD * resolve)) if resolve else interval
 
     def _cage_speed(self) -> float:
         """Return the cage speed that samples are spaced for [rad/s]: the start's, or a much faster planned one."""

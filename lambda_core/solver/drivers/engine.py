@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.channels import Channel
 from lambda_core.solver.status import Status
+from lambda_core.system.resolve_solver import SAMPLES_PER_PERIOD
 
 # Enough for ball passes and pocket impacts; each sample costs about three right-hand sides.
 SAMPLES_PER_REVOLUTION = 100.0
@@ -24,6 +26,20 @@ class Advance:
 
     ok: bool
     message: str  # a sentence with model, distribution, ball, ring, time and inputs when not ok
+
+
+def usual_interval(cage_speed: float, resolve: float) -> float:
+    """Return the time between samples where none is asked for [s].
+
+    Parameters
+    ----------
+    cage_speed : float
+        The fastest [rad/s].
+    resolve : float
+        Highest frequency that is followed, 0 for averages [Hz].
+    """
+    interval = 2.0 * math.pi / cage_speed / SAMPLES_PER_REVOLUTION
+    return min(interval, 1.0 / (SAMPLES_PER_PERIOD * resolve)) if resolve else interval
 
 
 class Timed(Protocol):

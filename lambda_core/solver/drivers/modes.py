@@ -14,7 +14,7 @@ from lambda_core.solver.integrator.chain import AFTER, BEFORE
 _RING = 0.5  # share of a mode's kinetic energy in the rings, from which on it is one of theirs
 _SLOWEST = 20.0  # [Hz]
 _DAMPED = 0.3  # of critical; what is damped by more rings in no spectrum
-_MOST = 8  # modes that are told, those damped least
+_MOST = 8  # modes that are told
 
 
 def dense(blocks: Blocks) -> FloatArray:
@@ -38,7 +38,7 @@ def dense(blocks: Blocks) -> FloatArray:
     return matrix
 
 
-def ring_modes(bundle: Any, blocks: Blocks, inertia: FloatArray) -> list[tuple[float, float]]:
+def ring_modes(bundle: Any, blocks: Blocks, inertia: FloatArray, *, lowest: bool = False) -> list[tuple[float, float]]:
     """Return frequency [Hz] and damping ratio [-] of the modes of the rings, by frequency.
 
     A mode belongs to the rings where half of its kinetic energy or more is theirs. Those of the Jacobian blocks are
@@ -48,6 +48,9 @@ def ring_modes(bundle: Any, blocks: Blocks, inertia: FloatArray) -> list[tuple[f
     ----------
     inertia : float64[:]
         Mass or moment of inertia of each state, 0 for a position; (n,).
+    lowest : bool
+        Tell the slowest of them, as of a shaft, which has some of its own far above all that is asked for; otherwise
+        those that are damped least.
     """
     matrix = dense(blocks)
     if not np.isfinite(matrix).all():
@@ -59,5 +62,6 @@ def ring_modes(bundle: Any, blocks: Blocks, inertia: FloatArray) -> list[tuple[f
     share = energy[rings].sum(axis=0) / (energy.sum(axis=0) + 1e-300)
     frequency, damping = np.abs(values) / (2.0 * np.pi), -values.real / (np.abs(values) + 1e-300)
     mine = (values.imag > 0.0) & (share > _RING) & (frequency > _SLOWEST) & (damping > 0.0) & (damping < _DAMPED)
-    found = sorted(zip(damping[mine].tolist(), frequency[mine].tolist(), strict=True))[:_MOST]
-    return sorted((f, d) for d, f in found)
+    order = frequency if lowest else damping
+    found = sorted(zip(order[mine].tolist(), frequency[mine].tolist(), damping[mine].tolist(), strict=True))[:_MOST]
+    return sorted((f, d) for _, f, d in found)
