@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 import textual.app
@@ -18,6 +19,7 @@ from lambda_gui.builder import BuilderScreen
 from lambda_gui.rows import Row
 from lambda_gui.tree import ModelTree
 from textual import constants, events
+from textual._compositor import Compositor
 from textual._context import active_app
 from textual.app import App
 from textual.command import CommandList, CommandPalette
@@ -67,7 +69,11 @@ async def at_rest(*_: float) -> None:
 
 
 def hear_every_key(patch: pytest.MonkeyPatch) -> None:
-    """Let Textual's pilot go on after a key when it has been heard; what would move is at its end at once."""
+    """Let Textual's pilot go on after a key when it has been heard; what would move is at its end at once.
+
+    Between two keys the screen is laid out and not drawn, as in a terminal that shows less pictures than a second has
+    keys: drawing takes a third of the time. What is waited for, or looked at, is drawn.
+    """
 
     async def screen_at_rest(self: Pilot[None], timeout: float = 0.0) -> bool:
         await at_rest()
@@ -85,6 +91,7 @@ def hear_every_key(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(textual.pilot, "wait_for_idle", at_rest)
     patch.setattr(Pilot, "_wait_for_screen", screen_at_rest)
     patch.setattr(constants, "TEXTUAL_ANIMATIONS", "none")
+    patch.setattr(Compositor, "render_update", _draw_whole)
 
 
 def _is_to_be_drawn(screen: Screen[object]) -> bool:
@@ -92,6 +99,13 @@ def _is_to_be_drawn(screen: Screen[object]) -> bool:
         return False
     required = (screen._layout_required, screen._scroll_required, screen._repaint_required, screen._recompose_required)
     return any(required) or bool(screen._dirty_widgets) or bool(screen._callbacks)
+
+
+_draw = Compositor.render_update
+
+
+def _draw_whole(self: Compositor, full: bool = False, *what: Any, **how: Any) -> Any:
+    return _draw(self, full, *what, **how) if full else None
 
 
 async def wait_for(pilot: Pilot[None], what: Callable[[], object], seconds: float = _LONGEST) -> None:
@@ -103,6 +117,8 @@ async def wait_for(pilot: Pilot[None], what: Callable[[], object], seconds: floa
             raise AssertionError(f"waited {seconds} s in vain; on screen:\n{screen_text(pilot.app)}")  # type: ignore[arg-type]
         await asyncio.sleep(0.02)
         await at_rest()
+    if pilot.app.screen_stack:
+        _draw(pilot.app.screen._compositor, screen_stack=pilot.app._background_screens)
 
 
 def screen_text(app: BuilderApp) -> str:
