@@ -43,21 +43,23 @@ class Followed(Record):
     def sentence(self) -> str:
         """Return how far vibrations can be believed."""
         worst = max(self.modes, key=lambda mode: mode.added_percent / mode.damping_percent, default=None)
+        lost = ""
         if worst is not None and worst.added_percent > worst.damping_percent:
-            where = show(worst.frequency_Hz, "frequency", 3)
-            own = f"where the bearing has {worst.damping_percent:.2g} %"
-            return f"damped by the integration: {worst.added_percent:.2g} % at {where}, {own} ({self._advice()})"
+            where, own = show(worst.frequency_Hz, "frequency", 3), f"{worst.damping_percent:.2g} % of its own"
+            lost = f"{worst.added_percent:.2g} % at {where}, which has {own} ({self._advice(worst.frequency_Hz)})"
         if self.resolve_Hz:
-            return (
-                f"followed to {show(self.resolve_Hz, 'frequency')}, {self.at(self.resolve_Hz)[0]:.1g} % damping added"
-            )
+            until = f"followed to {show(self.resolve_Hz, 'frequency')}"
+            added_there = f"{until}, {self.at(self.resolve_Hz)[0]:.1g} % damping added"
+            return f"{until}; the integration adds damping: {lost}" if lost else added_there
+        if lost:
+            return f"damped by the integration: {lost}"
         if worst is None:
             return f"{self.at(1000.0)[0]:.2g} % damping added at 1 kHz"
         return f"{worst.added_percent:.2g} % damping added at {show(worst.frequency_Hz, 'frequency', 3)}"
 
-    def _advice(self) -> str:
+    def _advice(self, frequency: float) -> str:
         if self.resolve_Hz:
-            return f"solver.resolve above {show(self.resolve_Hz, 'frequency')} follows it"
+            return f"solver.resolve above {show(max(frequency, self.resolve_Hz), 'frequency', 3)} follows it"
         return 'solver.accuracy = "vibration" follows it'
 
     def note(self, frequency: float) -> str:

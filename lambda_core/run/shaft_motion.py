@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from lambda_core.run.progress import Progress
+    from lambda_core.run.whole_run import Ends
     from lambda_core.shaft.model import ShaftModel
     from lambda_core.shaft.resolving import Source
     from lambda_core.shaft.whole_summary import WholeSummary
@@ -55,13 +56,13 @@ def shaft_run(
     CaseError, UsageError, SolverError, PartialResultError
         With a sentence about the case, the folder, the solver (the folder keeps what there is) or the disk.
     """
-    from lambda_core.run.whole_run import Ends, launch_whole
+    from lambda_core.run.whole_run import launch_whole
     from lambda_core.shaft.model import ShaftModel
     from lambda_core.shaft.resolving import check_shaft
     from lambda_core.shaft.whole_summary import summarise_whole
 
     model = source if isinstance(source, ShaftModel) else check_shaft(source, overrides)
-    ends = Ends(duration or model.solver.duration, max_wall or model.solver.max_wall)
+    ends = _ends(duration or model.solver.duration, max_wall or model.solver.max_wall)
     folder = None if out is None else Path(out)
     return summarise_whole(launch_whole(model, folder, ends, force=force, report=progress, announce=announce))
 
@@ -93,14 +94,26 @@ def shaft_resume(
         When there is no run, nothing is left to do, or the case or the code has changed.
     """
     from lambda_core.case.case_io import toml_tables
-    from lambda_core.run.whole_run import Ends, resume_whole
+    from lambda_core.run.whole_run import resume_whole
     from lambda_core.shaft.resolving import check_shaft
     from lambda_core.shaft.whole_file import WholeFile
     from lambda_core.shaft.whole_summary import summarise_whole
 
     model = check_shaft(toml_tables(WholeFile(folder).case_toml, str(folder)))
-    ends = Ends(duration or model.solver.duration, max_wall or math.inf)
+    ends = _ends(duration or model.solver.duration, max_wall or math.inf)
     return summarise_whole(resume_whole(Path(folder), model, ends, report=progress, announce=announce))
+
+
+def _ends(duration: float, max_wall: float) -> Ends:
+    """Return when a run ends [s]; UsageError for a time that no machine simulates."""
+    from lambda_core.domain.errors import UsageError
+    from lambda_core.domain.units import show
+    from lambda_core.run.whole_run import Ends
+    from lambda_core.system.resolve_solver import MOST_TIME
+
+    if duration > MOST_TIME:
+        raise UsageError(f"a duration of {show(duration, 'time')}: at most {show(MOST_TIME, 'time')} are simulated")
+    return Ends(duration, max_wall)
 
 
 def shaft_result(folder: str | Path) -> WholeSummary:

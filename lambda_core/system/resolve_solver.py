@@ -178,7 +178,7 @@ def end_in_sight(given: Solver, interval: float | None, end: float, turn: float,
     """
     if end > MOST_TIME:
         key = "duration" if given.duration is not None else "max_duration"
-        slow = f": one turn of the cage takes {show(turn, 'time')}" if math.isfinite(turn) else ""
+        slow = f": one turn of the cage takes {show(turn, 'time', 3)}" if math.isfinite(turn) else ""
         ledger.problem(
             f"solver.{key}", f"is {show(end, 'time')}, at most {show(MOST_TIME, 'time')} are simulated{slow}"
         )

@@ -164,6 +164,12 @@ def test_a_run_with_a_defect_balances_and_goes_on_bit_for_bit(tmp_path: Path) ->
         assert float(np.diff(times).max()) <= 1.01 / (5.12 * 2000.0)
 
 
+def test_a_time_that_no_machine_simulates_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(api.UsageError, match=r"a duration of 1000000000 s: at most 1000000 s"):
+        api.shaft_run(box(), out=tmp_path / "run", duration=1e9)
+    assert not (tmp_path / "run").exists()
+
+
 def test_the_end_of_the_case_holds_where_none_is_given(tmp_path: Path) -> None:
     found = api.shaft_run(box({"duration": "2 ms"}), out=tmp_path / "run")
     assert found.simulated_s == pytest.approx(2e-3, abs=5e-4)
