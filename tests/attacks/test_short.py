@@ -13,7 +13,7 @@ import pytest
 from tests.attacks.page import ROOT
 from tests.attacks.trial import GOOD
 
-_PARTS = ("hostile:8", "cases:2", "kills:1", "corruption:3", "catalogues:2", "plugins:3", "races:1")
+_PARTS = ("hostile:4", "cases:1", "kills:1", "corruption:3", "catalogues:1", "plugins:3", "races:1")
 _SEED = "20"  # by which the cases are quick ones
 
 

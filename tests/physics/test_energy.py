@@ -16,8 +16,8 @@ from .test_power import HARMONIC_OUTER_RING
 def test_a_ball_without_friction_keeps_its_energy() -> None:
     """Nine balls orbit in the outer groove, pressed by centrifugal force, and oscillate across and along it.
 
-    BDF of order 2 takes pi (omega h)^3 of the energy of an oscillation per period: 0.4 % in 120 periods of 280 steps.
-    Bound: 1 % of the energy of vibration, 1e-7 of all energy. Angular momentum is not touched by it.
+    BDF of order 2 takes pi (omega h)^3 of the energy of an oscillation per period: 0.16 % in 48 periods of 280 steps.
+    Bound: 0.4 % of the energy of vibration, 4e-8 of all energy. Angular momentum is not touched by it.
     """
     m = machine(
         "bearing.clearance=200 um", "depth.cage=false", "models.damping=none", "models.fluid_drag=none",
@@ -28,16 +28,16 @@ def test_a_ball_without_friction_keeps_its_energy() -> None:
     start.balls[:, L.BR] += 54e-6  # touches at 50 um; stands still at 55 um
     start.balls[:, L.BVT] = 120.0 * start.balls[:, L.BR]
     with m.frictionless():
-        motion = integrate(m, m.vector(start), 0.03, 1e-6, samples=2000)
+        motion = integrate(m, m.vector(start), 0.012, 1e-6, samples=800)
     radial = motion.ball(4)[:, L.BVR]
     periods = 0.5 * np.count_nonzero(np.diff(np.sign(radial)))
-    assert periods > 100.0
+    assert periods > 40.0
     energies = np.array([m.stored(y) for y in motion.states[::50]])
     mass = m.constant("ball_mass")
     vibration = sum(0.5 * mass * np.max(motion.ball(j)[:, L.BVR] ** 2) for j in range(m.count))
     assert vibration > 5e-4
-    assert np.ptp(energies) < 0.01 * vibration
-    assert np.ptp(energies) < 1e-7 * energies[0]
+    assert np.ptp(energies) < 0.004 * vibration
+    assert np.ptp(energies) < 4e-8 * energies[0]
     for j in range(m.count):
         ball = motion.ball(j)
         assert np.ptp(ball[:, L.BR] * ball[:, L.BVT]) < 1e-8 * ball[0, L.BR] * ball[0, L.BVT]

@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from lambda_syla2026 import job_runner
 from lambda_syla2026.job_runner import Job, JobResult, JobRunner
 
+from lambda_core.batch.pool import HERE, pool
 from lambda_core.batch.scheduler import StudyProgress
 from lambda_core.domain.errors import SolverError
 
@@ -14,10 +16,17 @@ LOADS = (2.0, 3.0, 4.0, 5.0)
 JOBS = [Job("6220-excited", (f"loads.radial={load:g} kN",), "axial resonance") for load in LOADS]
 
 
+@pytest.fixture
+def here(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Do the jobs in this process: what is kept does not depend on where, and a worker takes seconds to start."""
+    monkeypatch.setattr(job_runner, "Processes", lambda workers: pool(HERE, workers))
+
+
 def kept(folder: Path) -> dict[Path, int]:
     return {path: path.stat().st_mtime_ns for path in folder.rglob("points/*.json")}
 
 
+@pytest.mark.usefixtures("here")
 def test_an_interrupted_plan_is_resumed(tmp_path: Path) -> None:
     def interrupt(progress: StudyProgress) -> None:
         if progress.done >= 2:
@@ -42,6 +51,7 @@ def test_an_interrupted_plan_is_resumed(tmp_path: Path) -> None:
         assert [answer.numbers for answer in runner.all(JOBS)] == [answer.numbers for answer in found]
 
 
+@pytest.mark.usefixtures("here")
 def test_equal_jobs_are_done_once(tmp_path: Path) -> None:
     with JobRunner(tmp_path, 1) as runner:
         first, again = runner.all([JOBS[0], JOBS[0]])
@@ -49,6 +59,7 @@ def test_equal_jobs_are_done_once(tmp_path: Path) -> None:
     assert len(kept(tmp_path)) == 1
 
 
+@pytest.mark.usefixtures("here")
 def test_what_was_found_before_keeps_the_time_that_it_took(tmp_path: Path) -> None:
     with JobRunner(tmp_path, 1) as runner:
         first = runner.all(JOBS[:1])[0]
@@ -61,7 +72,7 @@ def test_what_was_found_before_keeps_the_time_that_it_took(tmp_path: Path) -> No
 
 
 def test_a_case_that_is_wrong_fails_alone(tmp_path: Path) -> None:
-    """Nothing of it is kept, the others go on, and its number is asked for in vain with the reason."""
+    """On a worker. Nothing of it is kept, the others go on, and its number is asked for in vain with the reason."""
     with JobRunner(tmp_path, 1) as runner:
         good, bad = runner.all([JOBS[0], Job("6220-excited", ("loads.radial=5 furlong",), "axial resonance")])
         assert len(runner.failures) == 1

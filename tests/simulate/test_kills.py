@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from warm import Started, Warm
 
 HERE = Path(__file__).parent
-KILLS = 5  # of one run and its continuations
+KILLS = 5  # of one run and its continuations, in the long test
 LONGEST = 0.3  # from the first sign of life in the file to the kill [s]; the whole run takes longer
 EARLY = 0.1  # share of processes that are killed before it, while they start
 
@@ -72,13 +72,13 @@ def is_beginning_of(found: Series, whole: Series) -> None:
     assert found["integrals"][:-1].tobytes() == whole["integrals"][: len(found["integrals"]) - 1].tobytes()
 
 
-def kill_and_resume(warm: Warm, path: Path, chance: random.Random, whole: Series) -> tuple[int, int]:
+def kill_and_resume(warm: Warm, path: Path, chance: random.Random, whole: Series, most: int = KILLS) -> tuple[int, int]:
     """Kill a run and its continuations, look at what each leaves, let the last one finish.
 
     Returns the number of kills, and of those that struck between the first sample and the end.
     """
     verb, kills, midway = "run", 0, 0
-    for _ in range(KILLS):
+    for _ in range(most):
         process = start(warm, verb, path)
         if kills == 0:
             wait_for_samples(path, process)
@@ -107,7 +107,7 @@ def kill_and_resume(warm: Warm, path: Path, chance: random.Random, whole: Series
 
 
 def test_some_kills(warm: Warm, tmp_path: Path, undisturbed: Series) -> None:
-    _, midway = kill_and_resume(warm, tmp_path / "r.h5", random.Random(0), undisturbed)
+    _, midway = kill_and_resume(warm, tmp_path / "r.h5", random.Random(0), undisturbed, most=3)
     assert midway > 0
 
 
