@@ -1,20 +1,17 @@
 """Balls that touch each other, where there is no cage: their coupling in the Jacobian and in its factors."""
 
-# Numba infers the types of compiled functions.
-# mypy: disable-error-code="no-untyped-def, no-untyped-call"
 from __future__ import annotations
 
-from functools import cache
-from typing import Any
+import os
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
-from numba import types
 
 from lambda_core.solver import layout as L
-from lambda_core.solver.drivers import right_hand_side as compiling
 from lambda_core.solver.drivers.modes import dense
-from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve
 from lambda_core.solver.integrator.chain import AFTER, BEFORE
 
 from .support import FloatArray, Machine, jostle, machine, rolling
@@ -51,39 +48,60 @@ def test_slopes_of_touching_balls_are_those_of_differences(pairs: tuple[int, ...
     assert np.linalg.norm((ours - exact)[beside]) < 3e-3 * np.linalg.norm(exact[beside])
 
 
-def _solve(gamma, r, handle):
-    if arrow_factor(handle.blocks, 1.0, gamma, handle.factors) != 1:
-        return 0
-    arrow_solve(handle.blocks, handle.factors, r)
-    return 1
+# Runs in a process without Numba's compiler, which would take longer over the elimination than all of this file: the
+# functions are the plain ones, and runs of bearings without a cage go through the compiled ones.
+PLAIN = """
+import sys
+import numpy as np
+from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve, make_factors
+from lambda_core.solver.integrator.blocks import Blocks
+from lambda_core.solver.integrator.reach import Reach
+
+given = np.load(sys.argv[1])
+reach = Reach(*(given[f"reach.{name}"] for name in Reach._fields))
+blocks = Blocks(**{name: reach if name == "reach" else given[name] for name in Blocks._fields})
+factors = make_factors(reach, blocks.d.shape[0], blocks.cross.shape[0])
+for cross, right in zip(given["crosses"], given["rights"]):
+    blocks.cross[:] = cross
+    assert arrow_factor(blocks, 1.0, float(given["gamma"]), factors) == 1
+    arrow_solve(blocks, factors, right)
+    print(*(float(x).hex() for x in right))
+"""
+CHAINS = [(), (0,), (2, 3, 4), (7, 8), (0, 1, 3, 8), tuple(range(8)), tuple(range(9))]
 
 
-@cache
-def _compiled() -> Any:
-    return compiling.compiled(_solve, types.int64(types.float64, L.array1, compiling.handle_t))
-
-
-@pytest.mark.parametrize(
-    "joined", [(), (0,), (2, 3, 4), (7, 8), (0, 1, 3, 8), tuple(range(8)), tuple(range(9))], ids=str
-)
-def test_chains_of_balls_are_solved_as_one_matrix(joined: tuple[int, ...]) -> None:
+def test_chains_of_balls_are_solved_as_one_matrix(tmp_path: Path) -> None:
     """Random couplings of a size with the balls' own blocks; a ring of all is cut where its numbers begin."""
     m, rng = machine("depth.cage=false", "bodies.inner_ring.y=free"), np.random.default_rng(1)
     m.jacobian(touching(m, ()))
     blocks = m.context.blocks
     assert not blocks.cross.any()
-    for j in joined:
-        for ball, side in ((j, AFTER), ((j + 1) % m.count, BEFORE)):
-            blocks.cross[ball, side, 3:] = (
-                rng.uniform(-1.0, 1.0, (6, L.NB)) * 0.3 * np.abs(blocks.a[ball, 3:]).max(axis=0)
-            )
-    whole = dense(blocks)
-    if len(joined) == m.count:
-        last = L.NB * (m.count - 1)
-        whole[: L.NB, last : last + L.NB] = whole[last : last + L.NB, : L.NB] = 0.0
-    wanted = rng.uniform(-1.0, 1.0, whole.shape[0])
-    handle = compiling.Handle(m.context)
-    matrix = np.eye(whole.shape[0]) - _GAMMA * whole
-    found = matrix @ wanted
-    assert _compiled()(_GAMMA, found, handle._handle) == 1
-    assert found == pytest.approx(wanted, rel=1e-8, abs=1e-8)
+    crosses, rights, wanted = [], [], []
+    for joined in CHAINS:
+        blocks.cross[:] = 0.0
+        for j in joined:
+            for ball, side in ((j, AFTER), ((j + 1) % m.count, BEFORE)):
+                blocks.cross[ball, side, 3:] = (
+                    rng.uniform(-1.0, 1.0, (6, L.NB)) * 0.3 * np.abs(blocks.a[ball, 3:]).max(axis=0)
+                )
+        whole = dense(blocks)
+        if len(joined) == m.count:
+            last = L.NB * (m.count - 1)
+            whole[: L.NB, last : last + L.NB] = whole[last : last + L.NB, : L.NB] = 0.0
+        wanted.append(rng.uniform(-1.0, 1.0, whole.shape[0]))
+        crosses.append(blocks.cross.copy())
+        rights.append((np.eye(whole.shape[0]) - _GAMMA * whole) @ wanted[-1])
+    arrays = {name: value for name, value in blocks._asdict().items() if name != "reach"}
+    arrays |= {f"reach.{name}": value for name, value in blocks.reach._asdict().items()}
+    np.savez(tmp_path / "given.npz", crosses=crosses, rights=rights, gamma=_GAMMA, **arrays)
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", PLAIN, str(tmp_path / "given.npz")],
+        env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    found = [[float.fromhex(word) for word in line.split()] for line in done.stdout.splitlines()]
+    for joined, one, expected in zip(CHAINS, found, wanted, strict=True):
+        assert one == pytest.approx(list(expected), rel=1e-8, abs=1e-8), joined
