@@ -163,11 +163,13 @@ class Warm:
 def _first_run() -> None:
     """Have in memory what a first run loads: laws, tables, modules; what is installed is looked up anew by each."""
     from lambda_core import api
+    from lambda_core.case import builtin
     from lambda_core.discovery.manager import registry
 
     with tempfile.TemporaryDirectory() as folder:
         api.run("6208-axial-1300", ["solver.duration=20 us"], out=Path(folder) / "first.h5").summary()
     registry.cache_clear()
+    builtin._files.cache_clear()
 
 
 def serve(address: str, *also: str) -> None:
@@ -240,7 +242,8 @@ def _become(request: dict[str, Any], fds: list[int]) -> None:
     os.environ.update(request["env"])
     os.chdir(request["cwd"])
     sys.argv = request["argv"]
-    sys.path[0] = ""
+    paths = request["env"].get("PYTHONPATH", "").split(os.pathsep)
+    sys.path[:1] = ["", *(path for path in paths if path and path not in sys.path)]
     main = sys.modules["__main__"] = types.ModuleType("__main__")
     code = 0
     try:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Sequence
+import zipfile
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -49,6 +51,18 @@ def pip_install(target: Path, sources: Sequence[Path]) -> None:
     assert done.returncode == 0, done.stderr
 
 
+def unpack(target: Path, sources: Sequence[Path]) -> None:
+    """Build local packages and unpack them into a folder: what pip does with wheels of Python alone."""
+    from hatchling.build import build_wheel
+
+    for source in sources:
+        with contextlib.chdir(source):
+            wheel = build_wheel(str(target))
+        with zipfile.ZipFile(target / wheel) as archive:
+            archive.extractall(target)
+        (target / wheel).unlink()
+
+
 @dataclass(frozen=True)
 class Answer:
     """What the program said."""
@@ -84,24 +98,20 @@ class Installation:
 
     def forked(self, code: str, *arguments: str, **environment: str) -> Answer:
         """Run Python code in a process of its own that begins with everything imported."""
-        process = self.warm.start(code, *arguments, env=environment)
+        process = self.warm.start(code, *arguments, env={"PYTHONPATH": self.path} | environment)
         out, said = process.communicate()
         assert "Traceback" not in said, said
         return Answer(process.returncode, out, said)
 
 
 @pytest.fixture(scope="session")
-def install(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[Sequence[Path]], Installation]]:
-    """Install packages into a new folder."""
-    servers = []
+def install(tmp_path_factory: pytest.TempPathFactory, warm: Warm) -> Callable[..., Installation]:
+    """Install packages into a new folder: built and unpacked, or as `how` has it."""
 
-    def installed(sources: Sequence[Path]) -> Installation:
+    def installed(sources: Sequence[Path], how: Callable[[Path, Sequence[Path]], None] = unpack) -> Installation:
         target = tmp_path_factory.mktemp("site")
-        pip_install(target, sources)
+        how(target, sources)
         path = os.pathsep.join([str(target), *filter(None, [os.environ.get("PYTHONPATH")])])
-        servers.append(Warm(tmp_path_factory.mktemp("warm"), {"PYTHONPATH": path}))
-        return Installation(path, servers[-1])
+        return Installation(path, warm)
 
-    yield installed
-    for server in servers:
-        server.close()
+    return installed

@@ -1,11 +1,11 @@
-"""The example packages are real: installed with pip, their own tests pass, and everything shows up by itself."""
+"""The example packages are real: built and installed, their own tests pass, and everything shows up by itself."""
 
 from __future__ import annotations
 
 import json
 import re
 import tomllib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,7 @@ PACKAGES = sorted(path.parent.name for path in EXAMPLES.glob("*/pyproject.toml")
 
 
 @pytest.fixture(scope="module")
-def site(install: Callable[[Sequence[Path]], Installation]) -> Installation:
+def site(install: Callable[..., Installation]) -> Installation:
     return install([EXAMPLES / name for name in PACKAGES])
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -105,7 +105,7 @@ REFUSALS = {
 
 
 @pytest.fixture(scope="module")
-def site(install: Callable[[Sequence[Path]], Installation], tmp_path_factory: pytest.TempPathFactory) -> Installation:
+def site(install: Callable[..., Installation], tmp_path_factory: pytest.TempPathFactory) -> Installation:
     root = tmp_path_factory.mktemp("sources")
     return install([write_package(root, name, text) for name, text in PACKAGES.items()])
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -10,7 +10,7 @@ import pytest
 from lambda_core.discovery.scaffold import new_plugin
 from lambda_core.domain.errors import UsageError
 
-from .conftest import Installation
+from .conftest import Installation, pip_install
 
 
 @pytest.fixture(scope="module")
@@ -21,8 +21,8 @@ def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def site(install: Callable[[Sequence[Path]], Installation], sources: Path) -> Installation:
-    return install([sources])
+def site(install: Callable[..., Installation], sources: Path) -> Installation:
+    return install([sources], pip_install)
 
 
 def test_own_tests_pass(site: Installation, sources: Path, tmp_path: Path) -> None:
