@@ -4,13 +4,34 @@ from __future__ import annotations
 
 import sqlite3
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 from urllib.parse import quote
 
 from sqlalchemy import Connection, Engine, create_engine, event
+from sqlalchemy.dialects import registry
+from sqlalchemy.dialects.sqlite.pysqlite import SQLiteDialect_pysqlite
 from sqlalchemy.pool import StaticPool
+from sqlalchemy.util import LRUCache
 
 BUSY_TIMEOUT_S = 15.0
+# Statements as text, for all connections of this process: writing them takes as long as asking, and a catalogue is
+# opened for every check of a case.
+WRITTEN: LRUCache[Any, Any] = LRUCache(500)
+
+
+class Dialect(SQLiteDialect_pysqlite):
+    """SQLite as every connection here speaks it: what was written for one of them is good for all."""
+
+    supports_statement_cache = True
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other)
+
+    def __hash__(self) -> int:
+        return hash(type(self))
+
+
+registry.register("sqlite.lambda", __name__, "Dialect")
 
 
 def file_uri(path: Path, mode: Literal["ro", "rw", "rwc", "immutable"]) -> str:
@@ -43,7 +64,9 @@ def sqlite_engine(
             connection.execute(f"PRAGMA {pragma}")
         return connection
 
-    engine = create_engine("sqlite://", creator=connect, poolclass=StaticPool)
+    engine = create_engine(
+        "sqlite+lambda://", creator=connect, poolclass=StaticPool, execution_options={"compiled_cache": WRITTEN}
+    )
     if begin:
 
         @event.listens_for(engine, "begin")

@@ -23,6 +23,11 @@ def builtin_cases() -> dict[str, str]:
     return {name: _description(file) for name, file in _files(switched_off()).items()}
 
 
+def is_builtin(name: str) -> bool:
+    """Tell whether there is a built-in case of this name."""
+    return name in _files(switched_off())
+
+
 def builtin_text(name: str) -> str:
     """Return the file of a built-in case, comments included."""
     files = _files(switched_off())

@@ -10,7 +10,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from lambda_core.case.builtin import builtin_cases, builtin_text
+from lambda_core.case.builtin import builtin_cases, builtin_text, is_builtin
 from lambda_core.case.case import Case, merged
 from lambda_core.case.salvage import invalid_case
 from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
@@ -38,7 +38,7 @@ def load_case(source: str | Path) -> Case:
     path = Path(source)
     if path.is_file():
         return parse_case(case_text(path), source=path.name, folder=path.resolve().parent)
-    if str(source) in builtin_cases():
+    if is_builtin(str(source)):
         return parse_case(builtin_text(str(source)), source=str(source))
     if path.is_dir():
         raise UsageError(f'"{source}" is a folder, not a case file')

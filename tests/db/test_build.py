@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from lambda_db.catalogue import open_catalogue
+from lambda_db.engine import WRITTEN
 from lambda_db.paths import cache_folder
 from lambda_db.seed_files import BUILT_IN, fingerprint
 
@@ -182,6 +183,18 @@ def test_a_bad_plugin_folder_names_every_bad_row(cache: Path, plugin: Path) -> N
 def test_a_missing_plugin_folder_is_named(cache: Path, tmp_path: Path) -> None:
     with pytest.raises(CatalogueError, match="not a folder"):
         open_catalogue([tmp_path / "nowhere"])
+
+
+def test_statements_are_written_once_for_all_openings(user_folder: Path) -> None:
+    """A catalogue is opened for every check of a case, and writing its statements takes as long as asking them."""
+    for opening in range(2):
+        catalogue = open_catalogue()
+        assert catalogue.bearing("6208", "SKF").layer == "core"
+        catalogue.close()
+        if opening == 0:
+            written = set(WRITTEN.keys())
+    assert written
+    assert set(WRITTEN.keys()) == written
 
 
 @pytest.mark.clock
