@@ -269,7 +269,8 @@ class _Session:
         if self._before:  # the integrator's own counters go on from the checkpoint
             counters = self._engine.statistics()
         wall = self._wall + time.perf_counter() - self._started
-        modes = tuple(self._engine.modes()) if state == "finished" else ()  # of six bearings seconds: a signal is obeyed first
+        # Of six bearings they take two seconds: who stops a run is not made to wait.
+        modes = tuple(self._engine.modes()) if state == "finished" else ()
         return Status(state, message, wall=wall, statistics=counters, modes=modes, process=this_process())
 
     def _flush(self, state: State, message: str) -> None:
