@@ -91,6 +91,7 @@ class WholeEngine:
         self._bundle = bundle._replace(terms=terms, table=table)
         self._blocks = make_blocks(self._bundle)
         self._factors = make_factors(self._blocks.reach, self._bundle.active.size, self._blocks.cross.shape[0])
+        self._dense = self._factors.condensed
         start = start_state(model, self.shaft, self.parts, self._bundle.active, self.start, self.equilibria)
         scales = state_sizes(model, self.shaft, self.parts, self._bundle)
         tolerance = min(part.bearing.model.solver.tolerance for part in self.parts)
@@ -332,9 +333,9 @@ class WholeEngine:
     def state(self) -> dict[str, NDArray[np.float64]]:
         """Return everything that a continuation needs."""
         parts: dict[str, NDArray[np.float64]] = {}
-        for prefix, group in (("memory", self._memory), ("factors", self._factors)):
-            for name, array in zip(group._fields, group, strict=True):
-                parts[f"{prefix}.{name}"] = np.array(array, copy=True)
+        for prefix, group in (("memory", self._memory), ("factors", self._factors), ("dense", self._dense)):
+            arrays = group._asdict().items()
+            parts |= {f"{prefix}.{name}": array.copy() for name, array in arrays if isinstance(array, np.ndarray)}
         for name in ("a", "b", "c", "d", "d_own", "changed", "newer", "cross", "shared", "parts"):
             parts[f"blocks.{name}"] = getattr(self._blocks, name).copy()
         parts["sampled"], parts["last"] = self._sampled.copy(), np.array(self._last)
@@ -343,7 +344,7 @@ class WholeEngine:
 
     def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
         """Continue from what `state` returned; SolverError when that is of another model."""
-        groups = {"memory": self._memory, "factors": self._factors, "blocks": self._blocks}
+        groups = {"memory": self._memory, "factors": self._factors, "blocks": self._blocks, "dense": self._dense}
         for key, saved in state.items():
             group, _, name = key.partition(".")
             if not name:

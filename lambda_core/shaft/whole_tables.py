@@ -150,6 +150,7 @@ def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...])
         lands=np.concatenate([_lands(p, i, int(spans[i])) for i, p in enumerate(parts)]),
         slots=np.concatenate([_slots(p, int(spans[i])) for i, p in enumerate(parts)]), tied=tied,
         tie_stiffness=stiffness, tie_damping=damping, tie_rest=rest,
+        tie_moves=np.zeros(tied.size), tie_rates=np.zeros(damping.shape[1]),
         state_steps=np.concatenate([b.state_steps for b in bundles]),
         laws=L.Laws(*laws), par=np.concatenate([b.par for b in bundles]), terms=np.zeros(0, R.TERM),
         table=np.zeros(1), active=_active(bodies, parts), inputs=inputs, signals=inputs.view(R.SIGNAL),

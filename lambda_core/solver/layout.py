@@ -163,6 +163,8 @@ class Bundle(NamedTuple):
     tie_stiffness: Any  # (n, n): of shafts and housings between them [N/m, N, N m]
     tie_damping: Any  # (n, n), or (0, 0) where nothing is damped [N s/m, N s, N m s]
     tie_rest: Any  # (n,): where they are without force
+    tie_moves: Any  # (n,): how far they are from there
+    tie_rates: Any  # (n,) or (0,): and how fast they change, where something is damped
     slots: Any  # SLOT (places where laws read states of contacts,)
     state_steps: Any  # (states of contacts,): for differences
     laws: Any  # Laws
@@ -205,6 +207,8 @@ _TYPES = {
     "tie_stiffness": array2,
     "tie_damping": array2,
     "tie_rest": array1,
+    "tie_moves": array1,
+    "tie_rates": array1,
     "slots": table_t(R.SLOT),
     "state_steps": array1,
     "laws": laws_t,
@@ -251,6 +255,11 @@ def vector_helper(function):
 def rows_helper(function):
     """Compile a vector helper whose arrays are all apart: rows of a block, of which none is given twice."""
     return numba.njit(**{**OPTIONS, **inlined.APART, "fastmath": _ANY_ORDER})(function)
+
+
+def ordered_rows_helper(function):
+    """Compile a helper whose arrays are all apart, and whose sums keep their order."""
+    return numba.njit(**{**OPTIONS, **inlined.APART})(function)
 
 
 def helper(function):

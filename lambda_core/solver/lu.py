@@ -57,3 +57,67 @@ def lu_solve(m, pivots, b):
         b[i] -= inner_product(m[i], b, i)
     for i in range(n - 1, -1, -1):
         b[i] = (b[i] - inner_product(m[i, i + 1 :], b[i + 1 :], n - i - 1)) / m[i, i]
+
+
+LANES = 8  # numbers that a processor works on at once, at most
+
+
+def filled(n: int) -> int:
+    """Return the length of a row of n numbers that is filled up with zeros, so that none is left over."""
+    return -(-n // LANES) * LANES
+
+
+filled_up = helper(filled)
+
+
+@helper
+def factor_turned(upper, lower, inverse, pivots):
+    """Factor a matrix whose transpose is in `upper`, rows filled up, with column pivoting; returns 0 when singular.
+
+    Multipliers go to `lower`, the inverse of the diagonal to `inverse`. Rows are gone through from where a whole vector
+    begins: entries left of the diagonal stay zero.
+    """
+    n, width = upper.shape
+    for k in range(n):
+        lower[k, :] = 0.0
+    for k in range(n):
+        best, row = abs(upper[k, k]), k
+        for i in range(k + 1, n):
+            if abs(upper[i, k]) > best:
+                best, row = abs(upper[i, k]), i
+        pivots[k] = row
+        if not best > 0.0:
+            return 0
+        if row != k:
+            for c in range(width):
+                upper[k, c], upper[row, c] = upper[row, c], upper[k, c]
+                lower[k, c], lower[row, c] = lower[row, c], lower[k, c]
+        inverse[k] = 1.0 / upper[k, k]
+        begin = k // LANES * LANES
+        for i in range(k + 1, n):
+            f = upper[i, k] * inverse[k]
+            if f != 0.0:
+                take_multiple(upper[i, begin:], f, upper[k, begin:], width - begin)
+                lower[i, k], upper[i, k] = f, 0.0
+    return 1
+
+
+@helper
+def solve_turned(upper, lower, inverse, pivots, b, found):
+    """Solve for b with the factors of :func:`factor_turned`, in place; rows are filled up, and stay so.
+
+    What a sweep has found waits in `found`: a number that was just written among others holds up whoever reads all.
+    """
+    n, width = upper.shape
+    for k in range(n):
+        begin = k // LANES * LANES
+        found[k] = b[k] * inverse[k]
+        take_multiple(b[begin:], found[k], upper[k, begin:], width - begin)
+    for k in range(n - 1, 0, -1):
+        take_multiple(found, found[k], lower[k], -(-k // LANES) * LANES)
+    for k in range(n):
+        b[k] = found[k]
+    for k in range(n - 1, -1, -1):
+        row = pivots[k]
+        if row != k:
+            b[k], b[row] = b[row], b[k]

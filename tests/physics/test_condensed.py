@@ -10,25 +10,23 @@ import sys
 PLAIN = """
 import numpy as np
 
-from lambda_core.solver.integrator.condensed import condense, solve_condensed
+from lambda_core.solver.integrator.condensed import condense, make_condensed, solve_condensed
 from lambda_core.solver.integrator.reach import Reach
 
 NONE, TABLE = np.zeros(0, dtype=np.int64), np.zeros((0, 0), dtype=np.int64)
 
 
-def work(size, n):
-    return np.zeros((size, size)), np.zeros((size, size)), np.zeros(size), np.zeros(n, int)
-
-
-def reach(positions, ends, speeds, among):
-    return Reach(NONE, NONE, TABLE, TABLE, NONE, TABLE, TABLE, positions, np.array(ends), speeds, among)
+def reach(positions, middles, ends, speeds, among):
+    own = (positions, np.array(middles), np.array(ends), speeds, among)
+    return Reach(NONE, NONE, TABLE, TABLE, NONE, TABLE, TABLE, *own)
 
 
 # Three bodies: rates of positions have entries at their own body alone, rates of speeds everywhere.
 rng = np.random.default_rng(0)
-positions, ends, body, begin = [], [], [], 0
+positions, middles, ends, body, begin = [], [], [], [], 0
 for number, (p, v) in enumerate(((5, 5), (3, 4), (6, 5))):
     positions += range(begin, begin + p)
+    middles += [begin + p] * p
     ends += [begin + p + v] * p
     body += [number] * (p + v)
     begin += p + v
@@ -41,20 +39,23 @@ matrix[speeds[:, None], at] *= 1e3  # stiffness times a step squared
 own = np.eye(n)[at] + 1e-3 * rng.normal(size=(at.size, n))
 matrix[at] = np.where(body[at][:, None] == body[None, :], own, 0.0)
 matrix[at[0], at[1] : ends[0] - 1] = 0.0  # a translation: one speed
-m, (dense, turned, packed, pivots) = matrix.copy(), work(speeds.size, n)
-where = reach(at, ends, speeds, among)
-assert condense(m, where, dense, turned, packed, pivots) == 1
+m, factors, where = matrix.copy(), make_condensed(at.size, speeds.size), reach(at, middles, ends, speeds, among)
+assert factors.packed.size == 16 > speeds.size
+for _ in range(2):  # nothing is left behind
+    m[:, :] = matrix
+    assert condense(m, where, factors) == 1
+    assert np.any(factors.pivots != np.arange(speeds.size))
 for _ in range(2):  # factors are left as they were
     given = rng.normal(size=n)
     found, exact = given.copy(), np.linalg.solve(matrix, given)
-    solve_condensed(m, where, dense, packed, pivots, found)
+    solve_condensed(m, where, factors, found)
     off = np.abs(found - exact).max() / np.abs(exact).max()
     assert off < 1e-10, off
 
 # A position that nothing holds, and speeds that do not differ.
-where = reach(np.array([0]), [2], np.array([1]), np.array([-1, 0]))
+where = reach(np.array([0]), [1], [2], np.array([1]), np.array([-1, 0]))
 for matrix in ([[0.0, 1.0], [1.0, 1.0]], [[1.0, 1.0], [1.0, 1.0]]):
-    assert condense(np.array(matrix), where, *work(1, 2)) == 0
+    assert condense(np.array(matrix), where, make_condensed(1, 1)) == 0
 """
 
 

@@ -244,8 +244,9 @@ class BearingEngine:
         parts: dict[str, NDArray[np.float64]] = {}
         for prefix, group in (("memory", self._memory), ("factors", self._context.factors)):
             for name, array in zip(group._fields, group, strict=True):
-                if samples or name not in _BUFFER:
-                    parts[f"{prefix}.{name}"] = np.array(array, copy=True)
+                # what is no array is of several bearings
+                if isinstance(array, np.ndarray) and (samples or name not in _BUFFER):
+                    parts[f"{prefix}.{name}"] = array.copy()
         for name in ("a", "b", "c", "d", "cross", "shared", "parts"):
             parts[f"blocks.{name}"] = getattr(self._context.blocks, name).copy()
         parts["start"] = np.array([*self._start_angles, self._start_energy])

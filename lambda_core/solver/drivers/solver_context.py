@@ -113,6 +113,8 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: O
         tie_stiffness=np.zeros((0, 0)),
         tie_damping=np.zeros((0, 0)),
         tie_rest=np.zeros(0),
+        tie_moves=np.zeros(0),
+        tie_rates=np.zeros(0),
         laws=kernels.pointers(),
         wrench=compiled.wrench_pointer,
         tangent=compiled.tangent_pointer,

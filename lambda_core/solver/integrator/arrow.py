@@ -6,6 +6,8 @@ where its blocks have changed, or are factored for another g by far. Its part of
 
 Every product is a sum of multiples of rows: the entries of a row do not wait for one another, as the terms of an inner
 product do. So the ball blocks are kept as inverses, and the other blocks in the order in which they are gone through.
+Rows are filled up with zeros to whole vectors, and an entry is in a register while multiples of nine rows are taken
+from it (:mod:`.sweeps`).
 
 Balls that touch each other are coupled beside the arrow (:mod:`.chain`).
 """
@@ -25,10 +27,11 @@ from lambda_core.solver.integrator.chain import (
     take_part,
     write_ahead,
 )
-from lambda_core.solver.integrator.condensed import condense, solve_condensed
+from lambda_core.solver.integrator.condensed import condense, condensed_t, make_condensed, solve_condensed
 from lambda_core.solver.integrator.reach import Reach, is_split
-from lambda_core.solver.layout import NB, array1, array2, array3, helper, iarray1, rows_helper
-from lambda_core.solver.lu import lu_factor, lu_solve
+from lambda_core.solver.integrator.sweeps import add_columns, add_row, spread, take_columns, take_rows, write_multiple
+from lambda_core.solver.layout import NB, array1, array2, array3, helper, iarray1
+from lambda_core.solver.lu import filled, filled_up, lu_factor, lu_solve
 
 # Relative change of g beyond which what a step divides by it is factored anew; not a tie with one growth of the step.
 REFACTOR = 0.41
@@ -40,18 +43,16 @@ class Factors(NamedTuple):
 
     inverse: Any  # (Z, 9, 9): (A_j^-1)^T
     pivots: Any  # int64 (9,)
-    x: Any  # (9, widest): A_j^-1 B_j of the ball in hand
+    x: Any  # (9, filled): A_j^-1 B_j of the ball in hand
     across: Any  # (Z, widest, 9): (A_j^-1 B_j)^T
-    c: Any  # (Z, 9, widest): C_j^T, scaled
-    schur: Any  # (n, n)
+    c: Any  # (Z, 9, filled): C_j^T, scaled
+    schur: Any  # (n, filled)
     schur_pivots: Any  # int64 (n,)
-    dense: Any  # (speeds, speeds): the same of speeds alone, where there are several bearings
-    turned: Any  # (speeds, speeds): and its transpose, while it is made
-    own: Any  # (rows, widest, widest): what each row of balls has of the Schur complement
+    condensed: Any  # Condensed: the same where there are several bearings
+    own: Any  # (rows, widest, filled): what each row of balls has of the Schur complement
     gamma: Any  # (rows,): g that each row is factored for
-    packed: Any  # (speeds,): the speeds' part of a right-hand side
-    tail: Any  # (widest,): and of the shared part of a right-hand side
-    part: Any  # (9,): one ball's part of a solution
+    tail: Any  # (filled,): of the shared part of a right-hand side
+    part: Any  # (9,): one ball's part of a solution, or what rows are multiplied by
     begin: Any  # int64 (rows,): ball of each row that is eliminated first
     joined: Any  # int64 (Z or 0,): whether a ball's coupling with the next one is eliminated
     behind: Any  # (Z or 0, 9, 9): X_j,j-1, scaled
@@ -60,8 +61,9 @@ class Factors(NamedTuple):
 
 _TYPES = (
     dict.fromkeys(("inverse", "across", "c", "own", "behind", "ahead"), array3)
-    | dict.fromkeys(("x", "schur", "dense", "turned"), array2)
+    | dict.fromkeys(("x", "schur"), array2)
     | dict.fromkeys(("pivots", "schur_pivots", "begin", "joined"), iarray1)
+    | {"condensed": condensed_t}
 )
 factors_t = types.NamedTuple([_TYPES.get(name, array1) for name in Factors._fields], Factors)
 
@@ -69,40 +71,25 @@ factors_t = types.NamedTuple([_TYPES.get(name, array1) for name in Factors._fiel
 def make_factors(reach: Reach, n: int, coupled: int) -> Factors:
     """Allocate for the rows of balls that `reach` describes, n shared states and `coupled` balls that may touch."""
     balls, widest = int(reach.first[-1]), reach.columns.shape[1]
+    row = filled(widest)
     return Factors(
         np.zeros((balls, NB, NB)),
         np.zeros(NB, dtype=np.int64),
-        np.zeros((NB, widest)),
+        np.zeros((NB, row)),
         np.zeros((balls, widest, NB)),
-        np.zeros((balls, NB, widest)),
-        np.zeros((n, n)),
+        np.zeros((balls, NB, row)),
+        np.zeros((n, filled(n))),
         np.zeros(n, dtype=np.int64),
-        np.zeros((reach.speeds.size, reach.speeds.size)),
-        np.zeros((reach.speeds.size, reach.speeds.size)),
-        np.zeros((reach.width.size, widest, widest)),
+        make_condensed(reach.positions.size, reach.speeds.size),
+        np.zeros((reach.width.size, widest, row)),
         np.ones(reach.width.size),
-        np.zeros(reach.speeds.size),
-        np.zeros(widest),
+        np.zeros(row),
         np.zeros(NB),
         reach.first[:-1].copy(),
         np.zeros(coupled, dtype=np.int64),
         np.zeros((coupled, NB, NB)),
         np.zeros((coupled, NB, NB)),
     )
-
-
-@rows_helper
-def _add_ball(row, factor, other):
-    """Add a multiple of another row of a ball's states."""
-    for i in range(NB):
-        row[i] += factor * other[i]
-
-
-@rows_helper
-def _add(row, factor, other, n):
-    """Add a multiple of the first n entries of another row."""
-    for i in range(n):
-        row[i] += factor * other[i]
 
 
 @helper
@@ -127,7 +114,7 @@ def _invert(m, pivots):
             if i != k:
                 f = m[i, k]
                 m[i, k] = 0.0
-                _add_ball(m[i], -f, m[k])
+                add_row(m[i], -f, m[k])
     for k in range(NB - 1, -1, -1):
         row = pivots[k]
         if row != k:
@@ -153,6 +140,18 @@ def _joined_before(reach, r, j, fa):
 
 
 @helper
+def _share(sign, c, x, part, own, n):
+    """Take C A^-1 B of a ball from `own`, times a sign: forces move speeds, so that half of its rows are empty."""
+    for i in range(n):
+        empty = True
+        for k in range(NB):
+            part[k] = sign * c[k, i]
+            empty &= part[k] == 0.0
+        if not empty:
+            take_rows(own[i], part, x, filled_up(n))
+
+
+@helper
 def _factor_ball(bl, j, before, shift, gamma, fa, own, n):
     """Invert the block of ball j and take its share, of n columns, from `own`; returns 0 when singular.
 
@@ -168,12 +167,10 @@ def _factor_ball(bl, j, before, shift, gamma, fa, own, n):
     if _invert(m, fa.pivots) != 1:
         return 0
     for i in range(NB):
-        for q in range(n):
-            x[i, q] = 0.0
         for k in range(NB):
-            f = -gamma * m[k, i]
-            if f != 0.0:
-                _add(x[i], f, bl.b[j, k], n)
+            fa.part[k] = gamma * m[k, i]
+        x[i, :] = 0.0
+        take_rows(x[i], fa.part, bl.b[j], filled_up(n))
     if before >= 0:
         take_from_columns(j, before, fa, m, x, n)
     for i in range(NB):
@@ -184,10 +181,7 @@ def _factor_ball(bl, j, before, shift, gamma, fa, own, n):
             c[k, i] = -gamma * bl.c[j, i, k]
     if before >= 0:
         take_from_rows(before, fa, c, n)
-    for i in range(n):
-        for k in range(NB):
-            if c[k, i] != 0.0:
-                _add(own[i], -c[k, i], x[k], n)
+    _share(1.0, c, x, fa.part, own, n)
     if fa.joined.size > 0 and fa.joined[j] == 1:
         write_ahead(bl, j, gamma, fa, m)
     return 1
@@ -216,10 +210,7 @@ def _give_back(j, fa, own, n):
     for k in range(NB):
         for q in range(n):
             x[k, q] = across[q, k]
-    for i in range(n):
-        for k in range(NB):
-            if c[k, i] != 0.0:
-                _add(own[i], c[k, i], x[k], n)
+    _share(-1.0, c, x, fa.part, own, n)
 
 
 @helper
@@ -258,8 +249,7 @@ def _add_row(bl, r, shift, gamma, fa):
             return 0
     more = gamma - fa.gamma[r]
     for i in range(n):
-        for k in range(n):
-            fa.schur[columns[i], columns[k]] += own[i, k] + more * bl.d_own[r, i, k]
+        spread(fa.schur[columns[i]], columns, own[i], more, bl.d_own[r, i], n)
     return 1
 
 
@@ -268,8 +258,7 @@ def arrow_factor(bl, shift, gamma, fa):
     """Factor shift I - gamma J; returns 0 when singular."""
     schur, reach = fa.schur, bl.reach
     for i in range(schur.shape[0]):
-        for k in range(schur.shape[0]):
-            schur[i, k] = -gamma * bl.d[i, k]
+        write_multiple(schur[i], -gamma, bl.d[i], schur.shape[0])
         schur[i, i] += shift
     several = is_split(reach, schur.shape[0])
     for r in range(reach.width.size):
@@ -281,7 +270,7 @@ def arrow_factor(bl, shift, gamma, fa):
     if schur.shape[0] == 0:
         return 1
     if several:
-        return condense(schur, reach, fa.dense, fa.turned, fa.packed, fa.schur_pivots)
+        return condense(schur, reach, fa.condensed)
     return lu_factor(schur, fa.schur_pivots)
 
 
@@ -297,26 +286,20 @@ def _solve_forward(row, reach, fa, r, own, n):
             take_part(fa.behind[j], r[NB * before : NB * before + NB], its)
         for i in range(NB):
             part[i] = 0.0
-        for k in range(NB):
-            _add_ball(part, its[k], fa.inverse[j, k])
+        add_columns(part, its, fa.inverse[j], NB)
         for k in range(NB):
             its[k] = part[k]
-            _add(own, -part[k], fa.c[j, k], n)
+        take_rows(own, part, fa.c[j], filled_up(n))
 
 
 @helper
 def _solve_back(row, reach, fa, r, own, n):
     """Take from each ball's part what the shared part, in `own`, and the ball after it have of it."""
-    part, first, last = fa.part, reach.first[row], reach.first[row + 1]
+    first, last = reach.first[row], reach.first[row + 1]
     for place in range(last - first - 1, -1, -1):
         j = _in_turn(fa.begin[row], place, first, last)
         its = r[NB * j : NB * j + NB]
-        for i in range(NB):
-            part[i] = its[i]
-        for k in range(n):
-            _add_ball(part, -own[k], fa.across[j, k])
-        for i in range(NB):
-            its[i] = part[i]
+        take_columns(its, own, fa.across[j], n)
         if fa.joined.size > 0 and fa.joined[j] == 1:
             after = _in_turn(j, 1, first, last)
             take_part(fa.ahead[j], r[NB * after : NB * after + NB], its)
@@ -335,7 +318,7 @@ def arrow_solve(bl, fa, r):
         for i in range(n):
             shared[columns[i]] = own[i]
     if is_split(reach, fa.schur.shape[0]):
-        solve_condensed(fa.schur, reach, fa.dense, fa.packed, fa.schur_pivots, shared)
+        solve_condensed(fa.schur, reach, fa.condensed, shared)
     elif shared.size > 0:
         lu_solve(fa.schur, fa.schur_pivots, shared)
     for row in range(reach.width.size):

@@ -10,6 +10,7 @@ from numba import types
 from lambda_core.solver import records as R
 from lambda_core.solver.integrator.reach import Reach, make_reach, reach_t
 from lambda_core.solver.layout import NB, NS, array1, array2, array3, array4, iarray1, table_t
+from lambda_core.solver.lu import filled
 
 
 class Blocks(NamedTuple):
@@ -17,8 +18,8 @@ class Blocks(NamedTuple):
 
     reach: Reach  # the own bodies of each row
     a: Any  # (Z, 9, 9)
-    b: Any  # (Z, 9, widest)
-    c: Any  # (Z, widest, 9)
+    b: Any  # (Z, 9, filled), the widest row of balls filled up
+    c: Any  # (Z, filled, 9)
     d: Any  # (n_active, n_active)
     cross: Any  # (Z, 2, 9, 9), without balls that may touch (0, 2, 9, 9): with the balls before and after, see chain
     beyond: Any  # (6, 9) d(ball force)/d(ball beside it)
@@ -84,8 +85,8 @@ def make_blocks(bundle: Any) -> Blocks:
     return Blocks(
         reach=reach,
         a=zeros((balls, NB, NB)),
-        b=zeros((balls, NB, widest)),
-        c=zeros((balls, widest, NB)),
+        b=zeros((balls, NB, filled(widest))),
+        c=zeros((balls, filled(widest), NB)),
         d=zeros((n, n)),
         cross=zeros((balls if may_touch(bundle) else 0, 2, NB, NB)),
         beyond=zeros((6, NB)),

@@ -4,12 +4,49 @@ The rate of a position depends on the state of its own body alone, of most on on
 few entries, and eliminating it costs few. It is the diagonal that is divided by, 1 but for terms of the order of a
 tilt: what is left is the matrix of inertia, damping and stiffness that a step has, M - g C - g^2 K, as in Newmark's
 method. Half of the states are speeds, and a dense block of half the size costs an eighth.
+
+The dense block is kept, and factored, turned over: both sweeps of a solution are then sums of multiples of rows. Its
+rows are filled up with zeros (:func:`~lambda_core.solver.lu.filled`).
 """
 
 from __future__ import annotations
 
-from lambda_core.solver.layout import helper
-from lambda_core.solver.lu import inner_product, lu_factor, lu_solve, take_multiple
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import types
+
+from lambda_core.solver.layout import array1, array2, helper, iarray1
+from lambda_core.solver.lu import factor_turned, filled, solve_turned, take_multiple
+
+
+class Condensed(NamedTuple):
+    """Factors of speeds and positions."""
+
+    upper: Any  # (speeds, filled): of the turned matrix of the speeds
+    lower: Any  # (speeds, filled): multipliers, below a diagonal of ones that is not kept
+    inverse: Any  # (speeds,): of the diagonal of `upper`
+    pivots: Any  # int64 (speeds,)
+    on_speeds: Any  # (positions, filled): what the positions have of the rows of speeds
+    packed: Any  # (filled,): the speeds' part of a right-hand side
+    found: Any  # (filled,): and of its solution
+
+
+condensed_t = types.NamedTuple([array2, array2, array1, iarray1, array2, array1, array1], Condensed)
+
+
+def make_condensed(positions: int, speeds: int) -> Condensed:
+    """Allocate for so many states that all bearings share."""
+    row = filled(speeds)
+    return Condensed(
+        np.zeros((speeds, row)),
+        np.zeros((speeds, row)),
+        np.zeros(speeds),
+        np.zeros(speeds, dtype=np.int64),
+        np.zeros((positions, row)),
+        np.zeros(row),
+        np.zeros(row),
+    )
 
 
 @helper
@@ -18,75 +55,77 @@ def _among_positions(m, reach):
 
     Their entries at speeds become how the positions follow the speeds.
     """
-    positions, ends, among = reach.positions, reach.ends, reach.among
+    positions, middles, ends = reach.positions, reach.middles, reach.ends
     for a in range(positions.size):
-        p, end = positions[a], ends[a]
+        p, middle, end = positions[a], middles[a], ends[a]
         if not abs(m[p, p]) > 0.0:
             return 0
-        for i in range(p + 1, end):
-            if among[i] < 0 and m[i, p] != 0.0:
+        for i in range(p + 1, middle):
+            if m[i, p] != 0.0:
                 m[i, p] /= m[p, p]
-                take_multiple(m[i, p + 1 :], m[i, p], m[p, p + 1 :], end - p - 1)
+                for c in range(p + 1, end):
+                    m[i, c] -= m[i, p] * m[p, c]
     for a in range(positions.size - 1, -1, -1):
-        p, end = positions[a], ends[a]
-        for c in range(p + 1, end):
-            if among[c] >= 0:
-                for q in range(p + 1, end):
-                    if among[q] < 0:
-                        m[p, c] -= m[p, q] * m[q, c]
-                m[p, c] /= m[p, p]
+        p, middle, end = positions[a], middles[a], ends[a]
+        for q in range(p + 1, middle):
+            if m[p, q] != 0.0:
+                for c in range(middle, end):
+                    m[p, c] -= m[p, q] * m[q, c]
+        for c in range(middle, end):
+            m[p, c] /= m[p, p]
     return 1
 
 
 @helper
-def condense(m, reach, dense, turned, packed, pivots):
-    """Factor m, whose rows of speeds keep their entries at positions; returns 0 when singular."""
-    positions, ends, speeds, among = reach.positions, reach.ends, reach.speeds, reach.among
+def condense(m, reach, co):
+    """Factor m, of which the rows of positions are kept with it; returns 0 when singular."""
+    positions, middles, ends, speeds, among = reach.positions, reach.middles, reach.ends, reach.speeds, reach.among
     n = speeds.size
     if _among_positions(m, reach) != 1:
         return 0
-    for i in range(n):
-        for k in range(n):
-            turned[i, k] = m[speeds[k], speeds[i]]
+    for k in range(n):
+        row = m[speeds[k]]
+        for i in range(n):
+            co.upper[i, k] = row[speeds[i]]
+        for a in range(positions.size):
+            co.on_speeds[a, k] = row[positions[a]]
     for a in range(positions.size):
         p = positions[a]
-        for k in range(n):
-            packed[k] = m[speeds[k], p]
-        for c in range(p + 1, ends[a]):
-            if among[c] >= 0 and m[p, c] != 0.0:
-                take_multiple(turned[among[c]], m[p, c], packed, n)
-    for i in range(n):
-        for k in range(n):
-            dense[i, k] = turned[k, i]
-    return lu_factor(dense, pivots[:n])
+        for c in range(middles[a], ends[a]):
+            if m[p, c] != 0.0:
+                take_multiple(co.upper[among[c]], m[p, c], co.on_speeds[a], co.packed.size)
+    return factor_turned(co.upper, co.lower, co.inverse, co.pivots)
 
 
 @helper
-def solve_condensed(m, reach, dense, packed, pivots, r):
-    """Solve in place with the factors of :func:`condense`."""
-    positions, ends, speeds, among = reach.positions, reach.ends, reach.speeds, reach.among
-    for k in range(speeds.size):
-        packed[k] = r[speeds[k]]
-        r[speeds[k]] = 0.0
+def _solve_positions(m, reach, r):
+    """Solve in place for the positions, as if speeds stood."""
+    positions, middles = reach.positions, reach.middles
     for a in range(positions.size):
         p = positions[a]
-        for i in range(p + 1, ends[a]):
-            if among[i] < 0:
-                r[i] -= m[i, p] * r[p]
+        for i in range(p + 1, middles[a]):
+            r[i] -= m[i, p] * r[p]
     for a in range(positions.size - 1, -1, -1):
         p = positions[a]
         total = r[p]
-        for q in range(p + 1, ends[a]):
-            if among[q] < 0:
-                total -= m[p, q] * r[q]
+        for q in range(p + 1, middles[a]):
+            total -= m[p, q] * r[q]
         r[p] = total / m[p, p]
+
+
+@helper
+def solve_condensed(m, reach, co, r):
+    """Solve in place with the factors of :func:`condense`."""
+    positions, middles, ends, speeds, packed = reach.positions, reach.middles, reach.ends, reach.speeds, co.packed
     for k in range(speeds.size):
-        packed[k] -= inner_product(m[speeds[k]], r, r.size)
-    lu_solve(dense, pivots[: speeds.size], packed)
+        packed[k] = r[speeds[k]]
+    _solve_positions(m, reach, r)
+    for a in range(positions.size):
+        take_multiple(packed, r[positions[a]], co.on_speeds[a], packed.size)
+    solve_turned(co.upper, co.lower, co.inverse, co.pivots, packed, co.found)
     for k in range(speeds.size):
         r[speeds[k]] = packed[k]
     for a in range(positions.size):
         p = positions[a]
-        for c in range(p + 1, ends[a]):
-            if among[c] >= 0:
-                r[p] -= m[p, c] * r[c]
+        for c in range(middles[a], ends[a]):
+            r[p] -= m[p, c] * r[c]

@@ -29,12 +29,13 @@ class Reach(NamedTuple):
     columns: Any  # int64 (rows, widest): their positions among all free shared states
     index: Any  # int64 (rows, 12 places): position of each state of the own bodies among their free ones, or -1
     positions: Any  # int64 (p,): positions and angles among all free shared states
+    middles: Any  # int64 (p,): the first speed of the body of each
     ends: Any  # int64 (p,): one behind the last free state of the body of each
     speeds: Any  # int64 (n - p,): the other ones, those of cages before those of the shaft
     among: Any  # int64 (n,): place of each state among the speeds, or -1
 
 
-_TYPES = dict.fromkeys(("first", "count", "width", "positions", "ends", "speeds", "among"), iarray1)
+_TYPES = dict.fromkeys(("first", "count", "width", "positions", "middles", "ends", "speeds", "among"), iarray1)
 reach_t = types.NamedTuple([_TYPES.get(name, iarray2) for name in Reach._fields], Reach)
 
 
@@ -76,6 +77,7 @@ def make_reach(bundle: Any) -> Reach:
         columns=np.zeros((rows, max(columns.size for columns in free)), dtype=np.int64),
         index=np.full((rows, NS * places), -1, dtype=np.int64),
         positions=np.flatnonzero(~is_speed).astype(np.int64),
+        middles=np.searchsorted(2 * body + is_speed, 2 * body[~is_speed] + 1).astype(np.int64),
         ends=np.searchsorted(body, body[~is_speed], side="right").astype(np.int64),
         speeds=speeds,
         among=np.full(bundle.active.size, -1, dtype=np.int64),

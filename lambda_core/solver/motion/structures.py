@@ -9,15 +9,14 @@ from __future__ import annotations
 
 from lambda_core.solver.contact.contact_kinematics import axis_x
 from lambda_core.solver.layout import NS, SAY, SAZ, SSIGMA, SVX, SWY, SWZ, helper
+from lambda_core.solver.lu import inner_product
 
 
 @helper
-def _pull(i, bundle):
-    """Return the generalised force of the structures on tied entry i."""
-    force = 0.0
+def _measure(bundle):
+    """Write how far the structures are from where they are without force."""
     for k in range(bundle.tied.size):
-        force -= bundle.tie_stiffness[i, k] * (bundle.shared[bundle.tied[k]] - bundle.tie_rest[k])
-    return force
+        bundle.tie_moves[k] = bundle.shared[bundle.tied[k]] - bundle.tie_rest[k]
 
 
 @helper
@@ -33,13 +32,10 @@ def _rate(entry, bundle):
 
 
 @helper
-def _resist(i, bundle):
-    """Return the generalised force of dampers on tied entry i."""
-    force = 0.0
+def _measure_rates(bundle):
+    """Write how fast they change."""
     for k in range(bundle.tie_damping.shape[1]):
-        if bundle.tie_damping[i, k] != 0.0:
-            force -= bundle.tie_damping[i, k] * _rate(bundle.tied[k], bundle)
-    return force
+        bundle.tie_rates[k] = _rate(bundle.tied[k], bundle)
 
 
 @helper
@@ -48,13 +44,16 @@ def structure_forces(bundle, running):
 
     The power of a force f along the axis a of a body is f.da/dt = (a x f).omega.
     """
-    for i in range(bundle.tied.size):
+    n = bundle.tied.size
+    _measure(bundle)
+    _measure_rates(bundle)
+    for i in range(n):
         b, c = bundle.tied[i] // NS, bundle.tied[i] % NS
-        wrench, force = bundle.body_wrenches[b], _pull(i, bundle)
+        wrench, force = bundle.body_wrenches[b], -inner_product(bundle.tie_stiffness[i], bundle.tie_moves, n)
         if bundle.tie_damping.size > 0:
-            resist = _resist(i, bundle)
-            running.support -= resist * _rate(bundle.tied[i], bundle)
-            force += resist
+            resist = inner_product(bundle.tie_damping[i], bundle.tie_rates, n)
+            running.support += resist * bundle.tie_rates[i]
+            force -= resist
         if c < SAY:
             wrench.force[c] += force
             continue
@@ -90,7 +89,8 @@ def structure_columns(bundle, bl):
 @helper
 def structure_energy(bundle):
     """Return the elastic energy of all structures [J]."""
-    energy = 0.0
-    for i in range(bundle.tied.size):
-        energy -= 0.5 * _pull(i, bundle) * (bundle.shared[bundle.tied[i]] - bundle.tie_rest[i])
+    energy, n = 0.0, bundle.tied.size
+    _measure(bundle)
+    for i in range(n):
+        energy += 0.5 * inner_product(bundle.tie_stiffness[i], bundle.tie_moves, n) * bundle.tie_moves[i]
     return energy

@@ -1,0 +1,52 @@
+"""Sums over rows of the blocks of a ball, in the order of the rows: loops that vectorise, or keep sums in registers."""
+
+from __future__ import annotations
+
+from lambda_core.solver.layout import NB, ordered_rows_helper, rows_helper
+
+
+@ordered_rows_helper
+def add_row(row, factor, other):
+    """Add a multiple of another row of a ball's states."""
+    for i in range(NB):
+        row[i] += factor * other[i]
+
+
+@ordered_rows_helper
+def take_rows(row, factors, rows, n):
+    """Take multiples of nine rows from the first n entries of a row."""
+    for q in range(n):
+        total = row[q]
+        for k in range(NB):
+            total -= factors[k] * rows[k, q]
+        row[q] = total
+
+
+@ordered_rows_helper
+def add_columns(part, factors, columns, n):
+    """Add n multiples of columns, which are kept as rows, to one ball's part of a solution."""
+    for k in range(n):
+        for i in range(NB):
+            part[i] += factors[k] * columns[k, i]
+
+
+@ordered_rows_helper
+def take_columns(part, factors, columns, n):
+    """Take n multiples of columns, which are kept as rows, from one ball's part of a solution."""
+    for k in range(n):
+        for i in range(NB):
+            part[i] -= factors[k] * columns[k, i]
+
+
+@ordered_rows_helper
+def write_multiple(row, factor, other, n):
+    """Write a multiple of the first n entries of another row."""
+    for i in range(n):
+        row[i] = factor * other[i]
+
+
+@rows_helper
+def spread(row, places, own, factor, other, n):
+    """Add the first n entries of a row, and a multiple of another, at their places."""
+    for i in range(n):
+        row[places[i]] += own[i] + factor * other[i]
