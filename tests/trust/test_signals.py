@@ -3,23 +3,29 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 import subprocess
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import h5py
 import numpy as np
 import pytest
 from lambda_cli.interrupt import second_signal_ends
 from trust.answering import time_of
+from warm import PROGRAM
 
 from lambda_core import api
 from lambda_core.discovery.apart import check_apart
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import CaseError
 from lambda_core.results import file_format
+
+if TYPE_CHECKING:
+    from warm import Started, Warm
 
 CASE = "6208-axial-700"
 # One record of this takes minutes: 1/40 of a cage turn of four hours.
@@ -28,7 +34,7 @@ PATIENCE = 120.0  # with the slowest machine [s]
 Program = Callable[..., "subprocess.Popen[str]"]
 
 
-def wait_for_life(path: Path, process: subprocess.Popen[str]) -> None:
+def wait_for_life(path: Path, process: Started) -> None:
     """Wait until the process writes its result."""
     while process.poll() is None:
         if path.exists() and api.result(path).status().alive():
@@ -37,7 +43,7 @@ def wait_for_life(path: Path, process: subprocess.Popen[str]) -> None:
     pytest.fail(process.communicate()[1])
 
 
-def wait_for_standstill(path: Path, process: subprocess.Popen[str]) -> None:
+def wait_for_standstill(path: Path, process: Started) -> None:
     """Wait until the process works for a second of the processor without a new sample: it is in a law for good."""
     samples, begun = -1, 0.0
     while process.poll() is None and time_of(process.pid) - begun < 1.0:
@@ -51,16 +57,25 @@ def changes(*overrides: str) -> list[str]:
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_c2_4_a_signal_is_answered_within_a_record(number: int, program: Program, tmp_path: Path) -> None:
+def test_c2_4_a_signal_is_answered_within_a_record(number: int, warm: Warm, tmp_path: Path) -> None:
     path = tmp_path / "r.h5"
-    process = program("run", CASE, *changes(*SLOW), "--out", str(path), "--json")
+    process = warm.start(PROGRAM, "run", CASE, *changes(*SLOW), "--out", str(path), "--json")
     wait_for_life(path, process)
-    process.send_signal(number)
-    out, err = process.communicate(timeout=PATIENCE)  # a record would take longer
+    os.kill(process.pid, number)
+    ended(process)  # a record would take longer
+    out, err = process.communicate()
     assert process.returncode == 130, err
     summary = json.loads(out)
     assert summary["state"] == "interrupted"
     assert "go on with: lambda-bearing resume" in err
+
+
+def ended(process: Started) -> None:
+    """Wait for the end; what does not come to one is killed."""
+    code = process.wait(PATIENCE)
+    if code is None:
+        process.kill()
+    assert code is not None, process.communicate()
 
 
 def children(pid: int) -> list[int]:
@@ -122,17 +137,18 @@ def test_c2_4_what_would_never_end_is_refused(change: str, words: str) -> None:
 
 
 def test_a4_a_second_signal_ends_a_law_that_never_returns(
-    program: Program, misbehaving: Mapping[str, str], tmp_path: Path
+    warm: Warm, misbehaving: Mapping[str, str], tmp_path: Path
 ) -> None:
     path = tmp_path / "r.h5"
-    process = program("run", CASE, "--set", "models.fluid_drag=lurking", "--out", str(path), env=misbehaving)
+    lurking = ("--set", "models.fluid_drag=lurking")
+    process = warm.start(PROGRAM, "run", CASE, *lurking, "--out", str(path), env=misbehaving)
     wait_for_life(path, process)
     wait_for_standstill(path, process)
-    process.send_signal(signal.SIGINT)
-    with pytest.raises(subprocess.TimeoutExpired):  # Python does not hear it
-        process.wait(timeout=2)
-    process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=PATIENCE)
+    os.kill(process.pid, signal.SIGINT)
+    assert process.wait(2.0) is None  # Python does not hear it
+    os.kill(process.pid, signal.SIGINT)
+    ended(process)
+    _, err = process.communicate()
     assert process.returncode == 130
     assert "what was written is kept" in err
     result = api.result(path)
@@ -148,13 +164,13 @@ def test_a4_a_law_that_never_returns_does_not_keep_the_others_from_being_checked
     monkeypatch.syspath_prepend(misbehaving["PYTHONPATH"].split(":")[0])
     registry.cache_clear()
     try:
-        cards = list(check_apart(registry(), ["damping"], limit=10.0))
+        cards = list(check_apart(registry(), ["damping"], limit=6.0))
     finally:
         registry.cache_clear()
     found = {card.name: card for card in cards}
     assert found["cubic"].ok
     assert found["none"].ok
-    assert "did not come to an end within 10 s" in found["endless"].faults[0]
+    assert "did not come to an end within 6 s" in found["endless"].faults[0]
 
 
 def test_c1_packing_a_long_result_is_not_for_whoever_waits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
