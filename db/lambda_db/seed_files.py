@@ -6,6 +6,7 @@ import csv
 import hashlib
 import tomllib
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 from pathlib import Path
 
 from lambda_core.domain.errors import CatalogueError, Problem, unknown_name
@@ -28,10 +29,15 @@ def fingerprint(folders: list[Path]) -> str:
     digest = hashlib.sha256()
     code = sorted(Path(__file__).parent.glob("*.py"))
     for path in [*code, *(file for folder in folders for file in seed_files(folder))]:
-        content = path.read_bytes()
-        digest.update(f"{path.name}\0{len(content)}\0".encode())
-        digest.update(content)
+        now = path.stat()
+        digest.update(f"{path.name}\0".encode() + _content(path, now.st_mtime_ns, now.st_size, now.st_ino))
     return digest.hexdigest()[:16]
+
+
+@lru_cache(maxsize=1024)
+def _content(path: Path, *_: int) -> bytes:
+    """Hash a file, again only when it is another one: a catalogue is opened for every check of a case."""
+    return hashlib.sha256(path.read_bytes()).digest()
 
 
 def read_csv(path: Path, table: str | None = None) -> Iterator[Record]:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from lambda_core.system.bearing import ChosenLaw
 
 
-def default_sentences(role: str, law: ChosenLaw) -> list[str]:
+def default_sentences(role: str, law: ChosenLaw, written: Mapping[str, Any]) -> list[str]:
     """Return a sentence for each parameter that neither the case nor the oil gives.
 
-    The last word is the grade: published, unconfirmed, assumed, or numerical (a regularisation without physical
-    meaning). A default that is absent stands for what the law computes, and is left out.
+    `written` is what its parameters are in a file. The last word is the grade: published, unconfirmed, assumed, or
+    numerical (a regularisation without physical meaning). A default that is absent stands for what the law computes,
+    and is left out.
     """
-    written = law.parameters.model_dump(mode="json")
     return [
         f"{role} {law.model.name}: {key} {short(written[key])}, {_origin(law, key)}"
         for key, origin in law.origins.items()

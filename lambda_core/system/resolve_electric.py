@@ -76,4 +76,8 @@ def _arcs_can_burn(options: Electric, law: ChosenLaw, ledger: Ledger) -> None:
 
 def assumed(laws: Mapping[str, ChosenLaw]) -> list[str]:
     """Return what the laws leave to defaults, a sentence per value."""
-    return [sentence for role, law in laws.items() for sentence in default_sentences(role, law)]
+    return [
+        sentence
+        for role, law in laws.items()
+        for sentence in default_sentences(role, law, law.parameters.model_dump(mode="json"))
+    ]

@@ -287,20 +287,20 @@ class LawResolver:
         """Turn defaults and weak lubricant data into sentences, one per value, with source and grade."""
         for element, roles in laws.items():
             for role, law in roles.items():
-                self._record(element, role, law)
                 written = law.parameters.model_dump(mode="json")
-                for sentence in default_sentences(role, law):
+                self._record(element, role, law, written)
+                for sentence in default_sentences(role, law, written):
                     self.ledger.assume(sentence)
                 for key, origin in law.origins.items():
                     if origin.endswith(_WEAK):
                         self.ledger.assume(f"{role} {law.model.name}: {key} {short(written[key])}, {origin}")
 
-    def _record(self, element: str, role: str, law: ChosenLaw) -> None:
+    def _record(self, element: str, role: str, law: ChosenLaw, written: Mapping[str, Any]) -> None:
         source = law.model.distribution or "built-in"
         self.ledger.record(
             f"forces.{element}.models.{role}", law.model.name, "", source, self._chosen_by(element, role)
         )
-        for key, value in law.parameters.model_dump(mode="json").items():
+        for key, value in written.items():
             origin = law.origins[key]
             weak: Status = "assumed" if origin.endswith(_WEAK) else "published"
             status: Status = "given" if origin == "case" else "default" if origin == "default" else weak

@@ -18,6 +18,15 @@ from lambda_core.testing import evaluate
 
 # What holds for one ring holds for the other by the same formula: the costly ones of the second are run by name.
 OUTER_FIRST = pytest.mark.parametrize("ring", ["outer", pytest.param("inner", marks=pytest.mark.slow)])
+
+
+def one_of_each(few: int, many: int) -> pytest.MarkDecorator:
+    """Each ring and each order once; how they go the other way round is run by name."""
+    twice = [("outer", few), ("inner", many)]
+    other = [pytest.param(ring, order, marks=pytest.mark.slow) for ring, order in (("outer", many), ("inner", few))]
+    return pytest.mark.parametrize(("ring", "order"), [*twice, *other])
+
+
 INTERVAL = 1e-4  # [s] of the samples
 AMPLITUDE = 0.1e-6  # [m]
 STEADY = 0.1  # [s]
@@ -125,8 +134,7 @@ def test_waves_as_many_as_balls_move_the_ring_along_its_axis(ring: str) -> None:
         assert found.amplitude(axis, frequency) < 0.02 * AMPLITUDE
 
 
-@pytest.mark.parametrize("order", [8, 10])
-@pytest.mark.parametrize("ring", ["inner", "outer"])
+@one_of_each(8, 10)
 def test_one_wave_more_or_less_moves_the_ring_across_its_axis(ring: str, order: int) -> None:
     """Wardle 1988: k = Z +- 1, at Z f_c and at Z (f_i - f_c) +- f_i, and by A: a displaced circle has one wave.
 
@@ -140,8 +148,7 @@ def test_one_wave_more_or_less_moves_the_ring_across_its_axis(ring: str, order: 
     assert found.amplitude(0, frequency) < 0.02 * AMPLITUDE
 
 
-@pytest.mark.parametrize("order", [7, 12])
-@pytest.mark.parametrize("ring", ["inner", "outer"])
+@one_of_each(7, 12)
 def test_other_orders_move_nothing(ring: str, order: int) -> None:
     """Forces of the balls cancel: what the ring does is below 5 % of the amplitude (rms)."""
     found = waves(ring, order)

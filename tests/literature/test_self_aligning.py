@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 from lambda_db.catalogue import SqlCatalogue
+from lambda_db.derive import static_rating_of
 from lambda_plugins.methods.skf_angular import angular_variables
 from scipy.optimize import root
 
@@ -322,3 +323,11 @@ def test_a_run_closes_its_energy(tmp_path: Path) -> None:
     assert abs(result.summary().energy_residual) < 1e-3
     angles = result["contact_angle"][-1, :, 1].reshape(2, 18)
     assert np.sign(angles).tolist() == [[-1.0] * 18, [1.0] * 18]
+
+
+def test_factors_for_the_catalogue_are_those_of_the_contacts() -> None:
+    """Between two that are solved they are interpolated: 1e-5, where the fit to a rating scatters by 1e-2."""
+    one, gamma = np.ones(200), np.random.default_rng(3).uniform(0.01, 0.4, 200)
+    solved = [static_factor(float(each), self_aligning=True) for each in gamma]
+    found = [float(static_rating_of(one[:1], one[:1], 1.0 / each, self_aligning=True)[0]) for each in gamma]
+    assert found == pytest.approx(solved, rel=1e-5)

@@ -70,7 +70,7 @@ def test_a_soft_housing_spreads_the_load() -> None:
     assert abs(math.sin(math.radians(bent.outwards_deg))) > 0.9  # out below and above
 
 
-@pytest.mark.parametrize(("waves", "lag"), [(2, 0.400), (3, 0.200)])
+@pytest.mark.parametrize(("waves", "lag"), [(2, 0.400), pytest.param(3, 0.200, marks=pytest.mark.slow)])
 def test_the_pattern_of_a_turning_ring_lags(waves: int, lag: float) -> None:
     """Bryan 1890, Proc. Camb. Phil. Soc. 7, 101: seen from the ring a pattern turns back by 2/(n^2 + 1): 1 %.
 
