@@ -18,7 +18,7 @@ from lambda_core.laws import check
 from lambda_core.laws.check import ModelReport
 from lambda_core.laws.context import Context
 from lambda_core.laws.jit.binding import taken_by
-from lambda_core.laws.kernels import compile_kernel
+from lambda_core.laws.kernels import CompiledKernel, compile_kernel
 from lambda_core.laws.law import Law, law_of
 from lambda_core.laws.par import make_par
 from lambda_core.laws.probe import VECTORS, output_size, trial_context
@@ -34,6 +34,20 @@ def _model(model: AnyLaw) -> Law:
     if found is None:
         raise TypeError(f"{getattr(model, '__name__', model)} is no law: write @law(role, name, ...) above it")
     return found
+
+
+# By label: what is installed stays as it is while a process runs, and looking through all that it reaches takes longer
+# than the call.
+_installed: dict[str, tuple[Law, CompiledKernel]] = {}
+
+
+def _compiled(model: AnyLaw, law: Law) -> CompiledKernel:
+    if not isinstance(model, str):
+        return compile_kernel(law)
+    kept = _installed.get(law.label)
+    if kept is None or kept[0] is not law:
+        kept = _installed[law.label] = law, compile_kernel(law)
+    return kept[1]
 
 
 def check_model(
@@ -126,7 +140,7 @@ def evaluate(
             values.append(np.array(np.broadcast_to(np.asarray(arguments[argument.name], np.float64), size)))
         else:
             values.append(float(np.asarray(arguments[argument.name])))
-    status = compile_kernel(law).dispatcher(*values)
+    status = _compiled(model, law).dispatcher(*values)
     if status != 1:
         raise AssertionError(f"{law.label} returned {status}: {law.errors.get(status, 'no sentence declared')}")
     outputs = tuple(v for a, v in zip(role.arguments, values, strict=True) if a.output)

@@ -51,6 +51,7 @@ def source(arguments: tuple[str, ...], layout: Layout, taken: tuple[str, ...]) -
     return "\n    ".join(lines) + "\n"
 
 
+@lru_cache(maxsize=256)
 def taken_by(kernel: Callable[..., int]) -> tuple[str, ...]:
     """Return the names of a kernel's arguments: it may leave out what its role had not at first."""
     return tuple(inspect.signature(kernel).parameters)
