@@ -29,20 +29,30 @@ TIMED = (
 
 # What takes longest comes first: one file of half a minute at the end keeps one process while the others are done.
 LONGEST = (
-    "tests/docs/test_examples.py",
     "tests/fmu/test_fmu.py",
+    "tests/docs/test_examples.py",
     "tests/study/test_workers.py",
     "tests/gui/test_nothing_is_cut.py",
+    "tests/gui/test_studies.py",
+    "tests/gui/test_serve.py",
     "tests/gui/test_builder.py",
     "tests/gui/test_runs.py",
-    "tests/gui/test_studies.py",
     "tests/attacks/test_short.py",
     "tests/plugins/",
     "tests/gui/",
     "tests/simulate/",
     "tests/trust/",
+    "tests/registry/",
     "tests/electric/",
     "tests/db/",
+    "tests/literature/test_models_surface.py",
+    "tests/report/",
+    "tests/cli/",
+    "tests/reproduce/",
+    "tests/thermal/",
+    "tests/views/",
+    "tests/benchmarks/",
+    "tests/shaft/",
     "tests/physics/",
 )
 
