@@ -13,6 +13,7 @@ from lambda_core.results.record import Record
 from lambda_core.results.run_status import Status
 from lambda_core.solver.integrator.tableau import STAGES, WEIGHTS, A
 from lambda_core.system.bearing import Solver
+from lambda_core.system.resolve_solver import USUAL_RESOLVE
 
 FOURTH_POWERS = "steps_to_the_fourth"  # of the statistics of a run: sum of the fourth powers of its steps [s4]
 ITERATION_WORK = "iteration_work"  # of the same: work of early ends of Newton's iteration, counted positive [J]
@@ -23,7 +24,7 @@ class Swing(Record):
     """A mode of the rings near the end of a run, and what the integration did to it."""
 
     frequency_Hz: float
-    damping_percent: float = Field(description="of critical, of the bearing itself")
+    damping_percent: float = Field(description="of critical, of the bearing or the shaft itself")
     added_percent: float = Field(description="of critical, by the integration")
     shift_percent: float = Field(description="of the frequency, by the integration")
 
@@ -33,7 +34,9 @@ class Followed(Record):
 
     resolve_Hz: float = Field(description="to which they were followed; 0 where averages were the answer")
     step_s: float = Field(description="length of a step, the cubic mean over time")
-    modes: list[Swing] = Field(description="modes of the rings by frequency, those that are damped least")
+    modes: list[Swing] = Field(
+        description="modes of the rings by frequency, those that are damped least; of a shaft all up to resolve_Hz"
+    )
 
     def at(self, frequency: float) -> tuple[float, float]:
         """Return the damping that is added and the shift of a frequency [%]."""
@@ -60,7 +63,8 @@ class Followed(Record):
     def _advice(self, frequency: float) -> str:
         if self.resolve_Hz:
             return f"solver.resolve above {show(max(frequency, self.resolve_Hz), 'frequency', 3)} follows it"
-        return 'solver.accuracy = "vibration" follows it'
+        more = f" with solver.resolve above {show(frequency, 'frequency', 3)}" if frequency > USUAL_RESOLVE else ""
+        return f'solver.accuracy = "vibration"{more} follows it'
 
     def note(self, frequency: float) -> str:
         """Return what stands beside a spectrum that ends at a frequency [Hz]."""

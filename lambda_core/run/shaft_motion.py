@@ -62,7 +62,7 @@ def shaft_run(
     from lambda_core.shaft.whole_summary import summarise_whole
 
     model = source if isinstance(source, ShaftModel) else check_shaft(source, overrides)
-    ends = _ends(duration or model.solver.duration, max_wall or model.solver.max_wall)
+    ends = _ends(model, duration, max_wall or model.solver.max_wall)
     folder = None if out is None else Path(out)
     return summarise_whole(launch_whole(model, folder, ends, force=force, report=progress, announce=announce))
 
@@ -100,20 +100,25 @@ def shaft_resume(
     from lambda_core.shaft.whole_summary import summarise_whole
 
     model = check_shaft(toml_tables(WholeFile(folder).case_toml, str(folder)))
-    ends = _ends(duration or model.solver.duration, max_wall or math.inf)
+    ends = _ends(model, duration, max_wall or math.inf)
     return summarise_whole(resume_whole(Path(folder), model, ends, report=progress, announce=announce))
 
 
-def _ends(duration: float, max_wall: float) -> Ends:
-    """Return when a run ends [s]; UsageError for a time that no machine simulates."""
+def _ends(model: ShaftModel, duration: float | None, max_wall: float) -> Ends:
+    """Return when a run ends [s]; UsageError where it has no end, or none that a machine reaches."""
     from lambda_core.domain.errors import UsageError
     from lambda_core.domain.units import show
     from lambda_core.run.whole_run import Ends
     from lambda_core.system.resolve_solver import MOST_TIME
 
-    if duration > MOST_TIME:
-        raise UsageError(f"a duration of {show(duration, 'time')}: at most {show(MOST_TIME, 'time')} are simulated")
-    return Ends(duration, max_wall)
+    asked = duration or model.solver.duration
+    end = asked or max(bearing.model.solver.max_duration for bearing in model.bearings)
+    if not end:
+        raise UsageError("where nothing turns a run needs a duration: --duration, or solver.duration in the file")
+    if end > MOST_TIME:
+        slow = "" if asked else ", 30 turns of a cage; give --duration"
+        raise UsageError(f"a duration of {show(end, 'time', 3)}{slow}: at most {show(MOST_TIME, 'time')} are simulated")
+    return Ends(asked, max_wall)
 
 
 def shaft_result(folder: str | Path) -> WholeSummary:

@@ -170,6 +170,7 @@ class _Session:
             writer.add_record(record, [record])
         self._records = 1
         self._judge()
+        self._save()
 
     def go_on(self, known: list[list[FloatArray]], last: list[FloatArray], position: Position) -> None:
         """Stand where a checkpoint stood."""

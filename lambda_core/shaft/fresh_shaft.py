@@ -100,7 +100,8 @@ contamination = 0.6            # e_C of ISO 281, for the modified life
 
 # In motion: vibrations in place of averages, chosen by itself where a raceway has a defect.
 # [bearings.right.forces.ball_outer]
-# models = { surface = "defect" }
+# models = { surface = "defect" }  # where it is loaded: opposite to its force on the shaft
+# parameters = { surface = { width = "0.8 mm", depth = "20 um", azimuth = "188 deg" } }
 # [solver]
 # accuracy = "vibration"
 # resolve = "2 kHz"

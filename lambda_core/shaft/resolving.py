@@ -27,7 +27,6 @@ from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import Disc, ElasticBody, shaft_body, with_discs
 from lambda_core.elastic.sections import BodyMaterial, RoundSection
 from lambda_core.shaft.beside import (
-    COMPONENTS,
     all_loads,
     connections,
     refuse_far_beyond,
@@ -42,8 +41,7 @@ from lambda_core.shaft.model import GROUND, SHAFT, MountedBearing, ShaftModel, U
 from lambda_core.shaft.places import Places, places
 from lambda_core.shaft.reduced_shaft import reduced_shaft
 from lambda_core.shaft.seating import mounted, refuse_motion
-from lambda_core.shaft.settings import with_settings
-from lambda_core.solver.drivers.held_ring import POSE
+from lambda_core.shaft.settings import changing, refuse_settings, with_settings
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.checking import check
 from lambda_core.system.ledger import Ledger
@@ -105,7 +103,7 @@ def check_shaft(
         models = _bearings(tables, folder, opened, found)
         ledger = Ledger(assumptions=list(case.assumptions) if case else [])
         resolved = _shaft(case, models, opened, ledger, found) if case else None
-    if case is not None and resolved is not None:
+    if case is not None and resolved is not None and not ledger.problems:
         resolved = with_settings(case, resolved, ledger)
     if found or ledger.problems or resolved is None:
         raise CaseError(name, [*found, *independent(found, ledger.problems, tables)])
@@ -154,17 +152,10 @@ def _shaft(
     if shape_known:
         _check_on_shaft(case, stand, outside, ledger)
     _check_one_place(case, stand, ledger)
-    changing = [("operation.speed", case.operation.speed)]
-    changing += [
-        (f"loads.{key}.{name}", getattr(load, name)) for key, load in case.loads.items() for name in COMPONENTS
-    ]
     for key, bearing in case.bearings.items():
-        motions = [f"motion_{dof}" for dof in POSE]
-        changing += [(f"bearings.{key}.support.{name}", getattr(bearing.support, name)) for name in motions]
         refuse_motion(key, bearing, case.housing.reduced is not None or stand.carrier(bearing.outer) != GROUND, ledger)
-    for key, rigid in case.bodies.items():
-        changing += [(f"bodies.{key}.motion_{dof}", getattr(rigid, f"motion_{dof}")) for dof in POSE]
-    refuse_laws(changing, ledger)
+    refuse_laws(changing(case), ledger)
+    refuse_settings(case, ledger)
     material = body_material(case.shaft.material, "shaft.material", catalogue, ledger)
     around = body_material(case.housing.material, "housing.material", catalogue, ledger)
     gears = _gears(case, ledger)

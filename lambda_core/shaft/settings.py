@@ -2,25 +2,47 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
+from typing import Any
 
 from lambda_core.case.shaft import ShaftCase
+from lambda_core.shaft.beside import COMPONENTS
 from lambda_core.shaft.model import MountedBearing, ShaftModel
+from lambda_core.solver.drivers.held_ring import POSE
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.resolve_solver import (
     cage_period,
     end_in_sight,
     excited_faster,
     resolution,
+    say_cut,
     settings,
     surface_of_its_own,
 )
-from lambda_core.system.time_functions import highest_frequency, peak
+from lambda_core.system.time_functions import highest_frequency, peak, time_function
 
 
-def excitation(model: ShaftModel) -> float:
-    """Return the highest frequency at which the shaft is loaded or led [Hz]; 0 where it is not."""
-    return highest_frequency(*model.led, *(function for _, function in model.varying))
+def changing(case: ShaftCase) -> list[tuple[str, Any]]:
+    """Return the path of everything that loads or leads the shaft, and its value or course."""
+    found: list[tuple[str, Any]] = [("operation.speed", case.operation.speed)]
+    for key, load in case.loads.items():
+        found += [(f"loads.{key}.{name}", getattr(load, name)) for name in COMPONENTS]
+    for key, bearing in case.bearings.items():
+        motions = [f"motion_{dof}" for dof in POSE]
+        found += [(f"bearings.{key}.support.{name}", getattr(bearing.support, name)) for name in motions]
+    for key, rigid in case.bodies.items():
+        found += [(f"bodies.{key}.motion_{dof}", getattr(rigid, f"motion_{dof}")) for dof in POSE]
+    return found
+
+
+def refuse_settings(case: ShaftCase, ledger: Ledger) -> None:
+    """Note settings that cannot be, whatever the shaft and its bearings are."""
+    given = case.solver
+    resolution(given, _excitation(case), "", ledger, is_silent=True)
+    end = given.duration or given.max_duration
+    if end is not None:  # turns of the cage end a run of their own accord
+        end_in_sight(given, None, end, math.inf, ledger)
 
 
 def with_settings(case: ShaftCase, model: ShaftModel, ledger: Ledger) -> ShaftModel:
@@ -29,25 +51,33 @@ def with_settings(case: ShaftCase, model: ShaftModel, ledger: Ledger) -> ShaftMo
     Parameters
     ----------
     case : ShaftCase
-        What the engineer wrote.
+        What the engineer wrote, without mistakes.
     model : ShaftModel
         Whose bearings were resolved each by itself.
     ledger : Ledger
-        Takes what was chosen, and what stands against it.
+        Takes what was chosen.
     """
-    given, frequency, speed = case.solver, excitation(model), peak(model.speed_over_time)
-    why = _rough(model.bearings) or excited_faster(frequency, speed).replace("bearing", "shaft")
-    resolve = resolution(given, frequency, why, ledger, is_silent=False)
+    given, frequency, speed = case.solver, _excitation(case), peak(model.speed_over_time)
+    rough, said = _rough(model.bearings), Ledger()
+    why = rough or excited_faster(frequency, speed).replace("bearing", "shaft")
+    resolve = resolution(given, frequency, why, said, is_silent=False)
     turns = [cage_period(mounted.model.geometry, speed) for mounted in model.bearings]
-    unheard = Ledger()  # each bearing's own resolution has said it
-    found = [settings(given, turn, frequency, resolve, unheard) for turn in turns]
-    slowest = max(found, key=lambda one: one.max_duration)
-    end_in_sight(given, None, slowest.duration or slowest.max_duration, max(turns), ledger)
+    found = [settings(given, turn, frequency, resolve, said) for turn in turns]
+    say_cut(given, min(one.max_step for one in found), said)
+    for sentence in said.assumptions:
+        ledger.assume(f"in motion {sentence}")
+    if rough:
+        ledger.assume(f"the equilibrium has nominal raceways ({rough})")
     bearings = tuple(
         replace(mounted, model=replace(mounted.model, solver=solver))
         for mounted, solver in zip(model.bearings, found, strict=True)
     )
     return replace(model, bearings=bearings, assumptions=tuple(ledger.assumptions))
+
+
+def _excitation(case: ShaftCase) -> float:
+    """Return the highest frequency at which the shaft is loaded or led [Hz]; 0 where it is not."""
+    return highest_frequency(*(time_function(signal) for _, signal in changing(case)))
 
 
 def _rough(bearings: tuple[MountedBearing, ...]) -> str:

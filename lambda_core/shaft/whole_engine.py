@@ -95,13 +95,15 @@ class WholeEngine:
         start = start_state(model, self.shaft, self.parts, self._bundle.active, self.start, self.equilibria)
         scales = state_sizes(model, self.shaft, self.parts, self._bundle)
         tolerance = min(part.bearing.model.solver.tolerance for part in self.parts)
-        resolve, stages = model.solver.resolve, STAGES if model.solver.resolve else 0
+        stages = STAGES if model.solver.resolve else 0
         self._memory = memory.make_memory(start, scales, tolerance, self._bundle, _CAPACITY, stages=stages)
-        self.sample_interval = usual_interval(max(1.0, *(abs(found.orbit) for found in self.equilibria)), resolve)
-        control, count = self._memory.control, self._memory.count
-        control["longest_step"] = min(
-            min(part.bearing.model.solver.max_step, longest_step(part.alone)) for part in self.parts
+        self.sample_interval = min(
+            usual_interval(part.bearing.model, found.orbit)
+            for part, found in zip(self.parts, self.equilibria, strict=True)
         )
+        control, count = self._memory.control, self._memory.count
+        longest = [min(part.bearing.model.solver.max_step, longest_step(part.alone)) for part in self.parts]
+        control["longest_step"] = min(longest)
         control["step"] = np.minimum(FIRST_STEP, control["longest_step"])
         control["shortest_step"], control["sample_interval"] = SMALLEST_STEP, self.sample_interval
         count["stale"] = 1
@@ -328,7 +330,7 @@ class WholeEngine:
 
     def modes(self) -> list[tuple[float, float]]:
         """Return frequency [Hz] and damping ratio of the slowest modes of shaft, rings and bodies at `time`."""
-        return ring_modes(self._bundle, self._blocks, self._memory.inertia, lowest=True)
+        return ring_modes(self._bundle, self._blocks, self._memory.inertia, until=self.model.solver.resolve)
 
     def state(self) -> dict[str, NDArray[np.float64]]:
         """Return everything that a continuation needs."""

@@ -31,6 +31,7 @@ USUAL_RESOLVE = 2000.0  # [Hz]; modes of a ring between the raceways of bearings
 # here is none, and what stands above falls into the spectrum: at a defect 2.56 made a line 2.3 times too high, 5.12
 # adds at most 5 %.
 SAMPLES_PER_PERIOD = 5.12
+_ROUNDED = 1e-9  # what is excited with every turn is not excited faster
 LEAST_PER_PERIOD = 2.56  # with samples further apart something is said
 OVER_EXCITATION = 2.0  # frequency that is followed over the highest that is excited
 
@@ -48,6 +49,7 @@ def resolve_solver(
     resolve = resolution(given, frequency, why, ledger, is_silent=is_static)
     found = settings(given, turn, frequency, resolve, ledger)
     if not is_static:
+        say_cut(given, found.max_step, ledger)
         end_in_sight(given, case.output.interval, found.duration or found.max_duration, turn, ledger)
         _say_what_folds(case, resolve or frequency, ledger)
     return found
@@ -75,8 +77,6 @@ def settings(given: Solver, turn: float, frequency: float, resolve: float, ledge
         largest = min(steps)
     if math.isinf(largest):
         largest = (given.duration or 1.0) / STEPS_PER_CAGE_TURN
-    if resolve and given.max_step is not None and given.max_step > largest:
-        ledger.assume(f"steps are at most {show(largest, 'time')}: solver.max_step would lose what is to be followed")
     return SolverSettings(
         tolerance=given.tolerance,
         duration=given.duration or 0.0,
@@ -87,6 +87,14 @@ def settings(given: Solver, turn: float, frequency: float, resolve: float, ledge
         max_wall=given.max_wall or math.inf,
         resolve=resolve,
     )
+
+
+def say_cut(given: Solver, longest: float, ledger: Ledger) -> None:
+    """Say where steps are shorter than the case asks for [s]."""
+    if given.max_step is not None and given.max_step > longest:
+        ledger.assume(
+            f"steps are at most {show(longest, 'time', 3)}: solver.max_step would lose what is to be followed"
+        )
 
 
 def resolution(given: Solver, frequency: float, why: str, ledger: Ledger, *, is_silent: bool) -> float:
@@ -134,7 +142,7 @@ def surface_of_its_own(laws: Mapping[str, Mapping[str, ChosenLaw]]) -> str:
 
 def excited_faster(frequency: float, speed: float) -> str:
     """Return what is excited faster [Hz] than anything turns [rad/s], in words, or nothing."""
-    if frequency > speed / (2.0 * math.pi):
+    if frequency > speed / (2.0 * math.pi) * (1.0 + _ROUNDED):
         return f"the bearing is excited at {show(frequency, 'frequency')}"
     return ""
 
@@ -180,7 +188,7 @@ def end_in_sight(given: Solver, interval: float | None, end: float, turn: float,
         key = "duration" if given.duration is not None else "max_duration"
         slow = f": one turn of the cage takes {show(turn, 'time', 3)}" if math.isfinite(turn) else ""
         ledger.problem(
-            f"solver.{key}", f"is {show(end, 'time')}, at most {show(MOST_TIME, 'time')} are simulated{slow}"
+            f"solver.{key}", f"is {show(end, 'time', 3)}, at most {show(MOST_TIME, 'time')} are simulated{slow}"
         )
         return
     counted = (

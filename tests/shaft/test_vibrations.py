@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
@@ -51,7 +50,7 @@ def ringing(solver: dict[str, Any]) -> Callable[[FloatArray], FloatArray]:
     for force in (30.0, -30.0):
         engine = WholeEngine(check_shaft(kicked(force, solver)))
         engine._memory.control["sample_interval"] = 5e-5  # alike for averages
-        assert engine.advance(0.0145).ok
+        assert engine.advance(0.0105).ok
         samples = engine.samples()
         assert samples is not None
         wheel = int(np.argmin(np.abs(engine.shaft.positions - WHEEL)))
@@ -61,8 +60,8 @@ def ringing(solver: dict[str, Any]) -> Callable[[FloatArray], FloatArray]:
 
 
 def test_a_kick_rings_as_in_a_run_a_hundred_times_tighter() -> None:
-    """1.1 kHz with 1 % of damping and 0.1 um: to 1 % after ten swings, of which averages leave nothing to compare."""
-    at = np.linspace(8e-3, 14e-3, 1000)
+    """1.1 kHz with 1 % of damping and 0.1 um: to 1 % after eight swings, of which averages leave next to nothing."""
+    at = np.linspace(6e-3, 10e-3, 1000)
     true, followed, averages = (ringing(solver)(at) for solver in (TIGHT, VIBRATION, {}))
     size = float(np.std(true))
     assert 2e-8 < size < 1e-6
@@ -78,12 +77,13 @@ def test_modes_in_motion_are_those_of_the_rotor() -> None:
     """
     tables = box(VIBRATION)
     engine = WholeEngine(check_shaft(tables))
-    assert engine.advance(1e-3).ok
+    assert engine.advance(2e-4).ok
     whole = np.array([frequency for frequency, damping in engine.modes()])
+    assert np.all(np.diff(whole) > 0.0)
     rotor = [mode.frequency_Hz for mode in api.shaft(tables).modes[:5]]
-    assert len(rotor) == 5
-    for frequency in rotor:
-        assert np.min(np.abs(whole / frequency - 1.0)) < 0.08, (frequency, whole)
+    near = [int(np.argmin(np.abs(whole / frequency - 1.0))) for frequency in rotor]
+    assert len(set(near)) == 5
+    assert whole[near] == pytest.approx(rotor, rel=0.08)
 
 
 @pytest.mark.parametrize("is_shaken", [True, False])
@@ -112,6 +112,29 @@ def test_vibrations_choose_themselves(is_shaken: bool) -> None:
     assert averages.solver.resolve == 0.0
 
 
+def test_what_shakes_with_every_turn_is_not_faster() -> None:
+    """11 Hz at 660 1/min, whatever the last bit of their quotient is."""
+    shaking = {"kind": "harmonic", "amplitude": "10 N", "frequency": "11 Hz"}
+    load = {"shaker": {"position": "85 mm", "force_z": shaking}}
+    assert check_shaft(box(operation={"speed": "660 rpm"}, loads=load)).solver.resolve == 0.0
+    assert check_shaft(box(operation={"speed": "659 rpm"}, loads=load)).solver.resolve == 2000.0
+
+
+def test_a_run_up_is_sampled_for_the_speed_that_it_reaches() -> None:
+    up = {"kind": "ramp", "start": "0 rpm", "end": "3000 rpm", "start_time": "0 s", "end_time": "20 ms"}
+    model = check_shaft(box(operation={"speed": up}, gears={}, loads={"l": {"position": "85 mm", "force_z": "-400 N"}}))
+    assert WholeEngine(model).sample_interval < 1e-3
+
+
+def test_steps_that_are_cut_are_said_once() -> None:
+    shaking = {"kind": "harmonic", "amplitude": "10 N", "frequency": "1.5 kHz"}
+    load = {"shaker": {"position": "85 mm", "force_z": shaking}}
+    model = check_shaft(box({"max_step": "1 ms"}, loads=load))
+    assert [text for text in model.assumptions if "steps are at most" in text] == [
+        "in motion steps are at most 55.6 us: solver.max_step would lose what is to be followed"
+    ]
+
+
 @pytest.mark.parametrize(
     ("solver", "place", "words"),
     [
@@ -131,6 +154,10 @@ def test_settings_that_cannot_be_are_said_once(solver: dict[str, Any], place: st
         check_shaft(found)
     assert [problem.where for problem in caught.value.problems] == [place]
     assert words in caught.value.problems[0].message
+    found["bearings"]["left"]["position"] = "2 m"
+    with pytest.raises(api.CaseError) as caught:
+        check_shaft(found)
+    assert {problem.where for problem in caught.value.problems} == {place, "bearings.left.position"}
 
 
 def test_a_mistake_in_a_force_element_of_one_bearing_has_its_place() -> None:
@@ -147,15 +174,15 @@ def test_a_run_with_a_defect_balances_and_goes_on_bit_for_bit(tmp_path: Path) ->
     """Every ball that crosses it strikes: one run to the end, and one that stopped halfway."""
     found = box()
     found["bearings"]["right"]["forces"] = DEFECT
-    whole = api.shaft_run(found, out=tmp_path / "whole", duration=0.012)
+    whole = api.shaft_run(found, out=tmp_path / "whole", duration=0.006)
     assert whole.energy_residual is not None
     assert abs(whole.energy_residual) < 1e-3
     assert whole.vibrations is not None
     assert whole.vibrations.resolve_Hz == 2000.0
     assert whole.vibrations.modes
     assert "vibrations" in whole.text()
-    api.shaft_run(found, out=tmp_path / "parts", duration=0.006)
-    api.shaft_resume(tmp_path / "parts", duration=0.012)
+    api.shaft_run(found, out=tmp_path / "parts", duration=0.003)
+    api.shaft_resume(tmp_path / "parts", duration=0.006)
     for name in ("left", "right"):
         one, other = (Result(tmp_path / folder / f"{name}.h5") for folder in ("whole", "parts"))
         assert one.integrals()[-1].tobytes() == other.integrals()[-1].tobytes()
@@ -165,15 +192,23 @@ def test_a_run_with_a_defect_balances_and_goes_on_bit_for_bit(tmp_path: Path) ->
 
 
 def test_a_time_that_no_machine_simulates_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(api.UsageError, match=r"a duration of 1000000000 s: at most 1000000 s"):
+    with pytest.raises(api.UsageError, match=r"a duration of .*: at most 1000000 s"):
         api.shaft_run(box(), out=tmp_path / "run", duration=1e9)
+    slow = {"operation": {"speed": "0.001 rpm"}, "gears": {}}
+    assert check_shaft(box(**slow)).solver.max_duration > 1e6  # of an equilibrium nobody asks
+    with pytest.raises(api.UsageError, match="30 turns of a cage; give --duration"):
+        api.shaft_run(box(**slow), out=tmp_path / "run")
+    with pytest.raises(api.UsageError, match="where nothing turns a run needs a duration"):
+        api.shaft_run(box(operation={"speed": "0 rpm"}, gears={}), out=tmp_path / "run")
     assert not (tmp_path / "run").exists()
 
 
 def test_the_end_of_the_case_holds_where_none_is_given(tmp_path: Path) -> None:
     found = api.shaft_run(box({"duration": "2 ms"}), out=tmp_path / "run")
     assert found.simulated_s == pytest.approx(2e-3, abs=5e-4)
-    assert math.isfinite(found.wall_s)
+    found = api.shaft_run(box({"duration": "100 s", "max_wall": "0.01 s"}), out=tmp_path / "stopped")
+    assert found.state == "stopped"
+    assert found.simulated_s < 10.0
 
 
 def lines(solver: dict[str, Any]) -> tuple[FloatArray, FloatArray]:

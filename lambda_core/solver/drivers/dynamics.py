@@ -35,7 +35,6 @@ from lambda_core.solver.integrator import memory
 from lambda_core.solver.integrator.tableau import STAGES
 from lambda_core.solver.sampling import CONTACT_CHANNELS
 from lambda_core.system.bearing import BearingModel
-from lambda_core.system.law_context import max_speed
 from lambda_core.system.state_channels import result_channels
 
 _CAPACITY = 512
@@ -50,8 +49,6 @@ _COUNTERS = (
     "factorisations",
 )
 _BUFFER = ("sample_t", "sample_y")  # of the memory
-_MUCH_FASTER = 1.5  # a planned cage speed over that at the start, from which on it counts
-_SPIN_FOR_SAMPLES = 1.0  # [rad/s] slowest cage speed that the default sampling interval is made for
 
 
 class BearingEngine:
@@ -109,7 +106,7 @@ class BearingEngine:
             capacity,
             stages=STAGES if model.solver.resolve else 0,
         )
-        self.sample_interval = model.output.interval or usual_interval(self._cage_speed(), model.solver.resolve)
+        self.sample_interval = model.output.interval or usual_interval(model, self._equilibrium.orbit)
         control, count = self._memory.control, self._memory.count
         control["longest_step"] = min(model.solver.max_step, longest_step(self._context))
         control["step"] = np.minimum(FIRST_STEP, control["longest_step"])
@@ -121,12 +118,6 @@ class BearingEngine:
         self._start_angles = self._angles()
         self._start_energy = self._stored(0.0, start)
         self._drained: list[dict[str, FloatArray]] = []
-
-    def _cage_speed(self) -> float:
-        """Return the cage speed that samples are spaced for [rad/s]: the start's, or a much faster planned one."""
-        start, g = abs(self._equilibrium.orbit), self.model.geometry
-        planned = 0.5 * (1.0 - g.ball_diameter / g.pitch_diameter) * max_speed(self.model)
-        return max(start if planned < _MUCH_FASTER * start else planned, _SPIN_FOR_SAMPLES)
 
     @property
     def time(self) -> float:

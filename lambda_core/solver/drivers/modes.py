@@ -38,7 +38,9 @@ def dense(blocks: Blocks) -> FloatArray:
     return matrix
 
 
-def ring_modes(bundle: Any, blocks: Blocks, inertia: FloatArray, *, lowest: bool = False) -> list[tuple[float, float]]:
+def ring_modes(
+    bundle: Any, blocks: Blocks, inertia: FloatArray, *, until: float | None = None
+) -> list[tuple[float, float]]:
     """Return frequency [Hz] and damping ratio [-] of the modes of the rings, by frequency.
 
     A mode belongs to the rings where half of its kinetic energy or more is theirs. Those of the Jacobian blocks are
@@ -48,9 +50,9 @@ def ring_modes(bundle: Any, blocks: Blocks, inertia: FloatArray, *, lowest: bool
     ----------
     inertia : float64[:]
         Mass or moment of inertia of each state, 0 for a position; (n,).
-    lowest : bool
-        Tell the slowest of them, as of a shaft, which has some of its own far above all that is asked for; otherwise
-        those that are damped least.
+    until : float, optional
+        Tell those up to this frequency [Hz], and some above it where they are few: a shaft has modes of its own far
+        above all that is asked for. Otherwise those that are damped least.
     """
     matrix = dense(blocks)
     if not np.isfinite(matrix).all():
@@ -62,6 +64,7 @@ def ring_modes(bundle: Any, blocks: Blocks, inertia: FloatArray, *, lowest: bool
     share = energy[rings].sum(axis=0) / (energy.sum(axis=0) + 1e-300)
     frequency, damping = np.abs(values) / (2.0 * np.pi), -values.real / (np.abs(values) + 1e-300)
     mine = (values.imag > 0.0) & (share > _RING) & (frequency > _SLOWEST) & (damping > 0.0) & (damping < _DAMPED)
-    order = frequency if lowest else damping
-    found = sorted(zip(order[mine].tolist(), frequency[mine].tolist(), damping[mine].tolist(), strict=True))[:_MOST]
-    return sorted((f, d) for _, f, d in found)
+    every = sorted(zip(frequency[mine].tolist(), damping[mine].tolist(), strict=True))
+    if until is not None:
+        return every[: max(_MOST, sum(f <= until for f, _ in every))]
+    return sorted(sorted(every, key=lambda mode: mode[1])[:_MOST])
