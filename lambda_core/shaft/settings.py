@@ -59,7 +59,7 @@ def with_settings(case: ShaftCase, model: ShaftModel, ledger: Ledger) -> ShaftMo
     """
     given, frequency, speed = case.solver, _excitation(case), peak(model.speed_over_time)
     rough, said = _rough(model.bearings), Ledger()
-    why = rough or excited_faster(frequency, speed).replace("bearing", "shaft")
+    why = rough or excited_faster("shaft", frequency, speed)
     resolve = resolution(given, frequency, why, said, is_silent=False)
     turns = [cage_period(mounted.model.geometry, speed) for mounted in model.bearings]
     found = [settings(given, turn, frequency, resolve, said) for turn in turns]

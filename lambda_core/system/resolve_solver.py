@@ -45,7 +45,7 @@ def resolve_solver(
     if math.isinf(turn) and given.duration is None and not is_static:
         ledger.problem("solver.duration", "is required where nothing turns at first: averages need turns of the cage")
     frequency = highest_frequency(*(time_function(signal) for _, signal in signals_of(case)))
-    why = surface_of_its_own(laws) or excited_faster(frequency, max(fastest))
+    why = surface_of_its_own(laws) or excited_faster("bearing", frequency, max(fastest))
     resolve = resolution(given, frequency, why, ledger, is_silent=is_static)
     found = settings(given, turn, frequency, resolve, ledger)
     if not is_static:
@@ -140,10 +140,10 @@ def surface_of_its_own(laws: Mapping[str, Mapping[str, ChosenLaw]]) -> str:
     return ""
 
 
-def excited_faster(frequency: float, speed: float) -> str:
-    """Return what is excited faster [Hz] than anything turns [rad/s], in words, or nothing."""
+def excited_faster(what: str, frequency: float, speed: float) -> str:
+    """Return in words that `what` is excited faster [Hz] than anything turns [rad/s], or nothing."""
     if frequency > speed / (2.0 * math.pi) * (1.0 + _ROUNDED):
-        return f"the bearing is excited at {show(frequency, 'frequency')}"
+        return f"the {what} is excited at {show(frequency, 'frequency')}"
     return ""
 
 
