@@ -1,6 +1,7 @@
-"""End states of cases as one JSON object on stdout: run by the interpreter of the version that is asked.
+"""Print hashes of results as one JSON object; runs in the interpreter of the version that is asked.
 
-Uses nothing but ``lambda_core.api``, so that versions with other rooms can be asked too.
+Uses nothing but ``lambda_core.api`` and h5py, so that it also runs with versions whose packages are arranged
+differently.
 """
 
 from __future__ import annotations
@@ -8,8 +9,11 @@ from __future__ import annotations
 import hashlib
 import json
 import sys
+import tempfile
+from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 
 from lambda_core import api
@@ -23,12 +27,72 @@ def end_state(case: str, overrides: dict[str, Any], duration: float) -> dict[str
         last = step
     if last is None:
         raise SystemExit(f"{case}: no step was taken")
-    found = {name: np.ascontiguousarray(values, dtype=np.float64) for name, values in last.channels.items()}
-    found["time"] = np.array([last.time_s])
-    return {name: hashlib.sha256(values.tobytes()).hexdigest()[:16] for name, values in found.items()}
+    found = {name: _hash(values) for name, values in last.channels.items()}
+    return found | {"time": _hash(last.time_s)}
+
+
+def bearing_case(entry: dict[str, Any]) -> Any:
+    """Return the case of an entry: a built-in one with changes, or one that is complete."""
+    if "from" in entry:
+        return api.case(entry["from"]).with_(**entry.get("changes", {}))
+    return {"name": "endstate"} | entry["case"]
+
+
+def bearing_run(entry: dict[str, Any], folder: Path) -> dict[str, str]:
+    """Return the hash of every channel and table of the run of one bearing, resumed where `entry` says so."""
+    path = folder / "run.h5"
+    api.run(bearing_case(entry), [f"solver.duration={entry.get('stop', entry['duration'])}"], out=path)
+    if "stop" in entry:
+        api.resume(path, [f"solver.duration={entry['duration']}"])
+    return _result(path)
+
+
+def shaft_run(entry: dict[str, Any], folder: Path) -> dict[str, str]:
+    """Return the hash of every channel and table of the run of a shaft and of each of its bearings."""
+    out, case = folder / "run", {"name": "endstate"} | entry["case"]
+    stop, end = (_seconds(entry[name]) if name in entry else None for name in ("stop", "duration"))
+    api.shaft_run(case, out=out, duration=stop or end)
+    if stop:
+        api.shaft_resume(out, duration=end)
+    found = {}
+    for path in sorted(out.glob("*.h5")):
+        if path.name != "shaft.h5":
+            found |= {f"{path.stem}/{name}": value for name, value in _result(path).items()}
+    with h5py.File(out / "shaft.h5") as file:
+        for name, values in file.items():
+            if isinstance(values, h5py.Dataset) and values.dtype.kind == "f":
+                found[f"shaft/{name}"] = _hash(values[:])
+    return found
+
+
+def _seconds(text: str) -> float:
+    number, unit = text.split()
+    return float(number) * {"s": 1.0, "ms": 1e-3}[unit]
+
+
+def _result(path: Path) -> dict[str, str]:
+    """Return the hash of all samples of every channel, of the integrals and of the circuit's tables."""
+    result = api.result(path)
+    found = {channel.name: _hash(result[channel.name]) for channel in result.channels}
+    found |= {"integrals": _hash(result.integrals()), "revolutions": _hash(result.revolutions())}
+    for table in ("circuit", "discharges"):
+        found |= {f"{table}.{name}": _hash(values) for name, values in getattr(result, table)().items()}
+    return found
+
+
+def _hash(values: Any) -> str:
+    return hashlib.sha256(np.ascontiguousarray(values, dtype=np.float64).tobytes()).hexdigest()[:16]
+
+
+def answer(question: dict[str, Any]) -> dict[str, dict[str, str]]:
+    """Return channel -> hash of every case that `question` names."""
+    states = {name: end_state(name, question["overrides"], question["duration"]) for name in question["cases"]}
+    for kind, run in (("bearings", bearing_run), ("shafts", shaft_run)):
+        for name, entry in question[kind].items():
+            with tempfile.TemporaryDirectory() as folder:
+                states[name] = run(entry, Path(folder))
+    return states
 
 
 if __name__ == "__main__":
-    question = json.load(sys.stdin)
-    states = {name: end_state(name, question["overrides"], question["duration"]) for name in question["cases"]}
-    json.dump(states, sys.stdout)
+    json.dump(answer(json.load(sys.stdin)), sys.stdout)

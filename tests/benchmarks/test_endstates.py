@@ -4,8 +4,13 @@ from __future__ import annotations
 
 import sys
 
+import pytest
+
 from benchmarks import endstates
+from benchmarks.endstate_worker import bearing_case
 from lambda_core import api
+
+KINDS = {"deep groove", "angular contact", "four-point", "double row", "self-aligning"}
 
 
 def test_a_changed_bit_is_found_and_a_channel_of_one_version_is_not_compared() -> None:
@@ -19,6 +24,30 @@ def test_the_named_laws_and_constants_are_allowed_in_every_case() -> None:
     """A constant that went out of the program would make every comparison fail."""
     for name in endstates.CASES:
         api.check(api.case(name).with_(**endstates.constants(newer=True)))
+
+
+def test_the_recent_cases_cover_every_kind_of_bearing_and_three_shafts() -> None:
+    """Each entry resolves; together they have all kinds, elastic parts, a circuit, resumed runs."""
+    entries = endstates.recent_cases()
+    models = {name: api.check(bearing_case(entry)) for name, entry in entries["bearings"].items()}
+    assert {model.geometry.kind for model in models.values()} == KINDS
+    assert len([api.check_shaft({"name": "endstate"} | entry["case"]) for entry in entries["shafts"].values()]) == 3
+    assert sum("stop" in entry for kind in endstates.KINDS for entry in entries[kind].values()) >= 3
+
+
+def test_a_case_without_common_channels_is_not_equal(capsys: pytest.CaptureFixture[str]) -> None:
+    """A renamed file layout must not pass as equal bits."""
+    assert endstates.tell({"case": {"left/load": "a"}}, {"case": {"load": "a"}}) == ["case"]
+    assert "no channel in common" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("kind", "name"), [("bearings", "default-laws-axial"), ("shafts", "gearbox")])
+def test_a_recent_case_gives_hashes(kind: str, name: str) -> None:
+    """Short runs of both kinds; the circuit and the integrals are among what is compared."""
+    entry = endstates.recent_cases()[kind][name] | {"duration": "0.2 ms"}
+    states = endstates.ask(sys.executable, [], 0.0, newer=True, recent={kind: {name: entry}})
+    assert len(states[name]) > 30
+    assert any(channel.endswith("integrals") for channel in states[name])
 
 
 def test_two_runs_of_one_version_end_in_the_same_bits() -> None:
