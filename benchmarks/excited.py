@@ -52,8 +52,9 @@ def changes() -> tuple[str, ...]:
     share = np.clip((time - REST) / GROWTH, 0.0, 1.0)
     place = 1e6 * share * PEAK / omega**2 * np.sin(omega * (time - REST))
     points = ", ".join(f'["{t:.6f} s", "{x:.4f} um"]' for t, x in zip(time, place, strict=True))
+    motion = f'{{ kind = "table", interpolation = "spline", points = [{points}] }}'  # a sine: its acceleration counts
     return (
-        f'bodies.outer_ring.x={{ mode = "prescribed", motion = {{ kind = "table", points = [{points}] }} }}',
+        f'bodies.outer_ring.x={{ mode = "prescribed", motion = {motion} }}',
         f"solver.duration={REST + GROWTH} s",
     )
 

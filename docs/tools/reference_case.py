@@ -191,6 +191,7 @@ def _time_functions() -> list[str]:
                 "terms": "list",
                 "law": "text",
                 "parameters": "table",
+                "interpolation": " or ".join(md.code(choice) for choice in card.choices),
             }.get(field, value)
             default = "required" if card.required else md.code(card.default)
             rows.append([md.code(field), value, default, md.cell(info.description or "")])

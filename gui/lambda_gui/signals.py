@@ -30,7 +30,7 @@ _SIGNALS = {
     "constant": "the same at all times, written as a table",
     "ramp": "linear from one value to another, constant before and after",
     "harmonic": "amplitude * sin(2 pi frequency t + phase), about zero; with a constant part: a sum",
-    "table": "points in time joined by a cubic spline, or a CSV file",
+    "table": "points in time joined by a smooth curve, or a CSV file",
     "law": "a course over time by a law, times an amplitude: chirp, or what a plugin brings",
     "sum": "several of these added, for example a value and a harmonic",
 }

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import csv
 import re
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, TypeVar
@@ -68,15 +69,22 @@ class Harmonic(TimeTable, Generic[V]):
 
 
 class Table(TimeTable, Generic[V]):
-    """Values at points in time, joined by a cubic spline and held constant outside.
+    """Values at points in time, joined by a smooth curve and held constant outside.
 
     ``points`` stand in the case; ``file`` names a CSV file beside it whose header is
     ``time [s],value [kN]`` (the units in brackets are those of the columns).
+
+    Between two neighbours the curve stays between their values (``monotone``), with a continuous first derivative. A
+    ``spline`` has a continuous second one, as a prescribed motion that swings needs it, and goes beyond points that
+    bend sharply: `check` says how far. Both begin and end with slope 0; two points are joined by a straight line.
     """
 
     kind: Literal["table"]
     points: list[tuple[Time, V]] | None = option(None, 'pairs of time and value, [["0 s", "0 N"], ["1 s", "5 kN"]]')
     file: str | None = option(None, "CSV file with two columns, relative to the case file", min_length=1)
+    interpolation: Literal["monotone", "spline"] = option(
+        "monotone", "curve through the points: one that never leaves their range, or a cubic spline with flat ends"
+    )
     _rows: tuple[tuple[float, float], ...] = PrivateAttr(default=())
 
     @model_validator(mode="after")
@@ -89,7 +97,7 @@ class Table(TimeTable, Generic[V]):
             rows = tuple((time, float(value)) for time, value in self.points)  # type: ignore[arg-type]
         else:
             folder = Path((info.context or {}).get("folder") or ".")
-            rows = read_table(folder / str(self.file), self._quantity())
+            rows = read_table(folder / str(self.file), self.quantity)
         if len(rows) < 2:
             raise ValueError("a table needs at least two points")
         if any(later <= earlier for (earlier, _), (later, _) in pairwise(rows)):
@@ -97,9 +105,10 @@ class Table(TimeTable, Generic[V]):
         self._rows = rows
         return self
 
-    @classmethod
-    def _quantity(cls) -> str:
-        (value_type,) = cls.__pydantic_generic_metadata__["args"]
+    @property
+    def quantity(self) -> str:
+        """Quantity of the values."""
+        (value_type,) = type(self).__pydantic_generic_metadata__["args"]
         return next(item.name for item in value_type.__metadata__ if isinstance(item, Quantity))
 
     @property
@@ -111,8 +120,9 @@ class Table(TimeTable, Generic[V]):
         """Return the table with its points written out, for a case that must stand alone."""
         from lambda_core.domain.units import show
 
-        quantity = self._quantity()
-        return {"kind": "table", "points": [[show(time, "time"), show(value, quantity)] for time, value in self.rows]}
+        points = [[show(time, "time"), show(value, self.quantity)] for time, value in self.rows]
+        chosen = {"interpolation": self.interpolation} if "interpolation" in self.model_fields_set else {}
+        return {"kind": "table", "points": points, **chosen}
 
 
 class ByLaw(TimeTable, Generic[V]):
@@ -164,6 +174,15 @@ class Sum(TimeTable, Generic[V]):
                 f"{len(terms)} terms, at most {_MOST_TERMS}: each is evaluated at every step; write a table of points"
             )
         return data
+
+
+def summands(signals: Iterable[tuple[str, float | TimeTable | None]]) -> Iterator[tuple[str, float | TimeTable | None]]:
+    """Yield paths and values, terms of sums one by one."""
+    for path, signal in signals:
+        if isinstance(signal, Sum):
+            yield from ((f"{path}.terms.{number}", term) for number, term in enumerate(signal.terms))
+        else:
+            yield path, signal
 
 
 _HEADER = re.compile(r"^\s*(.*?)\s*\[\s*(.*?)\s*\]\s*$")

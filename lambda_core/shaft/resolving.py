@@ -44,6 +44,7 @@ from lambda_core.shaft.seating import mounted, refuse_motion
 from lambda_core.shaft.settings import changing, refuse_settings, with_settings
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.checking import check
+from lambda_core.system.interpolation import say_overshoot
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.time_functions import initial, planned_speed, time_function
 from lambda_core.system.time_laws import refuse_laws
@@ -155,6 +156,7 @@ def _shaft(
     for key, bearing in case.bearings.items():
         refuse_motion(key, bearing, case.housing.reduced is not None or stand.carrier(bearing.outer) != GROUND, ledger)
     refuse_laws(changing(case), ledger)
+    say_overshoot(changing(case), ledger)
     refuse_settings(case, ledger)
     material = body_material(case.shaft.material, "shaft.material", catalogue, ledger)
     around = body_material(case.housing.material, "housing.material", catalogue, ledger)
@@ -216,7 +218,7 @@ def _shaft(
         contamination=case.life.contamination,
         gears=gears,
         assumptions=tuple(ledger.assumptions),
-        warnings=fitting_warnings(case, bearings, _outline(case)),
+        warnings=(*ledger.contradictions, *fitting_warnings(case, bearings, _outline(case))),
         outline=_outline(case) if outside is None else _drawn(body, bearings),
         discs=tuple((name, disc.place) for name, disc in case.discs.items()),
         load_places=tuple(acting),

@@ -28,12 +28,19 @@ class Term:
     """One summand of a time function, SI.
 
     kind and values: constant (v,) | ramp (v_0, v_1, t_0, t_1) | harmonic (amplitude, frequency [Hz],
-    phase [rad]): amplitude * sin(2 pi f t + phase) | table (t_0, v_0, t_1, v_1, ...), a cubic spline
-    through the points (C2, held constant outside).
+    phase [rad]): amplitude * sin(2 pi f t + phase) | table (t_0, v_0, t_1, v_1, ...), cubics
+    through the points (held constant outside).
     """
 
     kind: Literal["constant", "ramp", "harmonic", "table", "law"]
     values: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class TableTerm(Term):
+    """Points of a table, and the curve that joins them (lambda_core.system.interpolation)."""
+
+    interpolation: Literal["monotone", "spline"] = "monotone"
 
 
 @dataclass(frozen=True)

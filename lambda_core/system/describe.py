@@ -9,7 +9,7 @@ from pydantic import BaseModel
 
 from lambda_core.domain.elements import DOFS
 from lambda_core.domain.units import from_si, show
-from lambda_core.system.bearing import BearingModel, Body, Term, TimeFunction
+from lambda_core.system.bearing import BearingModel, Body, TableTerm, Term, TimeFunction
 from lambda_core.system.law_packages import laws_line
 from lambda_core.system.operating_limits import operating_warnings
 from lambda_core.system.resolve import case_hash
@@ -158,8 +158,8 @@ def _term_text(term: Term, quantity: str) -> str:
         return f"ramp {start} to {end} in {_value_text(values[3] - values[2], 'time')}"
     if kind == "harmonic":
         return f"harmonic {_value_text(values[0], quantity)} at {_value_text(values[1], 'frequency')}"
-    if kind == "table":
-        return f"table of {len(values) // 2} points"
+    if isinstance(term, TableTerm):
+        return f"{'spline' if term.interpolation == 'spline' else 'table'} of {len(values) // 2} points"
     return _value_text(values[0], quantity)
 
 

@@ -48,7 +48,7 @@ class Ledger:
             self.assumptions.append(sentence)
 
     def contradict(self, sentence: str) -> None:
-        """Note that the case says two things, and which of them counts."""
+        """Note that the case says two things, and which of them counts; a warning of `check` and of every result."""
         self.contradictions.append(sentence)
 
     def problem(self, where: str, message: str) -> None:

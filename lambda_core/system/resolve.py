@@ -33,6 +33,7 @@ from lambda_core.system.bearing import (
     Output,
 )
 from lambda_core.system.geometry_checks import check_clearance
+from lambda_core.system.interpolation import say_overshoot
 from lambda_core.system.law_packages import with_packages
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.resolve_bodies import (
@@ -59,7 +60,7 @@ from lambda_core.system.resolve_thermal import check_thermal
 from lambda_core.system.resolve_watch import WatchSource, resolve_events, resolve_observers
 from lambda_core.system.shadowed_data import tell_shadows
 from lambda_core.system.time_functions import peak, time_function
-from lambda_core.system.time_laws import resolve_time_laws
+from lambda_core.system.time_laws import resolve_time_laws, signals_of
 from lambda_core.views.observer import Event, Observer
 
 # [m/s] on the pitch circle: a ring of steel would be under rho v^2 = 7.9 GPa of hoop stress (Timoshenko and Goodier,
@@ -101,6 +102,8 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
     lubricant, oil = resolve_lubricant(case.lubricant, catalogue, ledger)
     case = hold_tilts(case, bare[0], ledger) if bare else case
     case, courses = resolve_time_laws(case, registry, ledger)
+    if not is_static:
+        say_overshoot(signals_of(case), ledger)
     check_bodies(case, ledger)
     check_thermal(case, ledger)
     _settings(case, ledger)

@@ -6,7 +6,8 @@ import math
 from dataclasses import replace
 
 from lambda_core.case.signals import ByLaw, Constant, Harmonic, Ramp, Sum, Table, TimeTable
-from lambda_core.system.bearing import LawTerm, Term, TimeFunction
+from lambda_core.system.bearing import LawTerm, TableTerm, Term, TimeFunction
+from lambda_core.system.interpolation import curve, extremes, table_term
 
 
 def time_function(signal: float | TimeTable | None) -> TimeFunction:
@@ -22,7 +23,7 @@ def time_function(signal: float | TimeTable | None) -> TimeFunction:
     if isinstance(signal, Harmonic):
         return TimeFunction((Term("harmonic", (signal.amplitude, signal.frequency, signal.phase)),))
     if isinstance(signal, Table):
-        return TimeFunction((Term("table", tuple(number for row in signal.rows for number in row)),))
+        return TimeFunction((table_term(signal),))
     if isinstance(signal, ByLaw):
         if signal.course is None:  # the law is not there, which the resolution has said
             return TimeFunction()
@@ -57,15 +58,15 @@ def _scaled_values(term: Term, factor: float) -> tuple[float, ...]:
 
 
 def peak(function: TimeFunction) -> float:
-    """Return an upper bound of the magnitude at all times (spline overshoot of tables aside)."""
+    """Return an upper bound of the magnitude at all times."""
     return math.fsum(_term_peak(term) for term in function.terms)
 
 
 def _term_peak(term: Term) -> float:
     if term.kind == "ramp":
         return max(abs(term.values[0]), abs(term.values[1]))
-    if term.kind == "table":
-        return max(abs(number) for number in term.values[1::2])
+    if isinstance(term, TableTerm):
+        return max(abs(value) for _, value in extremes(term))
     if term.kind == "law":
         return abs(term.values[0]) * term.values[2]
     return abs(term.values[0])
@@ -81,13 +82,11 @@ def _term_initial(term: Term) -> float:
         return term.values[0] * math.sin(term.values[2])
     if term.kind == "law":
         return term.values[0] * term.values[1]
-    if term.kind == "table":
+    if isinstance(term, TableTerm):
         times, numbers = term.values[0::2], term.values[1::2]
         if times[0] >= 0.0 or times[-1] <= 0.0:
             return numbers[0] if times[0] >= 0.0 else numbers[-1]
-        from scipy.interpolate import CubicSpline
-
-        return float(CubicSpline(times, numbers)(0.0))
+        return float(curve(term)(0.0))
     return term.values[0]
 
 

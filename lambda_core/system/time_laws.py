@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lambda_core.case.signals import ByLaw, Sum, TimeTable
+from lambda_core.case.signals import ByLaw, TimeTable, summands
 from lambda_core.domain.elements import BODIES, DOFS
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import ROLES
@@ -49,11 +49,9 @@ Signals = Iterable[tuple[str, float | TimeTable | None]]
 
 def _by_law(signals: Signals) -> Iterator[tuple[str, ByLaw[Any]]]:
     """Yield the signals, and terms of sums, that a law gives."""
-    for path, signal in signals:
-        terms = enumerate(signal.terms) if isinstance(signal, Sum) else [(None, signal)]
-        for number, term in terms:
-            if isinstance(term, ByLaw):
-                yield path if number is None else f"{path}.terms.{number}", term
+    for path, term in summands(signals):
+        if isinstance(term, ByLaw):
+            yield path, term
 
 
 def resolve_time_laws(

@@ -160,6 +160,10 @@ async def test_a_sum_of_loads_and_a_table_of_points(hand_written: Path) -> None:
         await write(pilot, "1 s, 2 kN")
         await checked(pilot)
         assert draft.get("loads", "radial", "points") == [["0 s", "1.5 kN"], ["1 s", "2 kN"]]
+        await go_to(pilot, "loads.radial.interpolation")
+        await pilot.press("enter", "end", "enter")
+        await checked(pilot)
+        assert draft.get("loads", "radial", "interpolation") == "spline"
         assert not builder(pilot).check.problems
 
 

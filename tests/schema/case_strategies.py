@@ -39,6 +39,11 @@ def signal(name: str) -> st.SearchStrategy[Any]:
             lambda t: st.lists(value, min_size=len(t), max_size=len(t)).map(
                 lambda v: {"kind": "table", "points": [[f"{a!r} s", b] for a, b in zip(t, v, strict=True)]}
             )
+        ).flatmap(
+            lambda table: st.fixed_dictionaries(
+                {name: st.just(part) for name, part in table.items()},
+                optional={"interpolation": st.sampled_from(["monotone", "spline"])},
+            )
         ),
     )
     return simple | st.fixed_dictionaries({"kind": st.just("sum"), "terms": st.lists(simple, min_size=1, max_size=3)})

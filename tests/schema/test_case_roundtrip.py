@@ -120,6 +120,11 @@ def test_csv_table_is_read_beside_the_case_and_written_out_for_a_result(tmp_path
     assert alone.loads.axial.rows == expected  # type: ignore[union-attr]
     assert "load.csv" not in standalone_toml(case)
     assert 'file = "load.csv"' in case_toml(case)
+    chosen = apply_overrides(case, ["loads.axial.interpolation=spline"])
+    for text in (case_toml(chosen, path.read_text()), standalone_toml(chosen)):
+        path.write_text(text)
+        assert load_case(path).loads.axial.interpolation == "spline"  # type: ignore[union-attr]
+        assert load_case(path).loads.axial.rows == expected  # type: ignore[union-attr]
 
 
 def test_new_case_does_not_overwrite(tmp_path: Path) -> None:

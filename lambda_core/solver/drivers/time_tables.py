@@ -13,7 +13,8 @@ from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.law_inputs import times
 from lambda_core.solver.drivers.wave_tables import wave_states, weightless
-from lambda_core.system.bearing import BearingModel, LawTerm, TimeFunction
+from lambda_core.system.bearing import BearingModel, LawTerm, TableTerm, TimeFunction
+from lambda_core.system.interpolation import curve
 
 _KINDS = {"constant": R.CONSTANT, "ramp": R.RAMP, "harmonic": R.HARMONIC, "table": R.TABLE, "law": R.LAW}
 # Fields of a term that take the values of each kind.
@@ -34,15 +35,11 @@ def add_terms(
     for term in function.terms:
         row = np.zeros(1, R.TERM)
         row["signal"], row["kind"] = signal, _KINDS[term.kind]
-        if term.kind == "table":
-            from scipy.interpolate import CubicSpline  # a third of a second to import, and most runs have no table
-
-            times, values = np.array(term.values[0::2]), np.array(term.values[1::2])
-            row["start"], row["knots"] = len(table), times.size
-            spline = CubicSpline(times, values, bc_type="clamped" if times.size > 2 else "natural")
-            for i in range(times.size - 1):
-                table += [times[i], *(float(spline.c[3 - k, i]) for k in range(4))]
-            table += [times[-1], values[-1], 0.0, 0.0, 0.0]
+        if isinstance(term, TableTerm):
+            joined = curve(term)
+            row["start"], row["knots"] = len(table), joined.x.size
+            table += np.column_stack([joined.x[:-1], joined.c[::-1].T]).ravel().tolist()
+            table += [joined.x[-1], term.values[-1], 0.0, 0.0, 0.0]
         else:
             for name, value in zip(_VALUES[term.kind], term.values, strict=False):
                 row[name] = value
