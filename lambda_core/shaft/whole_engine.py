@@ -158,7 +158,7 @@ class WholeEngine:
 
     def fingerprint(self) -> bytes:
         """Return the numbers that the motion is made of: another case or code has others."""
-        tables = (self._bundle.bodies, self._bundle.par, self._bundle.tie_stiffness, self._bundle.terms)
+        tables = [getattr(self._bundle, name) for name in ("bodies", "par", "tie_stiffness", "terms", "table")]
         start = np.concatenate([self._start_angles, [self._start_energy, self.sample_interval]])
         return b"".join(table.tobytes() for table in (*tables, start))
 

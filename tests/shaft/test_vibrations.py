@@ -70,6 +70,12 @@ def test_a_kick_rings_as_in_a_run_a_hundred_times_tighter() -> None:
     assert float(np.std(averages)) < 0.5 * size
 
 
+def test_another_course_of_a_load_is_another_run() -> None:
+    """A run goes on with the fingerprint that it began with: the points of a table belong to it."""
+    found = {WholeEngine(check_shaft(kicked(force, VIBRATION))).fingerprint() for force in (30.0, 31.0)}
+    assert len(found) == 2
+
+
 def test_modes_in_motion_are_those_of_the_rotor() -> None:
     """Eigenvalues of all balls, rings and lumps against those of the beam on the bearings' matrices.
 
