@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sqlite3
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Literal
 from urllib.parse import quote
@@ -74,3 +76,19 @@ def sqlite_engine(
             connection.exec_driver_sql(begin)
 
     return engine
+
+
+@contextmanager
+def at_one_moment(connection: Connection) -> Iterator[None]:
+    """Read in here what one moment held, whatever others write meanwhile.
+
+    Parameters
+    ----------
+    connection : Connection
+        Of an engine whose statements are transactions of their own.
+    """
+    connection.exec_driver_sql("BEGIN")
+    try:
+        yield
+    finally:
+        connection.rollback()  # harmless where SQLite has ended the transaction after an error

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from sqlalchemy import Connection
 
-from lambda_db.engine import file_uri
+from lambda_db.engine import at_one_moment, file_uri
 from lambda_db.models import Base
 from lambda_db.seal import ChangedError, check_seal
 from lambda_db.seed_tables import CHILDREN, VIEWED
@@ -55,13 +55,8 @@ def attach_user(connection: Connection, path: Path, schema_version: int) -> bool
         try:
             connection.exec_driver_sql("ATTACH DATABASE ? AS user", (file_uri(path, mode),))
             try:
-                found = connection.exec_driver_sql("PRAGMA user.user_version").scalar_one()
-                if path.stat().st_size == 0:
-                    raise DamagedError("it is empty")
-                if found != schema_version:
-                    raise VersionMismatch(_other_version(found, schema_version))
-                check_sound(connection, "user", VIEWED)
-                check_seal(connection, "user")
+                with at_one_moment(connection):  # rows and seal of two moments differ where others write
+                    _check(connection, path, schema_version)
                 for table in VIEWED:
                     connection.exec_driver_sql(view_statement(table))
             except (*UNREADABLE, VersionMismatch, DamagedError, ChangedError):
@@ -79,6 +74,17 @@ def attach_user(connection: Connection, path: Path, schema_version: int) -> bool
             return True
     log.warning("your own catalogue %s cannot be read (%s); only the built-in catalogue is used", path, trouble)
     return False
+
+
+def _check(connection: Connection, path: Path, schema_version: int) -> None:
+    """Raise what keeps the attached database from being used."""
+    found = connection.exec_driver_sql("PRAGMA user.user_version").scalar_one()
+    if path.stat().st_size == 0:
+        raise DamagedError("it is empty")
+    if found != schema_version:
+        raise VersionMismatch(_other_version(found, schema_version))
+    check_sound(connection, "user", VIEWED)
+    check_seal(connection, "user")
 
 
 def detach_user(connection: Connection) -> None:

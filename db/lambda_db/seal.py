@@ -54,6 +54,8 @@ def differences(connection: Connection, schema: str) -> list[str]:
 
     Parameters
     ----------
+    connection : Connection
+        In a transaction: rows and seal are read by several statements.
     schema : str
         "main", or the name under which the database is attached.
     """

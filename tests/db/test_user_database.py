@@ -14,7 +14,8 @@ import pytest
 from lambda_db import user
 from lambda_db.catalogue import SqlCatalogue, open_catalogue
 from lambda_db.paths import user_database
-from lambda_db.transfer import add_row, export_rows
+from lambda_db.transfer import add_row, export_rows, rows_of
+from sqlalchemy import Engine, event
 
 from lambda_core.domain.errors import CatalogueError
 
@@ -117,6 +118,33 @@ def test_a_reader_sees_rows_written_meanwhile(catalogue: SqlCatalogue) -> None:
     add_row(other, "bearing", ROW | {"designation": "X2"})
     other.close()
     assert catalogue.bearing("X2").layer == "user"
+
+
+def test_a_row_added_while_the_catalogue_is_opened_is_no_foreign_change(
+    catalogue: SqlCatalogue, caplog: pytest.LogCaptureFixture
+) -> None:
+    """Another connection commits a row each time before the one that opens reads the user's bearings."""
+    add_row(catalogue, "bearing", ROW)
+    names = ["6208"]
+    is_adding = False
+
+    def meanwhile(connection: object, cursor: object, statement: str, *_: object) -> None:
+        nonlocal is_adding
+        if statement.endswith(" FROM user.bearing") and not is_adding:
+            is_adding = True
+            names.append(f"N{len(names)}")
+            add_row(catalogue, "bearing", ROW | {"designation": names[-1]})
+            is_adding = False
+
+    event.listen(Engine, "before_cursor_execute", meanwhile)
+    try:
+        other = open_catalogue()
+    finally:
+        event.remove(Engine, "before_cursor_execute", meanwhile)
+    assert len(names) > 1
+    assert caplog.records == []
+    assert [row["designation"] for row in rows_of(other, "bearing", mine=True)] == names
+    other.close()
 
 
 @pytest.mark.parametrize("leftovers", [(), ("-wal", "-shm")], ids=["alone", "with the log's files"])
