@@ -15,6 +15,7 @@ from lambda_core.domain.errors import LambdaError
 from lambda_core.domain.ratings import dynamic_rating, static_rating
 from lambda_db.catalogue import SqlCatalogue
 from lambda_db.derive import UPRATED, filling_angle
+from lambda_db.engine import at_one_moment
 from lambda_db.estimate import is_uprated, printed_of, rated_rows
 from lambda_db.paths import user_database
 from lambda_db.records import Row
@@ -37,11 +38,11 @@ class Finding:
 def check_catalogue(catalogue: SqlCatalogue, models: Registry) -> list[Finding]:
     """Check every visible row beyond what the tables' constraints keep out."""
     findings = list(_user_file(catalogue))
-    bearings = rows_of(catalogue, "bearing")
-    findings += [finding for row in bearings for finding in _bearing(row)]
-    findings += _references(catalogue)
-    findings += _clearances(rows_of(catalogue, "clearance"))
-    findings += _lubricants(catalogue, models)
+    with at_one_moment(catalogue.connection):  # rows that refer to others are read by several statements
+        findings += [finding for row in rows_of(catalogue, "bearing") for finding in _bearing(row)]
+        findings += _references(catalogue)
+        findings += _clearances(rows_of(catalogue, "clearance"))
+        findings += _lubricants(catalogue, models)
     findings += _shadows(catalogue, models)
     return findings
 

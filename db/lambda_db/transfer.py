@@ -15,6 +15,7 @@ from lambda_core.domain.files import check_target
 from lambda_core.domain.printable import cell_text
 from lambda_db.build import insert_row
 from lambda_db.catalogue import SqlCatalogue
+from lambda_db.engine import at_one_moment
 from lambda_db.estimate import candidate_rows, completed
 from lambda_db.models import Base
 from lambda_db.paths import user_database
@@ -203,7 +204,8 @@ def export_rows(catalogue: SqlCatalogue, path: Path, tables: list[str], *, mine:
         check_target(path)
     if mine and not catalogue.has_user_rows and user_database().exists() and user_database().stat().st_size:
         raise CatalogueError(str(user_database()), [Problem("", "cannot be read: nothing is exported")])
-    content = {table: rows_of(catalogue, table, mine=mine) for table in tables}
+    with at_one_moment(catalogue.connection):  # a row without the one it names could not be imported again
+        content = {table: rows_of(catalogue, table, mine=mine) for table in tables}
     try:
         if path.suffix == ".toml":
             _write_toml(path, content)

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from lambda_db.catalogue import SqlCatalogue, open_catalogue
 from lambda_db.check import Finding, check_catalogue
 from lambda_db.paths import user_database
-from lambda_db.transfer import add_row
+from lambda_db.transfer import add_row, rows_of
 
 from lambda_core.discovery.manager import registry
+
+if TYPE_CHECKING:
+    from conftest import Meanwhile
 
 
 def findings(catalogue: SqlCatalogue) -> list[Finding]:
@@ -69,3 +73,20 @@ def test_a_damaged_user_file_is_an_error(user_folder: Path) -> None:
     catalogue = open_catalogue()
     assert any(f.severity == "error" and "left out" in f.message for f in findings(catalogue))
     catalogue.close()
+
+
+def test_rows_added_during_a_check_are_no_findings(catalogue: SqlCatalogue, meanwhile: Meanwhile) -> None:
+    """A cage of an own material, added after the names of the materials were read and before the cages are."""
+    add_row(catalogue, "suffix", {"written": "QQ7", "kind": "cage", "meaning": "brass", "value": "brass-machined"})
+    other = open_catalogue()
+    before = findings(catalogue)
+
+    def add() -> None:
+        material = dict(rows_of(other, "material")[0]) | {"name": "late"}
+        add_row(other, "material", material, replace=True)
+        add_row(other, "cage", dict(rows_of(other, "cage")[0]) | {"name": "of late", "material": "late"}, replace=True)
+
+    with meanwhile(" FROM cage ORDER", add):
+        assert findings(catalogue) == before
+    assert {row["name"] for row in rows_of(catalogue, "cage", mine=True)} == {"of late"}
+    other.close()

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from lambda_db.catalogue import SqlCatalogue
+from lambda_db.catalogue import SqlCatalogue, open_catalogue
 from lambda_db.seed_tables import SEED_TABLES
 from lambda_db.transfer import add_row, export_rows, import_path, rows_of
 
 from lambda_core.domain.errors import CatalogueError, UsageError
+
+if TYPE_CHECKING:
+    from conftest import Meanwhile
 
 TABLES = list(SEED_TABLES)
 SMALL = [table for table in TABLES if table != "bearing"]
@@ -52,6 +56,24 @@ def test_bearings_make_the_round_trip_as_toml(catalogue: SqlCatalogue, tmp_path:
     assert rows_of(catalogue, "bearing", mine=True) == some
     export_rows(catalogue, tmp_path / "again.toml", ["bearing"], mine=True)
     assert (tmp_path / "again.toml").read_bytes() == (tmp_path / "some.toml").read_bytes()
+
+
+def test_an_export_holds_what_one_moment_held(catalogue: SqlCatalogue, meanwhile: Meanwhile, tmp_path: Path) -> None:
+    """An oil that is added before its constants are read, and after the oils were, is left out with them."""
+    add_row(catalogue, "lubricant", {"name": "mine", "base_type": "PAO", "rheology": "roelands"})
+    other = open_catalogue()
+    with meanwhile(" FROM user.lubricant_parameter ORDER", lambda: add_oil(other)):
+        counts = export_rows(catalogue, tmp_path / "mine.toml", TABLES, mine=True)
+    assert (counts["lubricant"], counts["lubricant_parameter"]) == (1, 0)
+    assert rows_of(catalogue, "lubricant_parameter", mine=True)
+    other.close()
+
+
+def add_oil(catalogue: SqlCatalogue) -> None:
+    """Add an oil and a constant of it."""
+    add_row(catalogue, "lubricant", {"name": "late", "base_type": "PAO", "rheology": "roelands"})
+    constant = {"lubricant": "late", "role": "traction", "model": "my-law", "name": "k", "value": 3.5, "unit": ""}
+    add_row(catalogue, "lubricant_parameter", constant | {"source": "own test", "grade": "B"})
 
 
 @settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])

@@ -15,11 +15,11 @@ from lambda_db import user
 from lambda_db.catalogue import SqlCatalogue, open_catalogue
 from lambda_db.paths import user_database
 from lambda_db.transfer import add_row, export_rows, rows_of
-from sqlalchemy import Engine, event
 
 from lambda_core.domain.errors import CatalogueError
 
 if TYPE_CHECKING:
+    from conftest import Meanwhile
     from warm import Warm
 
 ROW: dict[str, object] = {
@@ -121,26 +121,18 @@ def test_a_reader_sees_rows_written_meanwhile(catalogue: SqlCatalogue) -> None:
 
 
 def test_a_row_added_while_the_catalogue_is_opened_is_no_foreign_change(
-    catalogue: SqlCatalogue, caplog: pytest.LogCaptureFixture
+    catalogue: SqlCatalogue, meanwhile: Meanwhile, caplog: pytest.LogCaptureFixture
 ) -> None:
     """Another connection commits a row each time before the one that opens reads the user's bearings."""
     add_row(catalogue, "bearing", ROW)
     names = ["6208"]
-    is_adding = False
 
-    def meanwhile(connection: object, cursor: object, statement: str, *_: object) -> None:
-        nonlocal is_adding
-        if statement.endswith(" FROM user.bearing") and not is_adding:
-            is_adding = True
-            names.append(f"N{len(names)}")
-            add_row(catalogue, "bearing", ROW | {"designation": names[-1]})
-            is_adding = False
+    def add() -> None:
+        names.append(f"N{len(names)}")
+        add_row(catalogue, "bearing", ROW | {"designation": names[-1]})
 
-    event.listen(Engine, "before_cursor_execute", meanwhile)
-    try:
+    with meanwhile(" FROM user.bearing", add):
         other = open_catalogue()
-    finally:
-        event.remove(Engine, "before_cursor_execute", meanwhile)
     assert len(names) > 1
     assert caplog.records == []
     assert [row["designation"] for row in rows_of(other, "bearing", mine=True)] == names
