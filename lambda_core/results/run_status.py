@@ -105,15 +105,21 @@ def process_identity(pid: int) -> dict[str, str]:
 
 def _started(pid: int) -> str:
     """Return when a process started, in the system's own count; "" where that is not known."""
+    fields = _fields(pid)
+    return fields[19] if fields else ""
+
+
+def _fields(pid: int) -> list[str]:
+    """Return what Linux says about a process, from its state on; nothing where that is not known."""
     try:
         text = Path(f"/proc/{pid}/stat").read_text()
     except OSError:
-        return ""
-    return text.rpartition(")")[2].split()[19]
+        return []
+    return text.rpartition(")")[2].split()
 
 
 def exists(pid: int) -> bool:
-    """Tell whether a process runs on this host."""
+    """Tell whether a process runs on this host; one that has ended does not, though nobody may have waited for it."""
     if os.name == "nt":  # signal 0 means Ctrl+C there: do not ask
         return False
     try:
@@ -121,5 +127,5 @@ def exists(pid: int) -> bool:
     except ProcessLookupError:
         return False
     except OSError:
-        return True
-    return True
+        pass  # somebody else's
+    return _fields(pid)[:1] not in (["Z"], ["X"])

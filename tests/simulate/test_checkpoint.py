@@ -23,7 +23,7 @@ from lambda_core.results import file_format as layout
 from lambda_core.results.checkpoint import Checkpoint, Position, latest
 from lambda_core.results.opening import ResultError
 from lambda_core.results.reader import Result
-from lambda_core.results.run_status import Rows
+from lambda_core.results.run_status import Rows, Status, process_identity
 from lambda_core.run.loop import resume, run
 
 if TYPE_CHECKING:
@@ -124,6 +124,19 @@ def test_a_killed_run_is_readable_and_not_alive(warm: Warm, tmp_path: Path) -> N
     assert 0 < rows.samples == len(result["load"])
     assert result["time"] == pytest.approx(np.arange(rows.samples) * FakeEngine().sample_interval)
     assert result.summary().reasons[0] == "the run has not reached its end"
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="the states of processes stand in /proc")
+def test_a_writer_that_was_killed_is_not_alive_before_its_parent_has_waited_for_it() -> None:
+    """Orphans are waited for by the first process of the system, in a container maybe never."""
+    process = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
+    status = Status(process=process_identity(process.pid))
+    assert status.alive()
+    process.kill()
+    os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)  # it has ended, and is left as it is
+    assert not status.alive()
+    assert process.wait() == -signal.SIGKILL
+    process.communicate()
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
