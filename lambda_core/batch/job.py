@@ -5,6 +5,7 @@ A task is plain data; kernels, catalogue and base case are kept by the process f
 
 from __future__ import annotations
 
+import logging
 import multiprocessing
 import time
 from collections.abc import Mapping
@@ -25,10 +26,13 @@ if TYPE_CHECKING:
     from lambda_core.system.bearing import BearingModel
 
 RUNS = "runs"
-State = Literal["done", "partial", "failed", "stopped"]
+State = Literal["done", "partial", "failed", "stopped", "pending"]
+log = logging.getLogger("lambda_core")
 # Of a worker process: the request went to the run that it had in hand; tasks that wait behind it are not begun.
 _asked_to_stop = False
 _HASH_DIGITS = 20  # of the hash in the name of a result file
+_PATIENCE = 10.0  # with another process that writes the result of a point [s]
+_LOOK_AFTER = 0.05  # [s]
 
 
 @dataclass(frozen=True)
@@ -49,7 +53,8 @@ class Outcome:
     """What became of a point.
 
     `state` is ``done``; ``partial``: a run whose averages have not converged, or a point at which a method of a plugin
-    failed; ``failed``: with the reason; ``stopped``: somebody asked the run to stop, it goes on next time.
+    failed; ``failed``: with the reason; ``stopped``: somebody asked the run to stop, it goes on next time;
+    ``pending``: another process is at work on it, it is done next time.
     """
 
     number: int
@@ -221,8 +226,12 @@ def method_columns(found: Equilibrium, names: tuple[str, ...]) -> dict[str, tupl
 def _dynamic(model: BearingModel, path: Path, names: tuple[str, ...]) -> tuple[State, str, dict[str, float | None]]:
     """Run a point, or go on with what there is of it, and read its responses."""
     from lambda_core.batch.responses import DynamicPoint, evaluate
+    from lambda_core.results.opening import BeingWrittenError
 
-    result = _run(model, path)
+    try:
+        result = _run(model, path)
+    except BeingWrittenError as error:
+        return "pending", str(error), {}
     status = result.status()
     if status.state == "interrupted":
         return "stopped", status.message, {}
@@ -233,23 +242,41 @@ def _dynamic(model: BearingModel, path: Path, names: tuple[str, ...]) -> tuple[S
 
 
 def _run(model: BearingModel, path: Path) -> Result:
-    from lambda_core.results.opening import ResultError
+    from lambda_core.results.opening import BeingWrittenError, ResultError
     from lambda_core.results.reader import Result
     from lambda_core.run.launch import launch, relaunch
 
     path.parent.mkdir(parents=True, exist_ok=True)
     if path.exists():
         try:
-            before = Result(path)
+            before = _left_by_others(Result(path))
             if before.status().state in ("finished", "stopped"):
                 return before
             if before.status().state != "failed":
                 return relaunch(path, model)
-        except ResultError as error:
-            if "still being written" in str(error):
-                raise
+        except BeingWrittenError:
+            raise
+        except ResultError:
+            pass
         except SolverError:
             raise
         except UsageError:  # nothing left to do
             return Result(path)
     return launch(model, path, force=True)
+
+
+def _left_by_others(result: Result) -> Result:
+    """Return a result that no process writes any more: a worker outlives its director for a moment."""
+    from lambda_core.results.opening import BeingWrittenError
+
+    end = time.monotonic() + _PATIENCE
+    is_told = False
+    while (status := result.status()).alive():
+        writing = BeingWrittenError(result.path, status.process["pid"])
+        if time.monotonic() >= end:
+            raise writing
+        if not is_told:
+            log.warning("%s: waiting up to %g s for it to end", writing, _PATIENCE)
+            is_told = True
+        time.sleep(_LOOK_AFTER)
+    return result

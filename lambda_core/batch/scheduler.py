@@ -50,7 +50,10 @@ class Counts:
 
 
 class Stated(Protocol):
-    """What a task leads to; the state ``stopped`` says that it is not done: somebody asked for an end."""
+    """What a task leads to.
+
+    It is not done where the state is ``stopped``: somebody asked for an end; or ``pending``: it has to wait.
+    """
 
     @property
     def state(self) -> str:
@@ -209,7 +212,7 @@ class Director(Generic[Task_, Outcome_]):
     def _take(self, outcome: Outcome_) -> None:
         self._fresh.append(outcome)
         is_stopped = outcome.state == "stopped"
-        self._finished += not is_stopped
+        self._finished += not is_stopped and outcome.state != "pending"
         self._stopped = self._stopped or is_stopped
 
     def _keep(self, *, now: bool = False) -> None:

@@ -167,10 +167,9 @@ class Manifest:
         return float(self._database.execute("SELECT total(seconds) FROM points").fetchone()[0])
 
     def failures(self, most: int = 20) -> list[tuple[int, str]]:
-        """Return numbers (from 1) and reasons of failed and partial points."""
+        """Return numbers (from 1) and reasons of failed and partial points, and of those that others are at work on."""
         rows = self._database.execute(
-            "SELECT number + 1, reason FROM points WHERE state IN ('failed', 'partial') ORDER BY number LIMIT ?",
-            (most,),
+            "SELECT number + 1, reason FROM points WHERE reason != '' ORDER BY number LIMIT ?", (most,)
         )
         return [(int(number), str(reason)) for number, reason in rows]
 

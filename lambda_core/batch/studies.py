@@ -48,7 +48,7 @@ class StudyStatus(BaseModel):
     worker_seconds: float = Field(description="time that workers spent on points")
     wall_s: float = Field(description="wall time of the sessions of the study")
     parallel_efficiency: float | None = Field(description="worker time over wall time times workers, last session")
-    reasons: list[str] = Field(description="why points failed or are partial, the first few")
+    reasons: list[str] = Field(description="why points failed, are partial or were left, the first few")
     best: dict[str, Any] | None = Field(description="the best point of an optimisation")
     message: str = Field(description="how an optimisation ended")
 
@@ -215,7 +215,7 @@ def _work(
             try:
                 director = Director[Task, Outcome](manifest, workers_pool, work, lost, report)
                 done = director.run(_tasks(manifest, todo, names))
-                if done and study.optimise is not None:
+                if done and study.optimise is not None and not manifest.counts().pending:
                     _optimise(manifest, plan, names, director)
                 stop = not done
             finally:

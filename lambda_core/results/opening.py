@@ -25,6 +25,13 @@ class ResultError(UsageError):
     """A file is not a result, or is damaged."""
 
 
+class BeingWrittenError(ResultError):
+    """Another process is at work on a result."""
+
+    def __init__(self, path: Path, pid: str) -> None:
+        super().__init__(f"{path} is still being written by process {pid}")
+
+
 @contextmanager
 def opened(path: Path) -> Iterator[h5py.File]:
     """Open a result of this layout; what is wrong with it, whenever it shows, is a ResultError."""

@@ -18,7 +18,7 @@ from lambda_core.results import hdf5
 from lambda_core.results.averages import row
 from lambda_core.results.checkpoint import Position
 from lambda_core.results.convergence import is_converged
-from lambda_core.results.opening import ResultError
+from lambda_core.results.opening import BeingWrittenError
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.reader import Result
 from lambda_core.results.row_sums import check_rows
@@ -103,7 +103,7 @@ def resume(
 
     Raises
     ------
-    ResultError
+    BeingWrittenError
         When the run is still going on.
     UsageError
         When it has nothing left to do.
@@ -111,7 +111,7 @@ def resume(
     result = Result(path)
     status = result.status()
     if status.alive():
-        raise ResultError(f"{path} is still being written by process {status.process['pid']}")
+        raise BeingWrittenError(path, status.process["pid"])
     hdf5.sweep(path.absolute().parent, glob.escape(path.name))
     checkpoint = result.checkpoint()
     beside = Beside(live, watch or Watch(provenance.model))

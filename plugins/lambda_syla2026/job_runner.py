@@ -43,9 +43,9 @@ class Job:
 class JobResult:
     """What a job has found.
 
-    `state` is "done", "partial" (a run that has not converged), "failed" or "stopped" (somebody asked the run to);
-    the reason says why. `processor_s` is the time of the processor that it took when it was computed; `fresh` says
-    that it was computed by this call.
+    `state` is "done", "partial" (a run that has not converged), "failed", "stopped" (somebody asked the run to) or
+    "pending" (another process is at work on it); the reason says why. `processor_s` is the time of the processor that
+    it took when it was computed; `fresh` says that it was computed by this call.
     """
 
     state: str
@@ -109,7 +109,7 @@ def _answer(job: Job, folder: str) -> JobResult:
     except LambdaError as error:
         return JobResult("failed", str(error), "", {})
     answer = replace(answer, processor_s=time.process_time() - started)
-    if answer.state in ("failed", "stopped"):
+    if answer.state not in ("done", "partial"):
         return answer
     read = job.kind in READ_ONCE
     memo.keep(name, asdict(replace(answer, file="") if read else answer))
@@ -131,7 +131,7 @@ def case_text(name: str) -> str:
 
 def _run(job: Job, hash_: str, folder: str) -> JobResult:
     outcome = work(Task(0, case_text(job.case), job.changes, "dynamic", (), folder))
-    if outcome.state in ("failed", "stopped"):
+    if outcome.state not in ("done", "partial"):
         return JobResult(outcome.state, outcome.reason, hash_, {})
     numbers = DYNAMIC[job.kind](Result(Path(folder) / outcome.file))
     return JobResult(outcome.state, outcome.reason, hash_, numbers, outcome.file)
