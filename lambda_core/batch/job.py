@@ -14,7 +14,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from lambda_core.domain.errors import LambdaError, SolverError, UsageError
+from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.domain.plugin_errors import failures_so_far
 
 if TYPE_CHECKING:
@@ -245,6 +245,7 @@ def _run(model: BearingModel, path: Path) -> Result:
     from lambda_core.results.opening import BeingWrittenError, ResultError
     from lambda_core.results.reader import Result
     from lambda_core.run.launch import launch, relaunch
+    from lambda_core.run.loop import NothingLeftError
 
     path.parent.mkdir(parents=True, exist_ok=True)
     if path.exists():
@@ -254,14 +255,12 @@ def _run(model: BearingModel, path: Path) -> Result:
                 return before
             if before.status().state != "failed":
                 return relaunch(path, model)
+        except NothingLeftError:  # another process has brought it to its end since
+            return Result(path)
         except BeingWrittenError:
             raise
-        except ResultError:
+        except ResultError:  # damaged, or of another program: begun anew
             pass
-        except SolverError:
-            raise
-        except UsageError:  # nothing left to do
-            return Result(path)
     return launch(model, path, force=True)
 
 

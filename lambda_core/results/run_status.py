@@ -39,7 +39,7 @@ class Status:
     ----------
     state : str
         ``running``; ``finished``: the planned end was reached; ``stopped``: at the limit of
-        wall time; ``interrupted``: by a person or the system; ``failed``: the solver gave up.
+        wall time; ``interrupted``: by a person, the system or a full disk; ``failed``: the solver gave up.
     message : str
         A sentence, when there is something to say.
     rows : Rows

@@ -261,7 +261,7 @@ class ResultWriter:
             hdf5.reserve(self._file, growth)
         except OSError as error:
             full = DiskError(self.path, hdf5.reason(error))
-            self._put_status(replace(self._status, state="stopped", message=str(full)))
+            self._put_status(replace(self._status, state="interrupted", message=str(full)))
             self.close(compress=False)
             raise full from None
 

@@ -34,6 +34,10 @@ if TYPE_CHECKING:
     from lambda_core.electric.live import Live
 
 
+class NothingLeftError(UsageError):
+    """A run that is to go on has come to its end."""
+
+
 def run(
     engine: Engine,
     provenance: Provenance,
@@ -105,8 +109,10 @@ def resume(
     ------
     BeingWrittenError
         When the run is still going on.
-    UsageError
+    NothingLeftError
         When it has nothing left to do.
+    UsageError
+        When the disk has no room to go on.
     """
     result = Result(path)
     status = result.status()
@@ -125,7 +131,7 @@ def resume(
     records = result.integrals()[: position.rows.records]
     start, known = records[-1], list(result.revolutions()[: position.rows.revolutions])
     if status.state == "finished" and not _left_to_do(provenance.model.solver, engine.time, known, start):
-        raise UsageError(f"{path} is finished: nothing is left to do; a longer --duration continues it")
+        raise NothingLeftError(f"{path} is finished: nothing is left to do; a longer --duration continues it")
     status = replace(status, state="running", message="", rows=position.rows, process=this_process())
     beside.catch_up(result, position.rows)
     writer = ResultWriter.continued(path, channels, status)

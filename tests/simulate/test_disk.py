@@ -53,7 +53,7 @@ def test_a_full_disk_at_any_point(limit: int, warm: Warm, tmp_path: Path, whole:
     status = result.status()
     for channel in result.channels:
         assert len(result[channel.name]) == status.rows.samples
-    assert status.state == "stopped"
+    assert status.state == "interrupted"
     assert run(warm, "resume", path, **WANTED) == (0, "")  # with room again
     for channel in result.channels:
         assert Result(path)[channel.name].tobytes() == whole[channel.name].tobytes()

@@ -1,8 +1,10 @@
-"""Result files of points that a study finds when it goes on: still in other hands."""
+"""Result files of points that a study finds when it goes on: still in other hands, or on a disk that is full."""
 
 from __future__ import annotations
 
+import errno
 import logging
+import os
 import sqlite3
 import subprocess
 import sys
@@ -20,6 +22,7 @@ from lambda_core.batch import job
 from lambda_core.batch.pool import HERE
 from lambda_core.batch.store import FILE
 from lambda_core.results import file_format as layout
+from lambda_core.results import hdf5
 from lambda_core.results.run_status import Status, process_identity
 
 Folder = tuple[Path, list[dict[str, Any]]]
@@ -101,4 +104,44 @@ def test_a_point_in_other_hands_is_left_for_the_next_time(
     writer.wait()
     status = api.study_resume(folder, executor=HERE)
     assert (status.partial, status.failed, status.pending) == (2, 0, 0)
+    assert api.study_table(folder).rows() == rows
+
+
+def full_after(monkeypatch: pytest.MonkeyPatch, times: int) -> None:
+    """Let the disk be full after some reservations."""
+    room, left = hdf5.reserve, times
+
+    def reserve(file: h5py.File, growth: int) -> None:
+        nonlocal left
+        left -= 1
+        if left < 0:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        room(file, growth)
+
+    monkeypatch.setattr(hdf5, "reserve", reserve)
+
+
+def test_a_disk_without_room_to_go_on_fails_the_point(study: Folder, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder, rows = study
+    written_by(folder / rows[1]["file"], {})
+    with monkeypatch.context() as full:
+        full_after(full, 0)
+        status = api.study_resume(folder, executor=HERE)
+    assert (status.partial, status.failed, status.pending) == (1, 1, 0)
+    assert os.strerror(errno.ENOSPC) in status.reasons[1]
+    api.study_resume(folder, executor=HERE, retry=True)
+    assert api.study_table(folder).rows() == rows
+
+
+def test_a_run_that_a_full_disk_ended_goes_on_when_it_is_tried_again(
+    study: Folder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder, rows = study
+    (folder / rows[1]["file"]).unlink()
+    with monkeypatch.context() as full:
+        full_after(full, 3)
+        status = api.study_resume(folder, executor=HERE)
+    assert (status.partial, status.failed, status.pending) == (1, 1, 0)
+    assert os.strerror(errno.ENOSPC) in status.reasons[1]
+    api.study_resume(folder, executor=HERE, retry=True)
     assert api.study_table(folder).rows() == rows
