@@ -267,6 +267,11 @@ def helper(function):
     return numba.njit(**OPTIONS, **inlined.OPTIONS)(function)
 
 
+def large_helper(function):
+    """Compile a large helper as a function that its callers call: one copy of it in the code of an entry point."""
+    return numba.njit(**OPTIONS, **inlined.LARGE)(function)
+
+
 def allocating_helper(function):
     """Compile a helper that makes arrays of its own, off the hot path."""
     return numba.njit(**{**OPTIONS, **inlined.OPTIONS, "forceinline": False, "_nrt": True})(function)

@@ -13,7 +13,8 @@ OPTIONS: dict[str, Any] = {}
 APART: dict[
     str, Any
 ] = {}  # the same for a function none of whose arrays shares memory with another one that is written
+LARGE: dict[str, Any] = {}  # the same for a large function, which is called and not copied into its callers
 if not is_plain():
     from lambda_core.laws.jit import inside_callers
 
-    OPTIONS, APART = inside_callers.OPTIONS, inside_callers.APART
+    OPTIONS, APART, LARGE = inside_callers.OPTIONS, inside_callers.APART, inside_callers.LARGE

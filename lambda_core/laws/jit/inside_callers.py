@@ -55,6 +55,25 @@ class _ApartCompiler(_PartCompiler):
         return super().define_pipelines()
 
 
+class _LargePart(_Part):
+    """A function that stays one of its own: its callers call it, in place of a copy in each of them."""
+
+    def add_ir_module(self, ir_module: Any) -> None:
+        """Take in the function as Numba made it, marked to be left where it is."""
+        for function in ir_module.functions:
+            if function.blocks:
+                function.attributes.add("noinline")
+        super().add_ir_module(ir_module)
+
+
+class _LargeCompiler(Compiler):
+    def define_pipelines(self) -> Any:
+        state = self.state
+        state.library = _LargePart(state.targetctx.codegen(), state.func_id.func_qualname)
+        state.targetctx.get_executable = _without_code
+        return super().define_pipelines()
+
+
 KNOWN = hasattr(JITCodeLibrary, "_get_module_for_linking") and hasattr(Compiler, "define_pipelines")
 # For numba.njit. There is nothing behind such a function that Python could call: its Python function is .py_func.
 OPTIONS: dict[str, Any] = {
@@ -65,3 +84,6 @@ OPTIONS: dict[str, Any] = {
 }
 # The same for a function none of whose arrays shares memory with another one that is written.
 APART: dict[str, Any] = {**OPTIONS, "pipeline_class": _ApartCompiler}
+# The same for a large function that is called from several places and is handed no functions: one copy in the code of an
+# entry point. A call costs some ten nanoseconds; what LLVM does grows faster than the code that it is given.
+LARGE: dict[str, Any] = {**OPTIONS, "pipeline_class": _LargeCompiler, "forceinline": False}

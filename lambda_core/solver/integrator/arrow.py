@@ -30,7 +30,7 @@ from lambda_core.solver.integrator.chain import (
 from lambda_core.solver.integrator.condensed import condense, condensed_t, make_condensed, solve_condensed
 from lambda_core.solver.integrator.reach import Reach, is_split
 from lambda_core.solver.integrator.sweeps import add_columns, add_row, spread, take_columns, take_rows, write_multiple
-from lambda_core.solver.layout import NB, array1, array2, array3, helper, iarray1
+from lambda_core.solver.layout import NB, array1, array2, array3, helper, large_helper, iarray1
 from lambda_core.solver.lu import filled, filled_up, lu_factor, lu_solve
 
 # Relative change of g beyond which what a step divides by it is factored anew; not a tie with one growth of the step.
@@ -253,7 +253,7 @@ def _add_row(bl, r, shift, gamma, fa):
     return 1
 
 
-@helper
+@large_helper
 def arrow_factor(bl, shift, gamma, fa):
     """Factor shift I - gamma J; returns 0 when singular."""
     schur, reach = fa.schur, bl.reach
@@ -305,7 +305,7 @@ def _solve_back(row, reach, fa, r, own, n):
             take_part(fa.ahead[j], r[NB * after : NB * after + NB], its)
 
 
-@helper
+@large_helper
 def arrow_solve(bl, fa, r):
     """Solve in place for the right-hand side r, shape (9 Z + n,)."""
     reach, own = bl.reach, fa.tail

@@ -26,6 +26,7 @@ from lambda_core.solver.layout import (
     SVX,
     SWY,
     helper,
+    large_helper,
     running_of,
 )
 from lambda_core.solver.records import PRESCRIBED
@@ -219,7 +220,7 @@ def leak_of_iterate(bundle, mem, h):
     return h * off / allowed(mem, h, LEAK, _CLOSER * floor_of(mem, h))
 
 
-@helper
+@large_helper
 def finalise_step(bundle, mem):
     """Bring positions and powers from the last iterate to the step's result.
 

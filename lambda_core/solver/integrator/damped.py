@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from lambda_core.solver.integrator.balance import finalise_step, leak_of_iterate
 from lambda_core.solver.integrator.correction import norm, renew, solve_correction
-from lambda_core.solver.layout import BVX, NB, NS, SVX, helper
+from lambda_core.solver.layout import BVX, NB, NS, SVX, helper, large_helper
 from lambda_core.solver.status import Status
 
 _MAX_ITERATIONS = 20
@@ -74,7 +74,7 @@ def _mark_restless(gamma, residual, bl, mem):
         bl.due[j] = 1 if total > _RESTLESS * residual else 0
 
 
-@helper
+@large_helper
 def solve_damped(evaluate, jacobian, t, h, tolerance, closer, bundle, bl, fa, mem):
     """Solve new = base + gamma f(new) as newton.solve_step does; returns a Status: OK, NOT_CONVERGED, REFUSED."""
     count, gamma = mem.count[0], mem.control[0].gamma
