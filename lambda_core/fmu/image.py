@@ -2,8 +2,9 @@
 
 At its beginning stand the arguments of the solver's compiled functions, as words of eight bytes: an array is its number
 and size of items, where its bytes are, shape and strides; a pointer to a function is an address; a named tuple is its
-fields one after another. Behind them stand the bytes of the arrays. Wherever a host puts a copy, it adds the place of
-the copy to some words and writes the addresses of functions into others.
+fields one after another, also where compiled code takes it by its address. Behind them stand the bytes of the arrays.
+Wherever a host puts a copy, it adds the place of the copy to some words and writes the addresses of functions into
+others.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import numpy as np
 
 from lambda_core.laws.jit.machine_code import Pointer
 from lambda_core.laws.jit.portable import is_array, is_function, symbol, words_of
+from lambda_core.laws.jit.references import Reference
 
 _LINE = 64  # [bytes] arrays begin at lines of the processor's cache
 
@@ -111,7 +113,8 @@ class Image:
             self._arrays.append((len(self._words), value))
             self._words += [0, *value.shape, *value.strides]
         else:
-            for each, part in zip(kind.types, value, strict=True):
+            kinds = kind.fields.values() if isinstance(kind, Reference) else kind.types
+            for each, part in zip(kinds, value, strict=True):
                 self._flatten(each, part)
         if len(self._words) - begin != words_of(kind):
             raise TypeError(f"{kind} has {words_of(kind)} words in this Numba, not {len(self._words) - begin}")

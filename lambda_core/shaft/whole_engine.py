@@ -51,6 +51,7 @@ from lambda_core.solver.entry import core
 from lambda_core.solver.integrator import memory
 from lambda_core.solver.integrator.arrow import make_factors
 from lambda_core.solver.integrator.blocks import make_blocks
+from lambda_core.solver.integrator.handle import Handle
 from lambda_core.solver.integrator.tableau import STAGES
 
 _CAPACITY = 512
@@ -109,7 +110,7 @@ class WholeEngine:
         count["stale"] = 1
         c = self._core
         advance = c.advance_finely_pointer if stages else c.advance_pointer
-        self._handle = c.make_context(
+        self._handle = Handle(
             c.evaluate_pointer, c.jacobian_pointer, advance, c.observe_pointer, self._bundle, self._blocks,
             self._factors, self._memory,
         )  # fmt: skip

@@ -41,7 +41,6 @@ class Core:
     advance_pointer: Any
     advance_finely_pointer: Any
     observe_pointer: Any
-    make_context: Any
     integrate: Any
     sample: Any
 
@@ -56,7 +55,6 @@ UNITS: dict[str, tuple[Any, Any]] = {
     "advance_finely": (esdirk.advance, stepping.advance_sig),
     "observe": (observe.observe, observe.observe_sig),
     "solve_static": (statics.solve_static, statics.solve_static_sig),
-    "make_context": (handle.make_context, handle.make_context_sig),
     "integrate": (handle.integrate, handle.integrate_sig),
     "sample": (handle.sample, handle.sample_sig),
 }
@@ -64,14 +62,14 @@ UNITS: dict[str, tuple[Any, Any]] = {
 GROUPS = (
     ("jacobian",),
     ("evaluate", "observe"),
-    ("solve_static", "make_context", "integrate", "sample"),
+    ("solve_static", "integrate", "sample"),
     ("advance", "wrench", "tangent"),
     ("advance_finely",),
 )
-# The equilibrium allocates its workspaces, a handle is allocated itself; all others run without reference counting.
+# The equilibrium allocates its workspaces; all others run without reference counting.
 # What takes long lets other threads work: one of them hears the signals meanwhile.
 _OPTIONS: dict[str, dict[str, Any]] = {
-    name: {"_nrt": True, "nogil": True} for name in ("solve_static", "make_context", "integrate", "sample")
+    name: {"_nrt": True, "nogil": True} for name in ("solve_static", "integrate", "sample")
 }
 
 
@@ -146,7 +144,7 @@ def _load(announce: Callable[[str], None] | None) -> Core:
         for name in ("wrench", "tangent", "evaluate", "jacobian", "advance", "advance_finely", "observe")
     }
     names = (
-        "evaluate", "jacobian", "advance", "advance_finely", "observe", "solve_static", "make_context", "integrate",
+        "evaluate", "jacobian", "advance", "advance_finely", "observe", "solve_static", "integrate",
         "sample",
     )  # fmt: skip
     return Core(**pointers, **{name: _call(built[name], UNITS[name][1]) for name in names})

@@ -21,6 +21,7 @@ from lambda_core.domain.roles import ROLES
 from lambda_core.laws.jit import inlined
 from lambda_core.laws.jit.function_tables import TABLE, reader
 from lambda_core.laws.jit.machine_code import OPTIONS, role_signature
+from lambda_core.laws.jit.references import by_reference, reference_t
 from lambda_core.solver import records as R
 
 # Places in the state vector, for what goes through states one by one: integrator, Jacobian, tolerances.
@@ -54,6 +55,7 @@ def table_t(kind: np.dtype[Any]) -> Any:
 RacewayLaws: Any = namedtuple("RacewayLaws", R.RACEWAY_ROLES)  # type: ignore[misc] # its fields are the roles
 
 
+@by_reference
 class Laws(NamedTuple):
     """All kernels of the model: tables of their addresses, read with raceway_laws, guide_law, drag_law, and so on."""
 
@@ -136,7 +138,7 @@ guide_law = reader(_law_t("cage_contact"))
 drag_law = reader(_law_t("fluid_drag"))
 link_law = reader(_law_t("force_element"))
 time_law = reader(_law_t("time_function"))
-laws_t = types.NamedUniTuple(TABLE, len(Laws._fields), Laws)
+laws_t = reference_t(Laws, dict.fromkeys(Laws._fields, TABLE))
 # One contact: (raceway, kinematics, laws, par, system, grid, cells, scratch, contact, wrench) -> status
 wrench_sig = i8(
     record_t(R.RACEWAY), record_t(R.KINEMATICS), raceway_laws_t, array1, record_t(R.SYSTEM), array2, array2,
@@ -149,6 +151,7 @@ tangent_sig = i8(
 )  # fmt: skip
 
 
+@by_reference
 class Bundle(NamedTuple):
     """Everything that the compiled code works on, in one argument."""
 
@@ -238,7 +241,7 @@ _TYPES = {
     "state_slopes": array2,
     "state_pivots": iarray1,
 }
-bundle_t = types.NamedTuple([_TYPES[name] for name in Bundle._fields], Bundle)
+bundle_t = reference_t(Bundle, _TYPES)
 
 
 _ANY_ORDER = {"reassoc", "contract", "nsz"}

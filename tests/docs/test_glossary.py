@@ -25,7 +25,7 @@ RETIRED = (
     "windage",
     "workshop",
 )
-_NAMES = {"grasp": "make_context", "proceed": "integrate", "settle": "solve_static or finalise_step"}
+_NAMES = {"grasp": "compile_into", "proceed": "integrate", "settle": "solve_static or finalise_step"}
 
 
 def _rows() -> list[list[str]]:
@@ -73,5 +73,5 @@ def test_a_retired_word_is_used_nowhere(word: str) -> None:
 @pytest.mark.parametrize("name", sorted(_NAMES))
 def test_a_retired_name_is_given_to_nothing(name: str) -> None:
     """Functions, arguments and variables of the packages."""
-    assert "make_context" in _given()
+    assert "compile_into" in _given()
     assert name not in _given(), f"call it {_NAMES[name]}: {_given()[name]}"

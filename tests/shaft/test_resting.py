@@ -11,6 +11,7 @@ from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.entry import core
+from lambda_core.solver.integrator.handle import Handle
 from lambda_core.solver.motion.bearing_sums import AGAIN
 
 from .test_motion import tables
@@ -102,7 +103,7 @@ def test_energy_is_balanced_as_well_as_without_it(engine: WholeEngine) -> None:
     awake._bundle.rows["bearing"], awake._bundle.bodies["bearing"] = 0, 0
     awake._bundle = awake._bundle._replace(resting=np.zeros(1, dtype=np.int64), bearing_powers=np.zeros(1, R.RUNNING))
     c = core()
-    awake._handle = c.make_context(
+    awake._handle = Handle(
         c.evaluate_pointer, c.jacobian_pointer, c.advance_pointer, c.observe_pointer, awake._bundle, awake._blocks,
         awake._factors, awake._memory,
     )  # fmt: skip

@@ -84,6 +84,7 @@ OPTIONS: dict[str, Any] = {
 }
 # The same for a function none of whose arrays shares memory with another one that is written.
 APART: dict[str, Any] = {**OPTIONS, "pipeline_class": _ApartCompiler}
-# The same for a large function that is called from several places and is handed no functions: one copy in the code of an
-# entry point. A call costs some ten nanoseconds; what LLVM does grows faster than the code that it is given.
+# The same for a large function that several places call: one copy in the code of an entry point. A call costs some ten
+# nanoseconds, and LLVM's work grows faster than the code of one function. A function that takes functions as arguments
+# cannot be one: Numba would write an address of this process into its code.
 LARGE: dict[str, Any] = {**OPTIONS, "pipeline_class": _LargeCompiler, "forceinline": False}

@@ -28,6 +28,7 @@ from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.laws.jit.emission import Target, exact, machine_code
 from lambda_core.laws.jit.machine_code import Pointer, environment_key
 from lambda_core.laws.jit.plain import is_plain
+from lambda_core.laws.jit.references import Reference
 
 # Functions of Python and Numba that stand behind doors and on ways that compiled kernels never go: they raise errors.
 _PYTHON = re.compile(
@@ -88,6 +89,8 @@ def fuses() -> bool:
 
 def words_of(kind: Any) -> int:
     """Return how many words of eight bytes a value takes that is handed to compiled code."""
+    if isinstance(kind, Reference):
+        return kind.words
     context = cpu_target.target_context
     return int(context.get_abi_sizeof(context.get_value_type(kind))) // 8
 
@@ -278,7 +281,8 @@ def _door(module: ir.Module, entry: Entry, called: ir.Function) -> None:
             arguments.append(ir.Constant(REAL, argument))
         else:
             place = builder.gep(image, [ir.Constant(WORD, argument)])
-            arguments.append(builder.load(builder.bitcast(place, _value(kind).as_pointer())))
+            is_address = isinstance(kind, Reference)
+            arguments.append(place if is_address else builder.load(builder.bitcast(place, _value(kind).as_pointer())))
     builder.ret(builder.call(called, arguments))
 
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from numba.core.errors import NumbaExperimentalFeatureWarning
-from numba.experimental import structref
 
-__all__ = ["NumbaExperimentalFeatureWarning", "know_pointers", "structref"]
+__all__ = ["NumbaExperimentalFeatureWarning", "know_pointers"]
 
 
 def know_pointers() -> None:

@@ -23,6 +23,7 @@ from lambda_core.solver.drivers.wave_tables import waves_of
 from lambda_core.solver.entry import core
 from lambda_core.solver.integrator.arrow import make_factors
 from lambda_core.solver.integrator.blocks import make_blocks
+from lambda_core.solver.integrator.handle import Handle
 from lambda_core.solver.integrator.memory import Memory
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame
@@ -63,7 +64,7 @@ class SolverContext:
         self.blocks = make_blocks(self.bundle)
         self.factors = make_factors(self.blocks.reach, self.bundle.active.size, self.blocks.cross.shape[0])
 
-    def handle(self, memory: Memory) -> Any:
+    def handle(self, memory: Memory) -> Handle:
         """Return what leads to all of it and to the integrator's memory, which compiled code takes as one argument.
 
         The formula of integration is the one that the memory has room for.
@@ -71,7 +72,7 @@ class SolverContext:
         c = core()
         advance = c.advance_finely_pointer if memory.stages.size else c.advance_pointer
         pointers = (c.evaluate_pointer, c.jacobian_pointer, advance, c.observe_pointer)
-        return c.make_context(*pointers, self.bundle, self.blocks, self.factors, memory)
+        return Handle(*pointers, self.bundle, self.blocks, self.factors, memory)
 
     def raceway(self, element: str) -> Any:
         """Return the record of a ring's raceway, of the first where it has several alike."""

@@ -17,8 +17,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import types
 
+from lambda_core.laws.jit.references import by_reference, reference_t
 from lambda_core.solver.integrator.chain import (
     find_chains,
     take_from_block,
@@ -30,7 +30,7 @@ from lambda_core.solver.integrator.chain import (
 from lambda_core.solver.integrator.condensed import condense, condensed_t, make_condensed, solve_condensed
 from lambda_core.solver.integrator.reach import Reach, is_split
 from lambda_core.solver.integrator.sweeps import add_columns, add_row, spread, take_columns, take_rows, write_multiple
-from lambda_core.solver.layout import NB, array1, array2, array3, helper, large_helper, iarray1
+from lambda_core.solver.layout import NB, array1, array2, array3, helper, iarray1, large_helper
 from lambda_core.solver.lu import filled, filled_up, lu_factor, lu_solve
 
 # Relative change of g beyond which what a step divides by it is factored anew; not a tie with one growth of the step.
@@ -38,6 +38,7 @@ REFACTOR = 0.41
 _ALIKE = 0.05  # likewise, up to which single balls of a row are factored for the g of the others
 
 
+@by_reference
 class Factors(NamedTuple):
     """Inverses of the ball blocks and LU factors of the Schur complement."""
 
@@ -65,7 +66,7 @@ _TYPES = (
     | dict.fromkeys(("pivots", "schur_pivots", "begin", "joined"), iarray1)
     | {"condensed": condensed_t}
 )
-factors_t = types.NamedTuple([_TYPES.get(name, array1) for name in Factors._fields], Factors)
+factors_t = reference_t(Factors, dict.fromkeys(Factors._fields, array1) | _TYPES)
 
 
 def make_factors(reach: Reach, n: int, coupled: int) -> Factors:

@@ -5,14 +5,15 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import types
 
+from lambda_core.laws.jit.references import by_reference, reference_t
 from lambda_core.solver import records as R
 from lambda_core.solver.integrator.reach import Reach, make_reach, reach_t
 from lambda_core.solver.layout import NB, NS, array1, array2, array3, array4, iarray1, table_t
 from lambda_core.solver.lu import filled
 
 
+@by_reference
 class Blocks(NamedTuple):
     """Jacobian blocks and workspaces; those of a ball have the columns of its own bodies, in their places."""
 
@@ -67,7 +68,7 @@ _BLOCK_TYPES = {
     "pushes": array2,
     "index": iarray1,
 }
-blocks_t = types.NamedTuple([_BLOCK_TYPES.get(name, array1) for name in Blocks._fields], Blocks)
+blocks_t = reference_t(Blocks, dict.fromkeys(Blocks._fields, array1) | _BLOCK_TYPES)
 
 
 def may_touch(bundle: Any) -> bool:

@@ -14,12 +14,13 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import types
 
+from lambda_core.laws.jit.references import by_reference, reference_t
 from lambda_core.solver.layout import array1, array2, helper, iarray1
 from lambda_core.solver.lu import factor_turned, filled, solve_turned, take_multiple
 
 
+@by_reference
 class Condensed(NamedTuple):
     """Factors of speeds and positions."""
 
@@ -32,7 +33,12 @@ class Condensed(NamedTuple):
     found: Any  # (filled,): and of its solution
 
 
-condensed_t = types.NamedTuple([array2, array2, array1, iarray1, array2, array1, array1], Condensed)
+condensed_t = reference_t(
+    Condensed,
+    dict.fromkeys(Condensed._fields, array1)
+    | dict.fromkeys(("upper", "lower", "on_speeds"), array2)
+    | {"pivots": iarray1},
+)
 
 
 def make_condensed(positions: int, speeds: int) -> Condensed:

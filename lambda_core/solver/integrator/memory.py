@@ -8,6 +8,7 @@ import numba
 import numpy as np
 from numba import types
 
+from lambda_core.laws.jit.references import by_reference, reference_t
 from lambda_core.solver.integrator.blocks import blocks_t
 from lambda_core.solver.layout import (
     BR,
@@ -88,6 +89,7 @@ COUNT = np.dtype(
 )
 
 
+@by_reference
 class Memory(NamedTuple):
     """Everything the integrator remembers; saved as it is for a continuation."""
 
@@ -129,7 +131,7 @@ _TYPES = {
     "stage_shared": array2,
     "sample_y": array2,
 }
-memory_t = types.NamedTuple([_TYPES.get(name, array1) for name in Memory._fields], Memory)
+memory_t = reference_t(Memory, dict.fromkeys(Memory._fields, array1) | _TYPES)
 
 
 def make_memory(

@@ -13,11 +13,12 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import types
 
+from lambda_core.laws.jit.references import by_reference, reference_t
 from lambda_core.solver.layout import NS, SVX, helper, iarray1, iarray2
 
 
+@by_reference
 class Reach(NamedTuple):
     """The own bodies of each row of balls, and where their states stand."""
 
@@ -36,7 +37,7 @@ class Reach(NamedTuple):
 
 
 _TYPES = dict.fromkeys(("first", "count", "width", "positions", "middles", "ends", "speeds", "among"), iarray1)
-reach_t = types.NamedTuple([_TYPES.get(name, iarray2) for name in Reach._fields], Reach)
+reach_t = reference_t(Reach, dict.fromkeys(Reach._fields, iarray2) | _TYPES)
 
 
 def _own_bodies(bundle: Any, row: Any) -> list[int]:

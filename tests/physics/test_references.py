@@ -1,0 +1,119 @@
+"""Tuples that compiled code takes by their address: the same values, the layout of Numba, nothing of another type."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+from numba import njit, types
+
+from lambda_core.laws.jit.portable import words_of as words_of_abi
+from lambda_core.laws.jit.references import by_reference, reference_t, words_of
+from lambda_core.solver import layout as L
+from lambda_core.solver.integrator import handle, memory
+
+from .test_power import MODELS, machine
+
+
+@by_reference
+class Inner(NamedTuple):
+    """A tuple within a tuple."""
+
+    counts: Any
+
+
+@by_reference
+class Outer(NamedTuple):
+    """Arrays of one and more dimensions, and a tuple."""
+
+    line: Any
+    inner: Any
+    cube: Any
+
+
+@by_reference
+class Other(NamedTuple):
+    """Another tuple with the same fields."""
+
+    line: Any
+    inner: Any
+    cube: Any
+
+
+FIELDS = {
+    "cube": types.float64[:, :, ::1],
+    "line": types.float64[::1],
+    "inner": reference_t(Inner, {"counts": L.iarray1}),
+}
+outer_t, other_t = reference_t(Outer, FIELDS), reference_t(Other, FIELDS)
+
+
+@njit(types.float64(outer_t))
+def total(outer: Any) -> float:
+    """Add up everything, through views and shapes."""
+    cube, found = outer.cube, 0.0
+    for i in range(cube.shape[0]):
+        for j in range(cube.shape[1]):
+            found += cube[i, j].sum() * cube.strides[1]
+    outer.line[0] = found
+    return found + outer.inner.counts.sum() + outer.line[1:].size
+
+
+def made(kind: Any = Outer, **changes: Any) -> Any:
+    """Return a tuple with numbers in it."""
+    parts = {"line": np.zeros(4), "inner": Inner(np.arange(5)), "cube": np.arange(24.0).reshape(2, 3, 4)}
+    return kind(**(parts | changes))
+
+
+def test_compiled_code_reads_and_writes_what_python_has() -> None:
+    """Arrays of several dimensions, a tuple within the tuple, a view."""
+    outer = made()
+    assert total(outer) == 276.0 * 32 + 10 + 3
+    assert outer.line[0] == 276.0 * 32
+
+
+def test_a_replaced_field_has_an_address_of_its_own() -> None:
+    """The words are those of the tuple at hand, not of the one that it was made from."""
+    outer = made()
+    before = total(outer)
+    assert total(outer._replace(inner=Inner(np.zeros(2, dtype=np.int64)))) == before - 10
+    assert total(outer) == before
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"line": np.zeros(4, dtype=np.float32)},
+        {"line": np.zeros(4, dtype=np.int64)},
+        {"cube": np.zeros((2, 2))},
+        {"cube": np.zeros((4, 3, 2)).transpose()},
+    ],
+    ids=["another size", "another kind", "another shape", "another order"],
+)
+def test_an_array_of_another_type_is_refused(changes: dict[str, Any]) -> None:
+    """Compiled code would read past its end, or other numbers than there are."""
+    with pytest.raises(TypeError, match="where compiled code takes"):
+        total(made(**changes))
+
+
+def test_another_tuple_is_refused() -> None:
+    """With the same fields, and no tuple at all; by the way that runs take, which looks at no types before."""
+    entry = total.get_compile_result(types.float64(outer_t)).entry_point
+    for wrong in (made(Other), (np.zeros(4), Inner(np.arange(5)), np.zeros((2, 3, 4))), None):
+        with pytest.raises(AttributeError, match="address_Outer"):
+            entry(wrong)
+
+
+@pytest.mark.parametrize("kind", [L.bundle_t, handle.handle_t, memory.memory_t], ids=str)
+def test_words_are_laid_out_as_numba_lays_out_values(kind: Any) -> None:
+    """Arrays and functions of an image are loaded as Numba's values; a field takes as many words."""
+    for field, of_field in kind.fields.items():
+        assert words_of(of_field) == words_of_abi(of_field), field
+
+
+def test_the_bundle_of_a_model_is_taken() -> None:
+    """Every array of a real model is of the type that compiled code takes."""
+    m = machine(*MODELS["default"])
+    assert getattr(m.context.bundle, L.bundle_t.attribute) > 0
+    assert m.context.blocks.address_Blocks > 0
