@@ -12,7 +12,7 @@ from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import ROLES
 from lambda_core.laws.kernels import cache_folder, compile_kernel
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.solver.entry import UNITS, begin, core, missing
+from lambda_core.solver.entry import ON_DEMAND, UNITS, begin, build, core, missing
 
 
 class Warmup(Record):
@@ -51,7 +51,7 @@ def warmup(models: Registry, announce: Callable[[str], None] | None = None) -> W
     """
     start = time.perf_counter()
     absent = missing()
-    begin(announce)
+    begin(announce, UNITS)
     said: list[str] = []  # one sentence per law that was not on disk
 
     def say(text: str) -> None:
@@ -69,6 +69,8 @@ def warmup(models: Registry, announce: Callable[[str], None] | None = None) -> W
         except PluginError as error:
             faults.append(str(error))
     core(announce)
+    for name in ON_DEMAND:
+        build(name, announce)
     return Warmup(
         folder=str(cache_folder()),
         solver_parts=len(UNITS),

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import atexit
 import gc
+import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from lambda_core.domain.parents import end_with_parent
@@ -35,14 +37,23 @@ class Core:
     evaluate: Any
     jacobian: Any
     advance: Any
-    advance_finely: Any
     observe: Any
     solve_static: Any
     advance_pointer: Any
-    advance_finely_pointer: Any
     observe_pointer: Any
     integrate: Any
     sample: Any
+    announce: Callable[[str], None] | None
+
+    @cached_property
+    def advance_finely(self) -> Any:
+        """The one-step formula, which runs that resolve vibrations take."""
+        return _call("advance_finely", build("advance_finely", self.announce))
+
+    @cached_property
+    def advance_finely_pointer(self) -> Any:
+        """Pointer to the one-step formula."""
+        return _pointer("advance_finely", build("advance_finely", self.announce))
 
 
 # Each unit calls the others through pointers, so that none is compiled into another.
@@ -58,12 +69,19 @@ UNITS: dict[str, tuple[Any, Any]] = {
     "integrate": (handle.integrate, handle.integrate_sig),
     "sample": (handle.sample, handle.sample_sig),
 }
-# What one process compiles: units that call the same functions share the work, and all take about as long.
+ON_DEMAND = ("advance_finely",)  # compiled when a run first needs it
+# What one process compiles, the longest work first. Units of a group call the same functions, which are typed once.
 GROUPS = (
+    ("evaluate", "jacobian", "wrench", "tangent"),
+    ("advance", "solve_static", "observe", "integrate", "sample"),
+    ("advance_finely",),
+)
+# The same with more processors; all but the last take about as long.
+FINER_GROUPS = (
     ("jacobian",),
-    ("evaluate", "observe"),
-    ("solve_static", "integrate", "sample"),
-    ("advance", "wrench", "tangent"),
+    ("advance",),
+    ("evaluate", "observe", "integrate", "sample"),
+    ("solve_static", "wrench", "tangent"),
     ("advance_finely",),
 )
 # The equilibrium allocates its workspaces; all others run without reference counting.
@@ -96,24 +114,37 @@ def build_group(names: str) -> None:
         build(name)
 
 
-def begin(announce: Callable[[str], None] | None = None) -> None:
+def begin(announce: Callable[[str], None] | None = None, units: Iterable[str] | None = None) -> None:
     """Begin to compile what is not on disk, in processes of their own; :func:`core` waits for them.
 
     A unit whose process fails is compiled by :func:`core`, where its error is seen.
+
+    Parameters
+    ----------
+    announce : callable, optional
+        Called with a sentence before anything is compiled.
+    units : iterable of str, optional
+        Keys of :data:`UNITS`; by default those that every run needs.
     """
-    absent = [] if _loaded or _workers else missing()
+    wanted = set(UNITS.keys() - set(ON_DEMAND) if units is None else units)
+    absent = [] if _loaded or _workers else [name for name in missing() if name in wanted]
     if len(absent) < 2:
         return
     if announce is not None:
         announce(f"compiling {len(absent)} parts of the solver (once, a quarter of a minute to some minutes)")
     code = "import sys; from lambda_core.solver.entry import build_group; build_group(sys.argv[1])"
-    for group in GROUPS:
+    for group in GROUPS if _processors() <= len(GROUPS) else FINER_GROUPS:
         names = ",".join(name for name in group if name in absent)
         if names:
             command = [sys.executable, "-P", "-W", "ignore", "-c", code, names]
             quiet = subprocess.DEVNULL
             _workers.append(subprocess.Popen(command, stdin=subprocess.PIPE, stdout=quiet, stderr=quiet))
     atexit.register(_stop)
+
+
+def _processors() -> int:
+    """Return how many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _stop() -> None:
@@ -123,13 +154,18 @@ def _stop() -> None:
         worker.communicate()
 
 
-def _call(dispatcher: Any, signature: Any) -> Any:
-    """Return the machine code of one signature as a Python callable.
+def _call(name: str, dispatcher: Any) -> Any:
+    """Return the machine code of a unit as a Python callable.
 
     A dispatcher would work out the types of its arguments at every call, a millisecond for the bundle; here they are
     always the same, made by lambda_core.solver.drivers.solver_context.
     """
-    return dispatcher.get_compile_result(signature).entry_point
+    return dispatcher.get_compile_result(UNITS[name][1]).entry_point
+
+
+def _pointer(name: str, dispatcher: Any) -> Pointer:
+    """Return the machine code of a unit as an address for other compiled code."""
+    return Pointer(dispatcher, UNITS[name][1])
 
 
 def _load(announce: Callable[[str], None] | None) -> Core:
@@ -138,16 +174,14 @@ def _load(announce: Callable[[str], None] | None) -> Core:
         worker.wait()
         worker.communicate()
     _workers.clear()
-    built = {name: build(name, announce) for name in UNITS}
-    pointers = {
-        f"{name}_pointer": Pointer(built[name], UNITS[name][1])
-        for name in ("wrench", "tangent", "evaluate", "jacobian", "advance", "advance_finely", "observe")
-    }
-    names = (
-        "evaluate", "jacobian", "advance", "advance_finely", "observe", "solve_static", "integrate",
-        "sample",
-    )  # fmt: skip
-    return Core(**pointers, **{name: _call(built[name], UNITS[name][1]) for name in names})
+    built = {name: build(name, announce) for name in UNITS if name not in ON_DEMAND}
+    pointers = ("wrench", "tangent", "evaluate", "jacobian", "advance", "observe")
+    calls = ("evaluate", "jacobian", "advance", "observe", "solve_static", "integrate", "sample")
+    return Core(
+        **{f"{name}_pointer": _pointer(name, built[name]) for name in pointers},
+        **{name: _call(name, built[name]) for name in calls},
+        announce=announce,
+    )
 
 
 _workers: list[subprocess.Popen[bytes]] = []

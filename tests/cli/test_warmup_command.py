@@ -31,7 +31,8 @@ def test_what_is_compiled_is_announced(
 ) -> None:
     """In an empty cache every law is compiled; the solver is left out here, it would take too long."""
     monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(tmp_path))
-    monkeypatch.setattr("lambda_core.run.warmup.begin", lambda announce: None)
+    monkeypatch.setattr("lambda_core.run.warmup.begin", lambda announce, units: None)
+    monkeypatch.setattr("lambda_core.run.warmup.build", lambda name, announce: None)
     monkeypatch.setattr("lambda_core.run.warmup.core", lambda announce: None)
     monkeypatch.setattr("lambda_core.run.warmup.missing", list)
     wanted = ("damping", "asperity_load")

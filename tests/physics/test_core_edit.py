@@ -101,8 +101,32 @@ def test_every_module_of_the_core_counts(tmp_path: Path) -> None:
     assert len(keys) == len(modules) + 1 > 30
 
 
-def test_every_part_is_compiled_by_one_process() -> None:
-    assert sorted(name for group in entry.GROUPS for name in group) == sorted(entry.UNITS)
+@pytest.mark.parametrize("groups", [entry.GROUPS, entry.FINER_GROUPS], ids=["few", "many"])
+def test_every_part_is_compiled_by_one_process(groups: tuple[tuple[str, ...], ...]) -> None:
+    assert sorted(name for group in groups for name in group) == sorted(entry.UNITS)
+
+
+PLAIN_RUN = """
+import sys
+from lambda_core import api
+from lambda_core.solver import entry
+
+asked = []
+build = entry.build
+entry.build = lambda name, *more: asked.append(name) or build(name, *more)
+api.run("6208-axial-1300", ["solver.duration=0.1 ms", f"solver.accuracy={sys.argv[1]}"], out=sys.argv[2])
+print(*asked)
+"""
+
+
+@pytest.mark.parametrize(("accuracy", "needs"), [("averages", False), ("vibration", True)])
+def test_the_one_step_formula_is_compiled_for_vibrations_alone(accuracy: str, needs: bool, tmp_path: Path) -> None:
+    """A run for averages neither compiles nor loads it."""
+    command = [sys.executable, "-W", "ignore", "-c", PLAIN_RUN, accuracy, str(tmp_path / "run.h5")]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert ("advance_finely" in done.stdout.split()) is needs
+    assert "advance" in done.stdout.split()
 
 
 @pytest.mark.slow
