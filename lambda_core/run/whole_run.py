@@ -113,16 +113,19 @@ def _resume(
         raise UsageError(f"{found.folder} is finished: nothing is left to do; a longer --duration continues it")
     running, writers, known = Status(process=this_process(), wall=position.wall), [], []
     last: list[FloatArray] = []
+    turned = False
     results = found.results()
     for part, own, count in zip(engine.parts, channels_of_bearings(engine), revolutions, strict=True):
         result = results[part.bearing.name]
         known.append(list(result.revolutions()[:count]))
-        last.append(result.integrals()[position.rows.records - 1])
+        records = result.integrals()[: position.rows.records]
+        last.append(records[-1])
+        turned |= len(records) > 1 and known[-1][-1][0] > records[-2][0]
         rows = Rows(position.rows.samples, position.rows.records, int(count))
         writers.append(ResultWriter.continued(result.path, own, dataclasses.replace(running, rows=rows)))
     whole = WholeWriter.continued(found.path, position.rows.samples)
     session = _Session(engine, whole, writers, ends, report)
-    session.go_on(known, last, position)
+    session.go_on(known, last, position, turned=turned)
     return session.drive()
 
 
@@ -172,12 +175,13 @@ class _Session:
         self._judge()
         self._save()
 
-    def go_on(self, known: list[list[FloatArray]], last: list[FloatArray], position: Position) -> None:
-        """Stand where a checkpoint stood."""
+    def go_on(self, known: list[list[FloatArray]], last: list[FloatArray], position: Position, *, turned: bool) -> None:
+        """Stand where a checkpoint stood; `turned`: a cage completed a revolution since the record before the last."""
         self._known, self._last = known, last
         self._sequence, self._wall, self._records = position.sequence, position.wall, position.rows.records
         self._before = dict(position.statistics)
         self._judge()
+        self._converged &= turned  # looked at where a revolution ends, nowhere else
 
     def drive(self) -> WholeFile:
         """Advance until the end, a limit or a request to stop."""
@@ -202,6 +206,8 @@ class _Session:
             self._housekeeping()
             return bool(stop) or self._late()
 
+        if self._done() and self._engine.time > self._last[0][0]:
+            self._keep(math.inf)  # killed between its last checkpoint, which has no end off the grid, and its last word
         while not self._done():
             if stop:
                 return "interrupted", f"stopped by {stop.words()} at t = {self._engine.time:.6g} s"
