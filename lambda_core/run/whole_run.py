@@ -26,7 +26,7 @@ from lambda_core.run.progress import Progress, Report, StopRequest, stop_request
 from lambda_core.run.record_times import RECORDS_PER_REVOLUTION, next_multiple
 from lambda_core.run.whole_provenance import bearing_alone, channels_of_bearings, code_of, kernel_keys
 from lambda_core.shaft.whole_engine import WholeEngine
-from lambda_core.shaft.whole_file import WHOLE, WholeFile, WholeWriter
+from lambda_core.shaft.whole_file import WHOLE, WholeFile, WholeWriter, earlier_files
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
 
 if TYPE_CHECKING:
@@ -62,13 +62,13 @@ def launch_whole(
 def _launch(engine: WholeEngine, folder: Path, ends: Ends, report: Report | None, *, force: bool) -> WholeFile:
     """Begin the results of a run in its folder, and drive it."""
     model = engine.model
-    for old in folder.glob("*.h5") if force else ():
+    for old in earlier_files(folder, model.names["bearings"]) if force else ():
         old.unlink()
     channels, writers, status, run = channels_of_bearings(engine), [], Status(process=this_process()), uuid4().hex
     for i, own in enumerate(channels):
         name = engine.parts[i].bearing.name
         provenance = Provenance(bearing_alone(engine, i), kernel_keys(engine, i), part_of=(run, name))
-        writers.append(ResultWriter.create(folder / f"{name}.h5", provenance, own, status, force=force))
+        writers.append(ResultWriter.create(folder / f"{name}.h5", provenance, own, status))
     texts = {"case": model.name, "case_toml": model.case_toml, "code": code_of(engine), "run": run}
     texts["warnings"] = "\n".join(model.warnings)
     whole = WholeWriter.create(
@@ -139,6 +139,7 @@ def _folder(model: ShaftModel, out: Path | None, force: bool) -> Path:
         raise UsageError(f"{folder} is a file: a run of a shaft goes into a folder")
     if folder.exists() and not force and any(folder.iterdir()):
         raise UsageError(f"{folder} exists: choose another folder with --out, or overwrite it with --force")
+    earlier_files(folder, model.names["bearings"])  # a refusal comes before the equilibrium that takes a while
     check_folder(folder.absolute().parent, folder)
     return folder
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Collection, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import Channel
 from lambda_core.domain.errors import UsageError
 from lambda_core.results.checkpoint import Checkpoint, latest
-from lambda_core.results.file_format import STATUS_BYTES
+from lambda_core.results.file_format import STATUS_BYTES, part_of
 from lambda_core.results.hdf5 import beside, open_for_reading, reason
 from lambda_core.results.opening import ResultError
 from lambda_core.results.reader import Result
@@ -55,7 +55,8 @@ class WholeWriter:
         cls, path: Path, texts: Mapping[str, str], arrays: Mapping[str, Any], names: Mapping[str, list[str]]
     ) -> WholeWriter:
         """Create the file; `arrays` has places [m] of the lumps and the bearings, `names` those of NAMED."""
-        file = h5py.File(path, "w", libver="latest")
+        made = beside(path)  # under its name once it can be read: a kill leaves no half of it
+        file = h5py.File(made, "w", libver="latest")
         file.attrs[_ATTRIBUTE] = LAYOUT
         file.attrs["created"] = datetime.now(UTC).isoformat(timespec="seconds")
         for name, text in texts.items():
@@ -77,7 +78,9 @@ class WholeWriter:
             data.attrs["units"], data.attrs["long_name"] = channel.unit, channel.meaning
         file.create_dataset("slots", (2, 0), np.uint8, maxshape=(2, None), chunks=(1, _SLOT))
         file.create_dataset("status", (), f"S{STATUS_BYTES}")
-        return cls(path, file, 0)
+        writer = cls(path, file, 0)
+        os.replace(made, path)
+        return writer
 
     @classmethod
     def continued(cls, path: Path, rows: int) -> WholeWriter:
@@ -157,7 +160,7 @@ class WholeFile:
         with self._opened() as file:
             self.case, self.case_toml = str(file.attrs["case"]), str(file.attrs["case_toml"])
             self.speed, self.drive_torque = float(file.attrs["speed"]), float(file.attrs["drive_torque"])
-            self.code, self._run = str(file.attrs["code"]), str(file.attrs.get("run", ""))  # results of old have none
+            self.code, self.run = str(file.attrs["code"]), str(file.attrs.get("run", ""))  # results of old have none
             self.warnings = str(file.attrs.get("warnings", "")).splitlines()  # results of old have none
             names = {what: [str(n) for n in file[what].asstr()[()]] if what in file else [] for what in NAMED}
             self.bearings, self.bodies, self.markers = names["bearings"], names["bodies"], names["markers"]
@@ -184,9 +187,9 @@ class WholeFile:
         found = {name: Result(self.bearing(name)) for name in self.bearings}
         for name, result in found.items():
             run, bearing = result.part_of or ("", "")
-            if self._run and run != self._run:
+            if self.run and run != self.run:
                 raise ResultError(f"{result.path} is not of the run that {self.path} is of: the folder was mixed up")
-            if self._run and bearing != name:
+            if self.run and bearing != name:
                 raise ResultError(f'{result.path} is the result of "{bearing}", not of "{name}": it was renamed')
         return found
 
@@ -222,6 +225,38 @@ class WholeFile:
                 yield file
             except (KeyError, OSError, RuntimeError, ValueError) as error:
                 raise ResultError(f"{self.path} is damaged: {error}") from None
+
+
+def earlier_files(folder: Path, bearings: Collection[str]) -> list[Path]:
+    """Return the files of an earlier run that a run of these bearings replaces.
+
+    These are the whole's file, the results of bearings that it names, and those that the new run writes.
+
+    Raises
+    ------
+    UsageError
+        Where the new run would overwrite a file that no run of a shaft has written.
+    """
+    written = (folder / WHOLE, *(folder / f"{name}.h5" for name in bearings))
+    found = [path for path in written if path.exists()]
+    for path in found:
+        if _mark(path) is None:
+            raise UsageError(
+                f"{path} was not written by a run of a shaft and is not overwritten: "
+                "move it, or choose another folder with --out"
+            )
+    with suppress(ResultError):  # none there, or one of another layout
+        old = WholeFile(folder)
+        others = [name for name in old.bearings if name not in bearings]
+        found += [old.bearing(name) for name in others if _mark(old.bearing(name)) == (old.run, name)]
+    return found
+
+
+def _mark(path: Path) -> tuple[str, str] | None:
+    """Return the run and the bearing that a file is of, both empty for a whole's; None for any other file."""
+    with suppress(OSError, RuntimeError, KeyError), open_for_reading(path) as file:
+        return ("", "") if _ATTRIBUTE in file.attrs else part_of(file)
+    return None
 
 
 def is_whole(path: str | Path) -> bool:

@@ -79,3 +79,48 @@ def test_a_bearing_on_a_shaft_names_no_option_of_one_bearing(made: Path, monkeyp
     assert result.part_of is not None
     (warning,) = (one for one in result.summary().warnings if said in one)
     assert "bodies." not in warning
+
+
+def again(run: Path) -> int:
+    """Run the case of a folder once more into it."""
+    arguments = ["--run", "--quiet", "--force", "--out", str(run), "--duration", "0.1 ms"]
+    return main(["shaft", str(run.parent / "box.toml"), *arguments])
+
+
+def test_overwriting_a_run_keeps_every_file_of_others(run: Path) -> None:
+    """Of HDF5 files too: one of the user's, and the result of another run that was copied into the folder."""
+    (run.parent / "box.toml").write_text(fresh_shaft("box"))
+    (run / "measurement.h5").write_text("x")
+    shutil.copy(run / "left.h5", run / "kept.h5")
+    before = Result(run / "left.h5").part_of
+    assert again(run) == 5
+    assert (run / "measurement.h5").read_text() == "x"
+    assert Result(run / "kept.h5").part_of == before != Result(run / "left.h5").part_of
+
+
+def test_overwriting_a_run_removes_the_bearings_that_it_named(run: Path) -> None:
+    (run.parent / "box.toml").write_text(fresh_shaft("box").replace("[bearings.left", "[bearings.first"))
+    assert again(run) == 5
+    assert sorted(path.name for path in run.glob("*.h5")) == ["first.h5", "right.h5", "shaft.h5"]
+
+
+@pytest.mark.parametrize("name", ["left.h5", "shaft.h5"])
+@pytest.mark.parametrize("kind", ["text", "hdf5", "result"])
+def test_a_file_that_no_run_of_a_shaft_wrote_is_not_overwritten(
+    name: str, kind: str, run: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (run.parent / "box.toml").write_text(fresh_shaft("box"))
+    if kind == "text":
+        (run / name).write_text("x")
+    else:
+        shutil.copy(run / "right.h5", run / "other")
+        with h5py.File(run / "other", "r+") as file:
+            for mark in ("shaft_run", "shaft_bearing") if kind == "result" else list(file.attrs):
+                del file.attrs[mark]
+        (run / "other").replace(run / name)
+    before = {path: path.read_bytes() for path in run.iterdir()}
+    assert again(run) == 2
+    assert f"{name} was not written by a run of a shaft and is not overwritten" in " ".join(
+        capsys.readouterr().err.split()
+    )
+    assert before == {path: path.read_bytes() for path in run.iterdir()}
