@@ -78,11 +78,12 @@ class Status:
         """Read what `to_bytes` wrote; ValueError when it is not that."""
         try:
             fields = json.loads(data)
+            fields["statistics"] = {printable(name): count for name, count in fields["statistics"].items()}
             fields["message"] = printable(str(fields["message"]))
             fields["faults"] = tuple(printable(str(fault)) for fault in fields.get("faults", ()))
             fields["modes"] = tuple((float(f), float(damping)) for f, damping in fields.get("modes", ()))
             return Status(**{**fields, "rows": Rows(**fields["rows"])})
-        except (KeyError, TypeError) as error:
+        except (KeyError, TypeError, AttributeError) as error:
             raise ValueError(str(error)) from None
 
     def alive(self) -> bool:

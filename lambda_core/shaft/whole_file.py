@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import Channel
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.printable import printable
 from lambda_core.results.checkpoint import Checkpoint, latest
 from lambda_core.results.file_format import STATUS_BYTES, part_of
 from lambda_core.results.hdf5 import beside, open_for_reading, reason
@@ -158,11 +159,14 @@ class WholeFile:
         given = Path(path)
         self.path = given / WHOLE if given.is_dir() else given
         with self._opened() as file:
-            self.case, self.case_toml = str(file.attrs["case"]), str(file.attrs["case_toml"])
+            self.case, self.case_toml, self.code = (
+                printable(str(file.attrs[name])) for name in ("case", "case_toml", "code")
+            )
             self.speed, self.drive_torque = float(file.attrs["speed"]), float(file.attrs["drive_torque"])
-            self.code, self.run = str(file.attrs["code"]), str(file.attrs.get("run", ""))  # results of old have none
-            self.warnings = str(file.attrs.get("warnings", "")).splitlines()  # results of old have none
-            names = {what: [str(n) for n in file[what].asstr()[()]] if what in file else [] for what in NAMED}
+            # Results of old have none.
+            self.run, warnings = (printable(str(file.attrs.get(name, ""))) for name in ("run", "warnings"))
+            self.warnings = warnings.splitlines()
+            names = {what: [printable(n) for n in file[what].asstr()[()]] if what in file else [] for what in NAMED}
             self.bearings, self.bodies, self.markers = names["bearings"], names["bodies"], names["markers"]
             self.lump_positions = np.asarray(file["lump_positions"])
             self.bearing_positions = np.asarray(file["bearing_positions"])

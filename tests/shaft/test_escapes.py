@@ -1,0 +1,84 @@
+"""A shaft's result of a stranger: what its texts say to a terminal is shown, and does nothing."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from lambda_cli.main import main
+
+from lambda_core.shaft.fresh_shaft import fresh_shaft
+
+ESCAPE = "\x1b]0;owned\x07\x9b2J\u202e"
+MORE = """
+[bodies.box]
+x = "100 mm"
+length = "50 mm"
+diameter = "20 mm"
+hold_x = "locked"
+hold_y = "locked"
+hold_z = "1 N/um"
+hold_tilt_x = "locked"
+hold_tilt_y = "locked"
+hold_tilt_z = "locked"
+[markers.tip]
+x = "150 mm"
+"""
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a run of a tenth of a millisecond."""
+    found = tmp_path_factory.mktemp("escapes")
+    (found / "box.toml").write_text(fresh_shaft("box") + MORE)
+    arguments = ["--run", "--quiet", "--out", str(found / "run"), "--duration", "0.1 ms"]
+    assert main(["shaft", str(found / "box.toml"), *arguments]) == 5
+    return found / "run"
+
+
+def texts(file: h5py.File) -> Iterator[tuple[str, str]]:
+    """Yield every text of a file: dataset, or object and attribute."""
+    objects = [("/", file)]
+    file.visititems(lambda name, item: objects.append((name, item)))
+    for name, item in objects:
+        yield from ((name, key) for key, value in item.attrs.items() if isinstance(value, str))
+        if isinstance(item, h5py.Dataset) and (h5py.check_string_dtype(item.dtype) or item.dtype.kind == "S"):
+            yield name, ""
+
+
+def spoil(file: h5py.File, name: str, key: str) -> None:
+    """Put an escape into a text of a file, everywhere in it."""
+    item = file[name]
+    if key:
+        item.attrs[key] = f"{item.attrs[key]}{ESCAPE}"
+    elif item.dtype.kind == "S":
+        changed = {"message": ESCAPE, "statistics": {ESCAPE: 1.0}, "faults": [ESCAPE]}
+        item[()] = json.dumps(json.loads(item[()]) | changed, ensure_ascii=False).encode()
+    else:
+        item[()] = np.array([f"{text}{ESCAPE}" for text in item.asstr()[()]], dtype=object)
+
+
+@pytest.mark.parametrize("name", ["shaft.h5", "left.h5"])
+def test_no_text_of_a_shaft_s_result_drives_the_terminal(
+    name: str, made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Each text in turn, by every command that reads the run of a shaft: shown or refused, and written out."""
+    with h5py.File(made / name) as file:
+        found = [text for text in texts(file) if text[1] not in ("units", "long_name") and "inputs/" not in text[0]]
+    assert len(found) > 6
+    driven, run = [], tmp_path / "run"
+    for text in found:
+        shutil.copytree(made, run)
+        with h5py.File(run / name, "r+") as file:
+            spoil(file, *text)
+        for command in (["shaft"], ["show"], ["show", "--json"], ["resume", "--quiet", "--duration", "0.01 ms"]):
+            assert main([*command, str(run)]) in (0, 2, 3, 5), (text, command)
+            said = "".join(capsys.readouterr())
+            driven += [(text, command) for sign in set(ESCAPE) & set("\x1b\x07\x9b\u202e") if sign in said]
+        shutil.rmtree(run)
+    assert not driven
