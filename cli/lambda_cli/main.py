@@ -32,7 +32,7 @@ INTERRUPTED = 130
 _LONGEST_NAME = 100
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.EIO)
 DEBUG_VARIABLE = "LAMBDA_BEARING_DEBUG"
-# Matrices here have tens of rows: threads of a linear algebra library would only wait for each other, on full power.
+# The core computes with one thread of a linear algebra library: here the others are not even started.
 for _threads in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")
 # An interpreter that ends looks for cycles among all that was imported and compiled: half a second for nothing.

@@ -14,6 +14,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.domain.plugin_errors import failures_so_far
 
@@ -66,6 +67,7 @@ class Outcome:
     seconds: float
 
 
+@one_blas_thread()
 def work(task: Task) -> Outcome:
     """Do one task; never raises for what is wrong with the point."""
     global _asked_to_stop

@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.domain.blas_threads import one_blas_thread
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from concurrent.futures import Executor
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
     from lambda_core.views.table import StudyTable
 
 
+@one_blas_thread()
 def study_check(
     source: str | Path | Mapping[str, Any] | Study,
     *,

@@ -10,9 +10,11 @@ import numpy as np
 from scipy.linalg import eig, eigh
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.elastic.body import ElasticBody
 
 
+@one_blas_thread()
 def natural_frequencies(
     stiffness: FloatArray, mass: FloatArray, held: Sequence[int] = (), count: int | None = None
 ) -> tuple[FloatArray, FloatArray]:
@@ -61,6 +63,7 @@ class Whirl:
     shape: np.ndarray
 
 
+@one_blas_thread()
 def whirls(
     stiffness: FloatArray,
     mass: FloatArray,
@@ -104,6 +107,7 @@ def whirls(
     return sorted(found, key=lambda one: one.frequency)[:count]
 
 
+@one_blas_thread()
 def critical_speeds(
     stiffness: FloatArray, mass: FloatArray, gyroscopic: FloatArray, *, nodes: int, count: int = 8
 ) -> list[Whirl]:

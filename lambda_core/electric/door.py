@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.results.reader import Result
 from lambda_core.system.checking import model_of
 
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from lambda_core.system.bearing import BearingModel
 
 
+@one_blas_thread()
 def electric(
     source: str | Path | Mapping[str, Any] | Case | BearingModel,
     overrides: Iterable[str] = (),

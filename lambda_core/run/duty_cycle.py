@@ -20,6 +20,7 @@ from lambda_core.case.case_io import apply_overrides, load_case, syntax_problem
 from lambda_core.case.option import Section, option
 from lambda_core.case.problems import problems
 from lambda_core.discovery.manager import registry
+from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, Problem, SolverError, UsageError
 from lambda_core.domain.files import read_text
 from lambda_core.domain.number_text import hours, number
@@ -113,6 +114,7 @@ _ADDED = (
 )
 
 
+@one_blas_thread()
 def duty(source: str | Path | Mapping[str, Any], *, announce: Callable[[str], None] | None = None) -> DutyCycle:
     """Solve every phase of a duty cycle and add up life and losses.
 

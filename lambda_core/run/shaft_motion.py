@@ -6,6 +6,8 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lambda_core.domain.blas_threads import one_blas_thread
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
     from lambda_core.views.chart import ViewData
 
 
+@one_blas_thread()
 def shaft_run(
     source: Source | ShaftModel,
     overrides: Iterable[str] = (),
@@ -67,6 +70,7 @@ def shaft_run(
     return summarise_whole(launch_whole(model, folder, ends, force=force, report=progress, announce=announce))
 
 
+@one_blas_thread()
 def shaft_resume(
     folder: str | Path,
     *,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.run.answers import result
 from lambda_core.system.checking import resolve
 from lambda_core.thermal.temperatures import ready_model
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from lambda_core.system.bearing import BearingModel
 
 
+@one_blas_thread()
 def quasistatic(
     source: str | Path | Mapping[str, Any] | Case | BearingModel,
     overrides: Iterable[str] = (),
@@ -57,6 +59,7 @@ def quasistatic(
         return quasistatic_of(solve(model, announce=announce))
 
 
+@one_blas_thread()
 def estimate(
     source: str | Path | Mapping[str, Any] | Case | BearingModel, *, announce: Callable[[str], None] | None = None
 ) -> Estimate:
@@ -85,6 +88,7 @@ def estimate(
     return ask(ready_model(source, announce=announce), registry().methods, announce)
 
 
+@one_blas_thread()
 def run(
     source: str | Path | Mapping[str, Any] | Case | BearingModel,
     overrides: Iterable[str] = (),
@@ -125,6 +129,7 @@ def run(
     return launch(ready_model(source, overrides, announce), path, force=force, report=progress, announce=announce)
 
 
+@one_blas_thread()
 def iterate(
     source: str | Path | Mapping[str, Any] | Case | BearingModel,
     overrides: Iterable[str] = (),
@@ -167,6 +172,7 @@ def iterate(
     return Stepping(ready_model(source, overrides, announce), interval, announce, exact=exact, couple=couple)
 
 
+@one_blas_thread()
 def resume(
     path: str | Path,
     overrides: Iterable[str] = (),
@@ -219,6 +225,7 @@ def resume(
     return relaunch(Path(path), model, report=progress, announce=announce)
 
 
+@one_blas_thread()
 def cross_check(
     source: str | Path | Mapping[str, Any] | Case | BearingModel,
     overrides: Iterable[str] = (),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pydantic import Field
 
+from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.loading import CARRYING
@@ -64,6 +65,7 @@ class SpeedCurve(Record):
         return "\n".join([self.title, f"friction torque over speed [{units.unit(unit)}]", *lines, self.note])
 
 
+@one_blas_thread()
 def stribeck(
     source: str | Path | Mapping[str, Any] | Case,
     overrides: Iterable[str] = (),

@@ -19,6 +19,7 @@ from lambda_core.case.shaft import OWN, ShaftCase, bearing_tables
 from lambda_core.case.shaft_io import shaft_tables, validate_shaft
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import CaseError, Problem
 from lambda_core.domain.fits import REFERENCE_TEMPERATURE
 from lambda_core.domain.gear_forces import GearForces, gear_forces
@@ -53,6 +54,7 @@ _SLENDEREST = 200  # diameters; elements are as long as thick, and matrices of m
 Source = str | Path | Mapping[str, Any] | ShaftCase
 
 
+@one_blas_thread()
 def check_shaft(
     source: Source,
     overrides: Iterable[str] = (),

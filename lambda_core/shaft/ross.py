@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
 from lambda_core.elastic.beam import NODE, NODES
 from lambda_core.elastic.body import ElasticBody
@@ -24,6 +25,7 @@ _THEIRS = (2, 0, 1, 3, 4)
 _OURS = (1, 2, 0, 4, 5, 3)  # of six, in their order
 
 
+@one_blas_thread()
 def ross_rotor(model: ShaftModel, state: ShaftState | None = None, announce: Announce = None) -> Any:
     """Return the shaft, its discs and its bearings at the operating point as a ``ross.Rotor``.
 

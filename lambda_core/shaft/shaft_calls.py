@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from lambda_core.domain.blas_threads import one_blas_thread
+
 if TYPE_CHECKING:
     from lambda_core.shaft.model import ShaftModel
     from lambda_core.shaft.resolving import Source
@@ -13,6 +15,7 @@ if TYPE_CHECKING:
     from lambda_core.views.chart import ViewData
 
 
+@one_blas_thread()
 def shaft(
     source: Source | ShaftModel, overrides: Iterable[str] = (), *, announce: Callable[[str], None] | None = None
 ) -> ShaftReport:

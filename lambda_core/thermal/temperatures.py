@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
 from lambda_core.system.checking import model_of, resolve
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from lambda_core.views.chart import ViewData
 
 
+@one_blas_thread()
 def thermal(
     source: str | Path | Mapping[str, Any] | Case | BearingModel,
     overrides: Iterable[str] = (),
@@ -68,6 +70,7 @@ def thermal(
     return steady_of(loop, loop.steady())
 
 
+@one_blas_thread()
 def warm_up(
     source: str | Path | Mapping[str, Any] | Case | BearingModel,
     duration: float,
