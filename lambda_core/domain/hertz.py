@@ -9,6 +9,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+_ROUNDING = 1e-15
+_NEAR = 1e-9  # a secant step of this length ends within rounding
+
 
 @dataclass(frozen=True)
 class HertzShape:
@@ -84,29 +87,48 @@ def hertz_shape(radius_x: float, radius_y: float) -> HertzShape:
     ValueError
         If a radius is not positive: the surfaces would conform and Hertz theory does not hold.
     """
-    from scipy.optimize import brentq
-    from scipy.special import elliprd, elliprf
-
     if not (radius_x > 0.0 and radius_y > 0.0):
         raise ValueError(f"Hertz contact needs positive reduced radii, got R_x {radius_x:g} m, R_y {radius_y:g} m")
     wide = radius_y >= radius_x
-    log_target = abs(math.log(radius_y / radius_x))
+    log_kappa = _log_axis_ratio(abs(math.log(radius_y / radius_x)))
+    first, share = _integrals(log_kappa)
+    second = first * (1.0 + math.expm1(-2.0 * log_kappa) * share)
+    return HertzShape(math.exp(log_kappa if wide else -log_kappa), first, second)
 
-    def integrals(log_kappa: float) -> tuple[float, float]:
-        # K(m) and D(m) = (K - E)/m in Carlson's forms: no cancellation near the circle
-        q = math.exp(-2.0 * log_kappa)  # 1 - m
-        return float(elliprf(0.0, q, 1.0)), float(elliprd(0.0, q, 1.0)) / 3.0
+
+def _log_axis_ratio(log_target: float) -> float:
+    """Return ln(kappa) of ln(R_major/R_minor) by the secant method: both grow together, almost in proportion."""
 
     def residual(log_kappa: float) -> float:
-        first, d = integrals(log_kappa)
-        return 2.0 * log_kappa + math.log((first - d) / d) - log_target
+        # (kappa^2 E - K)/(K - E) = kappa^2 (K - D)/D with D = (K - E)/m: no cancellation near the circle
+        _, share = _integrals(log_kappa)
+        return 2.0 * log_kappa + math.log((1.0 - share) / share) - log_target
 
-    # kappa lies between target^(1/2) and target^(2/3) times slowly varying factors: room on both sides
-    low, high = 0.3 * log_target - 1e-6, 0.8 * log_target + 1e-6
-    log_kappa = float(brentq(residual, low, high, xtol=1e-15, rtol=1e-14))
-    first, d = integrals(log_kappa)
-    second = first + math.expm1(-2.0 * log_kappa) * d
-    return HertzShape(math.exp(log_kappa if wide else -log_kappa), first, second)
+    # kappa lies between target^(1/2) and target^(2/3)
+    before, now = 0.5 * log_target, 2.0 / 3.0 * log_target + 1e-6
+    left_before, left = residual(before), residual(now)
+    while abs(now - before) > _NEAR and left != left_before:
+        before, now = now, now - left * (now - before) / (left - left_before)
+        left_before, left = left, residual(now)
+    return now
+
+
+def _integrals(log_kappa: float) -> tuple[float, float]:
+    """Return K(m) and (K - E)/(m K) at m = 1 - exp(-2 log_kappa).
+
+    By the arithmetic-geometric mean, K = pi/(2 agm(1, k')) and (K - E)/K = sum of 2^(n-1) c_n^2 with c_0^2 = m,
+    c_(n+1) = c_n^2/(4 a_(n+1)) (Abramowitz and Stegun 1964, 17.6): every term is positive.
+    """
+    smaller, m = math.exp(-log_kappa), -math.expm1(-2.0 * log_kappa)
+    mean, other = 0.5 * (1.0 + smaller), math.sqrt(smaller)
+    term = -0.25 * math.expm1(-log_kappa) / (1.0 + smaller)  # c_n^2/m
+    share, weight = 0.5 + term, 2.0
+    while term * weight > _ROUNDING:
+        mean, other = 0.5 * (mean + other), math.sqrt(mean * other)
+        term *= term * m / (16.0 * mean * mean)
+        share += weight * term
+        weight *= 2.0
+    return math.pi / (mean + other), share
 
 
 def hertz_contact(load: float, radius_x: float, radius_y: float, e_eff: float) -> HertzContact:

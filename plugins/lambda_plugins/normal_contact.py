@@ -120,7 +120,7 @@ class ExactSeries(NamedTuple):
 
 @functools.cache
 def _exact_series() -> ExactSeries:
-    """Return the series, fitted to scipy.special's integrals."""
+    """Return the series, fitted to the integrals."""
     nodes = np.cos((np.arange(80) + 0.5) * math.pi / 80)
     shapes = [hertz_shape(1.0, math.exp((x + 1.0) / 2.0 * math.log(_MAX_RATIO))) for x in nodes]
     values = np.array([(math.log(shape.ratio), shape.first, shape.second) for shape in shapes])
@@ -166,7 +166,7 @@ def hertz_exact(delta: float, R_x: float, R_y: float, E_eff: float, par: Exact, 
     """Hertz with complete elliptic integrals.
 
     Hertz 1881; Johnson, Contact Mechanics (1985), eq. 4.25-4.28. The integrals are Chebyshev series in
-    ln(ratio of the principal radii), fitted once to scipy.special over 1..20 000 with a relative error below 1e-9.
+    ln(ratio of the principal radii), fitted once to the integrals over 1..20 000 with a relative error below 1e-9.
     """
     if R_y > _MAX_RATIO * R_x or R_x > _MAX_RATIO * R_y:
         return 2
