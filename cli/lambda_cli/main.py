@@ -37,6 +37,24 @@ for _threads in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")
 # An interpreter that ends looks for cycles among all that was imported and compiled: half a second for nothing.
 atexit.register(gc.freeze)
+_START = 300_000  # objects of a program that has been imported and has loaded what is compiled
+
+
+def _collect_after_the_start() -> None:
+    """Let the collector of cycles begin where the start ends: of what is imported it finds nothing to drop."""
+    usual = gc.get_threshold()
+
+    def begin(phase: str, _: dict[str, int]) -> None:
+        if phase == "stop":
+            gc.callbacks.remove(begin)
+            gc.freeze()
+            gc.set_threshold(*usual)
+
+    gc.callbacks.append(begin)
+    gc.set_threshold(_START, *usual[1:])
+
+
+_collect_after_the_start()
 
 
 class LazyGroup(TyperGroup):

@@ -12,7 +12,6 @@ from pydantic import BaseModel, ValidationError
 
 from lambda_core.case.builtin import builtin_cases, builtin_text, is_builtin
 from lambda_core.case.case import Case, merged
-from lambda_core.case.salvage import invalid_case
 from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
 from lambda_core.domain.files import read_text
 from lambda_core.domain.handed_laws import named
@@ -83,6 +82,22 @@ def toml_tables(text: str, source: str) -> dict[str, Any]:
         raise CaseError(source, [Problem("", "is nested too deeply")]) from None
 
 
+def shaft_tables(source: str | Path) -> dict[str, Any]:
+    """Return what stands in the TOML file of a shaft.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file.
+    CaseError
+        When it is not TOML.
+    """
+    path = Path(source)
+    if not path.is_file():
+        raise UsageError(f'"{source}" is not a file; lambda-bearing init NAME --shaft writes one to start from')
+    return toml_tables(case_text(path), path.name)
+
+
 def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> Case:
     """Check plain tables as a case; CaseError with every problem at once."""
     if isinstance(data.get("parameters"), list) and "bearing" not in data:
@@ -95,6 +110,8 @@ def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | 
     try:
         return Case.model_validate(data, context={"folder": folder})
     except ValidationError as error:
+        from lambda_core.case.salvage import invalid_case
+
         raise invalid_case(source, error, data, folder) from None
 
 

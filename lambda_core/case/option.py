@@ -12,7 +12,7 @@ from lambda_core.domain.units import Quantity
 class Section(BaseModel):
     """Base of every table of a case: no unknown keys, immutable, defaults checked like input."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, allow_inf_nan=False)
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, allow_inf_nan=False, defer_build=True)
 
 
 def option(default: Any = ..., description: str = "", *, reference: str = "", **limits: Any) -> Any:

@@ -10,26 +10,9 @@ from typing import Any
 from pydantic import ValidationError
 
 from lambda_core.case.case import NAME_PATTERN
-from lambda_core.case.case_io import case_text, toml_tables
 from lambda_core.case.salvage import InvalidCase, invalid_case
 from lambda_core.case.shaft import NAMED, TAKEN, ShaftCase
-from lambda_core.domain.errors import CaseError, Problem, UsageError
-
-
-def shaft_tables(source: str | Path) -> dict[str, Any]:
-    """Return what stands in a TOML file.
-
-    Raises
-    ------
-    UsageError
-        When there is no such file.
-    CaseError
-        When it is not TOML.
-    """
-    path = Path(source)
-    if not path.is_file():
-        raise UsageError(f'"{source}" is not a file; lambda-bearing init NAME --shaft writes one to start from')
-    return toml_tables(case_text(path), path.name)
+from lambda_core.domain.errors import CaseError, Problem
 
 
 def validate_shaft(data: Mapping[str, Any], source: str = "shaft", folder: Path | None = None) -> ShaftCase:

@@ -18,7 +18,7 @@ Status = Literal["published", "derived", "assumed"]
 class Frozen(BaseModel):
     """Base of catalogue rows: immutable, no unknown fields."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
 
 class Value(Frozen):

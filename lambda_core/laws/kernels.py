@@ -262,7 +262,13 @@ def sources_key(*places: Path) -> str:
 @cache
 def _host_content(function: Callable[..., Any], sources: tuple[Path, ...]) -> tuple[str, str]:
     """Return the hashes of the sources and of what the entry point reaches, found once per process."""
-    return sources_key(*sources), reach(function, lenient=True).key
+    return _shared_sources(sources), reach(function, lenient=True).key
+
+
+@cache
+def _shared_sources(sources: tuple[Path, ...]) -> str:
+    """Return the hash of what all entry points are compiled from, found once per process."""
+    return sources_key(*sources)
 
 
 def host_key(function: Callable[..., Any], sources: tuple[Path, ...], **options: Any) -> str:
@@ -274,6 +280,11 @@ def host_key(function: Callable[..., Any], sources: tuple[Path, ...], **options:
 def host_folder(key: str) -> Path:
     """Return where the code of an entry point with this key is kept; exists once it was compiled."""
     return cache_folder() / f"host-{key[:24]}-{_environment()}"
+
+
+def tried_folder(key: str) -> Path:
+    """Return what stands in the cache where laws were tried out and found in order (:mod:`lambda_core.laws.tried`)."""
+    return cache_folder() / f"tried-{key[:24]}-{_environment()}{'-checked' if is_checked() else ''}"
 
 
 @contextmanager

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from lambda_core.domain.channels import Channel
 from lambda_core.results.record import Record
-from lambda_core.system.bearing import BearingModel, ChosenEvent, ChosenObserver
 from lambda_core.views.observer import Reduction
+
+if TYPE_CHECKING:
+    from lambda_core.system.bearing import BearingModel, ChosenEvent, ChosenObserver
 
 EVENTS_GROUP = "events"
 OBSERVER_COLUMNS = ("name", "title", "distribution", "reference", "parameters", "numbers", "key")

@@ -12,7 +12,7 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
@@ -30,11 +30,11 @@ from lambda_core.results.event_rows import (
     observer_rows,
 )
 from lambda_core.results.objects import attach, describe, scales_along, scales_in, texts_of
-from lambda_core.results.provenance import Provenance
 from lambda_core.results.run_status import Rows
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.describe import headline
-from lambda_core.system.operating_limits import operating_warnings
+
+if TYPE_CHECKING:
+    from lambda_core.results.provenance import Provenance
+    from lambda_core.system.bearing import BearingModel
 
 LAYOUT = 1
 LAYOUT_ATTRIBUTE = "lambda_bearing_layout"
@@ -65,6 +65,8 @@ _VALUE_COLUMNS = ("path", "value", "type", "quantity", "source", "grade", "statu
 
 def create(file: h5py.File, provenance: Provenance, channels: Sequence[Channel]) -> None:
     """Create every object and attribute of a result in an empty file."""
+    from lambda_core.system.describe import headline
+
     model = provenance.model
     file.attrs[LAYOUT_ATTRIBUTE] = LAYOUT
     file.attrs["title"] = model.title
@@ -129,6 +131,8 @@ def _series(group: h5py.Group, channels: Sequence[Channel], along: str) -> None:
 
 
 def _inputs(group: h5py.Group, provenance: Provenance) -> None:
+    from lambda_core.system.operating_limits import operating_warnings
+
     model = provenance.model
     group.attrs["case_toml"] = "the case, complete: it runs again as it stands"
     for name, text in (("case_toml", model.case_toml), ("model_json", provenance.model_json())):

@@ -10,4 +10,4 @@ INTERFACE = 1
 class Record(BaseModel):
     """Base of what the machine interface is made of."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from lambda_core.case.case import merged
-from lambda_core.case.case_io import overridden
+from lambda_core.case.case_io import overridden, shaft_tables
 from lambda_core.case.case_writer import tables_toml
 from lambda_core.case.salvage import InvalidCase, related
 from lambda_core.case.shaft import OWN, ShaftCase, bearing_tables
-from lambda_core.case.shaft_io import shaft_tables, validate_shaft
+from lambda_core.case.shaft_io import validate_shaft
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread

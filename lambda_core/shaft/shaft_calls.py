@@ -135,8 +135,7 @@ def is_shaft_file(source: str | Path) -> bool:
     -------
     bool
     """
-    from lambda_core.case.case_io import is_shaft
-    from lambda_core.case.shaft_io import shaft_tables
+    from lambda_core.case.case_io import is_shaft, shaft_tables
     from lambda_core.domain.errors import LambdaError
 
     try:

@@ -9,18 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
-from pydantic import BaseModel
+if TYPE_CHECKING:
+    from pydantic import BaseModel
 
-from lambda_core.case.electric import Electric
-from lambda_core.case.thermal import Thermal
-from lambda_core.domain.elements import BodyName
-from lambda_core.domain.fits import Mounting
-from lambda_core.elastic.ring import RingWaves
-from lambda_core.laws.context import Material, Oil
-from lambda_core.laws.law import Law
-from lambda_core.views.observer import Action, Event, Observer
+    from lambda_core.case.electric import Electric
+    from lambda_core.case.thermal import Thermal
+    from lambda_core.domain.elements import BodyName
+    from lambda_core.domain.fits import Mounting
+    from lambda_core.elastic.ring import RingWaves
+    from lambda_core.laws.context import Material, Oil
+    from lambda_core.laws.law import Law
+    from lambda_core.views.observer import Action, Event, Observer
 
 
 @dataclass(frozen=True)

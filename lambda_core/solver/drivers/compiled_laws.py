@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from lambda_core.domain.errors import SolverError
-from lambda_core.laws.check import check_choice
 from lambda_core.laws.context import Oil
 from lambda_core.laws.jit.function_tables import addresses
 from lambda_core.laws.kernels import compile_kernel
+from lambda_core.laws.tried import Choice, try_out
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of, times
 from lambda_core.solver.entry import begin
@@ -22,7 +22,7 @@ from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame, build_context, prepare
 
 Announce = Callable[[str], None] | None
-# Hash of a law's code, force element and parameters of what this process has tried out and found in order.
+# Hash of a law's code, force element and parameters of what was tried out and found in order.
 _in_order: set[tuple[str, str, str]] = set()
 
 
@@ -75,14 +75,22 @@ def check_laws(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils:
     PluginError
         With the first law that does not keep the contract of its role.
     """
+    fresh: dict[tuple[str, str, str], Choice] = {}
     for element, roles in model.laws.items():
         context = build_context(model, element, frame, oil_of(oils, element))
         for role, law in roles.items():
             compiled = kernels.compiled[element, role]
             key = (compiled.key, element, law.parameters.model_dump_json())
             if key not in _in_order:
-                check_choice(law.model, prepare(law, context), compiled)
-                _in_order.add(key)
+                fresh[key] = Choice(law.model, prepare(law, context), compiled)
+    _try_out(fresh)
+
+
+def _try_out(fresh: dict[tuple[str, str, str], Choice]) -> None:
+    """Try out what this process has not tried yet."""
+    if fresh:
+        try_out(list(fresh.values()))
+        _in_order.update(fresh)
 
 
 def derive_oils(model: BearingModel, kernels: Kernels, frame: ContactFrame) -> Oils:
@@ -101,8 +109,7 @@ def _derive_oil(model: BearingModel, kernels: Kernels, frame: ContactFrame, elem
     compiled = kernels.compiled[element, "rheology"]
     key = (compiled.key, element, law.parameters.model_dump_json())
     if key not in _in_order:
-        check_choice(law.model, par, compiled)
-        _in_order.add(key)
+        _try_out({key: Choice(law.model, par, compiled)})
     t, dp, dt = model.oil.temperature, 1e6, 0.5
     p = np.array([0.0, dp, 2.0 * dp, 0.0, 0.0])
     temperatures = np.array([t, t, t, t - dt, t + dt])
