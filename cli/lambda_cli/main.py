@@ -37,7 +37,7 @@ for _threads in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")
 # An interpreter that ends looks for cycles among all that was imported and compiled: half a second for nothing.
 atexit.register(gc.freeze)
-_START = 300_000  # objects of a program that has been imported and has loaded what is compiled
+_START = 400_000  # objects of a program that has imported all and loaded what is compiled, and some more
 
 
 def _collect_after_the_start() -> None:

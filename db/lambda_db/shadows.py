@@ -22,6 +22,8 @@ def shadows(folders: tuple[Path, ...]) -> tuple[Shadow, ...]:
     folders : tuple of pathlib.Path
         Of plugins, in the order in which they are laid over the built-in rows.
     """
+    if not folders:
+        return ()
     known: dict[_Key, tuple[str, str]] = dict(_built_in())
     found: dict[_Key, Shadow] = {}
     for folder in folders:
