@@ -27,7 +27,7 @@ NAMES = {
     "whole": "a shaft in motion over the sum of its bearings run alone",
     "operating_point": "quasi-static points",
     "foreign_law": "a traction law from another distribution",
-    "startup": "cold and warm start of the command line",
+    "startup": "cold and warm start of the command line; what each command costs, warm",
     "memory": "memory over a long run",
     "parallel": "several processes at once",
     "peer": "Exudyn's ball bearing",

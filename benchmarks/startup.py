@@ -1,4 +1,4 @@
-"""From the command line to the first step: cold, warm, and with a law that was never used before."""
+"""From the command line to the first step: cold, warm, and with a law never used before; every command, warm."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.cases import DEFAULT
+from benchmarks.commands import measure_commands
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort
 
@@ -70,7 +71,7 @@ def _environment(cache: Path | None) -> dict[str, str]:
 
 
 def measure(effort: Effort) -> Section:
-    """Start cold (not with --quick), warm, and with another law."""
+    """Start cold (not with --quick), warm, and with another law; then hold every command against its budget."""
     rows: list[tuple[Cell, ...]] = [("--help", None, None, help_seconds(effort.repeats))]
     targets: list[Target] = []
     with tempfile.TemporaryDirectory() as folder:
@@ -88,10 +89,11 @@ def measure(effort: Effort) -> Section:
             targets.append(
                 Target("another law, more than a warm start", "s", other.integrating - warm.integrating, 1.0)
             )
+        commands, budgets = measure_commands(_environment(cache), max(effort.repeats, 3))
     table = Table(
         f"Start of lambda-bearing run {DEFAULT}",
         ("start", "compiling s", "first step after s", "1 ms simulated after s"),
         tuple(rows),
         ("New processes, wall time. Cold includes building the catalogue; parts are compiled side by side.",),
     )
-    return Section("startup", (table,), tuple(targets))
+    return Section("startup", (table, commands), (*targets, *budgets))

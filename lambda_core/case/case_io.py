@@ -12,6 +12,7 @@ from pydantic import BaseModel, ValidationError
 
 from lambda_core.case.builtin import builtin_cases, builtin_text, is_builtin
 from lambda_core.case.case import Case, merged
+from lambda_core.case.salvage import invalid_case
 from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
 from lambda_core.domain.files import read_text
 from lambda_core.domain.handed_laws import named
@@ -110,8 +111,6 @@ def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | 
     try:
         return Case.model_validate(data, context={"folder": folder})
     except ValidationError as error:
-        from lambda_core.case.salvage import invalid_case
-
         raise invalid_case(source, error, data, folder) from None
 
 

@@ -11,15 +11,13 @@ from pydantic import BaseModel, ValidationError
 
 from lambda_core.case.case import Case
 from lambda_core.case.problems import problems
-from lambda_core.case.shaft import ShaftCase
 from lambda_core.domain.errors import CaseError, Problem
 
 StandIns = Mapping[tuple[str, ...], Any]
 
 _ROUNDS = 20
-STAND_IN = "stand-in"  # a bearing where no other is left
 # Stand-ins for required options that are missing or wrong; problems with them are never shown.
-_SHARED: StandIns = {
+SHARED_STAND_INS: StandIns = {
     ("name",): "case",
     ("lubricant",): {"name": "FVA3", "temperature": "40 degC"},
     ("lubricant", "name"): "FVA3",
@@ -27,16 +25,7 @@ _SHARED: StandIns = {
     ("operation",): {"speed": "1000 rpm"},
     ("operation", "speed"): "1000 rpm",
 }
-_PIECES = [{"length": "1 m", "diameter": "40 mm"}]
-_STAND_INS: Mapping[type[BaseModel], StandIns] = {
-    Case: {**_SHARED, ("bearing",): {}},
-    ShaftCase: {
-        **_SHARED,
-        ("shaft",): {"sections": _PIECES},
-        ("shaft", "sections"): _PIECES,
-        ("bearings",): {STAND_IN: {"position": "0 mm"}},
-    },
-}
+_ONE_BEARING: StandIns = {**SHARED_STAND_INS, ("bearing",): {}}
 
 
 class InvalidCase(CaseError):
@@ -59,20 +48,25 @@ def related(one: str, other: str) -> bool:
 
 
 def invalid_case(
-    source: str, error: ValidationError, data: Mapping[str, Any], folder: Path | None, root: type[BaseModel] = Case
+    source: str,
+    error: ValidationError,
+    data: Mapping[str, Any],
+    folder: Path | None,
+    root: type[BaseModel] = Case,
+    stand_ins: StandIns = _ONE_BEARING,
 ) -> InvalidCase:
     """Return the error that names every mistake in `data`, with what is left of the case, of one bearing or a shaft."""
-    return InvalidCase(source, problems(error, root, data), _remainder(error, data, folder, root))
+    return InvalidCase(source, problems(error, root, data), _remainder(error, data, folder, root, stand_ins))
 
 
 def _remainder(
-    error: ValidationError, data: Mapping[str, Any], folder: Path | None, root: type[BaseModel]
+    error: ValidationError, data: Mapping[str, Any], folder: Path | None, root: type[BaseModel], stand_ins: StandIns
 ) -> BaseModel | None:
     rest = deepcopy(dict(data))
     for _ in range(_ROUNDS):
         for item in error.errors(include_url=False, include_context=False):
             path = tuple(p for p in item["loc"] if not str(p).startswith("kind:"))
-            _take_out(rest, path, _STAND_INS[root])
+            _take_out(rest, path, stand_ins)
         try:
             return root.model_validate(rest, context={"folder": folder})
         except ValidationError as again:

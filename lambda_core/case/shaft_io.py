@@ -10,9 +10,18 @@ from typing import Any
 from pydantic import ValidationError
 
 from lambda_core.case.case import NAME_PATTERN
-from lambda_core.case.salvage import InvalidCase, invalid_case
+from lambda_core.case.salvage import SHARED_STAND_INS, InvalidCase, StandIns, invalid_case
 from lambda_core.case.shaft import NAMED, TAKEN, ShaftCase
 from lambda_core.domain.errors import CaseError, Problem
+
+STAND_IN = "stand-in"  # a bearing where no other is left
+_PIECES = [{"length": "1 m", "diameter": "40 mm"}]
+_STAND_INS: StandIns = {
+    **SHARED_STAND_INS,
+    ("shaft",): {"sections": _PIECES},
+    ("shaft", "sections"): _PIECES,
+    ("bearings",): {STAND_IN: {"position": "0 mm"}},
+}
 
 
 def validate_shaft(data: Mapping[str, Any], source: str = "shaft", folder: Path | None = None) -> ShaftCase:
@@ -25,7 +34,7 @@ def validate_shaft(data: Mapping[str, Any], source: str = "shaft", folder: Path 
     try:
         case = ShaftCase.model_validate(data, context={"folder": folder})
     except ValidationError as error:
-        wrong = invalid_case(source, error, data, folder, ShaftCase)
+        wrong = invalid_case(source, error, data, folder, ShaftCase, _STAND_INS)
         raise InvalidCase(source, [*wrong.problems, *found], wrong.remainder) from None
     if found:
         raise InvalidCase(source, found, case)

@@ -64,6 +64,7 @@ class TimeFunction:
 
 
 ZERO = TimeFunction()
+USUAL_RESOLVE = 2000.0  # [Hz]; modes of a ring between the raceways of bearings of usual size lie below
 SPHERICAL = "spherical"  # arrangement of two rows on one sphere
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from lambda_core.case.case import Case
 from lambda_core.case.modelling import Solver
 from lambda_core.domain.units import show
-from lambda_core.system.bearing import ChosenLaw, Geometry
+from lambda_core.system.bearing import USUAL_RESOLVE, ChosenLaw, Geometry
 from lambda_core.system.bearing import Solver as SolverSettings
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.time_functions import highest_frequency, peak, time_function
@@ -26,7 +26,6 @@ STEPS_PER_PERIOD = 20.0
 # The formula of order 4 for vibrations: it shifts a frequency by 0.1 % at six steps per period, by 0.006 % at twelve.
 FINE_STEPS_PER_CAGE_TURN = 100.0
 FINE_STEPS_PER_PERIOD = 6.0
-USUAL_RESOLVE = 2000.0  # [Hz]; modes of a ring between the raceways of bearings of usual size lie below
 # Samples per period of the highest frequency that is followed. An analyser takes 2.56 behind a filter (ISO 13373-2);
 # here is none, and what stands above falls into the spectrum: at a defect 2.56 made a line 2.3 times too high, 5.12
 # adds at most 5 %.

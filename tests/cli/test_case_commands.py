@@ -45,13 +45,6 @@ def test_help_names_every_command_and_loads_nothing_heavy() -> None:
         assert name in done.stdout
 
 
-def test_check_needs_no_compiler_and_no_result_library() -> None:
-    code = "import sys; from lambda_cli.main import main; main(['check', '6208-axial-700'])\n"
-    code += "print([m for m in ('numba', 'h5py', 'matplotlib', 'textual') if m in sys.modules])"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines()[-1] == "[]"
-
-
 def test_every_listed_command_loads_and_has_help(call: Call) -> None:
     for name in commands.entries():
         code, out, _ = call(name, "--help")

@@ -16,6 +16,7 @@ from lambda_db.catalogue import open_catalogue
 from lambda_db.engine import WRITTEN
 from lambda_db.paths import cache_folder
 from lambda_db.seed_files import BUILT_IN, fingerprint
+from lambda_db.shadows import shadows
 
 from lambda_core.domain.errors import CatalogueError
 
@@ -207,6 +208,13 @@ def test_opening_is_quick(cache: Path) -> None:
         open_catalogue().close()
         best = min(best, time.perf_counter() - started)
     assert best < 0.3
+
+
+def test_no_seed_is_read_where_no_plugin_brings_rows(monkeypatch: pytest.MonkeyPatch) -> None:
+    read: list[Path] = []
+    monkeypatch.setattr("lambda_db.shadows._built_in", lambda: read.append(BUILT_IN) or ())
+    assert shadows(()) == ()
+    assert not read
 
 
 def test_the_hook_is_light() -> None:
