@@ -119,8 +119,6 @@ def measure_commands(environment: Mapping[str, str], repeats: int) -> tuple[Tabl
         "What a warm command costs",
         ("command", "processor time s", "imports s", "modules"),
         tuple(rows),
-        (
-            "Processor time of the process, user and system; imports in wall time, by -X importtime. Minima over repeats.",
-        ),
+        ("Processor time is user and system; imports are wall time, by -X importtime. Minima over repeats.",),
     )
     return table, tuple(targets)
