@@ -40,8 +40,7 @@ _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 def cache_folder() -> Path:
     """Return the folder of all compiled code: ``LAMBDA_BEARING_CACHE`` or the user's cache."""
-    base = os.environ.get("LAMBDA_BEARING_CACHE")
-    if base:
+    if base := os.environ.get("LAMBDA_BEARING_CACHE"):
         return Path(base).expanduser() / "kernels"
     import platformdirs
 
@@ -150,7 +149,7 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
     words = f"{model.role} {reached.key} {binding.source(arguments, layout, binding.taken_by(kernel))}"
     key = hashlib.sha256(words.encode()).hexdigest()
     checked = is_checked() and project_of(model.distribution) != OWN
-    folder = cache_folder() / f"{model.role}-{key[:24]}-{_environment()}{'-checked' if checked else ''}"
+    folder = cache_folder() / f"{model.role}-{key[:24]}-{environment()}{'-checked' if checked else ''}"
     if folder in _in_memory:
         return _in_memory[folder]
     from lambda_core.laws.jit import machine_code
@@ -262,13 +261,7 @@ def sources_key(*places: Path) -> str:
 @cache
 def _host_content(function: Callable[..., Any], sources: tuple[Path, ...]) -> tuple[str, str]:
     """Return the hashes of the sources and of what the entry point reaches, found once per process."""
-    return _shared_sources(sources), reach(function, lenient=True).key
-
-
-@cache
-def _shared_sources(sources: tuple[Path, ...]) -> str:
-    """Return the hash of what all entry points are compiled from, found once per process."""
-    return sources_key(*sources)
+    return sources_key(*sources), reach(function, lenient=True).key
 
 
 def host_key(function: Callable[..., Any], sources: tuple[Path, ...], **options: Any) -> str:
@@ -279,12 +272,7 @@ def host_key(function: Callable[..., Any], sources: tuple[Path, ...], **options:
 
 def host_folder(key: str) -> Path:
     """Return where the code of an entry point with this key is kept; exists once it was compiled."""
-    return cache_folder() / f"host-{key[:24]}-{_environment()}"
-
-
-def tried_folder(key: str) -> Path:
-    """Return what stands in the cache where laws were tried out and found in order (:mod:`lambda_core.laws.tried`)."""
-    return cache_folder() / f"tried-{key[:24]}-{_environment()}{'-checked' if is_checked() else ''}"
+    return cache_folder() / f"host-{key[:24]}-{environment()}"
 
 
 @contextmanager
@@ -365,7 +353,8 @@ def compile_host(
 
 
 @cache
-def _environment() -> str:
+def environment() -> str:
+    """Return the hash of what compiled code depends on beyond its sources, found once per process."""
     from lambda_core.laws.jit.machine_code import environment_key
 
     return environment_key()

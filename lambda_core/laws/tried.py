@@ -13,7 +13,7 @@ from pathlib import Path
 from lambda_core.domain import role, roles
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.laws.check import check_choice
-from lambda_core.laws.kernels import CompiledKernel, sources_key, tried_folder
+from lambda_core.laws.kernels import CompiledKernel, cache_folder, environment, is_checked, sources_key
 from lambda_core.laws.law import Law
 
 
@@ -37,7 +37,7 @@ def try_out(choices: Sequence[Choice]) -> None:
     PluginError
         With the first fault of the first law that has one.
     """
-    folder = tried_folder(_key(choices))
+    folder = _folder(choices)
     if folder.is_dir():
         with contextlib.suppress(OSError):
             os.utime(folder)  # folders that nobody has used for long are dropped
@@ -48,14 +48,15 @@ def try_out(choices: Sequence[Choice]) -> None:
         folder.mkdir(parents=True, exist_ok=True)
 
 
-def _key(choices: Sequence[Choice]) -> str:
-    """Return the hash of all that the trials of some laws depend on."""
+def _folder(choices: Sequence[Choice]) -> Path:
+    """Return what stands in the cache where these were found in order, named by all that their trials depend on."""
     digest = hashlib.sha256(_trials_key().encode())
     for choice in choices:
         law = choice.model
         declared = (law.label, sorted(law.errors.items()), len(law.states), choice.compiled.key, choice.par.size)
         digest.update(repr(declared).encode() + choice.par.tobytes())
-    return digest.hexdigest()
+    way = "-checked" if is_checked() else ""
+    return cache_folder() / f"tried-{digest.hexdigest()[:24]}-{environment()}{way}"
 
 
 @cache
