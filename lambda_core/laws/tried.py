@@ -1,4 +1,4 @@
-"""Laws that were tried out and found in order: kept beside the compiled code, so that the next process need not."""
+"""Laws that were tried out and found in order: kept with the compiled code, so that the next process need not."""
 
 from __future__ import annotations
 
