@@ -167,7 +167,7 @@ def _static(
 def _of_cage(runner: JobRunner, runs: Sequence[JobResult]) -> list[Sensitivity]:
     """Return what the cage's parameters do, by runs at one point."""
     mine = next(i for i, point in enumerate(POINTS) if point.case == _CAGE_CASE)
-    varied = [entry for entry in P.blind_set() if entry.cage]
+    varied = [entry for entry in P.blind_set() if entry.cage and entry.ends]
     answers = runner.all(
         [Job(_CAGE_CASE, P.changes({entry.path: end}), "torque") for entry in varied for end in ends_of(entry)]
     )
