@@ -133,6 +133,15 @@ def applied_load(model: BearingModel) -> tuple[float, float] | None:
     return math.hypot(y, z), x
 
 
+def operating_point(model: BearingModel) -> str:
+    """Name a bearing with its speed, loads and oil temperature."""
+    loads = applied_load(model)
+    parts = [f"{model.title} at {show(_relative_speed(model), 'rotational_speed', 4)}"]
+    if loads is not None:
+        parts += [f"{_force(load)} {way}" for load, way in zip(loads, ("radial", "axial"), strict=True) if load > 0.0]
+    return ", ".join([*parts, f"oil at {show(model.oil.temperature, 'temperature', 3)}"])
+
+
 def _mode(body: Body, dof: str) -> str:
     return body.dofs[dof].mode
 

@@ -60,6 +60,60 @@ HARD = [
 ]
 
 
+# bearing, maker, speed [1/min], radial and axial load [N], oil, its temperature [degC]
+SLOW = [
+    # balls on the sphere of a self-aligning bearing, which has no place for them along the shaft
+    ("1208 ETN9", "SKF", 50.0, 1000.0, 0.0, "mineral-vg68", 60.0),
+    ("1216", "SKF", 22.31, 1533.0, 637.5, "mineral-vg68", 27.88),
+    ("2310", "SKF", 3.289, 8202.0, 3640.0, "heavy-machine-oil-d", 63.39),
+    # one ball at a kink of its friction holds up the step of all
+    ("7216B", "NSK", 1.057, 8634.0, 1.12e4, "spindle-oil-lvi", 50.82),
+    ("7007A", "NSK", 2.555, 711.5, 818.1, "mineral-vg68", 41.67),
+    ("61826", "SKF", 1.576, 587.4, 244.4, "arcanol-xtra3", 40.63),
+    # the same after a step along the balls' paths
+    ("6308", "SKF", 4.92, 1672.0, 114.2, "mineral-vg32", 20.0),
+    ("6008", "NSK", 11.35, 323.5, 36.8, "mineral-vg46", 45.93),
+    ("6218", "KOYO", 9658.0, 1.635e4, 1173.0, "light-machine-oil-mvi", 32.43),
+    ("7206BE", "SKF", 2.28, 1065.0, 1126.0, "arcanol-xtra3", 54.13),
+    # no equilibrium follows any step along the paths: the one before stands
+    ("7310A", "NSK", 21.6, 1219.0, 1824.0, "arcanol-multi3", 22.0),
+]
+
+
+def _point(
+    designation: str, maker: str, speed: float, radial: float, axial: float, oil: str, temperature: float
+) -> dict[str, object]:
+    return {
+        "name": "slow",
+        "bearing": {"designation": designation, "maker": maker},
+        "lubricant": {"name": oil, "temperature": f"{temperature} degC"},
+        "loads": {"radial": f"{radial} N", "axial": f"{axial} N"},
+        "operation": {"speed": f"{speed} rpm"},
+    }
+
+
+@pytest.mark.parametrize("point", SLOW, ids=lambda point: point[0].replace(" ", "-"))
+def test_balls_that_stall_the_search_are_started_anew(point: tuple[Any, ...]) -> None:
+    found = solve(api.check(_point(*point)))
+    assert found.converged
+    assert all(loss >= 0.0 for loss in found.losses)
+
+
+@pytest.mark.parametrize("tilt", ["locked", "free"])
+def test_unloaded_balls_that_creep_are_held_by_friction(tilt: str) -> None:
+    """Without friction they slide nanometres an iteration along their grooves at 1 1/min, for ever."""
+    changes = [f"bodies.inner_ring.tilt_{axis}={tilt}" for axis in "yz"]
+    assert solve(api.check(_point("3200A", "SKF", 1.0, 380.0, 0.0, "mineral-vg68", 40.0), changes)).converged
+
+
+def test_a_map_of_currents_has_the_points_of_the_quasi_static_solution() -> None:
+    case = _point("6308", "SKF", 4.92, 1672.0, 114.2, "mineral-vg32", 20.0)
+    found = api.electric_map(
+        case, speed="4.92 rpm, 4.92 rpm", temperature="20 degC, 20 degC", points="1x1", executor="here"
+    )
+    assert [point.message for point in found.points] == [""]
+
+
 @pytest.mark.parametrize(("start", "changes"), HARD)
 def test_points_that_once_had_no_solution(start: str, changes: dict[str, object]) -> None:
     changed = dict(changes)
@@ -137,3 +191,11 @@ def test_what_is_beyond_a_limit_is_said_where_nothing_is_found(monkeypatch: pyte
     monkeypatch.setattr("lambda_core.solver.drivers.equilibrium.from_warmer_oil", lambda *_: None)
     with pytest.raises(SolverError, match=r"none with friction; .*the oil at -55 degC is outside"):
         solve(api.check("6319-cp10-1500", ["lubricant.temperature=-55 degC"]))
+
+
+def test_a_point_without_a_solution_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("lambda_core.solver.drivers.equilibrium.MAX_ITERATIONS", {False: 5000, True: 2})
+    monkeypatch.setattr("lambda_core.solver.drivers.equilibrium._FRESH_STARTS", 0)
+    named = r"6308 \(SKF\) at 4\.92 rpm, 1\.6\d kN radial, 114 N axial, oil at 20 degC: .* needs none"
+    with pytest.raises(SolverError, match=named):
+        solve(api.check(_point("6308", "SKF", 4.92, 1672.0, 114.2, "mineral-vg32", 20.0)))

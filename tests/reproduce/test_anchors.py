@@ -102,6 +102,12 @@ def test_random_cases_are_the_same_every_time() -> None:
         assert all(any(c.startswith("loads.axial") for c in case) == name.endswith("axial") for case in cases)
 
 
+def test_the_random_case_that_once_had_no_equilibrium_has_a_torque() -> None:
+    """A 6001 at 427 1/min under both loads, its balls half a pitch on."""
+    case = next(c for c in A.random_cases("VG 68, radial and axial") if "bearing.designation=6001" in c)
+    assert 0.3 < (anchor(resolve_point(case_text(ANCHOR), case))["torque"] or 0.0) < 30.0
+
+
 @pytest.mark.parametrize("parameters", A.SETS)
 def test_a_point_of_either_set(parameters: str) -> None:
     """A 6208 at C/P = 10: parts add up, the sets differ, and SKF's is the catalogue's own number."""

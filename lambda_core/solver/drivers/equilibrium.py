@@ -11,7 +11,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
@@ -25,7 +24,7 @@ from lambda_core.solver.drivers.law_inputs import guides, links, times
 from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring, rings_of_contacts
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.tables import INNER, OUTER
-from lambda_core.solver.drivers.warmer_oil import from_warmer_oil
+from lambda_core.solver.drivers.warmer_oil import StaticReport, from_warmer_oil
 from lambda_core.solver.entry import Core, core
 from lambda_core.solver.faults import OUTSIDE, ROLES
 from lambda_core.solver.sampling import CONTACT_CHANNELS
@@ -33,20 +32,32 @@ from lambda_core.solver.statics.continuation import STATIC_REPORT
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel, Geometry
 from lambda_core.system.law_context import ContactFrame
-from lambda_core.system.operating_limits import operating_warnings
+from lambda_core.system.operating_limits import operating_point, operating_warnings
 from lambda_core.system.raceways import raceways, raceways_of_a_ball
 
 _FRAME_ITERATIONS = 4
 _FRAME_TOLERANCE = 1e-4  # [rad] change of the frozen contact angle that ends the iteration
 # Without friction an iteration is cheap, and at low speed unloaded balls slide far along the groove.
-StaticReport = NDArray[np.void]  # a STATIC_REPORT record
 MAX_ITERATIONS = {False: 5000, True: 1000}
 _ITERATIONS_PER_CALL = 50  # some hundredths of a second
+_FRESH_STARTS, _FRESH_ITERATIONS = 3, 300  # with friction, where the first attempt stalls
+# Last step without friction, over the states' scales, below which only balls that carry nothing still creep along their
+# grooves, nanometres an iteration: friction, which holds them, can start from there.
+_CREEP = 1e-4
 PATH_ITERATIONS = 20
 PATH_SHARE = 0.5  # of the way to the velocities that the paths have
+_PATH_STEPS = (1.0, 0.5, 0.25)  # shares of a step along the paths that are tried
 PATH_TOLERANCE = 0.05  # of the largest axial velocity
 NO_PATH = 1e-6  # of rolling
 _LOAD, _ANGLE = CONTACT_CHANNELS.index("load"), CONTACT_CHANNELS.index("contact_angle")
+
+
+class _NotFoundError(SolverError):
+    """There is no equilibrium within the iterations allowed; `step` is the last one over the states' scales."""
+
+    def __init__(self, sentence: str, step: float) -> None:
+        super().__init__(sentence)
+        self.step = step
 
 
 @dataclass
@@ -127,7 +138,7 @@ def solve(
         context = assemble(model, kernels, frame, oils)
         if state is None:
             state = first_state(context, phase)
-        continue_static(compiled, context, state, friction=False)
+        _without_friction(compiled, context, state)
         contacts, _ = contact_channels(compiled, context, state)
         new = mean_frame(model.geometry, contacts, frame)
         change = max(abs(a - b) for a, b in zip(new.angles, frame.angles, strict=True))
@@ -136,7 +147,7 @@ def solve(
             break
     context = assemble(model, kernels, frame, oils)
     assert state is not None
-    continue_static(compiled, context, state, friction=False)
+    creeps = _without_friction(compiled, context, state)
     roll(model, frame, state, contacts)
     smooth, converged = state.copy(), True
     try:
@@ -145,6 +156,8 @@ def solve(
     except SolverError:
         if strict:
             raise
+        if creeps is not None:
+            raise creeps from None
         state, converged, report = smooth, False, np.zeros(1, dtype=STATIC_REPORT)
         report["orbit"] = smooth[L.BVT] / smooth[L.BR]
     arcs, losses = contact_channels(compiled, context, state)
@@ -165,16 +178,38 @@ def solve(
 
 
 def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *, friction: bool) -> StaticReport:
-    """Run the continuation from `state`, in place; returns its report."""
+    """Run the continuation from `state`, in place; returns its report.
+
+    With friction it begins anew where it stalls, as methods with a memory are restarted (Powell 1977, Math. Program.
+    12, 241): a ball at a kink of its friction narrows the limit on its own steps to nothing, and the step in
+    pseudo-time, which waits for all balls, stays what it was.
+    """
     system = context.bundle.system[0]
     system["friction_on"], system["guides_on"] = int(friction), 0
+    attempts = [MAX_ITERATIONS[friction], *([_FRESH_ITERATIONS] * _FRESH_STARTS if friction else [])]
+    spent = 0.0
+    for most in attempts:
+        status, report = _attempt(compiled, context, state, most)
+        spent += report["iterations"][0]
+        if status in (Status.OK, Status.REFUSED):
+            break
+    report["iterations"] = spent
+    system["friction_on"], system["guides_on"] = 1, 1
+    if status == Status.REFUSED:
+        raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(context)}")
+    if status != Status.OK:
+        sentence = _no_equilibrium(context.model, report, friction=friction)
+        raise _NotFoundError(sentence, float(report["last_change"][0]))
+    return report
+
+
+def _attempt(compiled: Core, context: SolverContext, state: FloatArray, most: int) -> tuple[int, StaticReport]:
+    """Run the continuation from `state`, in place, until it ends or has done its iterations."""
     report, last = np.zeros(1, dtype=STATIC_REPORT), np.zeros(state.size)
     balls = context.model.geometry.balls
     trust, held = np.ones(balls), np.zeros(balls, dtype=np.int64)
-    status = Status.UNFINISHED
-    while (
-        status == Status.UNFINISHED and report["iterations"][0] < MAX_ITERATIONS[friction]
-    ):  # a signal is heard between two calls
+    status: int = Status.UNFINISHED
+    while status == Status.UNFINISHED and report["iterations"][0] < most:  # a signal is heard between two calls
         status = compiled.solve_static(
             compiled.evaluate_pointer,
             compiled.jacobian_pointer,
@@ -189,12 +224,18 @@ def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *
             report,
             _ITERATIONS_PER_CALL,
         )
-    system["friction_on"], system["guides_on"] = 1, 1
-    if status == Status.REFUSED:
-        raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(context)}")
-    if status != Status.OK:
-        raise SolverError(_no_equilibrium(report, friction=friction))
-    return report
+    return status, report
+
+
+def _without_friction(compiled: Core, context: SolverContext, state: FloatArray) -> SolverError | None:
+    """Find the equilibrium of the normal forces, in place; return what is missing where unloaded balls still creep."""
+    try:
+        continue_static(compiled, context, state, friction=False)
+    except _NotFoundError as error:
+        if error.step > _CREEP:
+            raise
+        return error
+    return None
 
 
 def _with_friction(compiled: Core, context: SolverContext, state: FloatArray, *, strict: bool) -> StaticReport:
@@ -214,17 +255,21 @@ def _with_friction(compiled: Core, context: SolverContext, state: FloatArray, *,
         if near is None:
             beyond = operating_warnings(context.model) if strict else []
             raise SolverError("; ".join([str(error), *beyond])) from None
-        state[:] = near
-        return found(context, state)
+        state[:], report = near
+        return report
 
 
 def _follow_paths(compiled: Core, context: SolverContext, state: FloatArray, report: StaticReport) -> StaticReport:
     """Let balls move along their paths, axially and radially, and find the friction's equilibrium again, in place.
 
     A ball that is carried across the grooves while it goes round drags the rings sideways where it slips; at rest it
-    would drag them twice as much. Under a radial or an axial load alone there is no axial path and nothing to do.
+    would drag them twice as much. Under a radial or an axial load alone there is no axial path and nothing to do. The
+    sphere of a self-aligning outer ring gives a ball no place of its own along the shaft: friction holds it where it
+    is. Where no equilibrium follows a step of the iteration, the last one stands.
     """
     g = context.model.geometry
+    if g.self_aligning:
+        return report
     balls = state[: L.NB * g.balls].view(R.BALL)
     rolling = float(np.abs(balls["velocity"][:, 2]).max())
     moving = np.zeros((balls.size, 2))
@@ -234,22 +279,46 @@ def _follow_paths(compiled: Core, context: SolverContext, state: FloatArray, rep
         change = float(np.abs(aim - moving)[:, 0].max())
         if across <= NO_PATH * rolling or change <= PATH_TOLERANCE * across:
             break
-        moving += (PATH_SHARE if k else 1.0) * (aim - moving)
-        balls["velocity"][:, :2] = moving
-        report = continue_static(compiled, context, state, friction=True)
+        step = (PATH_SHARE if k else 1.0) * (aim - moving)
+        taken = _step_along(compiled, context, state, moving, step)
+        if taken is None:
+            break
+        report, done = taken
+        moving += done
     return report
 
 
-def _no_equilibrium(report: StaticReport, *, friction: bool) -> str:
-    if friction:
-        why = "loads and contact angles were found, a steady motion of the balls was not"
-    else:
-        why = "is every free degree of freedom of the ring held by a load or a support?"
-    kind = "with" if friction else "without"
+def _step_along(
+    compiled: Core, context: SolverContext, state: FloatArray, moving: FloatArray, step: FloatArray
+) -> tuple[StaticReport, FloatArray] | None:
+    """Change the balls' axial and radial velocities by a step or a part of it and find the equilibrium, in place.
+
+    Returns the report and the part; None, and the state as it was, where no equilibrium follows.
+    """
+    for share in _PATH_STEPS:
+        trial, part = state.copy(), share * step
+        trial[: L.NB * moving.shape[0]].view(R.BALL)["velocity"][:, :2] = moving + part
+        try:
+            report = continue_static(compiled, context, trial, friction=True)
+        except _NotFoundError:
+            continue
+        state[:] = trial
+        return report, part
+    return None
+
+
+def _no_equilibrium(model: BearingModel, report: StaticReport, *, friction: bool) -> str:
     iterations, change = report["iterations"][0], report["last_change"][0]
+    how_far = f"after {iterations:.0f} iterations (last step {change:.2e} of the states' scales)"
+    if friction:
+        return (
+            f"{operating_point(model)}: no quasi-static equilibrium with friction {how_far}: loads and contact angles "
+            "were found, a steady motion of the balls was not: try a speed or temperature nearby, or a run, which "
+            "needs none"
+        )
     return (
-        f"no quasi-static equilibrium {kind} friction after {iterations:.0f} iterations (last step {change:.2e} "
-        f"of the states' scales): {why}"
+        f"no quasi-static equilibrium without friction {how_far}: is every free degree of freedom of the ring held by "
+        "a load or a support?"
     )
 
 

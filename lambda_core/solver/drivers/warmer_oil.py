@@ -10,19 +10,23 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 
+import numpy as np
+from numpy.typing import NDArray
+
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver.drivers.compiled_laws import derive_oils
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 
+StaticReport = NDArray[np.void]  # a STATIC_REPORT record
 _WARMER = (5.0, 10.0, 20.0, 40.0)  # where the way may begin [K]
 _TRIES = 12  # steps on the way, those that fail included
-# Solves for the equilibrium from a state, in place.
-Solve = Callable[[SolverContext, FloatArray], object]
+# Solves for the equilibrium from a state, in place, and returns its report.
+Solve = Callable[[SolverContext, FloatArray], StaticReport]
 
 
-def from_warmer_oil(context: SolverContext, start: FloatArray, solve: Solve) -> FloatArray | None:
-    """Return a state near the equilibrium of a context, found at warmer oil; None where no way leads there.
+def from_warmer_oil(context: SolverContext, start: FloatArray, solve: Solve) -> tuple[FloatArray, StaticReport] | None:
+    """Return the equilibrium of a context and its report, found by way of warmer oil; None where no way leads there.
 
     Parameters
     ----------
@@ -40,12 +44,12 @@ def from_warmer_oil(context: SolverContext, start: FloatArray, solve: Solve) -> 
         for _ in range(_TRIES):
             trial, goal = state.copy(), max(left - step, 0.0)
             try:
-                solve(_warmed(context, goal), trial)
+                report = solve(_warmed(context, goal), trial)
             except SolverError:
                 step *= 0.5
                 continue
             if goal == 0.0:
-                return trial
+                return trial, report
             state, left, step = trial, goal, 2.0 * step
     return None
 
