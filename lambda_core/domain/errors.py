@@ -57,6 +57,14 @@ class SolverError(LambdaError):
     exit_code = 4
 
 
+class EquilibriumError(SolverError):
+    """There is no equilibrium within the iterations allowed; `step` is the last one over the states' scales."""
+
+    def __init__(self, sentence: str, step: float) -> None:
+        super().__init__(sentence)
+        self.step = step
+
+
 class PartialResultError(LambdaError):
     """A run ended before it met the definition of converged; the file is kept."""
 

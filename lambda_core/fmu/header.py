@@ -18,13 +18,8 @@ from lambda_core.laws.jit.portable import features, known_processor
 from lambda_core.results.limits import THINNEST_FILM, Grooves, highest_pressure
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
-from lambda_core.solver.drivers.equilibrium import (
-    MAX_ITERATIONS,
-    NO_PATH,
-    PATH_ITERATIONS,
-    PATH_SHARE,
-    PATH_TOLERANCE,
-)
+from lambda_core.solver.drivers.ball_paths import NO_PATH, PATH_ITERATIONS, PATH_SHARE, PATH_TOLERANCE
+from lambda_core.solver.drivers.equilibrium import MAX_ITERATIONS
 from lambda_core.solver.drivers.given import MOST_ITERATIONS, MOST_ITERATIONS_PER_SECOND
 from lambda_core.solver.drivers.ring_values import rings_of_contacts
 from lambda_core.solver.faults import ROLES
@@ -178,7 +173,7 @@ def _start_numbers(frozen: Frozen) -> dict[str, object]:
         "SPEED": repr(start.speed),
         "SMOOTH_WORK": MAX_ITERATIONS[False],
         "FRICTION_WORK": MAX_ITERATIONS[True],
-        "PATH_ITERATIONS": PATH_ITERATIONS,
+        "PATH_ITERATIONS": 0 if frozen.model.geometry.self_aligning else PATH_ITERATIONS,
         "PATH_SHARE": PATH_SHARE,
         "PATH_TOLERANCE": PATH_TOLERANCE,
         "NO_PATH": NO_PATH,

@@ -2,12 +2,82 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import EquilibriumError
+from lambda_core.solver import layout as L
+from lambda_core.solver import records as R
+from lambda_core.solver.drivers.warmer_oil import StaticReport
+from lambda_core.system.bearing import Geometry
+
+PATH_ITERATIONS = 20
+PATH_SHARE = 0.5  # of the way to the velocities that the paths have
+_STEPS = (1.0, 0.5, 0.25)  # shares of a step along the paths that are tried
+PATH_TOLERANCE = 0.05  # of the largest axial velocity
+NO_PATH = 1e-6  # of rolling
+# Solves for the equilibrium from a state, in place, and returns its report.
+Solve = Callable[[FloatArray], StaticReport]
+
+
+def follow_paths(g: Geometry, state: FloatArray, report: StaticReport, solve: Solve) -> StaticReport:
+    """Let balls move along their paths, axially and radially, and find the friction's equilibrium again, in place.
+
+    A ball that is carried across the grooves while it goes round drags the rings sideways where it slips; at rest it
+    would drag them twice as much. Under a radial or an axial load alone there is no axial path and nothing to do. The
+    sphere of a self-aligning outer ring gives a ball no place of its own along the shaft: friction holds it where it
+    is. Where no equilibrium follows a step of the iteration, the last one stands.
+
+    Parameters
+    ----------
+    state : float64[:], shape (size,)
+        The friction's equilibrium of balls without such velocities.
+    report : StaticReport
+        Of the search for it; returned where nothing is to be done.
+    solve : callable
+        Finds the equilibrium from a state, in place; raises EquilibriumError where it finds none.
+    """
+    if g.self_aligning:
+        return report
+    balls = state[: L.NB * g.balls].view(R.BALL)
+    rolling = float(np.abs(balls["velocity"][:, 2]).max())
+    moving = np.zeros((balls.size, 2))
+    for k in range(PATH_ITERATIONS):
+        aim = np.concatenate([path_velocities(row) for row in np.split(balls, g.rows)])
+        across = float(np.abs(aim[:, 0]).max())
+        change = float(np.abs(aim - moving)[:, 0].max())
+        if across <= NO_PATH * rolling or change <= PATH_TOLERANCE * across:
+            break
+        step = (PATH_SHARE if k else 1.0) * (aim - moving)
+        taken = _step_along(state, moving, step, solve)
+        if taken is None:
+            break
+        report, done = taken
+        moving += done
+    return report
+
+
+def _step_along(
+    state: FloatArray, moving: FloatArray, step: FloatArray, solve: Solve
+) -> tuple[StaticReport, FloatArray] | None:
+    """Change the balls' axial and radial velocities by a step or a part of it and find the equilibrium, in place.
+
+    Returns the report and the part; None, and the state as it was, where no equilibrium follows.
+    """
+    for share in _STEPS:
+        trial, part = state.copy(), share * step
+        trial[: L.NB * moving.shape[0]].view(R.BALL)["velocity"][:, :2] = moving + part
+        try:
+            report = solve(trial)
+        except EquilibriumError:
+            continue
+        state[:] = trial
+        return report, part
+    return None
 
 
 def path_velocities(balls: NDArray[Any]) -> FloatArray:

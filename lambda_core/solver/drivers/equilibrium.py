@@ -14,10 +14,9 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
-from lambda_core.domain.errors import SolverError
+from lambda_core.domain.errors import EquilibriumError, SolverError
 from lambda_core.solver import layout as L
-from lambda_core.solver import records as R
-from lambda_core.solver.drivers.ball_paths import path_velocities
+from lambda_core.solver.drivers.ball_paths import follow_paths
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
 from lambda_core.solver.drivers.first_state import first_frame, first_state, roll
 from lambda_core.solver.drivers.law_inputs import guides, links, times
@@ -44,20 +43,7 @@ _FRESH_STARTS, _FRESH_ITERATIONS = 3, 300  # with friction, where the first atte
 # Last step without friction, over the states' scales, below which only balls that carry nothing still creep along their
 # grooves, nanometres an iteration: friction, which holds them, can start from there.
 _CREEP = 1e-4
-PATH_ITERATIONS = 20
-PATH_SHARE = 0.5  # of the way to the velocities that the paths have
-_PATH_STEPS = (1.0, 0.5, 0.25)  # shares of a step along the paths that are tried
-PATH_TOLERANCE = 0.05  # of the largest axial velocity
-NO_PATH = 1e-6  # of rolling
 _LOAD, _ANGLE = CONTACT_CHANNELS.index("load"), CONTACT_CHANNELS.index("contact_angle")
-
-
-class _NotFoundError(SolverError):
-    """There is no equilibrium within the iterations allowed; `step` is the last one over the states' scales."""
-
-    def __init__(self, sentence: str, step: float) -> None:
-        super().__init__(sentence)
-        self.step = step
 
 
 @dataclass
@@ -152,7 +138,9 @@ def solve(
     smooth, converged = state.copy(), True
     try:
         report = _with_friction(compiled, context, state, strict=strict)
-        report = _follow_paths(compiled, context, state, report)
+        report = follow_paths(
+            model.geometry, state, report, lambda near: continue_static(compiled, context, near, friction=True)
+        )
     except SolverError:
         if strict:
             raise
@@ -199,7 +187,7 @@ def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *
         raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(context)}")
     if status != Status.OK:
         sentence = _no_equilibrium(context.model, report, friction=friction)
-        raise _NotFoundError(sentence, float(report["last_change"][0]))
+        raise EquilibriumError(sentence, float(report["last_change"][0]))
     return report
 
 
@@ -231,7 +219,7 @@ def _without_friction(compiled: Core, context: SolverContext, state: FloatArray)
     """Find the equilibrium of the normal forces, in place; return what is missing where unloaded balls still creep."""
     try:
         continue_static(compiled, context, state, friction=False)
-    except _NotFoundError as error:
+    except EquilibriumError as error:
         if error.step > _CREEP:
             raise
         return error
@@ -257,54 +245,6 @@ def _with_friction(compiled: Core, context: SolverContext, state: FloatArray, *,
             raise SolverError("; ".join([str(error), *beyond])) from None
         state[:], report = near
         return report
-
-
-def _follow_paths(compiled: Core, context: SolverContext, state: FloatArray, report: StaticReport) -> StaticReport:
-    """Let balls move along their paths, axially and radially, and find the friction's equilibrium again, in place.
-
-    A ball that is carried across the grooves while it goes round drags the rings sideways where it slips; at rest it
-    would drag them twice as much. Under a radial or an axial load alone there is no axial path and nothing to do. The
-    sphere of a self-aligning outer ring gives a ball no place of its own along the shaft: friction holds it where it
-    is. Where no equilibrium follows a step of the iteration, the last one stands.
-    """
-    g = context.model.geometry
-    if g.self_aligning:
-        return report
-    balls = state[: L.NB * g.balls].view(R.BALL)
-    rolling = float(np.abs(balls["velocity"][:, 2]).max())
-    moving = np.zeros((balls.size, 2))
-    for k in range(PATH_ITERATIONS):
-        aim = np.concatenate([path_velocities(row) for row in np.split(balls, g.rows)])
-        across = float(np.abs(aim[:, 0]).max())
-        change = float(np.abs(aim - moving)[:, 0].max())
-        if across <= NO_PATH * rolling or change <= PATH_TOLERANCE * across:
-            break
-        step = (PATH_SHARE if k else 1.0) * (aim - moving)
-        taken = _step_along(compiled, context, state, moving, step)
-        if taken is None:
-            break
-        report, done = taken
-        moving += done
-    return report
-
-
-def _step_along(
-    compiled: Core, context: SolverContext, state: FloatArray, moving: FloatArray, step: FloatArray
-) -> tuple[StaticReport, FloatArray] | None:
-    """Change the balls' axial and radial velocities by a step or a part of it and find the equilibrium, in place.
-
-    Returns the report and the part; None, and the state as it was, where no equilibrium follows.
-    """
-    for share in _PATH_STEPS:
-        trial, part = state.copy(), share * step
-        trial[: L.NB * moving.shape[0]].view(R.BALL)["velocity"][:, :2] = moving + part
-        try:
-            report = continue_static(compiled, context, trial, friction=True)
-        except _NotFoundError:
-            continue
-        state[:] = trial
-        return report, part
-    return None
 
 
 def _no_equilibrium(model: BearingModel, report: StaticReport, *, friction: bool) -> str:
