@@ -38,7 +38,7 @@ def summary(found: list[Chapter]) -> list[str]:
 def read(data: dict[str, Any]) -> Reproduction:
     """Return a reproduction; that of one experiment is printed without its name and what belongs to several."""
     if "workers" not in data:
-        general = {name: data.pop(name) for name in ("files", "effort")}
+        general = {name: data.pop(name) for name in ("files", "effort", "failed")}
         data = {general["effort"][0]["experiment"]: data, **general, "unconverged": {}, "workers": 1}
     return Reproduction.model_validate(data)
 

@@ -44,14 +44,12 @@ def reproduce(
     Returns
     -------
     Reproduction
-        Numbers, the bars that are met or missed, and the files written.
+        Numbers, the bars that are met or missed, the files written, and by experiment the points without a result.
 
     Raises
     ------
     UsageError
         For an unknown experiment, or a folder that cannot be written.
-    SolverError
-        When a point that everything else depends on has no solution.
     """
     from lambda_core.discovery.manager import registry
     from lambda_syla2026.session import reproduce as repeat

@@ -14,9 +14,9 @@ from pydantic import Field
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.results.record import Record
 from lambda_syla2026 import parameters as P
-from lambda_syla2026.calibration import ROLES, TAU, TAU_GRID, Calibration, calibration, fitted, torques
+from lambda_syla2026.calibration import ROLES, TAU, TAU_GRID, Calibration, band, calibration, fitted, spline, torques
 from lambda_syla2026.job_runner import Job, JobResult, JobRunner
-from lambda_syla2026.published import LOADS, POINTS, TABLE_4, mean_absolute_error
+from lambda_syla2026.published import LOADS, POINTS, TABLE_4, largest, mean_absolute_error
 from lambda_syla2026.readings import MECHANISMS
 
 HEAT = "lubricant.temperature"
@@ -83,7 +83,7 @@ def anchored_table(runner: JobRunner, samples: int) -> AnchoredTable:
         temperatures_degC=heat,
         torque_Nmm=torque.tolist(),
         error_pct=mean_absolute_error(torque.tolist()),
-        worst_pct=float(miss[np.abs(miss).argmax()]),
+        worst_pct=largest(miss.tolist()),
         one_temperature_Nmm=one.tolist(),
         one_temperature_error_pct=mean_absolute_error(one.tolist()),
         warm_raceways_Nmm=warm.tolist(),
@@ -154,9 +154,7 @@ def _band(runner: JobRunner, heat: Sequence[float], offset: FloatArray, count: i
         rows.append([{**P.anchored(), **shared, HEAT: f"{t + shift:.3f} degC"} for t in heat])
     answers = runner.all([job for row in rows for job in _jobs(row)])
     table = [answers[i : i + len(POINTS)] for i in range(0, len(answers), len(POINTS))]
-    solved = np.array([torques(row) for row in table if all(answer.state == "done" for answer in row)]) + offset
-    low, high = np.percentile(solved, (5.0, 95.0), axis=0)
-    return low.tolist(), high.tolist()
+    return band(np.array([torques(row) for row in table]) + offset)
 
 
 # Goksem and Hargreaves' law is the outlier of all rolling laws (validation): the anchored set keeps its own.
@@ -171,12 +169,10 @@ def _loss(sampled: str) -> str:
 
 
 def _calibrations(runner: JobRunner, at: Sequence[Mapping[str, str | None]], offset: FloatArray) -> list[Calibration]:
-    from scipy.interpolate import CubicSpline
-
     jobs = [job for tau in TAU_GRID for job in _jobs([{**chosen, TAU: f"{tau:g} MPa"} for chosen in at])]
     grid = np.array(torques(runner.all(jobs))).reshape(len(TAU_GRID), len(POINTS)) + offset
     pair = tuple(P.entry(f"models.{role}").value for role in ROLES)
-    curve = CubicSpline(TAU_GRID, grid)
+    curve = spline(grid)
     unfitted = mean_absolute_error(curve(8.0).tolist())
     fits = [(load, fitted(grid, load)) for load in LOADS]
     return [calibration(pair, load, unfitted, fit, curve(fit[0]).tolist()) for load, fit in fits]
@@ -228,5 +224,5 @@ def _bars(found: AnchoredTable) -> list[str]:
         "90 % band, bar 5",
         *(bar(f"tau_e fitted on {c.fitted_on}, six points", c.six_points_pct, 8.0) for c in found.calibrations),
         *(bar(f"tau_e fitted on {c.fitted_on}, predicted row", c.predicted_row_pct, 8.5) for c in found.calibrations),
-        bar("dynamic against quasi-static friction", max(found.friction_difference_pct, key=abs), 1.0),
+        bar("dynamic against quasi-static friction", largest(found.friction_difference_pct), 1.0),
     ]

@@ -19,6 +19,7 @@ from lambda_core.results.record import Record
 from lambda_syla2026 import parameters as P
 from lambda_syla2026.axial_load import AxialStep, axial_load, axial_notes
 from lambda_syla2026.job_runner import ANCHOR, Job, JobResult, JobRunner
+from lambda_syla2026.published import known_mean, largest
 from lambda_syla2026.rated_speeds import Rated, rated_bars, rated_speeds
 
 # Two makers, five series, 25 to 100 mm bore, and the one with printed grooves.
@@ -178,21 +179,21 @@ def _ratio(answer: JobResult) -> float:
 
 def _spread(parameters: str, grooves: str, rows: Sequence[_Row], answers: Sequence[JobResult]) -> Spread:
     miss = 100.0 * (np.array([_ratio(answer) for answer in answers]).reshape(len(rows), len(LOADS), len(SPEEDS)) - 1.0)
-    flat = miss.ravel()
+    flat = miss[np.isfinite(miss)]
 
-    def means(axes: tuple[int, int], names: Sequence[str]) -> dict[str, float]:
-        return dict(zip(names, miss.mean(axis=axes).tolist(), strict=True))
+    def means(axis: int, names: Sequence[str]) -> dict[str, float]:
+        return {name: known_mean(np.take(miss, i, axis)) for i, name in enumerate(names)}
 
     return Spread(
         parameters=parameters,
         grooves=grooves,
         points=flat.size,
-        bias_pct=float(flat.mean()),
-        rms_pct=float(np.sqrt(np.mean(flat**2))),
-        worst_pct=float(flat[np.abs(flat).argmax()]),
-        by_load_pct=means((0, 2), [f"{load:g}" for load in LOADS]),
-        by_speed_pct=means((0, 1), [f"{speed:.0f}" for speed in SPEEDS]),
-        by_bearing_pct=means((1, 2), [row.name for row in rows]),
+        bias_pct=known_mean(flat),
+        rms_pct=math.sqrt(known_mean(flat**2)),
+        worst_pct=largest(flat.tolist()),
+        by_load_pct=means(1, [f"{load:g}" for load in LOADS]),
+        by_speed_pct=means(2, [f"{speed:.0f}" for speed in SPEEDS]),
+        by_bearing_pct=means(0, [row.name for row in rows]),
     )
 
 
@@ -203,16 +204,16 @@ def _populations(runner: JobRunner) -> list[Population]:
     answers = iter(runner.all([job for plan in plans for job in plan]))
     found = []
     for (name, parameters), plan in zip(kinds, plans, strict=True):
-        found_here = [next(answers) for _ in plan]
+        found_here = [answer for answer in [next(answers) for _ in plan] if answer.state != "failed"]
         ratios = [_ratio(answer) for answer in found_here]
         found.append(
             Population(
                 name=name,
                 parameters=parameters,
                 cases=len(ratios),
-                median=float(np.median(ratios)),
-                lowest=min(ratios),
-                highest=max(ratios),
+                median=float(np.median(ratios)) if ratios else math.nan,
+                lowest=min(ratios, default=math.nan),
+                highest=max(ratios, default=math.nan),
                 rolling_median=_part_median(found_here, ("rolling", "hysteresis"), "skf rolling"),
                 sliding_median=_part_median(found_here, ("sliding", "spin", "boundary"), "skf sliding"),
             )
@@ -221,7 +222,8 @@ def _populations(runner: JobRunner) -> list[Population]:
 
 
 def _part_median(answers: Sequence[JobResult], own: tuple[str, ...], skf: str) -> float:
-    return float(np.median([sum(answer[name] for name in own) / answer[skf] for answer in answers]))
+    parts = [sum(answer[name] for name in own) / answer[skf] for answer in answers]
+    return float(np.median(parts)) if parts else math.nan
 
 
 def random_cases(name: str) -> list[tuple[str, ...]]:

@@ -109,6 +109,7 @@ class Ray:
     setting: Setting
     frequency: float  # [Hz]
     tried: dict[float, JobResult] = field(default_factory=dict)  # acceleration amplitude [m/s2] -> stability reading
+    lost: bool = False  # a run on it, or the one without excitation, has no result: no boundary is looked for
 
     def job(self, acceleration: float) -> Job:
         """Return the run at one amplitude."""
@@ -138,7 +139,7 @@ class Ray:
         of S and T in the three runs are carried over to it to first order.
         """
         low, high = self.bracket(criterion, still)
-        if low is None or high is None:
+        if self.lost or low is None or high is None:
             return None
         runs = self.tried[low], self.tried[high]
         below, above = (excess(criterion, run, still) for run in runs)
@@ -184,12 +185,18 @@ def search(runner: JobRunner, rays: Iterable[Ray], ratio: float) -> Mapping[Sett
     settings = list(dict.fromkeys(ray.setting for ray in rays))
     found = runner.all([Job(CASE, setting.changes(), "stability") for setting in settings])
     still = dict(zip(settings, found, strict=True))
-    requests: list[tuple[Ray, float]] = [(ray, a) for ray in rays for a in FIRST]
+    for ray in rays:
+        ray.lost = still[ray.setting].state == "failed"
+    requests: list[tuple[Ray, float]] = [(ray, a) for ray in rays if not ray.lost for a in FIRST]
     while requests:
         answers = runner.all([ray.job(amplitude) for ray, amplitude in requests])
         for (ray, amplitude), answer in zip(requests, answers, strict=True):
-            ray.tried[amplitude] = answer
-        requests = [(ray, amplitude) for ray in rays for amplitude in _next(ray, still[ray.setting], ratio)]
+            if answer.state == "failed":
+                ray.lost = True
+            else:
+                ray.tried[amplitude] = answer
+        going = [ray for ray in rays if not ray.lost]
+        requests = [(ray, amplitude) for ray in going for amplitude in _next(ray, still[ray.setting], ratio)]
     return still
 
 

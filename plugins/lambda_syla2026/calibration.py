@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from itertools import product
 
 import numpy as np
@@ -17,6 +18,7 @@ from lambda_syla2026.published import LOADS, POINTS, Point, mean_absolute_error
 TAU = "parameters.traction.tau_eyring"
 # Beyond the published range too, only to say where a free fit would end.
 TAU_GRID = (4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 12.0)  # [MPa]
+BAND = (5.0, 95.0)  # percentiles
 # The two terms whose laws differ most, the blind law of each first.
 ROLES = ("elastic_hysteresis", "rolling_resistance")
 
@@ -90,10 +92,30 @@ def _chosen(pair: tuple[str, ...]) -> dict[str, str | None]:
     return found
 
 
-def _on_curve(pair: tuple[str, ...], grid: FloatArray, load: str) -> Calibration:
+def band(table: FloatArray) -> tuple[list[float], list[float]]:
+    """Return 5 % and 95 % of the samples of each point that have a result.
+
+    Parameters
+    ----------
+    table : float64[:, :], shape (samples, 6)
+        Torques [N mm]; NaN where there is none.
+    """
+    columns = [column[np.isfinite(column)] for column in table.T]
+    ends = [np.percentile(column, BAND).tolist() if column.size else [math.nan, math.nan] for column in columns]
+    return [low for low, _ in ends], [high for _, high in ends]
+
+
+def spline(grid: FloatArray) -> Callable[[float], FloatArray]:
+    """Return the torque of each point over tau_e [MPa]; NaN where a value of the grid is missing."""
     from scipy.interpolate import CubicSpline
 
-    fit, curve = fitted(grid, load), CubicSpline(TAU_GRID, grid)
+    known = np.isfinite(grid).all(axis=0)
+    curve = CubicSpline(TAU_GRID, np.where(known, grid, 0.0))
+    return lambda tau: np.where(known, curve(tau), math.nan)
+
+
+def _on_curve(pair: tuple[str, ...], grid: FloatArray, load: str) -> Calibration:
+    fit, curve = fitted(grid, load), spline(grid)
     unfitted = mean_absolute_error(curve(float(P.entry(TAU).value.split()[0])).tolist())
     return calibration(pair, load, unfitted, fit, curve(fit[0]).tolist())
 
@@ -115,11 +137,12 @@ def fitted(grid: FloatArray, load: str) -> tuple[float, bool, float]:
     grid : float64[:, :], shape (len(TAU_GRID), 6)
         Torque at each tau_e of the grid and each point [N mm].
     """
-    from scipy.interpolate import CubicSpline
     from scipy.optimize import minimize_scalar
 
-    mine = [i for i, point in enumerate(POINTS) if point.load == load]
-    curve = CubicSpline(TAU_GRID, grid[:, mine])
+    mine = [i for i, point in enumerate(POINTS) if point.load == load and np.isfinite(grid[:, i]).all()]
+    if not mine:
+        return math.nan, False, math.nan
+    curve = spline(grid[:, mine])
     measured = np.array([POINTS[i].measured for i in mine])
 
     def misfit(tau: float) -> float:

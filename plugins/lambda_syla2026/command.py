@@ -31,16 +31,22 @@ def reproduce(
 
     table4: friction torque of the 6319, blind and calibrated; anchors: friction of other bearings against SKF's model;
     fig5: limits of axial excitation of the 6220; fig7: capacitance of the 6208. Writes figures (SVG, PNG) and one HTML
-    page. Called again it goes on where it ended.
+    page. Called again it goes on where it ended. A point without a result is marked failed; the exit code is then 5.
     """
+    from lambda_core.domain.errors import PartialResultError
     from lambda_syla2026 import reproduce as repeat
 
     with talk(progress, quiet) as speaker:
         found = repeat(what, out, workers=workers, quick=quick, progress=speaker.update, announce=speaker.say)
     if not as_json:
         typer.echo(found.text())
-        return
-    data = found.model_dump(mode="json")
-    if what != "all":
-        data = data[what] | {name: data[name] for name in ("files", "effort")}
-    typer.echo(json.dumps(data, indent=2))
+    else:
+        data = json.loads(found.model_dump_json())  # what a point without a result would have is null there
+        if what != "all":
+            data = data[what] | {name: data[name] for name in ("files", "effort", "failed")}
+        typer.echo(json.dumps(data, indent=2))
+    lost = [sentence for sentences in found.failed.values() for sentence in sentences]
+    if lost:
+        raise PartialResultError(
+            f"{len(lost)} points have no result: {lost[0]}; change or leave out that point, or call again to retry it"
+        )

@@ -158,6 +158,7 @@ def _point(ray: Ray, criterion: str, still: JobResult, top: float) -> BoundaryPo
         high_m_per_s=velocity(high),
         runs=len(ray.tried),
         declared=ray.frequency <= top,
+        failed=ray.lost,
     )
 
 

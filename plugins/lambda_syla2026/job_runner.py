@@ -8,6 +8,7 @@ through studies, too.
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field, replace
@@ -20,7 +21,7 @@ from lambda_core.batch.job import Task, point_hash, resolve_point, work
 from lambda_core.batch.memo import Memo
 from lambda_core.batch.pool import Processes
 from lambda_core.batch.scheduler import Counts, Director, Report
-from lambda_core.domain.errors import LambdaError, SolverError, UsageError
+from lambda_core.domain.errors import LambdaError, UsageError
 from lambda_core.results.reader import Result
 from lambda_syla2026.readings import DYNAMIC, STATIC, Numbers
 
@@ -57,11 +58,9 @@ class JobResult:
     fresh: bool = False
 
     def __getitem__(self, name: str) -> float:
-        """Return one number; SolverError where there is none."""
-        value = self.numbers.get(name)
-        if value is None:
-            raise SolverError(f"no {name}: {self.reason or 'not found'}")
-        return value
+        """Return one number; NaN where the job has failed or the reading has none."""
+        value = None if self.state == "failed" else self.numbers[name]
+        return math.nan if value is None else value
 
 
 @dataclass(frozen=True)
@@ -154,7 +153,8 @@ class JobRunner:
     folder: Path
     workers: int
     report: Report | None = None
-    failures: list[str] = field(default_factory=list)
+    failures: list[str] = field(default_factory=list)  # what is not converged, and what has no result
+    lost: list[str] = field(default_factory=list)  # of these, what has no result
     answers: dict[Job, JobResult] = field(default_factory=dict)  # everything that was asked for
     _asked: set[Job] = field(default_factory=set)
 
@@ -195,6 +195,8 @@ class JobRunner:
             answer = self.answers[job]
             if answer.state != "done":
                 self.failures.append(f"{job.case} {job.kind}: {answer.state}: {answer.reason}")
+            if answer.state == "failed":
+                self.lost.append(self.failures[-1])
         return [self.answers[job] for job in jobs]
 
     def keep(self, outcomes: Sequence[Found]) -> None:

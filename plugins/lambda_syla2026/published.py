@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
 
 PAPER = "Syla et al. 2026, Lubricants 14, 154"
 SPEEDS = (500, 1500, 3000)  # [1/min]
@@ -53,6 +59,18 @@ GAP_CHANGE = -9.0  # [%] of the gap from 700 to 2000 N
 
 
 def mean_absolute_error(values: tuple[float, ...] | list[float], points: tuple[Point, ...] = POINTS) -> float:
-    """Return the mean of |value/measured - 1| over operating points [%]."""
+    """Return the mean of |value/measured - 1| over operating points [%]; points without a value are left out."""
     errors = [abs(value / point.measured - 1.0) for value, point in zip(values, points, strict=True)]
-    return 100.0 * sum(errors) / len(errors)
+    known = [error for error in errors if not math.isnan(error)]
+    return 100.0 * sum(known) / len(known) if known else math.nan
+
+
+def known_mean(values: FloatArray) -> float:
+    """Return the mean of what is not NaN; NaN where nothing is left."""
+    known = values[np.isfinite(values)]
+    return float(known.mean()) if known.size else math.nan
+
+
+def largest(values: Sequence[float]) -> float:
+    """Return the value of the largest magnitude, with its sign, of what is not NaN; NaN where nothing is left."""
+    return max((value for value in values if not math.isnan(value)), key=abs, default=math.nan)

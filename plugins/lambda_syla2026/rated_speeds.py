@@ -34,22 +34,25 @@ class Rated(Record):
 def rated_speeds(runner: JobRunner) -> tuple[list[Rated], int]:
     """Return all bearings together and each series, and how many have no answer.
 
-    No answer: the catalogue does not decide the inner geometry, or SKF's model has no constants of the series.
+    No answer: the catalogue does not decide the inner geometry.
     """
-    plans = _plans()
+    plans, unknown = _plans()
     answers = runner.all([Job(ANCHOR, changes, "rated") for _, changes in plans])
     named = [(series, a) for (series, _), a in zip(plans, answers, strict=True) if a.state == "done"]
     found = [_rated(name, [a for series, a in named if name in ("all", series)]) for name in ("all", *SERIES)]
-    return [each for each in found if each.bearings], len(plans) - len(named)
+    return [each for each in found if each.bearings], unknown
 
 
-def _plans() -> list[tuple[str, tuple[str, ...]]]:
-    """Return series and case of every SKF bearing with a printed reference speed."""
+def _plans() -> tuple[list[tuple[str, tuple[str, ...]]], int]:
+    """Return series and case of every SKF bearing with a printed reference speed, and how many have no geometry."""
     from lambda_core.discovery.manager import registry
 
-    found = []
+    found, unknown = [], 0
     for row in registry().catalogue().bearings("SKF", 10_000):
         if row.layer != "core" or row.series not in SERIES or row.reference_speed is None or row.static_rating is None:
+            continue
+        if row.ball_diameter is None:
+            unknown += 1
             continue
         changes = (
             f"bearing.designation={row.designation}",
@@ -60,7 +63,7 @@ def _plans() -> list[tuple[str, tuple[str, ...]]]:
             "lubricant.temperature=70 degC",
         )
         found.append((row.series, changes))
-    return sorted(found)
+    return sorted(found), unknown
 
 
 def _rated(series: str, answers: list[JobResult]) -> Rated:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 from pydantic import Field
 
 from lambda_core.results.record import Record
 from lambda_syla2026 import parameters as P
 from lambda_syla2026.job_runner import Job, JobResult, JobRunner
-from lambda_syla2026.published import POINTS, mean_absolute_error
+from lambda_syla2026.published import POINTS, known_mean, mean_absolute_error
 
 # The run that says what the cage's parameters do: the shortest one.
 _CAGE_CASE = "6319-cp10-3000"
@@ -145,7 +146,7 @@ def _static(
             run["torque"] + moved["torque"] - still["torque"]
             for run, moved, still in zip(runs, end, static, strict=True)
         ]
-        return 100.0 * sum(share) / len(share), mean_absolute_error(torque)
+        return 100.0 * known_mean(np.array(share)), mean_absolute_error(torque)
 
     (low_change, low_error), (high_change, high_error) = effect(low), effect(high)
     first, last = ends_of(entry)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal, get_args
 
@@ -24,6 +25,7 @@ from lambda_syla2026.table4 import Table4, table4
 
 What = Literal["table4", "anchors", "fig5", "fig7", "all"]
 MOST_WORKERS = 4
+_NAMED = 10  # points without a result that a note names
 
 
 class Effort(Record):
@@ -47,6 +49,7 @@ class Reproduction(Record):
     unconverged: dict[str, list[str]] = Field(
         description="by experiment: runs whose torque or energy balance has not converged, with reasons"
     )
+    failed: dict[str, list[str]] = Field(description="by experiment: points without a result, with reasons")
     effort: list[Effort] = Field(description="processor and wall time by experiment")
     workers: int
 
@@ -89,19 +92,21 @@ def reproduce(
     say = announce or (lambda sentence: None)
     found: dict[str, Table4 | Anchors | Fig5 | Fig7] = {}
     unconverged: dict[str, list[str]] = {}
+    failed: dict[str, list[str]] = {}
     effort: list[Effort] = []
     workers = workers or min(usable_cores(), MOST_WORKERS)
     with JobRunner(folder, workers, progress) as runner:
         for name, run in (("table4", table4), ("anchors", anchors), ("fig7", fig7), ("fig5", fig5)):
             if what in (name, "all"):
                 say(f"repeating {name}")
-                before, known, started = len(runner.failures), set(runner.answers), time.monotonic()
+                before, lost = len(runner.failures), len(runner.lost)
+                known, started = set(runner.answers), time.monotonic()
                 found[name] = run(runner, quick=quick)
                 new = [answer for job, answer in runner.answers.items() if job not in known]
                 effort.append(_effort(name, new, time.monotonic() - started))
-                unconverged[name] = runner.failures[before:]
+                unconverged[name], failed[name] = runner.failures[before:], runner.lost[lost:]
         result = Reproduction.model_validate(
-            {**found, "files": [], "unconverged": unconverged, "effort": effort, "workers": workers}
+            {**found, "files": [], "unconverged": unconverged, "failed": failed, "effort": effort, "workers": workers}
         )
     files = [str(path) for path in write(registry, chapters(result), folder)]
     return result.model_copy(update={"files": files})
@@ -118,7 +123,14 @@ def _effort(name: str, answers: Sequence[JobResult], wall: float) -> Effort:
 
 
 def chapters(found: Reproduction) -> list[Chapter]:
-    """Return what is said, drawn and tabled about each experiment."""
+    """Return what is said, drawn and tabled about each experiment, points without a result marked."""
+    return [
+        replace(each, bars=tuple(text.marked(bar) for bar in each.bars), tables=text.marked_tables(each.tables))
+        for each in _chapters(found)
+    ]
+
+
+def _chapters(found: Reproduction) -> list[Chapter]:
     result = []
     if found.table4 is not None:
         t = found.table4
@@ -152,6 +164,9 @@ def chapters(found: Reproduction) -> list[Chapter]:
 
 
 def _notes(found: Reproduction, name: str, notes: Sequence[str]) -> tuple[str, ...]:
-    """Return the notes of an experiment and, where runs have not converged, how many and why the first."""
-    wrong = found.unconverged.get(name, [])
-    return (*notes, *([f"{len(wrong)} runs have not converged, as {wrong[0]}"] if wrong else []))
+    """Return the notes of an experiment, its points without a result, and how many runs have not converged."""
+    lost = found.failed.get(name, [])
+    wrong = [sentence for sentence in found.unconverged.get(name, []) if sentence not in lost]
+    more = [f"{len(lost)} points have no result, marked {text.LOST}: {'; '.join(lost[:_NAMED])}"] if lost else []
+    more += [f"{len(wrong)} runs have not converged, as {wrong[0]}"] if wrong else []
+    return (*notes, *more)

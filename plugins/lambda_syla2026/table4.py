@@ -11,16 +11,15 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.results.record import Record
 from lambda_syla2026 import parameters as P
 from lambda_syla2026.anchored_table import AnchoredTable, anchored_table
-from lambda_syla2026.calibration import TAU, Calibration, by_law, by_runs, torques
+from lambda_syla2026.calibration import TAU, Calibration, band, by_law, by_runs, torques
 from lambda_syla2026.job_runner import Job, JobResult, JobRunner
-from lambda_syla2026.published import LOADS, METHODS, POINTS, TABLE_4, mean_absolute_error
+from lambda_syla2026.published import LOADS, METHODS, POINTS, TABLE_4, largest, mean_absolute_error
 from lambda_syla2026.readings import MECHANISMS
 from lambda_syla2026.sensitivity import Sensitivity, sensitivities
 
 TEMPERATURES = (55.0, 60.0, 62.5, 65.0, 70.0)  # of the oil [degC]
 SAMPLES, QUICK_SAMPLES = 200, 40
 ANCHORED_SAMPLES = 100
-BAND = (5.0, 95.0)  # percentiles
 LAWS = {"houpert": ("elastic_hysteresis", "houpert"), "none": ("elastic_hysteresis", "none")}
 OTHER_ROLLING = "goksem-hargreaves"
 
@@ -147,10 +146,8 @@ def _band(runner: JobRunner, offset: FloatArray, count: int) -> tuple[list[float
     jobs = [job for replaced in P.samples(count) for job in jobs_of(replaced)]
     answers = runner.all(jobs)
     rows = [answers[i : i + len(POINTS)] for i in range(0, len(answers), len(POINTS))]
-    solved = [row for row in rows if all(answer.state == "done" for answer in row)]
-    torque = np.array([torques(row) for row in solved]) + offset
-    low, high = np.percentile(torque, BAND, axis=0)
-    return low.tolist(), high.tolist(), len(solved)
+    solved = sum(all(answer.state == "done" for answer in row) for row in rows)
+    return (*band(np.array([torques(row) for row in rows]) + offset), solved)
 
 
 def _simulated(
@@ -229,8 +226,8 @@ def _bars(
 
     torque = np.array([p.simulated_Nmm for p in points]).reshape(2, 3)
     rises = bool(np.all(np.diff(torque, axis=1) > 0.0) and np.all(np.diff(torque, axis=0) > 0.0))
-    apart = max(abs(d.friction_difference_pct) for d in details)
-    loads = max(abs(d.load_difference_pct) for d in details)
+    apart = abs(largest([d.friction_difference_pct for d in details]))
+    loads = abs(largest([d.load_difference_pct for d in details]))
     lines = [
         bar("blind, six points", errors["blind"], 12.0),
         f"{'met' if inside >= 5 else 'missed'}: {inside} of 6 measurements inside the 90 % band, bar 5",

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from lambda_core.report.key_tables import Table
 from lambda_syla2026.anchored_table import UNUSED, AnchoredTable
@@ -14,11 +16,23 @@ from lambda_syla2026.published import POINTS
 from lambda_syla2026.table4 import Table4, rows_of
 
 _NONE = "-"
+_NAN = re.compile(r"[+-]?\bnan\b")
+LOST = "failed"  # in place of a number that a point without a result would have
 
 
 def number(value: float | None, digits: int = 1) -> str:
     """Write a number, a dash where there is none."""
     return _NONE if value is None else f"{value:.{digits}f}"
+
+
+def marked(words: str) -> str:
+    """Mark what came of a point without a result."""
+    return _NAN.sub(LOST, words)
+
+
+def marked_tables(tables: Sequence[Table]) -> tuple[Table, ...]:
+    """Return the tables, every cell marked."""
+    return tuple(replace(table, rows=tuple(tuple(map(marked, row)) for row in table.rows)) for table in tables)
 
 
 def _with_error(value: float, measured: float) -> str:
@@ -178,7 +192,8 @@ def _resonances(found: Fig5) -> Table:
 
 def _boundaries(found: Fig5) -> Table:
     rows = tuple(
-        (p.variant, f"{p.load_N / 1e3:g}", p.criterion, f"{p.frequency_Hz:g}", number(p.velocity_m_per_s, 4),
+        (p.variant, f"{p.load_N / 1e3:g}", p.criterion, f"{p.frequency_Hz:g}",
+         LOST if p.failed else number(p.velocity_m_per_s, 4),
          f"{number(p.low_m_per_s, 4)} to {number(p.high_m_per_s, 4)}", number(p.acceleration_m_per_s2, 2),
          number(None if p.error is None else 100.0 * p.error), str(p.runs))
         for p in found.points

@@ -36,6 +36,7 @@ class BoundaryPoint(Record):
     high_m_per_s: float | None = Field(description="smallest amplitude that altered it")
     runs: int
     declared: bool = Field(description="inside the declared range, so part of the slope")
+    failed: bool = Field(default=False, description="a run that it needs has no result")
 
     @property
     def error(self) -> float | None:
