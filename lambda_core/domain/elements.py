@@ -14,6 +14,8 @@ TRANSLATIONS = {"x": "axial", "y": "horizontal", "z": "vertical"}
 TILTS = {"tilt_y": "rotation about y", "tilt_z": "rotation about z"}
 SPIN = "spin"
 DOFS = (*TRANSLATIONS, *TILTS, SPIN)
+POSE = (*TRANSLATIONS, *TILTS)  # of one ring against another [m, rad]
+INNER, OUTER, CAGE = range(len(BODIES))  # places of a bearing's bodies in every table of bodies
 
 RACEWAYS = {"ball_inner": "balls and inner raceway", "ball_outer": "balls and outer raceway"}
 POCKETS = {"ball_cage": "balls and cage pockets"}

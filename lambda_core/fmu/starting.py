@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import SPIN
+from lambda_core.domain.elements import CAGE, SPIN
 from lambda_core.laws.jit.machine_code import Pointer
 from lambda_core.laws.jit.portable import WORD, Entry
 from lambda_core.solver import layout as L
@@ -16,7 +16,6 @@ from lambda_core.solver import records as R
 from lambda_core.solver.drivers.ball_paths import path_velocities
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.first_state import roll
-from lambda_core.solver.drivers.tables import CAGE
 from lambda_core.solver.entry import UNITS, build
 from lambda_core.solver.statics.continuation import STATIC_REPORT
 from lambda_core.system.bearing import TimeFunction

@@ -11,6 +11,7 @@ from lambda_core.case.shaft import ShaftCase
 from lambda_core.case.shaft_parts import ShaftBody
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import POSE
 from lambda_core.domain.gear_forces import GearForces
 from lambda_core.domain.units import parse, show
 from lambda_core.elastic.beam import NODE
@@ -19,7 +20,6 @@ from lambda_core.shaft.body_material import body_material
 from lambda_core.shaft.model import GROUND, SHAFT, MountedBearing, Place, RigidBody, ShaftSpring
 from lambda_core.shaft.places import Places
 from lambda_core.shaft.structure import carried
-from lambda_core.solver.drivers.held_ring import POSE
 from lambda_core.system.bearing import TimeFunction
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.time_functions import added, initial, peak, scaled, time_function

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 from lambda_core.case.shaft import ShaftBearing
+from lambda_core.domain.elements import POSE
 from lambda_core.domain.ratings import dynamic_rating, fatigue_load_limit, static_rating
 from lambda_core.domain.units import parse
 from lambda_core.shaft.beside import refuse_far
 from lambda_core.shaft.model import GROUND, LOCKED, MountedBearing, Seating
-from lambda_core.solver.drivers.held_ring import POSE
 from lambda_core.system.bearing import BearingModel, TimeFunction
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.resolve_clearance import picked

@@ -7,9 +7,9 @@ from dataclasses import replace
 from typing import Any
 
 from lambda_core.case.shaft import ShaftCase
+from lambda_core.domain.elements import POSE
 from lambda_core.shaft.beside import COMPONENTS
 from lambda_core.shaft.model import MountedBearing, ShaftModel
-from lambda_core.solver.drivers.held_ring import POSE
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.resolve_solver import (
     cage_period,

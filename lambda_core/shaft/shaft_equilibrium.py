@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import POSE
 from lambda_core.domain.errors import SolverError
 from lambda_core.elastic.beam import NODE
 from lambda_core.shaft.loose_motion import loose_motion
@@ -21,7 +22,7 @@ from lambda_core.shaft.model import GROUND, PLACES, ShaftModel
 from lambda_core.shaft.structure import static_rows, structure
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels
 from lambda_core.solver.drivers.first_state import free_contact_angle
-from lambda_core.solver.drivers.held_ring import POSE, HeldRing
+from lambda_core.solver.drivers.held_ring import HeldRing
 from lambda_core.system.bearing import BearingModel
 
 _GUESS = np.array([5e7, 1e8, 1e8, 1e3, 1e3])  # [N/m, N m/rad] of a bearing before its contacts are known

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import POSE
 from lambda_core.elastic.beam import NODE
 from lambda_core.shaft.model import GROUND, PLACES, SHAFT, ShaftModel, ShaftSpring
-from lambda_core.solver.drivers.held_ring import POSE
 
 _RING = np.array(PLACES)
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, SHORTED
+from lambda_core.domain.elements import CAGE, INNER, OUTER
 from lambda_core.domain.errors import SolverError
 from lambda_core.shaft.lumps import lump, unbalance_of_lumps
 from lambda_core.shaft.model import ShaftModel
@@ -46,7 +47,7 @@ from lambda_core.solver.drivers.modes import ring_modes
 from lambda_core.solver.drivers.observation import Scratch, channels_of
 from lambda_core.solver.drivers.ring_values import losses_of_raceways
 from lambda_core.solver.drivers.surface_steps import longest_step
-from lambda_core.solver.drivers.tables import CAGE, INNER, OUTER, running
+from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.entry import core
 from lambda_core.solver.integrator import memory
 from lambda_core.solver.integrator.arrow import make_factors

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import CAGE, INNER, OUTER
 from lambda_core.elastic.beam import NODE
 from lambda_core.shaft.lumps import LumpedShaft, unbalance_of_lumps
 from lambda_core.shaft.model import GROUND, PLACES, ShaftModel
@@ -29,7 +30,6 @@ from lambda_core.solver import records as R
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.solver_context import state_scales
-from lambda_core.solver.drivers.tables import CAGE, INNER, OUTER
 from lambda_core.solver.drivers.time_tables import add_terms
 from lambda_core.system.bearing import TimeFunction
 from lambda_core.system.time_functions import initial, scaled

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import DOFS
+from lambda_core.domain.elements import CAGE, DOFS, INNER, OUTER
 from lambda_core.elastic.beam import NODE
 from lambda_core.shaft.lumps import LumpedShaft, unbalance_of_lumps
 from lambda_core.shaft.model import GROUND, PLACES, MountedBearing, ShaftModel
@@ -26,7 +26,6 @@ from lambda_core.shaft.structure import Rows, structure
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
-from lambda_core.solver.drivers.tables import CAGE, INNER, OUTER
 from lambda_core.solver.drivers.time_tables import FORCE, MOMENT, MOTION, PER_BODY
 from lambda_core.system.bearing import DofState
 

@@ -15,10 +15,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from lambda_core.domain.elements import RACEWAYS
+from lambda_core.domain.elements import INNER, OUTER, RACEWAYS
 from lambda_core.system.bearing import Geometry
-
-INNER, OUTER = range(2)
 
 
 @dataclass(frozen=True)

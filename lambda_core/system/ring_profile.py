@@ -7,8 +7,9 @@ from collections.abc import Callable
 from dataclasses import fields
 from typing import Any
 
+from lambda_core.domain.elements import INNER, OUTER
 from lambda_core.system.bearing import Geometry
-from lambda_core.system.raceways import INNER, OUTER, Raceway, raceways, row_places
+from lambda_core.system.raceways import Raceway, raceways, row_places
 
 ONE_SIDED = ("angular contact", "double row")  # kinds whose grooves have a shoulder on the loaded side alone
 

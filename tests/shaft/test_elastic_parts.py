@@ -11,6 +11,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import CAGE as CAGE_BODY
 from lambda_core.domain.errors import CaseError
 from lambda_core.results.quasistatic import QuasiStatic
 from lambda_core.shaft.resolving import check_shaft
@@ -21,7 +22,6 @@ from lambda_core.solver.drivers.damping import damping_matrix
 from lambda_core.solver.drivers.dynamics import BearingEngine, initial_state
 from lambda_core.solver.drivers.modes import dense
 from lambda_core.solver.drivers.stiffness import freed, stiffness_at
-from lambda_core.solver.drivers.tables import CAGE as CAGE_BODY
 from lambda_core.solver.entry import core
 
 SOFT = {"housing_stiffness": "100 N/um", "orders": 4}

@@ -10,11 +10,11 @@ import pytest
 
 from lambda_core import api
 from lambda_core.case.case import merged
+from lambda_core.domain.elements import OUTER
 from lambda_core.shaft.fresh_shaft import fresh_shaft
 from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import solve_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
-from lambda_core.solver.drivers.tables import OUTER
 
 
 def tables(left: dict[str, Any], right: dict[str, Any], **changes: Any) -> dict[str, Any]:

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import CAGE, INNER
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
-from lambda_core.solver.drivers.tables import CAGE, INNER
 from lambda_core.solver.entry import core
 from lambda_core.system.bearing import DofState
 

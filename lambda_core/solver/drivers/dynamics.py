@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, SHORTED
+from lambda_core.domain.elements import CAGE
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
@@ -29,7 +30,7 @@ from lambda_core.solver.drivers.observation import Scratch, channels_of
 from lambda_core.solver.drivers.ring_values import losses_by_ring
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.surface_steps import longest_step
-from lambda_core.solver.drivers.tables import CAGE, running
+from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.entry import Core, core
 from lambda_core.solver.integrator import memory
 from lambda_core.solver.integrator.tableau import STAGES

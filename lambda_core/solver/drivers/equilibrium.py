@@ -14,6 +14,7 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
+from lambda_core.domain.elements import INNER, OUTER
 from lambda_core.domain.errors import EquilibriumError, SolverError
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.ball_paths import follow_paths
@@ -22,7 +23,6 @@ from lambda_core.solver.drivers.first_state import first_frame, first_state, rol
 from lambda_core.solver.drivers.law_inputs import guides, links, times
 from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring, rings_of_contacts
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
-from lambda_core.solver.drivers.tables import INNER, OUTER
 from lambda_core.solver.drivers.warmer_oil import StaticReport, from_warmer_oil
 from lambda_core.solver.entry import Core, core
 from lambda_core.solver.faults import OUTSIDE, ROLES

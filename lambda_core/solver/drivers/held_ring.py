@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import POSE
 from lambda_core.solver import layout as L
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
 from lambda_core.solver.drivers.equilibrium import (
@@ -24,7 +25,6 @@ from lambda_core.solver.entry import core
 from lambda_core.system.bearing import BearingModel, DofState, TimeFunction
 from lambda_core.system.law_context import ContactFrame
 
-POSE = ("x", "y", "z", "tilt_y", "tilt_z")  # [m], [rad] of the inner ring against the outer one
 _SAME_ANGLE = 1e-4  # [rad] change of the frozen contact angle that asks for another frame
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import BODIES, DOFS
+from lambda_core.domain.elements import BODIES, CAGE, DOFS, INNER, OUTER
 from lambda_core.domain.hertz import ball_raceway_radii
 from lambda_core.laws.context import Oil
 from lambda_core.laws.par import number_in
@@ -30,7 +30,6 @@ ROLL_FLOOR = 1e-3  # [m/s]
 # Slip below which the direction of shear fades out; small against creep at any running speed.
 SLIP_FLOOR = 1e-6  # [m/s]
 _MODES = {"free": R.FREE, "locked": R.LOCKED, "prescribed": R.PRESCRIBED}
-INNER, OUTER, CAGE = range(3)  # bodies of a bearing
 
 
 class Tables(NamedTuple):
