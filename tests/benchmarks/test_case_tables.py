@@ -1,0 +1,38 @@
+"""The comparison of solver tables tells versions apart, and its cases stay valid."""
+
+from __future__ import annotations
+
+from benchmarks.case_tables import cases
+from benchmarks.case_tables_worker import tables_of
+from lambda_core import api
+
+
+def test_every_eighth_case_is_still_valid() -> None:
+    """A case file of an earlier version means the same later: a case that is refused proves nothing."""
+    found = cases()
+    assert len(found) == len({case["name"] for case in found}) == 200
+    for case in found[::8]:
+        api.check(case)
+
+
+def test_the_cases_hold_every_kind_of_bearing() -> None:
+    """Bearings of the catalogue and of own geometry."""
+    kinds = {api.check(case).geometry.kind for case in cases()[:60]}
+    assert kinds == {"deep groove", "angular contact", "four-point", "double row", "self-aligning"}
+
+
+def test_another_number_is_another_table() -> None:
+    """The same case twice has the same hashes; a larger load changes the terms and nothing else."""
+    case = {
+        "name": "one",
+        "bearing": {"designation": "SKF 6208"},
+        "lubricant": {"name": "FVA3", "temperature": "70 degC"},
+        "operation": {"speed": "3000 rpm"},
+        "loads": {"radial": "2 kN"},
+    }
+    before, again = tables_of(case), tables_of(case)
+    assert before == again
+    after = tables_of(case | {"loads": {"radial": "3 kN"}})
+    changed = {name for name in before if before[name] != after[name]}
+    assert "terms" in changed
+    assert "raceways" not in changed
