@@ -1,9 +1,9 @@
 """Compare the solver tables of 200 cases: ``python -m benchmarks.case_tables --against PYTHON``.
 
-case_tables.jsonl holds 200 single-bearing cases, one JSON object a line, that were drawn at random in November 2026: five
-kinds of bearings from the catalogue and of own geometry, every kind of time function, support and load, laws of every
-role, elastic parts, force elements. All were valid at 8b1ff10. A change that only moves code assembles the same tables
-byte by byte. Tables over time count as a change since then: their default is another interpolation.
+case_tables.jsonl holds 200 single-bearing cases, one JSON object a line, drawn at random in November 2026: five kinds
+of bearings from the catalogue and of own geometry, every kind of time function, support and load, laws of every role,
+elastic parts, force elements. All were valid at 8b1ff10. A change that only moves code assembles the same tables byte
+by byte. Tables over time count as a change since then: their default is another interpolation.
 """
 
 from __future__ import annotations

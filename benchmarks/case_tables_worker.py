@@ -1,4 +1,4 @@
-"""Print hashes of the solver tables of cases as one JSON object; runs in the interpreter of the version that is asked."""
+"""Print hashes of the solver tables of cases as one JSON object; runs in the interpreter of either version."""
 
 from __future__ import annotations
 

@@ -161,7 +161,7 @@ FIGURES = (
     Figure("imports of the faces past api, domain and views", "0", _past_the_api, 0),
     Figure("lines of the paper inside the core", "0", _paper, 0),
     Figure("lines of api.py", "<= 100", lambda tree: _api(tree), 100),
-    Figure("lines of the longest module", "<= 360", _longest, 360),
+    Figure("lines of the longest module", "<= 500", _longest, 500),
     Figure("lines of the longest function below its docstring", "", lambda tree: max(_functions(tree))),
     Figure(
         "functions of the core with arguments that only Numba types", "0", _untyped, None,

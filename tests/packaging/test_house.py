@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 CORE = sorted((ROOT / "lambda_core").rglob("*.py"))
 OURS = [*CORE, *(path for room in ("plugins", "db", "gui", "cli") for path in sorted((ROOT / room).rglob("*.py")))]
-LONGEST = 360  # lines of a module
+LONGEST = 500  # lines of a module
 MOST_EQUAL = 3  # names of modules that occur twice
 
 
