@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -78,6 +80,17 @@ def test_a_replaced_field_has_an_address_of_its_own() -> None:
     outer = made()
     before = total(outer)
     assert total(outer._replace(inner=Inner(np.zeros(2, dtype=np.int64)))) == before - 10
+    assert total(outer) == before
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda outer: pickle.loads(pickle.dumps(outer))])
+def test_a_copy_has_addresses_of_its_own(copied: Any) -> None:
+    """Words that came along would lead to the arrays of the original, or to freed memory."""
+    outer = made()
+    before = total(outer)
+    other = copied(outer)
+    other.cube[:] *= 1.0 if other.cube is outer.cube else 2.0
+    assert total(other) == (before if other.cube is outer.cube else 2.0 * before - 13.0)
     assert total(outer) == before
 
 

@@ -68,7 +68,8 @@ def words_of(kind: Any) -> int:
 
 def by_reference(named: type[T]) -> type[T]:
     """Let a class of named tuples keep its words once they are made; :func:`reference_t` gives it a type."""
-    own = {"__module__": named.__module__, "__doc__": named.__doc__, "__qualname__": named.__qualname__}
+    own: dict[str, Any] = {"__module__": named.__module__, "__doc__": named.__doc__, "__qualname__": named.__qualname__}
+    own["__getstate__"] = lambda _: None  # a copy, in this process or another, has arrays at other addresses
     return type(named.__name__, (named,), own)  # without __slots__, unlike the tuple itself
 
 
