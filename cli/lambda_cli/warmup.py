@@ -11,7 +11,7 @@ from lambda_cli.talk import QuietOption
 def warmup(as_json: JsonOption = False, quiet: QuietOption = False) -> None:
     """Compile the solver and every installed law ahead of the first run, into the user's cache.
 
-    A quarter of a minute on four fast cores to two minutes on two slow ones, a second or two when everything is there.
+    Takes half a minute to a minute on two cores, a second or two when everything is there.
     Exit code 3 when a law cannot be compiled; all others are.
     """
     from lambda_core import api
