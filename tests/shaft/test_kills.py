@@ -18,6 +18,7 @@ import h5py
 import pytest
 
 from lambda_core import api
+from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.results import hdf5
 from lambda_core.results.run_status import Status
 from lambda_core.results.writer import ResultWriter
@@ -114,7 +115,8 @@ def wrong(copies: dict[str, Path], model: ShaftModel, undisturbed: Content) -> l
     found = []
     for moment, folder in copies.items():
         try:
-            whole_run.resume_whole(folder, model, whole_run.Ends(DURATION), report=None, announce=None)
+            with one_blas_thread():  # as the run was computed
+                whole_run.resume_whole(folder, model, whole_run.Ends(DURATION), report=None, announce=None)
         except api.UsageError as refused:
             if "nothing is left to do" not in str(refused):
                 raise
