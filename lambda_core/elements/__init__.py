@@ -1,0 +1,1 @@
+"""Kinds of rolling elements: what is particular to each, in one folder."""
