@@ -136,7 +136,7 @@ def tabulated(x: FloatArray | float, positions: Sequence[float], drops: Sequence
         Outside the table: profiles are not extrapolated.
     """
     if np.min(x) < positions[0] or np.max(x) > positions[-1]:
-        raise ValueError(f"the table covers {positions[0]:g} to {positions[-1]:g} m: add points for the whole length")
+        raise ValueError(f"the table covers {positions[0]:g} to {positions[-1]:g} m: add points up to both ends")
     found: FloatArray = np.asarray(PchipInterpolator(positions, drops)(x), dtype=np.float64)
     return found
 

@@ -35,10 +35,7 @@ def diameter_ratio(roller_diameter: float, pitch_diameter: float, contact_angle:
     ValueError
         Unless 0 < gamma < 1.
     """
-    gamma = roller_diameter * math.cos(contact_angle) / pitch_diameter
-    if not 0.0 < gamma < 1.0:
-        raise ValueError(f"gamma = D_we cos(alpha)/D_pw must lie between 0 and 1, got {gamma:g}")
-    return gamma
+    return _checked(roller_diameter * math.cos(contact_angle) / pitch_diameter)
 
 
 def raceway_ratio(gamma: float, coefficient: float = _RATIO) -> float:
@@ -59,9 +56,7 @@ def roller_dynamic_factor(gamma: float, reduction: float = REDUCTION_FACTOR) -> 
     reduction : float
         lambda nu [-].
     """
-    if not 0.0 < gamma < 1.0:
-        raise ValueError(f"gamma = D_we cos(alpha)/D_pw must lie between 0 and 1, got {gamma:g}")
-    races = (1.0 + raceway_ratio(gamma) ** 4.5) ** (-2.0 / 9.0)
+    races = (1.0 + raceway_ratio(_checked(gamma)) ** 4.5) ** (-2.0 / 9.0)
     shape = gamma ** (2.0 / 9.0) * (1.0 - gamma) ** (29.0 / 27.0) / (1.0 + gamma) ** 0.25
     return float(_CAPACITY * reduction * races * shape)
 
@@ -156,3 +151,9 @@ def lamina_ratings(
     outer = share / _OUTER * (1.0 + 1.0 / ratio) ** (2.0 / 9.0)
     lamina = slices ** (-7.0 / 9.0)
     return LaminaRatings(inner, outer, inner * lamina, outer * lamina)
+
+
+def _checked(gamma: float) -> float:
+    if not 0.0 < gamma < 1.0:
+        raise ValueError(f"gamma = D_we cos(alpha)/D_pw must lie between 0 and 1, got {gamma:g}")
+    return gamma

@@ -199,8 +199,8 @@ def _solve(matrix: FloatArray, wanted: FloatArray, active: NDArray[np.bool_]) ->
     both = active[:, :, None] & active[:, None, :]
     scale = matrix.max()
     masked = np.where(both, matrix, 0.0) + np.where(active, 0.0, scale)[:, :, None] * np.eye(matrix.shape[-1])
-    found: FloatArray = np.linalg.solve(masked, np.where(active, wanted, 0.0)[..., None])[..., 0]
-    return found
+    solved = np.linalg.solve(masked, np.where(active, wanted, 0.0)[..., None])
+    return np.asarray(solved[..., 0], dtype=np.float64)
 
 
 def _strip(distance: FloatArray, across: FloatArray) -> FloatArray:
