@@ -123,10 +123,10 @@ def distribute(
     free = np.array([True, tapered, tilt is None])
     scale = np.array([reach, reach, wide])
 
-    def unpack(x: FloatArray) -> FloatArray:
+    def unpack(x: FloatArray) -> list[float]:
         full = np.array([0.0, 0.0, tilt or 0.0])
         full[free] = x * scale[free]
-        return full
+        return [float(value) for value in full]
 
     def imbalance(x: FloatArray) -> FloatArray:
         found = loads_at(row, *unpack(x))

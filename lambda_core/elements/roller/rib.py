@@ -165,8 +165,9 @@ def rib_film(
     h = 2.69 R_x U^0.67 G^0.53 W^-0.067 (1 - 0.61 e^(-0.73 k)), U = eta u/(E' R_x), G = alpha E', W = F/(E' R_x^2),
     k = 1.03 (R_y/R_x)^0.64. The load's exponent is the original's -0.067 for the central film (-0.073 belongs to the
     minimum); Wingertszahn et al. 2023, Lubricants 11, 369, print -0.069, which fits neither and is taken for a
-    misprint: it would change the film by 3 to 4 %. Fully flooded, isothermal, smooth; fitted for k >= 1, to be used
-    with care on conical ribs, whose ellipse is long in the direction of sliding.
+    misprint: it would change the film by 3 to 4 %. Fully flooded, isothermal, smooth; fitted for k >= 1 and W from
+    about 1e-7 to 1e-6. A rib contact, long in the direction of sliding, has W of 1e-10 to 1e-9: there the film is
+    extrapolated and an upper bound.
 
     Parameters
     ----------

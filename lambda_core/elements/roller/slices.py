@@ -42,15 +42,18 @@ class Elastic:
         Reduced radius of each contact in series [m]: one raceway, or inner and outer.
     e_eff : float
         Reduced modulus E' [Pa].
-    mirrored : bool
-        Continue the load symmetrically beyond both end faces. A half space would stiffen the ends, where material is
-        missing; mirrored strips remove the shear stress of the end faces (Hetenyi 1970, as used by de Mul, Kalker and
-        Fredriksson 1986, J. Tribol. 108, 140, and by Teutsch 2005). Each strip has one image per end.
+    images : float
+        Weight of the load's mirror images beyond both end faces, one per end. A half space is too stiff at the ends,
+        where material is missing; images remove the shear stress of the end faces (Hetenyi 1970, as used by de Mul,
+        Kalker and Fredriksson 1986, J. Tribol. 108, 140, and by Teutsch 2005). 1 where both bodies end with the
+        contact, 1/2 where the roller ends and the raceway goes on (each body has half of the compliance), 0 for half
+        spaces. Images raise the approach: 14.7, 15.8, 16.8 um with 0, 1/2, 1 for a roller of 11 by 12 mm under 2 kN with
+        the profile of ISO 16281, whose laminae give 14.1 um.
     """
 
     radii: Sequence[float]
     e_eff: float
-    mirrored: bool = True
+    images: float = 1.0
 
 
 def slice_positions(length: float, count: int) -> FloatArray:
@@ -135,18 +138,16 @@ def deflection_matrix(loads: FloatArray, positions: FloatArray, elastic: Elastic
     """
     width = float(positions[1] - positions[0])
     length = width * len(positions)
-    sources = [positions]
-    if elastic.mirrored:
-        sources += [end - positions for end in (-length, length)]
+    sources = [(positions, 1.0), (-length - positions, elastic.images), (length - positions, elastic.images)]
     matrix: FloatArray = np.zeros((len(loads), len(positions), len(positions)))
     for radius in elastic.radii:
         across = EVEN_WIDTH * half_width(loads / width, radius, elastic.e_eff)
         widest = np.max(across, axis=-1, keepdims=True)
         across = np.maximum(across, _NARROWEST * np.where(widest > 0.0, widest, width))[:, None, :]
-        for middles in sources:
+        for middles, weight in sources:
             distance = (positions[:, None] - middles[None, :])[None, :, :]
             strip = _strip(distance + 0.5 * width, across) - _strip(distance - 0.5 * width, across)
-            matrix = matrix + strip / (math.pi * elastic.e_eff * across * 0.5 * width)
+            matrix = matrix + weight * strip / (math.pi * elastic.e_eff * across * 0.5 * width)
     return matrix
 
 

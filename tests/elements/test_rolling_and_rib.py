@@ -1,0 +1,132 @@
+"""Rolling resistance of line contacts, and the rib contact of tapered rollers."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from lambda_core.elements.roller import rib
+from lambda_core.elements.roller.rolling import rolling_force, rolling_torque
+
+MODULUS, RADIUS = 226e9, 5e-3
+ANGLES = rib.tapered_angles(17e-3, 108.5e-3, math.radians(15.64))
+LARGE = 17.83e-3
+APEX = 0.5 * LARGE / math.sin(ANGLES.half)
+ENDS = pytest.mark.parametrize("face", ["cone", "sphere"])
+
+
+def force(load: float, speed: float = 5.0, viscosity: float = 0.05) -> float:
+    return float(rolling_force(load, RADIUS, speed, viscosity, MODULUS))
+
+
+def test_the_sum_of_speeds_is_worth_a_factor() -> None:
+    """U with the sum of the surface speeds: twice the mean, 2^(3/4) = 1.68 in the torque of loaded contacts."""
+    assert force(2e5, speed=10.0) / force(2e5) == pytest.approx(2.0**0.75, rel=1e-3)
+    # and the value itself: F/(E' R l) = 1.47 U^(3/4) under load, U = 2 eta u/(E' R)
+    flow = 2.0 * 0.05 * 5.0 / (MODULUS * RADIUS)
+    assert force(2e5) / (MODULUS * RADIUS) == pytest.approx(1.42 / 0.966 * flow**0.75, rel=1e-3)
+
+
+def test_light_contacts_are_rigid() -> None:
+    # sqrt(U W): twice the speed, or twice the load, is worth sqrt(2)
+    assert force(20.0, speed=10.0) / force(20.0) == pytest.approx(math.sqrt(2.0), rel=1e-3)
+    assert force(40.0) / force(20.0) == pytest.approx(math.sqrt(2.0), rel=1e-3)
+
+
+@given(load=st.floats(1.0, 1e6), speed=st.floats(1e-3, 50.0))
+def test_resistance_grows_with_speed_and_hardly_falls_with_load(load: float, speed: float) -> None:
+    assert force(load, speed=1.1 * speed) > force(load, speed=speed)
+    assert force(1.1 * load, speed=speed) > 0.99999 * force(load, speed=speed)
+
+
+def test_rest_and_no_load_have_no_resistance() -> None:
+    assert force(0.0) == 0.0
+    assert force(1e5, speed=0.0) == 0.0
+
+
+def test_torque_is_the_lost_power() -> None:
+    assert rolling_torque(np.array([[1.0, 2.0], [3.0, 4.0]]), 5.0, -200.0) == pytest.approx(2.0 * 10.0 * 5.0 / 200.0)
+
+
+def test_raceways_meet_the_roller_at_its_mean_diameter() -> None:
+    # the roller's axis at half the pitch diameter, its radius from there to either raceway
+    along = 0.5 * 108.5e-3 / math.sin(ANGLES.roller)
+    assert along * math.tan(ANGLES.half) == pytest.approx(8.5e-3)
+    assert ANGLES.inner + 4.0 * 0.5 * ANGLES.half == pytest.approx(ANGLES.outer)
+
+
+def test_the_roller_rolls_on_both_raceways() -> None:
+    # vectors in the plane of axis and roller: roller against outer ring along its generatrix, against inner along its
+    relative = -rib.relative_speed(ANGLES, 1.0)
+    roller = np.array([1.0, 0.0]) + relative * np.array([math.cos(ANGLES.inner), math.sin(ANGLES.inner)])
+    assert roller[1] / roller[0] == pytest.approx(math.tan(ANGLES.outer))
+    # orbit and spin about the roller's own axis
+    spin = roller[1] / math.sin(ANGLES.roller)
+    assert roller[0] - spin * math.cos(ANGLES.roller) == pytest.approx(rib.orbital_ratio(ANGLES))
+
+
+def test_cylindrical_limit_of_the_relative_speed() -> None:
+    # a vanishing taper: omega_rel = omega (D_pw + D_we)/(2 D_we)
+    flat = rib.tapered_angles(10e-3, 60e-3, 1e-6)
+    assert rib.relative_speed(flat, 1.0) == pytest.approx(3.5, rel=1e-6)
+    assert rib.orbital_ratio(flat) == pytest.approx(0.5 * (1.0 - 10.0 / 60.0), rel=1e-6)
+
+
+@ENDS
+@given(height=st.floats(1e-3, 8e-3), share=st.floats(0.5, 0.95))
+def test_the_sphere_touches_at_the_height(face: str, height: float, share: float) -> None:
+    found = rib.rib_contact(ANGLES, LARGE, share * APEX, height, rib=face)
+    centre = 0.5 * LARGE / math.tan(ANGLES.half) - share * APEX
+    assert centre * math.sin(ANGLES.half) + share * APEX * math.sin(found.normal) == pytest.approx(height)
+    assert found.radius_x > share * APEX  # a concave rib
+    assert found.radius_y >= share * APEX * (1.0 - 1e-12)
+
+
+def test_a_centred_sphere_would_conform() -> None:
+    with pytest.raises(ValueError, match="below the rib's radius"):
+        rib.rib_contact(ANGLES, LARGE, 1.05 * APEX, 3e-3, rib="sphere")
+    with pytest.raises(ValueError, match="does not reach"):
+        rib.rib_contact(ANGLES, LARGE, 1e-3, 3e-3)
+    with pytest.raises(ValueError, match="rib"):
+        rib.rib_contact(ANGLES, LARGE, 0.9 * APEX, 3e-3, rib="flat")
+
+
+@given(normal=st.floats(-0.1, 0.1))
+def test_rib_and_raceways_balance(normal: float) -> None:
+    face, inner = rib.rib_load(1000.0, ANGLES, normal)
+    wedge = 2.0 * ANGLES.half
+    outer = 1000.0 * np.array([math.sin(wedge), -math.cos(wedge)])
+    balance = outer + inner * np.array([0.0, 1.0]) - face * np.array([math.cos(normal), math.sin(normal)])
+    assert balance == pytest.approx(np.zeros(2), abs=1e-9)
+
+
+def test_the_rib_slides_in_proportion_to_its_height() -> None:
+    low, high = (rib.sliding_speed(ANGLES, 200.0, height) for height in (1e-3, 3e-3))
+    assert high == pytest.approx(3.0 * low)
+    assert rib.sliding_speed(ANGLES, 200.0, 0.0) == 0.0
+
+
+@ENDS
+def test_a_flatter_end_raises_the_rib_film(face: str) -> None:
+    films = []
+    for share in (0.85, 0.95):
+        contact = rib.rib_contact(ANGLES, LARGE, share * APEX, 3e-3, rib=face)
+        films.append(rib.rib_film(100.0, contact, rib.rib_entrainment(ANGLES, 200.0, contact), 0.05, 2e-8, MODULUS))
+    assert films[1] > 1.3 * films[0]
+
+
+@ENDS
+def test_the_rib_film_has_its_exponents(face: str) -> None:
+    contact = rib.rib_contact(ANGLES, LARGE, 0.85 * APEX, 3e-3, rib=face)
+    speed = rib.rib_entrainment(ANGLES, 200.0, contact)
+
+    def film(load: float = 100.0, times: float = 1.0) -> float:
+        return rib.rib_film(load, contact, times * speed, 0.05, 2e-8, MODULUS)
+
+    assert film(times=2.0) / film() == pytest.approx(2.0**0.67)
+    assert film(load=200.0) / film() == pytest.approx(2.0**-0.067)  # not the misprinted -0.069
+    assert speed > 0.5 * rib.sliding_speed(ANGLES, 200.0, 3e-3)
