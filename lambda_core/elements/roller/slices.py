@@ -47,7 +47,7 @@ class Elastic:
         where material is missing; images remove the shear stress of the end faces (Hetenyi 1970, as used by de Mul,
         Kalker and Fredriksson 1986, J. Tribol. 108, 140, and by Teutsch 2005). 1 where both bodies end with the
         contact, 1/2 where the roller ends and the raceway goes on (each body has half of the compliance), 0 for half
-        spaces. Images raise the approach: 14.7, 15.8, 16.8 um with 0, 1/2, 1 for a roller of 11 by 12 mm under 2 kN with
+        spaces. Images raise the approach: 14.7, 15.8, 16.8 um with 0, 1/2, 1 for a roller of 11 by 12 mm, 2 kN and
         the profile of ISO 16281, whose laminae give 14.1 um.
     """
 
