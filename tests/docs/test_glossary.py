@@ -31,7 +31,7 @@ _NAMES = {"grasp": "compile_into", "proceed": "integrate", "settle": "solve_stat
 def _rows() -> list[list[str]]:
     return [
         [cell.strip() for cell in line.strip("|").split("|")]
-        for line in GLOSSARY.splitlines()
+        for line in GLOSSARY.partition("\n## Words to avoid\n")[0].splitlines()
         if line.startswith("|") and not line.startswith(("|---", "| term"))
     ]
 
