@@ -21,16 +21,16 @@ One integrator cannot check itself. `lambda-bearing cross-check CASE` solves the
 with CVODE (Hindmarsh et al. 2005, ACM Trans. Math. Softw. 31, 363; BDF up to order 2, the same absolute scales of
 error), through [scikit-sundae](https://scikit-sundae.readthedocs.io): `pip install "lambda-bearing[sundials]"`.
 
-Right-hand side and Jacobian are shared, everything else is CVODE's: what agrees here is the integration over time, not
-the physics. `lambda_core.api.cross_check` gives the same as an object. Written by
+CVODE shares the right-hand side and the Jacobian with the program, so this verifies the time integration, not the
+physics. `lambda_core.api.cross_check` returns the same as an object. Written by
 `python -m benchmarks.crosscheck --write`.
 
-## Cage led along its kinematic path
+## Cage guided along its kinematic path
 
 {DURATION} from the quasi-static equilibrium. The reference is CVODE at a hundredth of the tolerance. *States*: largest
-distance of rings and gripped balls from the reference, root mean square over their states, in units of tolerance times
-scale; beside it that of CVODE at the same tolerance. *Unloaded*: the same of balls that the inner ring does not press.
-No force brings the azimuth of such a ball back, so that errors of either integrator add up until it is gripped again.
+distance of rings and loaded balls from the reference, root mean square over their states, in units of tolerance times
+scale, for the program and for CVODE at the same tolerance. *Unloaded*: the same for balls that the inner ring does not
+press. No force acts on the azimuth of such a ball, so integration errors accumulate until it re-enters the load zone.
 
 """
 _BETWEEN = """

@@ -118,7 +118,7 @@ EXCHANGES: tuple[Exchange, ...] = (
                 "forces.ball_cage.models.cage_contact",
                 "with the outer ring's land, clearance 0.3 mm: alone it would not hold the cage",
             ),
-            Law("land-guidance", RING_GUIDED, "forces.cage_outer.models.cage_contact", "beside the spherical pockets"),
+            Law("land-guidance", RING_GUIDED, "forces.cage_outer.models.cage_contact", "with spherical pockets"),
             Law("ball-ball", ("depth.cage=false",), "forces.ball_ball.models.cage_contact", "no cage"),
             Law(
                 "none",

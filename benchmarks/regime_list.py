@@ -248,7 +248,7 @@ REGIMES = (
     ),
     # Work that is found as m v D(v) counts the kinetic energy of a jump twice: 20 % of all that flows.
     Regime(
-        "100 kg led by a jump of their speed",
+        "100 kg with a prescribed jump of speed",
         (
             "bodies.outer_ring.mass=100 kg", "bodies.outer_ring.z.mode=prescribed",
             *ramp("bodies.outer_ring.z.motion", "0 um", "100 um", "2 ms", "3 ms"),

@@ -104,7 +104,7 @@ def page() -> str:
             f"| {regime.name} | {1e3 * regime.duration:g} ms | {found.steps} | {_size(found.residual)} | "
             f"{_size(fine.residual)} |"
         )
-    refused = ["| case | what is said |", "|---|---|"]
+    refused = ["| case | message |", "|---|---|"]
     for name, (changes, words) in REFUSED.items():
         said = next(line for line in refusal(changes).splitlines() if words in line)
         refused.append(f"| {name} | {' '.join(said.split())} |")

@@ -84,7 +84,7 @@ PICTURES = (
     ),
     Picture(
         "catalogues",
-        "Beside catalogues",
+        "Comparison with catalogues",
         "The simulated torque by parts, and what SKF's and Schaeffler's models say for the same point.",
         "lambda-bearing view motor.h5 catalogues",
         "motor-catalogues.png",

@@ -42,7 +42,7 @@ class Case(Section):
     models: Models = option({}, "model by role")
     parameters: Parameters = option({}, "parameters by role, for every force element with that role")
     forces: Forces = option({}, "models and parameters of single force elements")
-    elements: dict[str, BetweenBodies] = option({}, "force elements between bodies, beside those of the bearing")
+    elements: dict[str, BetweenBodies] = option({}, "additional force elements between bodies")
     elastic: Elastic = option({}, "parts of the bearing that bend")
     gravity: Gravity = option({}, "acceleration of gravity")
     depth: Depth = option({}, "modelling depth")

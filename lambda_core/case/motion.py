@@ -213,7 +213,7 @@ class Marker(Section):
 
 
 class BetweenBodies(Section):
-    """A force element between two bodies, or a body and the ground, beside those of the bearing."""
+    """A force element between two bodies, or a body and the ground, in addition to those of the bearing."""
 
     law: str = option("bushing", "law of the role force_element", min_length=1)
     first: str = option("ground", 'body or marker at one end; "ground" is what stands still', min_length=1)

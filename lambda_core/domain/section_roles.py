@@ -13,7 +13,7 @@ _POSITIVE, _RESISTIVE = (0.0, math.inf), (1e-9, math.inf)
 SECTION_ROLES: tuple[Role, ...] = (
     Role(
         "force_element",
-        "force between two bodies, or a body and the ground, beside those of the bearing",
+        "force between two bodies, or a body and the ground, in addition to those of the bearing",
         arguments_of(
             "t f time [s]; place a of the second point seen from the first, inertial axes [m]; "
             "tilt a of the second body's axis against the first's, as a vector of rotation, inertial axes [rad]; "

@@ -295,7 +295,7 @@ class BearingModel:
     observers, events : mapping of str to ChosenObserver, ChosenEvent
         What plugins write of a run, and what they look out for, by name.
     links : mapping of str to Link
-        Force elements between bodies beside those of the bearing, by name.
+        Force elements between bodies, in addition to those of the bearing, by name.
     elastic : mapping of str to RingWaves
         Rings and cage that bend, in the order of BODIES.
     values : tuple of ResolvedValue

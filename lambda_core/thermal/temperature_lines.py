@@ -29,7 +29,7 @@ def steady_text(found: SteadyTemperatures) -> str:
         [
             found.headline,
             line("losses", found.losses_from, f"{number(state.power_loss_W)} W"),
-            line("temperatures", f"conductances {found.conductances}", "(heat put in beside them)"),
+            line("temperatures", f"conductances {found.conductances}", "(heat input in the last column)"),
             *nodes,
             line("heat flows"),
             *flows,

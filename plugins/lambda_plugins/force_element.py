@@ -1,4 +1,4 @@
-"""Force elements between two bodies, beside those of the bearing."""
+"""Define the force elements between two bodies."""
 
 from __future__ import annotations
 

@@ -68,7 +68,7 @@ def _tables(found: Anchors) -> tuple[Table, ...]:
             random,
         ),
         Table(
-            f"axial beside radial load, {AXIAL[0]} under {AXIAL[2]:g} N at {AXIAL[3]:g} 1/min: over that without",
+            f"axial load added to radial, {AXIAL[0]} under {AXIAL[2]:g} N at {AXIAL[3]:g} 1/min: over that without",
             ("F_a/F_r", "rolling", "M_rr", "sliding", "M_sl", "total", "SKF", "Schaeffler's M_1", "total over SKF's"),
             axial,
         ),

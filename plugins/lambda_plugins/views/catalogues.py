@@ -51,7 +51,7 @@ def catalogues(run: RunData, options: Options) -> ViewData:
         f"simulation: mean over {averaging(run).words}; catalogues: at the loads and the speed of the start",
         "rolling: rolling resistance and hysteresis; sliding: slip, spin and asperities",
     )
-    return ViewData("catalogues", "Simulation beside catalogues", source(run), (panel,), 1, notes)
+    return ViewData("catalogues", "Simulation and catalogues", source(run), (panel,), 1, notes)
 
 
 VIEWS = (View("catalogues", "friction torque beside SKF's and Schaeffler's models", "result", catalogues, view_api=1),)

@@ -47,7 +47,7 @@ def comparison(runs: Sequence[RunData], options: Options) -> ViewData:
     panels = (
         Panel("friction torque", which, Axis("friction torque", "N mm", low=0.0), tuple(stacks), stacked=True),
         Panel(
-            "simulation beside catalogues",
+            "simulation and catalogues",
             which,
             Axis("friction torque", "N mm", low=0.0),
             tuple(

@@ -1,0 +1,114 @@
+"""Test the plain English of pages, docstrings, messages and names."""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+OWN = Path(__file__).relative_to(ROOT).as_posix()
+GLOSSARY = (ROOT / "docs" / "glossary.md").read_text(encoding="utf-8")
+# What follows "whole" where it is a noun; "the whole ring", an adjective, is plain English.
+_VERBS_AND_PREPOSITIONS = "and|are|as|at|by|can|costs?|for|from|has|in|is|may|must|of|on|or|that|to|which|with"
+_NOUN = rf"(?=\s*(?:$|[^\s\w])|\s+(?:{_VERBS_AND_PREPOSITIONS})\b)"
+_BE = "(?:is|was|are|were|be|been)"
+AVOIDED = {
+    "beside": r"\bbeside\b",
+    "a whole": rf"\ba\s+whole{_NOUN}",
+    "the whole": rf"\bthe\s+whole{_NOUN}",
+    "led": r"\bled\b",
+    "is said, are said": rf"\b{_BE}\s+said\b",
+    "is told, are told": rf"\b{_BE}\s+told\b",
+    "let go": r"\blet(?:s|ting)?\s+go\b",
+    "rubbish": r"\brubbish\b",
+    "stands for itself": r"\bstands?\s+for\s+(?:itself|themselves)\b",
+}
+_AVOIDED = re.compile("|".join(AVOIDED.values()), re.IGNORECASE)
+_NAMES = {"beside", "led", "rubbish", "whole", "wholes"}  # words of a name in snake case or camel case
+_WORD = re.compile(r"[A-Z]?[a-z]+")
+EXEMPT = ("LED",)  # quotations and standard terms that contain such a word
+RULES = ("contributing.md", "glossary.md")  # these pages quote the words
+# Words to avoid in strings and names of the code. A number can only fall: lower it with every text that you improve.
+CEILINGS = {
+    "benchmarks": 30,
+    "cli": 12,
+    "db": 5,
+    "docs": 3,
+    "examples": 5,
+    "gui": 53,
+    "lambda_core": 328,
+    "plugins": 42,
+    "tests": 194,
+}
+
+
+def _pages() -> list[Path]:
+    pages = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+    return [page for page in pages if page.name not in RULES and page.parent.name != "reference"]
+
+
+@cache
+def _sources() -> dict[str, str]:
+    """Return the Python files that git tracks, by name."""
+    if not (ROOT / ".git").exists():
+        pytest.skip("looks at the files that git tracks")
+    listed = subprocess.run(["git", "ls-files", "*.py"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    return {name: (ROOT / name).read_text(encoding="utf-8") for name in listed.split() if (ROOT / name).exists()}
+
+
+def _in_text(text: str) -> list[str]:
+    for phrase in EXEMPT:
+        text = text.replace(phrase, "")
+    return [" ".join(found.group().split()) for found in _AVOIDED.finditer(text)]
+
+
+def _in_code(name: str, text: str) -> int:
+    """Count the words to avoid in the strings of a module, its name and the names it defines."""
+    words = _WORD.findall(Path(name).stem)
+    count = 0
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            count += len(_in_text(node.value))
+        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            words += _WORD.findall(node.name)
+        elif isinstance(node, ast.arg):
+            words += _WORD.findall(node.arg)
+        elif isinstance(node, ast.Name | ast.Attribute) and isinstance(node.ctx, ast.Store):
+            words += _WORD.findall(node.id if isinstance(node, ast.Name) else node.attr)
+    return count + sum(word.lower() in _NAMES for word in words)
+
+
+@pytest.mark.parametrize("page", _pages(), ids=lambda page: str(page.relative_to(ROOT)))
+def test_a_page_has_no_word_to_avoid(page: Path) -> None:
+    assert _in_text(page.read_text(encoding="utf-8")) == [], "see docs/glossary.md#words-to-avoid"
+
+
+def test_the_glossary_lists_the_words_to_avoid() -> None:
+    rows = GLOSSARY.partition("\n## Words to avoid\n")[2].splitlines()
+    listed = [row.split("|")[1].strip() for row in rows if row.startswith("| ")]
+    assert listed == ["avoid", *AVOIDED]
+
+
+@pytest.mark.parametrize("text", ["led by a host", "As a whole, it", "the\nwhole of it", "It is said that", "beside"])
+def test_a_word_to_avoid_is_found(text: str) -> None:
+    assert len(_in_text(text)) == 1
+
+
+@pytest.mark.parametrize("text", ["the whole ring", "an LED lamp", "a whole number", "said the user"])
+def test_plain_words_are_left_alone(text: str) -> None:
+    assert _in_text(text) == []
+
+
+def test_words_to_avoid_in_the_code_only_get_fewer() -> None:
+    """Equal to the ceilings, so that every improvement lowers them; no tolerance, and no entry for nothing."""
+    counts: dict[str, int] = {}
+    for name, text in _sources().items():
+        if name != OWN and (found := _in_code(name, text)):
+            package = name.partition("/")[0]
+            counts[package] = counts.get(package, 0) + found
+    assert counts == CEILINGS
