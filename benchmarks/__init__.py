@@ -1,7 +1,7 @@
-"""How fast the program is, measured against itself and against other integrators: ``python -m benchmarks``.
+"""Measure the speed of the program with ``python -m benchmarks``.
 
 Every module measures one thing and returns a :class:`~benchmarks.tables.Section`. Times are minima over repeats of
-the same work, ratios are taken within one process, and the load of the machine stands beside them.
+the same work, ratios are taken within one process, and every table states the load of the machine.
 """
 
 import os

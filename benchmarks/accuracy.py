@@ -1,4 +1,4 @@
-"""What an integration says, and how far that is from a tight reference of the same run."""
+"""Compare integrations with tight references of the same run."""
 
 from __future__ import annotations
 

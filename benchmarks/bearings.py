@@ -1,4 +1,7 @@
-"""How the cost grows with the number of bearings on one shaft."""
+"""Measure the cost over the number of bearings.
+
+All bearings sit on one shaft.
+"""
 
 from __future__ import annotations
 

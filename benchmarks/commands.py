@@ -1,4 +1,4 @@
-"""What a warm command costs: processor time of its process, its imports, against budgets."""
+"""Measure processor time and imports of warm commands against budgets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a traction law of somebody else's costs: installed as a plugin of its own, beside the built-in law."""
+"""Measure a plugin's traction law against the built-in law."""
 
 from __future__ import annotations
 

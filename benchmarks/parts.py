@@ -1,4 +1,7 @@
-"""What one evaluation costs, by grid; and where the wall time of a simulated second goes."""
+"""Measure the parts of an evaluation and of a run.
+
+It varies the grid of an evaluation, and splits the wall time of a simulated second.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How the cost grows with the number of balls and with the cells of a contact."""
+"""Measure the cost over balls and contact cells."""
 
 from __future__ import annotations
 

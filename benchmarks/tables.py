@@ -1,4 +1,7 @@
-"""What a benchmark hands over: tables, targets, and their forms as text, Markdown and JSON."""
+"""Define benchmark tables and targets, and print them.
+
+The forms are text, Markdown and JSON.
+"""
 
 from __future__ import annotations
 

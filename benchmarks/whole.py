@@ -1,4 +1,7 @@
-"""What a shaft in its bearings costs, over the sum of its bearings run alone under the loads that they have there."""
+"""Measure a shaft run against its bearings alone.
+
+The bearings alone run under the loads that they have on the shaft.
+"""
 
 from __future__ import annotations
 

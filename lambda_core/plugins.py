@@ -1,4 +1,4 @@
-"""What a plugin author imports: everything here is stable under ROLE_API 2."""
+"""Provide the stable names for plugin authors under ROLE_API 2."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""What takes long to make, and is only looked at, is made by the first process that wants it."""
+"""Make slow read-only data once for all test processes."""
 
 from __future__ import annotations
 

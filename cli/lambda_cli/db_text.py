@@ -1,4 +1,4 @@
-"""How `lambda-bearing db` prints rows: tables for people, one JSON object for programs."""
+"""Print catalogue rows as tables or as one JSON object."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What a long command says on stderr while it works: a bar, lines, JSON for programs, or nothing."""
+"""Report the progress of a long command on stderr.
+
+The forms are a bar, lines, JSON for programs, or nothing.
+"""
 
 from __future__ import annotations
 

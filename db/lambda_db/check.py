@@ -1,4 +1,7 @@
-"""What is wrong or odd in the visible catalogue: open references, laws without data, ratings unlike the geometry."""
+"""Check the visible catalogue for errors and oddities.
+
+It looks for open references, laws without data, and ratings that do not match the geometry.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Where the catalogue's files live; environment variables move them."""
+"""Locate the files of the catalogue.
+
+Environment variables move them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What rows name in other tables: lubricants of properties, materials of cages, targets of aliases."""
+"""List the references of rows to other tables.
+
+These are lubricants of properties, materials of cages and targets of aliases.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Whether a database can be read to its end: pages, constraints and texts."""
+"""Check that a database can be read completely.
+
+The check covers pages, constraints and texts.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""How well the derivation finds inner geometries that somebody printed; the table of docs/catalogue.md."""
+"""Compare derived inner geometries with published ones.
+
+The result is a table in docs/catalogue.md.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What form rows see of the case around them."""
+"""Provide form rows with the case around them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is right and wrong with a draft, and on which node each mistake belongs."""
+"""Check a draft and assign each error to a node."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the catalogue knows of one row, with sources and grades."""
+"""Show a catalogue row with its sources and grades."""
 
 from __future__ import annotations
 

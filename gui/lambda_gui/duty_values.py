@@ -1,4 +1,4 @@
-"""What the form of a duty cycle holds, the cycle that it says, and what came of it as text."""
+"""Convert the form of a duty cycle, and show results."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What can be written from results: figures, reports, the case."""
+"""Export figures, reports and the case from results."""
 
 from __future__ import annotations
 

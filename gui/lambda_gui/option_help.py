@@ -1,4 +1,4 @@
-"""What stands about one option or node beside its form."""
+"""Show the help of one option or node."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Whether a screen is there: threads, timers and helpers also come back while it is taken down."""
+"""Guard callbacks that arrive after a screen was closed.
+
+Threads, timers and helper processes may call back while a screen is taken down.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What a shaft does, beside its drawing: reactions, lives, bend, critical speed, or the mistakes in the way."""
+"""Show the results of a shaft next to its drawing.
+
+These are reactions, lives, deflection and critical speed, or the errors that prevent them.
+"""
 
 from __future__ import annotations
 

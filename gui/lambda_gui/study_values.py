@@ -1,4 +1,4 @@
-"""What the form of a study holds, and the study that it says."""
+"""Convert the values of the study form into a study."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is taken from the catalogue into the case: a bearing keeps the suffixes that were typed or stood there."""
+"""Copy a catalogue row into the case, keeping typed suffixes."""
 
 from __future__ import annotations
 

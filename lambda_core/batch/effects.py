@@ -1,4 +1,4 @@
-"""How much each parameter of a study decides a response."""
+"""Estimate the effect of each study parameter on a response."""
 
 from __future__ import annotations
 

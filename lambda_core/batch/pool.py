@@ -1,4 +1,4 @@
-"""Where tasks are worked on: processes of this machine, dask workers anywhere, or programs that outlive this one.
+"""Run tasks in local processes, dask workers or detached programs.
 
 A director needs nothing but :class:`concurrent.futures.Executor`; any other one can be handed to it.
 """

@@ -1,4 +1,4 @@
-"""What a study can ask of a point: responses by name, with unit and meaning.
+"""Define the responses of a study with unit and meaning.
 
 Names are those of the machine interface (:class:`~lambda_core.results.summary.Summary` and
 :class:`~lambda_core.results.quasistatic.QuasiStatic`), where it has them. ``friction_breakdown_Nmm`` stands for

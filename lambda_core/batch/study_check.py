@@ -1,4 +1,4 @@
-"""Whether a study makes sense, and what it costs: said before anything runs."""
+"""Check a study and estimate its cost before it runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What a declared option looks like to people: label, unit, limits, default, help, in one card for every face."""
+"""Describe a declared option for every user interface.
+
+A card has label, unit, limits, default and help.
+"""
 
 from __future__ import annotations
 

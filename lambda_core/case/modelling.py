@@ -1,4 +1,7 @@
-"""How it is modelled and computed: the sections models, parameters, forces, depth, solver, output."""
+"""Declare the sections for models and numerical settings.
+
+These are models, parameters, forces, depth, solver and output.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""How it is moved and loaded: the sections loads, operation, bodies, gravity, markers."""
+"""Declare the sections for loads and motion.
+
+These are loads, operation, bodies, gravity and markers.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What is left of a case when its mistakes are taken out: so that later checks can add theirs at once."""
+"""Remove the faulty parts of a case.
+
+Later checks can then report their own errors at once.
+"""
 
 from __future__ import annotations
 

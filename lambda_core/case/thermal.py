@@ -1,4 +1,7 @@
-"""Where the heat goes: the section thermal, a network of nodes and conductances around the bearing."""
+"""Declare the thermal network of a case.
+
+Nodes and conductances surround the bearing.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What plugins have registered so far, and the rules that each item has to meet."""
+"""Collect the items that plugins register, and check each one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is installed, in full: every model with its parameters, every method and view, every fault.
+"""List all installed models, methods, views and faults.
 
 Plain data for faces and documentation; `check_installed` tries every model out.
 """

@@ -1,4 +1,7 @@
-"""Which files are written and read: regular ones only, and of a size that fits into memory."""
+"""Accept only regular files of a limited size.
+
+The limit is a size that fits into memory.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What can be wrong with a plugin, as one sentence with the distribution's name."""
+"""Define the errors of plugins, with the distribution's name."""
 
 from __future__ import annotations
 

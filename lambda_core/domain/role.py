@@ -1,4 +1,4 @@
-"""What a role is: a kernel's arguments, what it returns, and the bounds of that."""
+"""Define a role by its arguments, results and bounds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What stands in the file of a reduced body: JSON, NumPy's .npz, HDF5, TOML that names a CSV file for every matrix."""
+"""Read files of reduced bodies.
+
+Formats: JSON, NumPy's .npz, HDF5, and TOML that names a CSV file for every matrix.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the circuit does, in lines for people."""
+"""Print the results of the circuit as text lines."""
 
 from __future__ import annotations
 

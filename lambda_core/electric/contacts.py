@@ -1,4 +1,7 @@
-"""What the circuit has to know of the contacts: from a run's samples, or from quasi-static equilibria as balls pass."""
+"""Provide the circuit with the contacts over time.
+
+They come from a run's samples, or from quasi-static equilibria as balls pass.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What the circuit has to know of a bearing: dimensions, materials, oil, and the laws of its films."""
+"""Provide the circuit with the data of a bearing.
+
+These are dimensions, materials, oil and the laws of its films.
+"""
 
 from __future__ import annotations
 

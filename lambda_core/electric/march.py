@@ -1,4 +1,4 @@
-"""What a march of the network needs, and what it gives, as arrays with names."""
+"""Define the input and output arrays of the circuit integrator."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What is computed: a run's samples, or a case by quasi-static equilibria, with the options that belong to it."""
+"""Select the source of a circuit computation.
+
+It is a run's samples or a case with quasi-static equilibria, with their options.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""How the constants in an image follow options of the case: curves through what the case's own set-up gives.
+"""Fit the constants in an image over case options.
+
+The curves pass through values of the case's own set-up.
 
 A constant is a number that the set-up of a model works out in Python: viscosity of the oil, radius of a groove,
 parameter of a law. Each is sampled over every option that is to vary, at the points of Chebyshev, where the polynomial

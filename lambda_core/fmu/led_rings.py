@@ -1,4 +1,4 @@
-"""What a library needs for the slopes of reactions with the motion of rings that a host leads.
+"""Prepare the reaction slopes for rings with prescribed motion.
 
 The solver's Jacobian holds the slopes of the forces on all bodies with their free states. Rings that a host leads have
 none; so a second set of blocks is made, for the same tables, in which all that a host leads counts as free.

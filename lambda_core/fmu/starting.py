@@ -1,4 +1,4 @@
-"""What a library needs to find its own equilibrium when inputs at the start are not those of the case."""
+"""Prepare the equilibrium search of a library at other inputs."""
 
 from __future__ import annotations
 

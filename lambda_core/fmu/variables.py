@@ -1,4 +1,4 @@
-"""What a host sees of a bearing: names, units and places of its inputs and outputs.
+"""Define names, units and positions of FMU inputs and outputs.
 
 Values are SI; a host shows them in the units that engineers use. Names are those of a case and of a result.
 """

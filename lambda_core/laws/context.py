@@ -1,4 +1,7 @@
-"""What the set-up of a law sees: frozen geometry, materials and oil of one force element, SI."""
+"""Define the data that the set-up of a law receives.
+
+These are frozen geometry, materials and oil of one force element, in SI.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What version 1 of the role interface had and version 2 has not, told with the new form."""
+"""Explain how to convert a law from role interface 1."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What people look at: views as data and as files, and the page about a run or a study."""
+"""Produce views, figures, and pages about runs and studies."""
 
 from __future__ import annotations
 

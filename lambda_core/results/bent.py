@@ -1,4 +1,4 @@
-"""How oval the elastic rings and the cage of a run were."""
+"""Evaluate the ovality of elastic rings and cage."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What a run writes of its electric circuit: voltages between samples, and every film that breaks down."""
+"""Store the electric circuit of a run.
+
+The tables hold voltages between samples and every film that breaks down.
+"""
 
 from __future__ import annotations
 

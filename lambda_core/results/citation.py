@@ -1,4 +1,4 @@
-"""What to cite beside a result: the program, and the sources of exactly the laws and data that it used."""
+"""Cite the program and the sources that a result used."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""When a run is converged: the one definition, with a sentence for each condition that fails."""
+"""Decide when a run is converged.
+
+Each condition that fails has a sentence.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a result keeps of observers and events: who they are, and when an event began."""
+"""Store the observers and events of a run."""
 
 from __future__ import annotations
 

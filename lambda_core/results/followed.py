@@ -1,4 +1,4 @@
-"""What the integration did to vibrations: the frequency that it shifts, the damping that it adds."""
+"""Compute the frequency shift and damping of the time integration."""
 
 from __future__ import annotations
 

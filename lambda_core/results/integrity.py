@@ -1,4 +1,6 @@
-"""What must hold of a result file before it is worked with: its texts can be read, its model is complete.
+"""Check the integrity of a result file before use.
+
+Its texts can be read and its model is complete.
 
 The heaps in which HDF5 keeps texts are looked at before HDF5 reads them: a damaged one would keep it busy for ever.
 

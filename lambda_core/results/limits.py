@@ -1,4 +1,7 @@
-"""Where a result leaves what its laws are made for: contacts beyond the shoulder, pressures, tilt."""
+"""Report results beyond the range of their laws.
+
+The limits concern shoulders, pressures and tilt.
+"""
 
 from __future__ import annotations
 

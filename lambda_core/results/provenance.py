@@ -1,4 +1,7 @@
-"""What a result says about where it comes from: case, values, laws, versions, plugins."""
+"""Record the provenance of a result.
+
+It consists of case, values, laws, versions and plugins.
+"""
 
 from __future__ import annotations
 

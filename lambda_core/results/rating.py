@@ -1,4 +1,4 @@
-"""What standards and makers' catalogues say of a bearing and its loads, beside a result."""
+"""Add ratings of standards and catalogues to a result."""
 
 from __future__ import annotations
 

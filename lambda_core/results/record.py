@@ -1,4 +1,4 @@
-"""What the machine interface is made of."""
+"""Define the base of the machine interface."""
 
 from __future__ import annotations
 

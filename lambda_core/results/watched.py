@@ -1,4 +1,4 @@
-"""What observers and events say of a run: the numbers of its summary."""
+"""Summarise the numbers of observers and events."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What can be said of a case before it is run: equilibrium, rating life, and about how long the run takes."""
+"""Estimate equilibrium, rating life and run time of a case."""
 
 from __future__ import annotations
 

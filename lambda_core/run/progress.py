@@ -1,4 +1,4 @@
-"""What a run tells while it goes on, and how it is asked to stop."""
+"""Report the progress of a run and request its stop."""
 
 from __future__ import annotations
 

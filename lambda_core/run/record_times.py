@@ -1,4 +1,7 @@
-"""When a run keeps a record of its integrals: on a grid of times that depends on nothing but the case."""
+"""Choose the times at which a run records its integrals.
+
+The grid depends on the case alone.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a face or a script may ask of a shaft in motion."""
+"""Provide the public API for shafts in motion."""
 
 from __future__ import annotations
 

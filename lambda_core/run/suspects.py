@@ -1,4 +1,4 @@
-"""When an integration cannot go on: a look at the laws of others, before the time step or an innocent law is blamed.
+"""Blame a plugin law that caused a solver failure.
 
 A negative shear stress drives what it should brake, and a write outside an array changes somebody else's numbers: what
 fails then is the step, or the next law that reads them.

@@ -1,4 +1,4 @@
-"""What the results of a shaft's run say about where they come from."""
+"""Record the provenance of the results of a shaft run."""
 
 from __future__ import annotations
 

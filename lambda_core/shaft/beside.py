@@ -1,4 +1,4 @@
-"""What a case says beside shaft and bearings, in SI: rigid bodies, springs between bodies, loads on all of them."""
+"""Define rigid bodies, springs and point loads, in SI."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What a shaft, a wheel or a body is made of: a catalogue name or a table of properties."""
+"""Resolve the material of a shaft, wheel or body.
+
+It is a catalogue name or a table of properties.
+"""
 
 from __future__ import annotations
 

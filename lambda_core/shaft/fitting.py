@@ -1,4 +1,7 @@
-"""Whether bearings, wheels and shaft fit each other: bores on diameters, widths beside each other and on the shaft."""
+"""Check that bearings, wheels and shaft fit each other.
+
+The check compares bores with diameters, and widths with the space on the shaft.
+"""
 
 from __future__ import annotations
 

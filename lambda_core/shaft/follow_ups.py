@@ -1,4 +1,4 @@
-"""Which mistakes of a shaft's case stand for themselves, and which only follow from others that are known already."""
+"""Suppress errors that only follow from other errors."""
 
 from __future__ import annotations
 

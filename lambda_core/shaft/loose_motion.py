@@ -1,4 +1,4 @@
-"""What nothing holds: motions of a shaft and of the bodies beside it that no stiffness resists, under load."""
+"""Detect unconstrained rigid-body motions under load."""
 
 from __future__ import annotations
 

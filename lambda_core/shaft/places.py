@@ -1,4 +1,4 @@
-"""Where parts of a shaft's case stand: on which body, at which point, along which axes."""
+"""Resolve body, point and axes of a case's parts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a bearing sits: the way to touching rings, preload, support by the housing, ratings."""
+"""Resolve preload, support and ratings of a seated bearing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a face or a script may ask of a shaft in bearings."""
+"""Provide the public API for shafts in equilibrium."""
 
 from __future__ import annotations
 

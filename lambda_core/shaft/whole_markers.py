@@ -1,4 +1,4 @@
-"""How bodies beside the shaft, and named places, move in the samples of a whole."""
+"""Compute the motion of bodies and markers from shaft samples."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Where the motion of a whole begins, and what acts on it: the quasi-static equilibrium, loads, weights, unbalance."""
+"""Compute initial state and loads of a shaft run.
+
+It starts at the quasi-static equilibrium; loads, weights and unbalance act on it.
+"""
 
 from __future__ import annotations
 

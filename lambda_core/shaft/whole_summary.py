@@ -1,4 +1,7 @@
-"""What a run of a shaft says: every bearing in motion, the orbit of the shaft, the balance of energy."""
+"""Summarise a shaft run.
+
+The summary covers every bearing, the orbit of the shaft and the balance of energy.
+"""
 
 from __future__ import annotations
 

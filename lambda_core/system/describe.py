@@ -1,4 +1,4 @@
-"""What a resolved model is, in lines for people and as data: one glance before a run."""
+"""Describe a resolved model as text and as data."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a geometry is one of a bearing: every contradiction a sentence."""
+"""Check a bearing geometry and report each contradiction."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the set-up of a law may look at, from the resolved model alone."""
+"""Build the context of a law from the resolved model."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What laws leave to their defaults: value, source, published range and grade of each, in words."""
+"""Describe the default parameters of laws.
+
+Each has a value, a source, a published range and a grade.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Where a case leaves what the bearing, its oil or the laws are made for, told before anything is solved.
+"""Warn of operating limits before anything is solved.
+
+The limits are those of the bearing, its oil and the laws.
 
 Every sentence here follows from the resolved case alone; what needs a solution (pressures, shoulders, tilt) is told by
 :mod:`lambda_core.results.limits`.

@@ -1,4 +1,6 @@
-"""Where the raceways of a bearing lie: one or two arcs on each ring for every row of balls.
+"""Compute the positions of the raceways of a bearing.
+
+Each ring has one or two arcs for every row of balls.
 
 Every arc is a groove whose centres lie on a circle about the ring's axis. With r its radius, D the ball's diameter and
 alpha_s the resting angle, at which a ball touches without clearance while the rings are centred, its circle is shifted

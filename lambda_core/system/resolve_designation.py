@@ -1,4 +1,7 @@
-"""What a designation says beside the bearing: its suffixes fill what the case leaves open, or are said and left."""
+"""Apply the suffixes of a designation to a case.
+
+Suffixes fill what the case leaves open; the program names those that it ignores.
+"""
 
 from __future__ import annotations
 

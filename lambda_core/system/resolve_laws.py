@@ -1,4 +1,4 @@
-"""Which model fills each role of each force element, and where each of its parameters comes from."""
+"""Resolve the model and parameters of each role."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What plugins put in front of the rows that a case uses: an assumption of every run that has it."""
+"""List plugin rows that replace rows of a case.
+
+They are an assumption of every run that has them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which node of the network gets the power that each mechanism dissipates."""
+"""Assign dissipated power to the nodes of the network."""
 
 from __future__ import annotations
 

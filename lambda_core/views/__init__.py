@@ -1,1 +1,4 @@
-"""What views and comparison methods give: charts, scenes, tables, rows of numbers."""
+"""Define the results of views and comparison methods.
+
+These are charts, scenes, tables and rows of numbers.
+"""

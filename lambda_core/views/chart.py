@@ -1,4 +1,6 @@
-"""What a view plots, as plain data with units: drawn as a figure, in a terminal, or written as JSON.
+"""Define charts as plain data with units.
+
+A chart is drawn as a figure, in a terminal, or written as JSON.
 
 A chart is a few panels; a panel has two axes and what stands in them: lines, points, bars, marks and at most
 one field of values. Nothing here knows how it will be drawn.

@@ -1,4 +1,4 @@
-"""What a view shows, in the units of another system."""
+"""Convert view data to another system of units."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""How much of each ball runs in the oil bath, and how a bearing's fluid loss is shared among the balls."""
+"""Share the fluid loss of a bearing among its balls.
+
+The share follows from the immersion of each ball in the oil bath.
+"""
 
 from __future__ import annotations
 

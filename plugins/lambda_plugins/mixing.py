@@ -1,4 +1,4 @@
-"""What film and asperities add to the shear stress of a contact in which both carry."""
+"""Combine shear stresses of film and asperities in mixed contacts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What all laws of viscosity and density share: the cap on ln(eta) and density under pressure."""
+"""Provide functions shared by laws of viscosity and density.
+
+These are the cap on ln(eta) and density under pressure.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an inlet that is not full of oil does: to the film, to where the oil begins, to the rolling resistance.
+"""Compute film and rolling resistance of a starved inlet.
 
 One thing links the three: the place of the meniscus. Film and rolling resistance of one contact therefore fall
 together, and both are exactly 1 for a flooded contact.

@@ -1,4 +1,7 @@
-"""Where dynamics and the quasi-static solution part: the same bearing with and without excitation."""
+"""Compare dynamics with the quasi-static solution under excitation.
+
+Each bearing runs with and without excitation.
+"""
 
 from __future__ import annotations
 

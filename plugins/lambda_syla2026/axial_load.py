@@ -1,4 +1,6 @@
-"""What an axial load beside a radial one does to the friction torque: here, in SKF's and in Schaeffler's catalogue.
+"""Compare the torque change by an axial load with catalogues.
+
+The catalogues are those of SKF and Schaeffler.
 
 Each is compared with itself under the radial load alone, so that only the axial load's part is seen.
 """

@@ -1,4 +1,7 @@
-"""Where the running of the balls changes along a ray of growing excitation: bisection for several rays at once."""
+"""Bisect the excitation at which the ball motion changes.
+
+It bisects along several rays at once.
+"""
 
 from __future__ import annotations
 

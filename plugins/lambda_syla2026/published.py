@@ -1,4 +1,7 @@
-"""What the paper prints: Syla, Brill, Paulus, Graf and Koch 2026, Lubricants 14, 154."""
+"""Provide the published values of Syla et al. 2026.
+
+Syla, Brill, Paulus, Graf and Koch 2026, Lubricants 14, 154.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What is read of one model: numbers of its equilibrium, or of a run. Each is computed in a worker process."""
+"""Read numbers from an equilibrium or a run.
+
+Each is computed in a worker process.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What every assumed parameter does to the torque of the 6319: from one end of its range to the other."""
+"""Vary every assumed parameter of the 6319 over its range.
+
+The response is the torque.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the api calls: repeat experiments, write figures and page, say what was found."""
+"""Repeat experiments, write figures and pages, and report the findings."""
 
 from __future__ import annotations
 

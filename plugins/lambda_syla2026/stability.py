@@ -1,4 +1,6 @@
-"""How the balls outside the static load zone run: the two criteria of Fig. 5, read from a run.
+"""Evaluate the two stability criteria of Fig. 5.
+
+They describe the balls outside the static load zone.
 
 S: rms over azimuth of the mean of (orbital speed over kinematic speed - 1). T: share of time in which the
 inner ring presses a ball there. Both with a standard error by leaving out one tenth of the window after the other.

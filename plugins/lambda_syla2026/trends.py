@@ -1,4 +1,7 @@
-"""What the stability map says: slopes over frequency and steps from load to load, with standard errors; bars."""
+"""Evaluate the trends of the stability map.
+
+These are slopes over frequency and steps from load to load, with standard errors and bars.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What the attacks found, one line each: written as it comes, so that a stopped campaign goes on where it was."""
+"""Record the outcome of each attack in one line.
+
+Lines are written as they come, so that a stopped campaign continues where it was.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""What the program keeps for itself, damaged: compiled code, the catalogue's cache, a catalogue of one's own.
+"""Damage the program's own stores.
+
+These are compiled code, the catalogue's cache and the user's catalogue.
 
 It may be made again, or named with what to do; the answer may not differ, and the process may not die of it. Compiled
 code is loaded once per process, so each trial of it starts Python anew.

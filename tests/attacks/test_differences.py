@@ -1,4 +1,4 @@
-"""What the attacks compare: everything that must be equal, and nothing that may differ."""
+"""Test the comparison of results that the attacks use."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What each command imports of what is heavy: no more than its work needs."""
+"""Test that each command imports no more than it needs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is not there: the message says what is, and what reads like it."""
+"""Test the messages about unknown names and missing files."""
 
 from __future__ import annotations
 

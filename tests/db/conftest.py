@@ -1,4 +1,4 @@
-"""What the tests of the catalogue share."""
+"""Share fixtures among the tests of the catalogue."""
 
 from __future__ import annotations
 

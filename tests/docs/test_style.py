@@ -33,17 +33,29 @@ _NAMES = {"beside", "led", "rubbish", "whole", "wholes"}  # words of a name in s
 _WORD = re.compile(r"[A-Z]?[a-z]+")
 EXEMPT = ("LED",)  # quotations and standard terms that contain such a word
 RULES = ("contributing.md", "glossary.md")  # these pages quote the words
+QUESTIONS = ("What", "Where", "How", "Which", "Whether", "When", "Who")  # no module docstring opens with one
+STILL_QUESTIONS = {  # compiled code, rewritten together
+    "lambda_core/electric/compiled/rest.py",
+    "lambda_core/laws/jit/reach.py",
+    "lambda_core/laws/jit/unstable.py",
+    "lambda_core/solver/code_files.py",
+    "lambda_core/solver/faults.py",
+    "lambda_core/solver/integrator/memory.py",
+    "lambda_core/solver/integrator/reach.py",
+    "lambda_core/solver/sampling.py",
+    "lambda_core/solver/status.py",
+}
 # Words to avoid in strings and names of the code. A number can only fall: lower it with every text that you improve.
 CEILINGS = {
-    "benchmarks": 30,
+    "benchmarks": 28,
     "cli": 12,
     "db": 5,
     "docs": 3,
-    "examples": 5,
-    "gui": 53,
-    "lambda_core": 328,
-    "plugins": 42,
-    "tests": 194,
+    "examples": 4,
+    "gui": 51,
+    "lambda_core": 317,
+    "plugins": 41,
+    "tests": 191,
 }
 
 
@@ -102,6 +114,11 @@ def test_a_word_to_avoid_is_found(text: str) -> None:
 @pytest.mark.parametrize("text", ["the whole ring", "an LED lamp", "a whole number", "said the user"])
 def test_plain_words_are_left_alone(text: str) -> None:
     assert _in_text(text) == []
+
+
+def test_docstrings_of_modules_open_with_no_question_word() -> None:
+    docs = {name: ast.get_docstring(ast.parse(text)) or "" for name, text in _sources().items()}
+    assert {name for name, doc in docs.items() if doc.partition(" ")[0] in QUESTIONS} == STILL_QUESTIONS
 
 
 def test_words_to_avoid_in_the_code_only_get_fewer() -> None:

@@ -1,4 +1,7 @@
-"""How the circuit begins: as a machine whose inverter has long been on."""
+"""Test the initial state of the circuit.
+
+The inverter has long been on.
+"""
 
 from __future__ import annotations
 

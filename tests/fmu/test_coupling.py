@@ -1,4 +1,7 @@
-"""What the page says of couplings: order, stability, and the energy that both sides do not agree on."""
+"""Test order, stability and energy error of couplings.
+
+docs/fmu.md states them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is taken out of Numba, as the installed version has it: private parts are touched in laws/jit alone."""
+"""Test the private parts of Numba that laws/jit uses."""
 
 from __future__ import annotations
 

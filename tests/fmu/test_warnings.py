@@ -1,4 +1,4 @@
-"""What an FMU says to its host where laws end."""
+"""Test an FMU's warnings at the limits of laws."""
 
 from __future__ import annotations
 

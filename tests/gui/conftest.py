@@ -1,4 +1,7 @@
-"""What the tests of the builder share: folders of their own, and no helper process unless a test is about it."""
+"""Share fixtures among the tests of the builder.
+
+Each has folders of its own, and no helper process unless a test needs one.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is typed, what it completes to, what is written."""
+"""Test input, completion and stored values of fields."""
 
 from __future__ import annotations
 

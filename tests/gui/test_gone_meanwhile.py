@@ -1,4 +1,4 @@
-"""What comes back while a screen is taken down finds nothing to show on, and says nothing."""
+"""Test that closed screens ignore late callbacks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which case the builder works on after it was opened: one, and the one on the screen."""
+"""Test that the builder edits the opened case only."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a person sees: colours that can be read, nothing cut, help everywhere."""
+"""Test that screens are legible, complete and have help."""
 
 from __future__ import annotations
 

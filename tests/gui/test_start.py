@@ -1,4 +1,7 @@
-"""How fast the builder comes up, that it stands broken plugins, and what it needs."""
+"""Test the start of the builder.
+
+It is fast, tolerates broken plugins and loads only what it needs.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which test of this folder holds each built-in law against a published or an exact value: no law is left out."""
+"""Test that every built-in law has a literature test."""
 
 from __future__ import annotations
 

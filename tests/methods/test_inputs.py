@@ -1,4 +1,4 @@
-"""What methods get from a resolved model and its equilibrium."""
+"""Test the inputs of comparison methods."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is installed: the wheel and the editable install, each used from another folder."""
+"""Test the wheel and the editable install from another folder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What the integrator says about its own energy: identities of the BDF, and the work of what moves rings."""
+"""Test the energy accounting of the integrator.
+
+It tests identities of the BDF, and the work of prescribed ring motion.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What the cells of a contact stand on: roots without dividing, rows that begin with a line of the cache."""
+"""Test the numerical foundations of contact cells.
+
+These are roots without dividing, and rows that begin with a line of the cache.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an unbalance shakes a ring with is taken from its spin."""
+"""Test that unbalance uses the spin of its ring."""
 
 from __future__ import annotations
 

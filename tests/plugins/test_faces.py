@@ -1,4 +1,7 @@
-"""What the example packages bring stands in builder, command line and report, without a line of ours."""
+"""Test that all user interfaces show example packages.
+
+None of them has a line of code for a package.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `check` says before anything is solved, `run` and the report repeat: six cases beyond a limit."""
+"""Test that run and report repeat the warnings of `check`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was found is kept: an interrupted reproduction goes on where it ended and finds the same."""
+"""Test that an interrupted reproduction continues with equal findings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What a case says of itself before anything is solved: speeds, loads, tilt, oils and surfaces beyond their limits."""
+"""Test the warnings that precede any solution.
+
+They concern speeds, loads, tilt, oils and surfaces beyond their limits.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What stands on a shaft beside its bearings: discs by their shape, springs and dampers to the ground."""
+"""Test discs, springs and dampers on a shaft."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What cannot stand on a shaft as it is drawn, and results beyond limits: said with names and numbers, everywhere."""
+"""Test the reports of geometric conflicts and exceeded limits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a shaft has no word for: said in one sentence, in no place left out in silence."""
+"""Test the refusal of inputs that shafts do not support."""
 
 from __future__ import annotations
 

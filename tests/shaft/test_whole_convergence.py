@@ -1,4 +1,7 @@
-"""When several bearings on a shaft are converged: what one that bears hardly anything has to be known to."""
+"""Test the convergence of several bearings on a shaft.
+
+A lightly loaded bearing has a weaker criterion.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the tests of the run loop share: a resolved model and an engine with known answers."""
+"""Share a resolved model and a mock engine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a result says about itself where its laws end: shoulders, pressures, oils."""
+"""Test the warnings of results beyond the limits of laws."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the tests of studies share."""
+"""Share fixtures among the tests of studies."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""How long the program takes to answer a signal, state by state.
+"""Measure the response time to a signal, state by state.
 
-``python tests/trust/answering.py`` prints the table of docs/security.md. Beside the wall time stands the time of the
-processor from the signal to the end, which does not depend on what else the machine does.
+``python tests/trust/answering.py`` prints the table of docs/security.md. In addition to the
+wall time it has the processor time from the signal to the end, which does not depend on other load of the machine.
 """
 
 from __future__ import annotations

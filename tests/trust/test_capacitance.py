@@ -1,4 +1,7 @@
-"""Where there is no capacitance the result says why, the same in a run and without time."""
+"""Test that results explain a missing capacitance.
+
+The reason is the same in a run and in the equilibrium.
+"""
 
 from __future__ import annotations
 

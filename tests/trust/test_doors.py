@@ -1,4 +1,4 @@
-"""What comes from strangers, or stands where the program does not expect it, opens nothing and breaks nothing."""
+"""Test that hostile or unexpected files do no harm."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What a plugin's own code does wrong is told with the plugin's name, and the others go on."""
+"""Test that plugin errors name the plugin.
+
+The other plugins continue to work.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What each view plots, against the run it is drawn from and against mechanics."""
+"""Test the data of each view against run and mechanics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""How evenly the balls share the load: largest over mean ball load, beside Stribeck's number."""
+"""Draw the largest over the mean ball load.
+
+The view compares it with Stribeck's number.
+"""
 
 import numpy as np
 from pydantic import Field

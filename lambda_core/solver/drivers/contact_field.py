@@ -1,4 +1,6 @@
-"""What happens inside one contact ellipse: pressure, slip, shear, temperature and permittivity cell by cell.
+"""Compute the fields inside one contact ellipse.
+
+These are pressure, slip, shear, temperature and permittivity, cell by cell.
 
 The compiled contact pipeline of the simulation, run once on a grid as fine as one likes.
 """

@@ -1,4 +1,7 @@
-"""What the contacts of a model keep, as it stands behind the motion in the state vector: at the start, by name."""
+"""Name and initialise the states that contacts keep.
+
+They follow the motion in the state vector.
+"""
 
 from __future__ import annotations
 

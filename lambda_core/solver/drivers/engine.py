@@ -1,4 +1,4 @@
-"""What the run loop needs from the dynamics."""
+"""Define the protocol between the run loop and the dynamics."""
 
 from __future__ import annotations
 

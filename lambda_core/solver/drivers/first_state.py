@@ -1,4 +1,7 @@
-"""Where the search for an equilibrium begins: rings in contact, balls evenly spaced and rolling."""
+"""Construct the first guess for the equilibrium search.
+
+Rings are in contact, balls evenly spaced and rolling.
+"""
 
 from __future__ import annotations
 

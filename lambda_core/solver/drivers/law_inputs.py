@@ -1,4 +1,4 @@
-"""Which force elements stand in the solver's places, and with which oil."""
+"""Assign force elements and oils to the solver's tables."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What belongs to raceways, put together for their rings: results show a ring where it has two arcs."""
+"""Combine raceway values into one value for each ring.
+
+Results show a ring where it has two arcs.
+"""
 
 from __future__ import annotations
 

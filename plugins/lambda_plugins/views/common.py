@@ -1,4 +1,4 @@
-"""What several views need: the averaging window, averages over azimuth, spectra, characteristic frequencies."""
+"""Provide averages, spectra and frequencies shared by views."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What happens inside one contact ellipse of a run: pressure, slip, shear, film, temperature, permittivity."""
+"""Draw the fields inside one contact ellipse.
+
+These are pressure, slip, shear, film, temperature and permittivity.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Where the heat of one run goes: its averaged losses in the thermal network of its case."""
+"""Draw the heat flows of one run.
+
+The thermal network of its case carries the averaged losses.
+"""
 
 from __future__ import annotations
 

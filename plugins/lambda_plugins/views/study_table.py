@@ -1,4 +1,4 @@
-"""What views of studies take from a table: axes, responses, groups of rows; and the options that choose them."""
+"""Select axes, responses and groups from a study table."""
 
 from __future__ import annotations
 

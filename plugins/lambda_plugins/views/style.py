@@ -1,4 +1,6 @@
-"""How views look: colours that differ in greyscale too, dashes, markers, type.
+"""Define the style of all views.
+
+It has colours that differ in greyscale too, dashes, markers and type.
 
 Every role of a series (inner ring, outer ring, cage ...) looks the same in every view. The colours are stepped in
 lightness and paired with dashes, markers and hatches, so that a black and white print tells them apart.
