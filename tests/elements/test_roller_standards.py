@@ -22,7 +22,9 @@ from lambda_core.elements.roller.roller_ratings import (
     lamina_ratings,
     roller_dynamic_factor,
     roller_dynamic_rating,
+    roller_equivalent_load,
     roller_fatigue_load_limit,
+    roller_static_load,
     roller_static_rating,
 )
 
@@ -49,6 +51,29 @@ def test_the_fatigue_limit_joins_at_100_mm() -> None:
     assert roller_fatigue_load_limit(82e3, 0.1) == pytest.approx(10e3)
     assert roller_fatigue_load_limit(82e3, 0.1000001) == pytest.approx(10e3, rel=1e-6)
     assert roller_fatigue_load_limit(82e3, 0.2) == pytest.approx(10e3 * 0.5**0.3)
+
+
+@pytest.mark.parametrize("rows", [1, 2])
+@given(degrees=st.floats(8.0, 30.0))
+def test_the_branches_of_the_equivalent_load_join(rows: int, degrees: float) -> None:
+    angle = math.radians(degrees)
+    limit = 1.5 * math.tan(angle)
+    below, above = (roller_equivalent_load(1e3, share * limit * 1e3, angle, rows) for share in (0.9999, 1.0001))
+    assert above.load == pytest.approx(below.load, rel=2e-3)  # 0.67 (1 + 1.5) = 1.675 for 1 + 0.45 * 1.5
+    assert above.radial_factor < below.radial_factor
+
+
+def test_loads_of_cylindrical_bearings_are_radial() -> None:
+    assert roller_equivalent_load(1e3, 0.0).load == 1e3
+    assert roller_static_load(1e3, 0.0) == 1e3
+    with pytest.raises(ValueError, match="compare it with the ribs"):
+        roller_equivalent_load(1e3, 100.0)
+
+
+def test_static_loads_of_two_rows_double() -> None:
+    one, two = (roller_static_load(1e3, 5e3, 0.25, rows) for rows in (1, 2))
+    assert two == pytest.approx(2.0 * one)
+    assert roller_static_load(1e3, 100.0, 0.25) == 1e3
 
 
 @pytest.mark.parametrize("count", [30, 31, 40])

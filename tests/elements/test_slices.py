@@ -68,6 +68,14 @@ def test_slices_press_or_gape(approach: float, tilt: float) -> None:
     assert np.all(np.abs(gap[found.loads > 0.0]) <= 1e-9 * approach)
 
 
+def test_a_slice_that_barely_touches_settles() -> None:
+    # the edge slice carries 2e-6 of the largest: its rounding is no change of the loads
+    length, count = 0.03585437627059061, 50
+    elastic = Elastic((0.017959701656029614,), MODULUS)
+    found = slices.elastic_loads(4.93804948e-05, -0.00281083, np.zeros(count), length, elastic)
+    assert 0.0 < found.loads[found.loads > 0.0].min() < 1e-5 * found.loads.max()
+
+
 def test_strips_deflect_as_a_finite_hertz_line() -> None:
     # an even load on a half space without images: the middle has Lundberg's approach
     count, load = 90, 2000.0
@@ -91,6 +99,16 @@ def test_long_rollers_without_profile_have_hertz_pressure() -> None:
     found = slices.elastic_loads(approach, 0.0, drop, length, ONE)
     pressure = line_contact.peak_pressure(found.loads / (length / count), 5e-3, MODULUS)
     assert pressure == pytest.approx(line_contact.peak_pressure(load / length, 5e-3, MODULUS), rel=0.005)
+
+
+def test_radii_may_vary_along_the_roller() -> None:
+    even = slices.elastic_loads(2e-5, 0.0, DROP, LENGTH, ONE)
+    same = slices.elastic_loads(2e-5, 0.0, DROP, LENGTH, Elastic((np.full(COUNT, 5e-3),), MODULUS))
+    taper = slices.elastic_loads(2e-5, 0.0, DROP, LENGTH, Elastic((5e-3 + 0.05 * X,), MODULUS))
+    assert same.loads == pytest.approx(even.loads, rel=1e-12)
+    # a larger radius has a larger half width, and so a stiffer slice: the thick end, x > 0, carries more
+    thick, thin = taper.loads[COUNT // 2 :], taper.loads[: COUNT // 2][::-1]
+    assert np.all(thick[thin > 0.0] > thin[thin > 0.0])
 
 
 def test_images_remove_the_false_edges() -> None:

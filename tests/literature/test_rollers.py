@@ -21,6 +21,7 @@ from lambda_core.elements.roller.roller_ratings import (
     lamina_ratings,
     roller_dynamic_factor,
     roller_dynamic_rating,
+    roller_equivalent_load,
     roller_fatigue_load_limit,
     roller_static_rating,
 )
@@ -65,6 +66,13 @@ def test_static_rating_of_the_32216() -> None:
     Published(222.0, "ISO 76 with the geometry of Wingertszahn et al. 2023 [M]", "digits", rel=0.003).check(
         found * 1e-3
     )
+
+
+def test_catalogue_factors_of_the_32216() -> None:
+    # the catalogue prints e 0.42 and Y 1.4: a contact angle of 15.64 degrees
+    found = roller_equivalent_load(1e3, 1e3, math.radians(15.64))
+    Published(0.42, "SKF catalogue, 32216 [K]", "two digits", abs=0.005).check(found.limit)
+    Published(1.4, "SKF catalogue, 32216 [K]", "two digits", abs=0.05).check(found.axial_factor)
 
 
 def test_palmgren_and_iso_agree() -> None:

@@ -1,4 +1,4 @@
-"""Load ratings of radial roller bearings (ISO 281, ISO 76) and of their laminae (ISO 16281).
+"""Load ratings and equivalent loads of radial roller bearings (ISO 281, ISO 76), ratings of laminae (ISO 16281).
 
 SI in and out; the standards' formulas are in mm and N, converted inside.
 """
@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+
+from lambda_core.domain.life import EquivalentLoad
 
 MATERIAL_FACTOR = 1.1  # b_m of ISO 281: cylindrical, tapered and needle bearings with machined rings
 REDUCTION_FACTOR = 0.83  # lambda nu of ISO/TR 1281-1: edge loads and uneven load along the roller
@@ -151,6 +153,55 @@ def lamina_ratings(
     outer = share / _OUTER * (1.0 + 1.0 / ratio) ** (2.0 / 9.0)
     lamina = slices ** (-7.0 / 9.0)
     return LaminaRatings(inner, outer, inner * lamina, outer * lamina)
+
+
+def roller_equivalent_load(
+    radial_load: float, axial_load: float, contact_angle: float = 0.0, rows: int = 1
+) -> EquivalentLoad:
+    """Return the dynamic equivalent radial load of a roller bearing (ISO 281:2007, table 8).
+
+    e = 1.5 tan(alpha); one row P = F_r up to F_a/F_r = e, above 0.4 F_r + 0.4 cot(alpha) F_a; two rows
+    F_r + 0.45 cot(alpha) F_a, above 0.67 F_r + 0.67 cot(alpha) F_a.
+
+    Parameters
+    ----------
+    radial_load, axial_load : float
+        F_r and F_a [N].
+    contact_angle : float
+        alpha [rad]; zero for cylindrical bearings.
+    rows : int
+        1 or 2.
+
+    Raises
+    ------
+    ValueError
+        For an axial load on a cylindrical bearing, whose ribs carry it: see
+        :mod:`lambda_core.elements.roller.axial_limit`.
+    """
+    if contact_angle == 0.0:
+        if axial_load:
+            raise ValueError(
+                "`axial_load` has no equivalent radial load without a contact angle: compare it with the ribs"
+            )
+        return EquivalentLoad(radial_load, 1.0, 0.0, 0.0)
+    limit, cotangent = 1.5 * math.tan(contact_angle), 1.0 / math.tan(contact_angle)
+    if axial_load <= limit * radial_load:
+        radial, axial = 1.0, (0.0 if rows == 1 else 0.45 * cotangent)
+    else:
+        radial = 0.4 if rows == 1 else 0.67
+        axial = radial * cotangent
+    return EquivalentLoad(radial * radial_load + axial * axial_load, radial, axial, limit)
+
+
+def roller_static_load(radial_load: float, axial_load: float, contact_angle: float = 0.0, rows: int = 1) -> float:
+    """Return the static equivalent radial load [N] of a roller bearing (ISO 76:2006, table 3).
+
+    max(X_0 F_r + Y_0 F_a, F_r) with X_0 = 0.5 and Y_0 = 0.22 cot(alpha) of one row, 1 and 0.44 cot(alpha) of two; F_r
+    for cylindrical bearings.
+    """
+    if contact_angle == 0.0:
+        return radial_load
+    return max(rows * (0.5 * radial_load + 0.22 / math.tan(contact_angle) * axial_load), radial_load)
 
 
 def _checked(gamma: float) -> float:

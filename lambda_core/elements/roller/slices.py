@@ -19,7 +19,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.elements.roller.line_contact import EVEN_WIDTH, half_width, iso_approach, iso_load
 
 _SWEEPS = 100  # sweeps of widths and active slices; 10 to 20 are usual
-_SETTLED = 1e-12  # relative change of the loads that ends them
+_SETTLED = 1e-12  # change of the loads over the roller's largest that ends them
 _NARROWEST = 1e-3  # least half width over the roller's widest: a slice about to open has a finite compliance
 
 
@@ -38,8 +38,9 @@ class Elastic:
 
     Attributes
     ----------
-    radii : sequence of float
-        Reduced radius of each contact in series [m]: one raceway, or inner and outer.
+    radii : sequence of float or array
+        Reduced radius of each contact in series [m]: one raceway, or inner and outer; of tapered rollers one value per
+        slice, (n,).
     e_eff : float
         Reduced modulus E' [Pa].
     images : float
@@ -51,7 +52,7 @@ class Elastic:
         the profile of ISO 16281, whose laminae give 14.1 um.
     """
 
-    radii: Sequence[float]
+    radii: Sequence[float | FloatArray]
     e_eff: float
     images: float = 1.0
 
@@ -112,7 +113,8 @@ def elastic_loads(
         matrix = deflection_matrix(loads, positions, elastic)
         found = _solve(matrix, wanted, active)
         pressed = np.where(active, found > 0.0, wanted > np.einsum("rkl,rl->rk", matrix, found))
-        settled = np.array_equal(pressed, active) and np.allclose(found, loads, rtol=_SETTLED, atol=0.0)
+        moved = np.abs(found - loads) > _SETTLED * np.max(found, axis=-1, keepdims=True)
+        settled = np.array_equal(pressed, active) and not np.any(moved)
         active, loads = pressed, np.maximum(found, 0.0)
         if settled:
             return _summed(loads.reshape(shape), positions)
