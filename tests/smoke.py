@@ -1,7 +1,8 @@
-"""The program from its wheel on every Python of this machine: ``python tests/smoke.py [--others | 3.12 ...]``.
+"""The program from its wheel on every Python here: ``python tests/smoke.py [--whole] [--others | 3.12 ...]``.
 
 Needs nothing but Python. For each version that is found: a new environment, the wheel with the tested versions of its
-dependencies, a short run, a check of laws, a quasi-static solution, the builder's first picture.
+dependencies, a quasi-static solution by what it needs of the solver, the same again by the code that the first process
+kept, a check of laws, the builder's first picture; with ``--whole`` the complete solver and a short run too.
 """
 
 from __future__ import annotations
@@ -13,14 +14,33 @@ import subprocess
 import sys
 import tempfile
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 VERSIONS = ("3.11", "3.12", "3.13", "3.14")
 REQUIRED = VERSIONS[:3]  # on a newer one the tested versions of the dependencies may not install
 OTHERS = "--others"  # than the Python that runs this
+WHOLE = "--whole"
 CASE = "6208-axial-1300"
 INSTALL, COMMAND = 900.0, 1200.0  # [s] at most on a busy machine, the second with compiling; alone it is a tenth
+PIP = ["-m", "pip", "--disable-pip-version-check"]
+# Machine code belongs to one version of Python, and integrating in time is a third of the compiling: here the solver
+# is put together without it.
+STATIC = f"""
+from dataclasses import fields
+from lambda_core import api
+from lambda_core.solver import entry
+compiled = []
+core = dict.fromkeys(field.name for field in fields(entry.Core))
+for name in ("wrench", "tangent", "evaluate", "jacobian", "solve_static", "observe"):
+    unit = entry.build(name, compiled.append)
+    parts = {{f"{{name}}_pointer": entry._pointer, name: entry._call}}
+    core |= {{part: make(name, unit) for part, make in parts.items() if part in core}}
+entry._loaded.append(entry.Core(**core))
+found = api.quasistatic("{CASE}")
+print(found.max_load_N, found.friction_torque_Nmm, len(compiled), "compiled")
+"""
 PAINT = f"""
 from lambda_gui.app import BuilderApp
 class Once(BuilderApp):
@@ -52,38 +72,46 @@ class Smoke:
 
     def __init__(self, python: str, folder: Path) -> None:
         self._folder = folder
-        subprocess.run([python, "-m", "venv", str(folder / "venv")], check=True, timeout=INSTALL)
+        folder.mkdir()
+        subprocess.run([python, "-m", "venv", "--without-pip", str(folder / "venv")], check=True, timeout=INSTALL)
         scripts = folder / "venv" / ("Scripts" if os.name == "nt" else "bin")
-        self.python, self._program = str(scripts / "python"), str(scripts / "lambda-bearing")
+        self._base, self.python, self._program = python, str(scripts / "python"), str(scripts / "lambda-bearing")
 
     def install(self, wheel: Path) -> str:
-        """Install the wheel; returns what went wrong."""
-        command = [self.python, "-m", "pip", "install", "-q", "--disable-pip-version-check"]
+        """Install the wheel by the pip of the Python itself; returns what went wrong."""
+        command = [self._base, *PIP, "--python", self.python, "install", "-q", "--no-compile"]
         done = self._run([*command, "-c", str(ROOT / "constraints.txt"), str(wheel)], INSTALL)
         return "" if done.returncode == 0 else done.stderr.strip()
 
-    def faults(self) -> list[str]:
+    def faults(self, *, is_whole: bool) -> list[str]:
         """Return what does not work."""
-        short = ["--duration", "2 ms", "--quiet", "--json", "--out", "r.h5"]
-        tries: dict[str, tuple[list[str], int, str]] = {
-            "run": ([self._program, "run", CASE, *short], 5, "friction_torque_Nmm"),  # 5: too short for an average
-            "plugins check": ([self._program, "plugins", "check", "damping"], 0, "ok  damping/cubic"),
-            "quasistatic": ([self._program, "quasistatic", CASE, "--json", "--quiet"], 0, "max_load_N"),
-            "gui": ([self.python, "-c", PAINT], 0, "painted"),
-        }
-        found = []
-        for name, (command, code, word) in tries.items():
-            try:
-                done = self._run(command, COMMAND)
-            except subprocess.TimeoutExpired:
-                found.append(f"{name} takes more than {COMMAND:g} s")
-                continue
-            if done.returncode != code or word not in done.stdout:
-                last = (done.stderr.strip().splitlines() or ["nothing said"])[-1]
-                found.append(f"{name} ends with {done.returncode} instead of {code}: {last}")
-            elif name == "run" and not json.loads(done.stdout)["friction_torque_Nmm"] > 0.0:
+        found: list[str] = []
+        first = self._tried(found, "equilibrium", [self.python, "-c", STATIC], "compiled")
+        second = self._tried(found, "equilibrium by kept code", [self.python, "-c", STATIC], " 0 compiled")
+        if first.split()[:2] != second.split()[:2]:
+            found.append(f"kept code gives {second} instead of {first}")
+        self._tried(found, "plugins check", [self._program, "plugins", "check", "damping"], "ok  damping/cubic")
+        self._tried(found, "gui", [self.python, "-c", PAINT], "painted")
+        if is_whole:
+            self._tried(found, "quasistatic", [self._program, "quasistatic", CASE, "--json", "--quiet"], "max_load_N")
+            run = [self._program, "run", CASE, "--duration", "2 ms", "--quiet", "--json", "--out", "r.h5"]
+            said = self._tried(found, "run", run, "friction_torque_Nmm", code=5)  # 5: too short for an average
+            if said and not json.loads(said)["friction_torque_Nmm"] > 0.0:
                 found.append("run gives no friction torque")
         return found
+
+    def _tried(self, found: list[str], name: str, command: list[str], word: str, code: int = 0) -> str:
+        """Return what a command prints; what is wrong with it is added to `found`."""
+        try:
+            done = self._run(command, COMMAND)
+        except subprocess.TimeoutExpired:
+            found.append(f"{name} takes more than {COMMAND:g} s")
+            return ""
+        if done.returncode == code and word in done.stdout:
+            return done.stdout
+        last = (done.stderr.strip().splitlines() or [done.stdout.strip() or "nothing was printed"])[-1]
+        found.append(f"{name} ends with {done.returncode}, expected {code} and '{word}': {last}")
+        return ""
 
     def _run(self, command: list[str], seconds: float) -> subprocess.CompletedProcess[str]:
         own = {"LAMBDA_BEARING_CACHE": str(self._folder / "cache"), "LAMBDA_BEARING_DATA": str(self._folder / "data")}
@@ -97,43 +125,48 @@ class Smoke:
 
 def build(python: str, folder: Path) -> Path:
     """Return the wheel of this source tree."""
-    subprocess.run([python, "-m", "venv", str(folder / "build")], check=True)
-    pip = [str(folder / "build" / ("Scripts" if os.name == "nt" else "bin") / "python"), "-m", "pip"]
-    command = [*pip, "wheel", "-q", "--disable-pip-version-check", "--no-deps", "-w", str(folder), str(ROOT)]
+    command = [python, *PIP, "wheel", "-q", "--no-deps", "-w", str(folder), str(ROOT)]
     subprocess.run(command, check=True, timeout=INSTALL)
     (wheel,) = folder.glob("*.whl")
     return wheel
 
 
-def main(wanted: list[str]) -> int:
+def smoke(version: str, python: str, wheel: Path, *, is_whole: bool) -> bool:
+    """Try one Python and print what came of it; returns whether all works."""
+    start = time.monotonic()
+    one = Smoke(python, wheel.parent / version)
+    why = one.install(wheel)
+    if why and version not in REQUIRED:
+        print(f"== smoke: {version} left out, its dependencies do not install: {why.splitlines()[-1]}")
+        return True
+    faults = [why] if why else one.faults(is_whole=is_whole)
+    took = f"== smoke: {version} {'FAILED' if faults else 'ok'} in {time.monotonic() - start:.0f} s"
+    print("\n   ".join([took, *faults]), flush=True)
+    return not faults
+
+
+def main(arguments: list[str]) -> int:
     """Try every Python; the exit code is 0 when all of them work."""
+    wanted = [word for word in arguments if word != WHOLE]
     all_ = interpreters()
     print(f"== smoke: found {', '.join(f'{version} ({path})' for version, path in all_.items()) or 'no Python'}")
     if wanted == [OTHERS]:
         own = ".".join(map(str, sys.version_info[:2]))
-        print(f"== smoke: {own} runs the whole suite, with tests of the wheel")
+        print(f"== smoke: {own} runs the tests, with those of the wheel")
         wanted = [version for version in all_ if version != own]
         if not wanted:
             return 0
     found = {version: path for version, path in all_.items() if not wanted or version in wanted}
-    failed = not found
-    with tempfile.TemporaryDirectory(prefix="lambda-bearing-smoke-") as name:
+    with tempfile.TemporaryDirectory(prefix="lambda-bearing-smoke-") as name, ThreadPoolExecutor(2) as both:
         wheel = build(next(iter(found.values()), sys.executable), Path(name))
-        for version, path in found.items():
-            start = time.monotonic()
-            folder = Path(name) / version
-            folder.mkdir()
-            smoke = Smoke(path, folder)
-            why = smoke.install(wheel)
-            if why and version not in REQUIRED:
-                print(f"== smoke: {version} left out, its dependencies do not install: {why.splitlines()[-1]}")
-                continue
-            faults = [why] if why else smoke.faults()
-            failed |= bool(faults)
-            print(f"== smoke: {version} {'FAILED' if faults else 'ok'} in {time.monotonic() - start:.0f} s", flush=True)
-            for fault in faults:
-                print(f"   {fault}", flush=True)
-    return int(failed)
+        tries = [
+            both.submit(smoke, version, path, wheel, is_whole=WHOLE in arguments) for version, path in found.items()
+        ]
+        works = [one.result() for one in tries]
+    if os.name == "posix":
+        times = os.times()
+        print(f"== smoke: {times.children_user + times.children_system:.0f} s of processor time in all")
+    return int(not works or not all(works))
 
 
 if __name__ == "__main__":
