@@ -45,6 +45,7 @@ def _more(file: h5py.File) -> None:
     file["extra"] = 1.0
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("change", [_delete, _whole_number, _text, _unit, _title, _more])
 def test_every_kind_of_difference_is_seen(
     change: Callable[[h5py.File], None], runs: tuple[Path, Path], tmp_path: Path

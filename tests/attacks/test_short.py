@@ -13,13 +13,15 @@ import pytest
 from tests.attacks.page import ROOT
 from tests.attacks.trial import GOOD
 
-_PARTS = ("hostile:4", "cases:1", "kills:1", "corruption:3", "catalogues:1", "plugins:3", "races:1")
+_PARTS = ("hostile:4", "corruption:1")
+_LONG = ("cases:1", "kills:1", "corruption:3", "catalogues:1", "plugins:3", "races:1")
 _SEED = "20"  # by which the cases are quick ones
 
 
 @pytest.mark.timeout(900)  # where nothing is compiled yet
-def test_a_short_campaign_finds_nothing(tmp_path: Path, own_folders: Path) -> None:
-    command = [sys.executable, "-m", "tests.attacks", *_PARTS, "--seed", _SEED, "--folder", str(tmp_path)]
+@pytest.mark.parametrize("parts", [_PARTS, pytest.param(_LONG, marks=pytest.mark.full)], ids=["short", "long"])
+def test_a_short_campaign_finds_nothing(parts: tuple[str, ...], tmp_path: Path, own_folders: Path) -> None:
+    command = [sys.executable, "-m", "tests.attacks", *parts, "--seed", _SEED, "--folder", str(tmp_path)]
     done = subprocess.run(command, cwd=ROOT, env=os.environ, capture_output=True, text=True, check=False)
     failed = [
         f"{file.stem} {entry['number']}: {entry['verdict']}: {entry['said']}"
@@ -29,6 +31,6 @@ def test_a_short_campaign_finds_nothing(tmp_path: Path, own_folders: Path) -> No
     ]
     assert not failed, "\n".join(failed)
     assert done.returncode == 0, done.stderr
-    for part in _PARTS:
+    for part in parts:
         name, _, count = part.partition(":")
         assert len((tmp_path / f"{name}.jsonl").read_text(encoding="utf-8").splitlines()) == int(count)

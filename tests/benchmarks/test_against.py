@@ -12,6 +12,7 @@ from benchmarks.__main__ import main
 from benchmarks.timing import Effort
 
 
+@pytest.mark.full
 def test_a_version_is_as_good_as_itself(monkeypatch: pytest.MonkeyPatch) -> None:
     """Counts of evaluations and the loss depend on no clock; a case that neither version knows stands in the notes."""
     points = {"axial": ("6208-axial-1300", {}, 1e-4, 1e-4), "unheard of": ("nothing", {}, 1e-4, 1e-4)}

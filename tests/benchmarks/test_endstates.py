@@ -41,6 +41,7 @@ def test_a_case_without_common_channels_is_not_equal(capsys: pytest.CaptureFixtu
     assert "no channel in common" in capsys.readouterr().out
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("kind", "name"), [("bearings", "default-laws-axial"), ("shafts", "gearbox")])
 def test_a_recent_case_gives_hashes(kind: str, name: str) -> None:
     """Short runs of both kinds; the circuit and the integrals are among what is compared."""
@@ -50,6 +51,7 @@ def test_a_recent_case_gives_hashes(kind: str, name: str) -> None:
     assert any(channel.endswith("integrals") for channel in states[name])
 
 
+@pytest.mark.full
 def test_two_runs_of_one_version_end_in_the_same_bits() -> None:
     """The same interpreter on both sides: a comparison that found differences here would be worth nothing."""
     states = [endstates.ask(sys.executable, ["6208-axial-1300"], 1e-4, newer=True) for _ in range(2)]

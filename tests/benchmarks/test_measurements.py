@@ -45,6 +45,7 @@ def test_the_dense_jacobian_is_the_slope_of_the_right_hand_side() -> None:
     assert np.linalg.norm(change - predicted) <= 0.02 * np.linalg.norm(change)
 
 
+@pytest.mark.full
 def test_integrators_agree_on_the_losses() -> None:
     """Two integrators, two ways to sum up losses: the same power, the same cage speed."""
     pytest.importorskip("sksundae")
@@ -67,6 +68,7 @@ def test_nine_balls_are_the_bearing_itself() -> None:
     assert more.geometry.pitch_diameter == pytest.approx(2.0 * original.geometry.pitch_diameter)
 
 
+@pytest.mark.full
 def test_the_command_answers_in_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--quick", "--json", "operating_point"]) == 0
     data = json.loads(capsys.readouterr().out)
@@ -77,6 +79,7 @@ def test_the_command_answers_in_json(capsys: pytest.CaptureFixture[str]) -> None
     assert data["machine"]["versions"]
 
 
+@pytest.mark.full
 def test_a_whole_stands_beside_its_bearings(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -20,6 +20,7 @@ COMMANDS = (
 )  # fmt: skip
 
 
+@pytest.mark.full
 def test_from_nothing_to_a_report(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

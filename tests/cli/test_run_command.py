@@ -98,6 +98,7 @@ def test_progress_as_json_is_one_object_per_line(capsys: pytest.CaptureFixture[s
     assert sum(last["inner_loads_N"]) > 0.0
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("colour", [True, False])
 def test_a_terminal_shows_a_bar_with_the_time_left(colour: bool, warm: Warm) -> None:
     """Through a pseudo-terminal; NO_COLOR leaves the movement and takes the colours."""
@@ -183,6 +184,7 @@ def test_a_damaged_result_is_said(capsys: pytest.CaptureFixture[str], in_folder:
     assert "is not a result file" in capsys.readouterr().err
 
 
+@pytest.mark.full
 def test_a_longer_duration_goes_on_bit_for_bit(capsys: pytest.CaptureFixture[str]) -> None:
     main(["run", CASE, "--duration", "12 ms", "--out", "whole.h5", "--quiet"])
     main(["run", CASE, *SHORT, "--out", "part.h5", "--quiet"])
@@ -192,6 +194,7 @@ def test_a_longer_duration_goes_on_bit_for_bit(capsys: pytest.CaptureFixture[str
     assert "nothing is left to do" in capsys.readouterr().err
 
 
+@pytest.mark.full
 def test_a_limit_of_wall_time_holds_for_one_start(capsys: pytest.CaptureFixture[str]) -> None:
     """The run that it stopped goes on without it, to its end or to a limit of its own, and is the undisturbed run."""
     main(["run", CASE, "--duration", "12 ms", "--out", "whole.h5", "--quiet"])
@@ -220,6 +223,7 @@ def test_resume_refuses_what_would_be_another_run(
         api.resume("r.h5", ["solver.duration=10 ms"])
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
 def test_an_interrupted_run_is_readable_and_goes_on_bit_for_bit(number: int, warm: Warm, in_folder: Path) -> None:
     """A long run in a process of its own, interrupted on its way, goes on for another 5 ms."""

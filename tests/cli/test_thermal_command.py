@@ -61,6 +61,7 @@ def test_a_runaway_is_a_failure_of_the_solver(tmp_path: Path, capsys: pytest.Cap
     assert said.out == ""
 
 
+@pytest.mark.full
 def test_a_warm_up_that_runs_away_is_a_partial_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["thermal", written(tmp_path, 9000), "-q", "--transient", "1 h", "--json"]) == 5
     said = capsys.readouterr()

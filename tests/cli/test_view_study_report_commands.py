@@ -157,6 +157,7 @@ def test_an_invalid_study_ends_with_3(call: Call, tmp_path: Path) -> None:
     assert "cannot read the study" in err
 
 
+@pytest.mark.full
 def test_failed_points_end_with_5(call: Call, tmp_path: Path) -> None:
     text = STUDY.replace("loads.radial", "bearing.clearance").replace('["8 kN", "16 kN"]', '["20 um", "9 mm"]')
     path = tmp_path / "gap.toml"

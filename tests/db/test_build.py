@@ -78,6 +78,7 @@ def one_number_changed(content: bytes) -> bytes:
     return content[:place] + b"6209" + content[place + 4 :]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("damage", [nothing_left, cut_short, pages_lost, one_number_changed])
 def test_c3_a_damaged_cache_of_the_catalogue_is_built_again(
     damage: Callable[[bytes], bytes], built: Path, caplog: pytest.LogCaptureFixture
@@ -117,6 +118,7 @@ def test_only_the_last_databases_are_kept(cache: Path) -> None:
 FIRST_USE = "from lambda_db.catalogue import open_catalogue; print(len(open_catalogue().bearings(limit=1000)))"
 
 
+@pytest.mark.full
 def test_four_first_uses_at_once(cache: Path, warm: Warm) -> None:
     warm.ready()
     running = [warm.start(FIRST_USE) for _ in range(4)]

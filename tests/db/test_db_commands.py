@@ -166,6 +166,7 @@ def test_add_then_show(capsys: pytest.CaptureFixture[str]) -> None:
     assert data(capsys, *ADD, "--replace")["replaced"] == {"bearing": 1}
 
 
+@pytest.mark.full
 def test_export_and_import(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     run(capsys, *ADD)
     mine = tmp_path / "mine.toml"

@@ -28,7 +28,11 @@ BAD = "X3,test,40,30,18,test,B\n,test,40,80,18,test,B\nX4,test,40 kN,80,18,test,
 # All bearings as TOML take ten seconds; the test below takes some of them.
 @pytest.mark.parametrize(
     ("target", "tables"),
-    [("all", TABLES), ("most.toml", SMALL), pytest.param("all.toml", TABLES, marks=pytest.mark.slow)],
+    [
+        pytest.param("all", TABLES, marks=pytest.mark.full),
+        ("most.toml", SMALL),
+        pytest.param("all.toml", TABLES, marks=pytest.mark.slow),
+    ],
     ids=["all", "most.toml", "all.toml"],
 )
 def test_everything_makes_the_round_trip(

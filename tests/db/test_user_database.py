@@ -101,6 +101,7 @@ for i in range(25):
 """
 
 
+@pytest.mark.full
 def test_four_processes_adding_rows_lose_none(user_folder: Path, tmp_path: Path, warm: Warm) -> None:
     """Started together on an empty folder: the core database is built and the user's created in the same moment."""
     warm.ready()

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 DOCS = examples.DOCS
 PAGES = examples.pages()
 NAMES = [path.relative_to(DOCS).as_posix() for path in PAGES]
+# These are two thirds of the time of all pages.
+LONG = {"catalogue.md", "electric.md", "errors.md", "kinds.md", "python.md", "results.md", "shaft.md", "studies.md"}
+LONG |= {"thermal.md", "views.md"}
 # What a page tells but a test cannot do: each block says why.
 NOT_RUN = {"quickstart.md": 1, "contributing.md": 2, "shaft.md": 2, "fmu.md": 4}
 
@@ -28,7 +31,9 @@ def programs(warm: Warm) -> Path:
 
 
 @pytest.mark.timeout(600)
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.full] * (name in LONG), id=name) for name in NAMES]
+)
 def test_the_page_is_right(name: str, programs: Path, tmp_path: Path) -> None:
     differences = examples.follow(DOCS / name, tmp_path, False, programs)
     assert not differences, "\n\n".join(map(str, differences))
@@ -46,6 +51,7 @@ def test_the_whole_page_is_right(name: str, programs: Path, tmp_path: Path) -> N
 
 def test_pages_have_examples() -> None:
     assert {"quickstart.md", "simulation.md", "frames.md", "python.md", "errors.md", "catalogue.md"} <= set(NAMES)
+    assert set(NAMES) >= LONG
     kinds = [step.kind for path in PAGES for step in examples.steps(path)]
     assert kinds.count("command") >= 25
     assert kinds.count("python") >= 12

@@ -39,6 +39,7 @@ def test_the_pages_are_those_of_today() -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+@pytest.mark.full
 def test_a_stale_page_is_found(tmp_path: Path) -> None:
     """The check fails when an option is renamed: tried on a copy of the pages."""
     import shutil

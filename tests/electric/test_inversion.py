@@ -24,6 +24,7 @@ def test_own_film_is_found_again(law: str, scale: float) -> None:
     assert -1.0 <= films.slope(scale) < -0.4
 
 
+@pytest.mark.full
 def test_starved_bearing_is_recognised(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The capacitance of a bearing with 60 % of the film, given to the flooded case."""
     starved = FilmModel(equilibria(api.check("6208-axial-1300", ["lubricant.starvation=0.6"]), 1), 0.0)

@@ -56,6 +56,7 @@ def test_samples_may_come_in_any_pieces(run: Result, size: int) -> None:
             assert np.concatenate([getattr(part, kind)[name] for part in parts]).tobytes() == values.tobytes(), name
 
 
+@pytest.mark.full
 def test_a_longer_run_goes_on_with_its_circuit(run: Result, tmp_path: Path) -> None:
     """Stopped after a third, continued: the same file as the run in one go."""
     path = tmp_path / "short.h5"

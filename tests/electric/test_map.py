@@ -107,6 +107,7 @@ def test_point_is_what_the_circuit_of_its_case_gives(alone: Path) -> None:
     assert numbers_of(simulation).model_dump() == {name: numbers(alone)[0][name] for name in UNITS}
 
 
+@pytest.mark.full
 def test_any_number_of_workers_gives_the_same_bits(alone: Path, tmp_path: Path) -> None:
     found = api.electric_map(CASE, CHANGES, **SPAN, folder=tmp_path / "two", workers=2)
     assert numbers(tmp_path / "two") == numbers(alone)
@@ -125,6 +126,7 @@ def done(folder: Path) -> int:
         return 0
 
 
+@pytest.mark.full
 def test_killed_map_goes_on_to_the_same_bits(alone: Path, tmp_path: Path, warm: Warm) -> None:
     """Killed with its workers when some points are there, continued by another command and number of workers."""
     folder = tmp_path / "killed"
@@ -178,6 +180,7 @@ def test_mistakes_in_a_map_are_named(arguments: list[str], words: str, capsys: p
     assert words in " ".join(capsys.readouterr().err.split())
 
 
+@pytest.mark.full
 def test_runs_of_workers_have_the_events_of_a_single_run(tmp_path: Path) -> None:
     """A dynamic study on two workers: the table of discharges of each run is that of the run alone, bit for bit."""
     common = {"solver.duration": "0.02 s", "electric.seed": 3, "loads.radial": "2 kN", "loads.axial": "0 N"}

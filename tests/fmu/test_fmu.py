@@ -82,6 +82,7 @@ def test_a_host_in_c_without_python_has_the_bits_of_the_program(
         assert dict(zip(names, found[k], strict=True)) == values, f"step {k}"
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("couple", ["force", "motion"])
 def test_the_next_version_has_the_same_bits(host: Any, exported: Export, tmp_path: Path, couple: str) -> None:
     units = [unit_of(host, exported, tmp_path, fmi, couple) for fmi in (2, 3)]

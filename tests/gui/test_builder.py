@@ -101,6 +101,7 @@ async def test_undo_and_redo_go_through_every_kind_of_row(hand_written: Path) ->
         assert draft.get("depth") == {"cage": False}
 
 
+@pytest.mark.full
 async def test_a_load_over_time(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
@@ -120,6 +121,7 @@ async def test_a_load_over_time(hand_written: Path) -> None:
         assert not builder(pilot).check.problems
 
 
+@pytest.mark.full
 async def test_a_number_typed_on_the_kind_of_a_load_is_its_value(hand_written: Path) -> None:
     """Arrow keys meet the kind first; what is typed replaces what stood there, in one go from either."""
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
@@ -144,6 +146,7 @@ async def test_a_number_typed_on_the_kind_of_a_load_is_its_value(hand_written: P
         assert draft.get("loads", "radial", "start") == "12 N"
 
 
+@pytest.mark.full
 async def test_a_sum_of_loads_and_a_table_of_points(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
@@ -167,6 +170,7 @@ async def test_a_sum_of_loads_and_a_table_of_points(hand_written: Path) -> None:
         assert not builder(pilot).check.problems
 
 
+@pytest.mark.full
 async def test_a_ring_is_moved_and_supported(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
@@ -217,6 +221,7 @@ async def test_a_model_of_one_contact_and_its_parameter(hand_written: Path) -> N
         assert place[4] == card.parameters[0].name
 
 
+@pytest.mark.full
 async def test_markers_come_and_go(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
@@ -247,6 +252,7 @@ async def into(pilot: Pilot[None], section: str, first: str) -> None:
     await wait_for(pilot, lambda: pilot.app.screen.query_one(first).has_focus)
 
 
+@pytest.mark.full
 async def test_elements_come_and_go_by_keyboard(hand_written: Path) -> None:
     """Added by name, edited to a stiff spring, undone by its button; at 80 x 24 as well as at any size."""
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
@@ -273,6 +279,7 @@ async def test_elements_come_and_go_by_keyboard(hand_written: Path) -> None:
         assert not draft.is_changed()
 
 
+@pytest.mark.full
 async def test_observers_and_events_of_plugins_come_and_go_by_keyboard(
     hand_written: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

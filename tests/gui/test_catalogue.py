@@ -57,6 +57,7 @@ def test_a_clearance_class_goes_where_the_contact_angle_counts() -> None:
     assert (taken.name, taken.said) == ("7208B", "2Z, C3 of the designation before goes")
 
 
+@pytest.mark.full
 async def test_the_clearance_that_was_typed_is_taken(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
         await checked(pilot)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from driving import LARGE, SMALL, builder, checked, screen_text, wait_for
 from lambda_gui.app import BuilderApp
 from lambda_gui.dialogs import AskText
@@ -79,6 +80,7 @@ async def test_a_spectrum_is_written_added_up_and_saved(hand_written: Path) -> N
     assert f"{saved.energy_loss_kJ:,.1f}".replace(",", " ") + " kJ lost" in shown
 
 
+@pytest.mark.full
 async def test_what_is_wrong_with_a_phase_is_said(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)

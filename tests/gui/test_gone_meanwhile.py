@@ -24,6 +24,7 @@ from lambda_core import api
 from lambda_core.domain.errors import LambdaError
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("kind", "keys", "is_fault"),
     [

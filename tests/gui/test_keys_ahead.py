@@ -90,6 +90,7 @@ async def test_an_old_check_that_ends_last_is_not_shown(hand_written: Path, chec
         assert [problem.where for problem in screen.check.problems] == ["loads.radial"]
 
 
+@pytest.mark.full
 async def test_the_next_mistake_has_the_keyboard_though_the_cursor_has_just_moved(
     hand_written: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -149,6 +150,7 @@ class SlowAnswers:
         await at_rest()
 
 
+@pytest.mark.full
 async def test_a_study_typed_on_is_not_checked(hand_written: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)

@@ -100,6 +100,7 @@ async def test_every_form_of_a_case(size: tuple[int, int]) -> None:
         nothing(await read_forms(pilot, lambda node: not is_of_one_element(node)))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("case", ["6220-excited", "6319-cp10-1500"])
 async def test_what_is_written_in_other_cases(case: str) -> None:
     """The forms with something written in the case: the others are as in the first one."""
@@ -155,6 +156,7 @@ async def test_an_empty_model_and_what_it_asks(work_folder: Path, size: tuple[in
     nothing(found)
 
 
+@pytest.mark.full
 @SMALL_FIRST
 async def test_the_catalogue(size: tuple[int, int]) -> None:
     found = []
@@ -243,6 +245,7 @@ async def test_runs(work_folder: Path, size: tuple[int, int]) -> None:
     nothing(found)
 
 
+@pytest.mark.full
 @SMALL_FIRST
 async def test_results(work_folder: Path, combined_run: Result, size: tuple[int, int]) -> None:
     for name in ("6319-cp6.5-3000", "6208-axial-1300"):

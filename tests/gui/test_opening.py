@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import pytest
 from driving import SMALL, builder, checked, go_to, screen_text, wait_for, write
 from lambda_gui import recovery
 from lambda_gui.app import BuilderApp
@@ -68,6 +69,7 @@ async def test_what_is_saved_is_what_is_shown(hand_written: Path) -> None:
     assert len(recovery.rescues(None)) == 1  # the file's own may be there, too, when the machine was slow
 
 
+@pytest.mark.full
 async def test_recovered_work_is_gone_on_with(hand_written: Path) -> None:
     await leave_unsaved_work()
     async with BuilderApp().run_test(size=SMALL) as pilot:
@@ -79,6 +81,7 @@ async def test_recovered_work_is_gone_on_with(hand_written: Path) -> None:
         assert "typed before" in screen_text(pilot.app)
 
 
+@pytest.mark.full
 async def test_discarded_work_is_asked_about_once(hand_written: Path) -> None:
     await leave_unsaved_work()
     async with BuilderApp().run_test(size=SMALL) as pilot:
@@ -88,6 +91,7 @@ async def test_discarded_work_is_asked_about_once(hand_written: Path) -> None:
         assert rescues() == 0
 
 
+@pytest.mark.full
 async def test_a_case_opened_over_the_results_takes_the_place_of_the_one_below(hand_written: Path) -> None:
     """The palette offers "Open a case" on every screen."""
     api.init_case("other", None, Path("other.toml"))

@@ -22,6 +22,7 @@ def test_no_terminal_no_pictures() -> None:
     assert picture_widget() is None
 
 
+@pytest.mark.full
 async def test_a_view_is_a_picture_or_text(combined_run: Result, hand_written: Path) -> None:
     from textual_image.widget import HalfcellImage
 

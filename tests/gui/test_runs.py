@@ -162,6 +162,7 @@ def test_a_run_outlives_the_builder(work_folder: Path, fake_program: Callable[[i
     assert found.state != "running"
 
 
+@pytest.mark.full
 async def test_traces_are_drawn_and_a_resize_in_the_middle_does_no_harm(
     hand_written: Path, fake_program: Callable[[int], None]
 ) -> None:
@@ -194,6 +195,7 @@ async def test_a_result_that_is_deleted_is_said_and_nothing_else(
         assert pilot.app.is_running
 
 
+@pytest.mark.full
 async def test_a_file_that_is_no_result_is_said(hand_written: Path) -> None:
     Path("broken.h5").write_bytes(b"not HDF5 at all")
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
@@ -204,6 +206,7 @@ async def test_a_file_that_is_no_result_is_said(hand_written: Path) -> None:
         await wait_for(pilot, lambda: "no result files here" in screen_text(pilot.app))
 
 
+@pytest.mark.full
 async def test_a_full_disk_loses_nothing(hand_written: Path) -> None:
     before = hand_written.read_text(encoding="utf-8")
     async with BuilderApp(str(hand_written)).run_test(size=SMALL) as pilot:
@@ -225,6 +228,7 @@ async def test_a_full_disk_loses_nothing(hand_written: Path) -> None:
         assert api.case(hand_written).loads.radial == 9000.0
 
 
+@pytest.mark.full
 async def test_a_disk_that_fills_up_during_a_run_is_said(hand_written: Path) -> None:
     async with BuilderApp(str(hand_written)).run_test(size=LARGE) as pilot:
         await checked(pilot)
@@ -244,6 +248,7 @@ async def test_a_disk_that_fills_up_during_a_run_is_said(hand_written: Path) -> 
         assert not builder(pilot).check.problems
 
 
+@pytest.mark.full
 async def test_a_run_does_not_keep_one_from_working(hand_written: Path) -> None:
     """The longest piece of work in the event loop while the solver runs and is watched, in seconds of the processor."""
     longest = 0.0

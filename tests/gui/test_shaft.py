@@ -175,6 +175,7 @@ async def test_a_defect_in_one_bearing_is_chosen_in_the_tree(work_folder: Path) 
         assert not builder(pilot).check.problems
 
 
+@pytest.mark.full
 @pytest.mark.usefixtures("answered")
 async def test_a_shaft_file_keeps_its_comments_and_says_what_it_does(work_folder: Path) -> None:
     path = api.init_shaft("box")

@@ -129,6 +129,7 @@ async def test_a_study_is_saved_for_the_shell(hand_written: Path) -> None:
         assert any("save the case first" in note.message for note in pilot.app._notifications)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("size", [SMALL, LARGE])
 async def test_two_results_say_what_differs(
     size: tuple[int, int], radial_run: Result, combined_run: Result, hand_written: Path

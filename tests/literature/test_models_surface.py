@@ -148,6 +148,7 @@ def test_one_wave_more_or_less_moves_the_ring_across_its_axis(ring: str, order: 
     assert found.amplitude(0, frequency) < 0.02 * AMPLITUDE
 
 
+@pytest.mark.full
 @one_of_each(7, 12)
 def test_other_orders_move_nothing(ring: str, order: int) -> None:
     """Forces of the balls cancel: what the ring does is below 5 % of the amplitude (rms)."""
@@ -159,6 +160,7 @@ def test_other_orders_move_nothing(ring: str, order: int) -> None:
 RICH = "[" + ", ".join(f'{{ waves = {k}, amplitude = "{AMPLITUDE} m" }}' for k in (7, 10, 12)) + "]"
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("ring", ["inner", "outer"])
 def test_harmonics_act_side_by_side(ring: str) -> None:
     """Wardle 1988: of a spectrum each order does what it does alone, as small waves do in a bearing under thrust.
@@ -190,6 +192,7 @@ def test_twice_as_many_waves_as_balls_move_the_ring_at_twice_the_frequency(ring:
     assert max(found.amplitude(axis, frequency) for axis in (1, 2)) < 0.02 * AMPLITUDE
 
 
+@pytest.mark.full
 @OUTER_FIRST
 def test_axial_waves_move_a_ring_along_its_axis_or_rock_it(ring: str) -> None:
     """Wardle 1988: axial waves k = i Z move a ring along its axis, by A; k = i Z +- 1 rock it: a tilted circle has one.
@@ -218,6 +221,7 @@ def test_work_of_the_waves_comes_from_the_drive(ring: str) -> None:
     assert abs(waves(ring, 9).residual) < 1e-3
 
 
+@pytest.mark.full
 @OUTER_FIRST
 def test_a_defect_is_struck_at_the_ball_pass_frequency(ring: str) -> None:
     """BPFO = Z f_c, BPFI = Z (f_i - f_c) (Harris and Kotzalas 2006, section 8.3): all lines of the axial vibration."""

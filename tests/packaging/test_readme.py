@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import re
+import shutil
+import subprocess
+import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -33,17 +38,52 @@ def test_ci_runs_the_second_command() -> None:
     assert second.endswith(".venv/bin/python -m tests")
     lines = (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
     assert lines.count(second) == 1
+    assert lines[lines.index(second) + 1] == "suite=$?"
+
+
+def test_ci_runs_what_the_second_command_leaves_out_for_its_cost() -> None:
+    options = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["pytest"]["ini_options"]
+    assert options["addopts"].endswith("-m 'not slow and not clock and not full'")
+    command = '.venv/bin/python -m tests -m "full and not slow and not clock"\nfull=$?\n'
+    assert command in (ROOT / ".ci" / "run").read_text(encoding="utf-8")
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash")
+@pytest.mark.parametrize("failing", ["nothing", "-m tests$", "smoke", "full and"])
+def test_ci_fails_when_one_part_fails_and_runs_the_others(failing: str, tmp_path: Path) -> None:
+    """Stand-ins for Python and pip say how they were called; one of them fails."""
+    stand_in = f'#!/bin/sh\necho "$0 $@" >> {tmp_path}/calls\nif echo "$@" | grep -q -e "{failing}"; then exit 3; fi\n'
+    for place in ("python3", ".venv/bin/python", ".venv/bin/pip", ".ci/run"):
+        path = tmp_path / place
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text((ROOT / place).read_text(encoding="utf-8") if place == ".ci/run" else stand_in)
+        path.chmod(0o755)
+    path = f"{tmp_path}{os.pathsep}{os.environ['PATH']}"
+    done = subprocess.run([tmp_path / ".ci" / "run"], env=os.environ | {"PATH": path}, capture_output=True, check=False)
+    assert done.returncode == int(failing != "nothing")
+    assert len((tmp_path / "calls").read_text().splitlines()) == 5
 
 
 def test_c2_5_ci_tries_the_pythons_that_are_promised() -> None:
     from smoke import REQUIRED
 
-    assert "python3 tests/smoke.py --others || smoke=$?" in (ROOT / ".ci" / "run").read_text(encoding="utf-8")
+    assert "python3 tests/smoke.py --others\nsmoke=$?\n" in (ROOT / ".ci" / "run").read_text(encoding="utf-8")
     told = re.findall(
         r"Programming Language :: Python :: (3\.\d+)", (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     )
     assert tuple(told) == REQUIRED
     assert f"With Python {', '.join(REQUIRED[:-1])} or {REQUIRED[-1]}" in README
+
+
+def test_what_other_pythons_compute_is_computed_here_too(tmp_path: Path) -> None:
+    """The script puts the solver together by itself: it has to follow the solver."""
+    from smoke import STATIC
+
+    done = subprocess.run([sys.executable, "-c", STATIC], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    load, torque, *_ = done.stdout.split()
+    assert float(load) > 0.0
+    assert float(torque) > 0.0
 
 
 def test_every_command_that_the_readme_names_exists() -> None:

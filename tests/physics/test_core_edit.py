@@ -74,6 +74,7 @@ class Copy:
         return answer
 
 
+@pytest.mark.full
 def test_an_edited_constant_of_the_core(tmp_path: Path) -> None:
     copy = Copy(tmp_path)
     before, again = copy.ask(ONE_FUNCTION), copy.ask(ONE_FUNCTION)
@@ -119,6 +120,7 @@ print(*asked)
 """
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("accuracy", "needs"), [("averages", False), ("vibration", True)])
 def test_the_one_step_formula_is_compiled_for_vibrations_alone(accuracy: str, needs: bool, tmp_path: Path) -> None:
     """A run for averages neither compiles nor loads it."""

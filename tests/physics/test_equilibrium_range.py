@@ -166,6 +166,7 @@ def _failures(count: int, seed: int, kind: str = "deep groove") -> list[str]:
     return failures
 
 
+@pytest.mark.full
 def test_points_drawn_from_the_catalogue() -> None:
     assert _failures(40, seed=1) == []
 

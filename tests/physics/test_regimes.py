@@ -34,6 +34,7 @@ def test_what_has_no_answer_is_refused_with_the_reason(name: str) -> None:
     assert words in refusal(changes)
 
 
+@pytest.mark.full
 def test_a_whirling_cage_is_no_error_of_integration() -> None:
     """A coarse tolerance shakes the cage into a whirl; a fine one started there finds the same whirl and the same loss.
 

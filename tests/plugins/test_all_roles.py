@@ -44,6 +44,7 @@ def site(install: Callable[..., Installation]) -> Installation:
     return install([PACKAGE])
 
 
+@pytest.mark.full
 @pytest.mark.timeout(900)  # the first test of a session that needs the solver compiles it
 def test_the_torque_is_the_closed_form_and_no_built_in_law_was_imported(site: Installation) -> None:
     answer = site.python(RUN, *CHOICE, "gravity.z=0 m/s2")
@@ -71,6 +72,7 @@ print(json.dumps({"voltage": abs(events.contact_voltage[first]), "peak": events.
 """
 
 
+@pytest.mark.full
 def test_films_break_down_and_burn_by_foreign_laws(site: Installation) -> None:
     """The first film under a rising voltage breaks down at the 4 V of the package, with a current of 4 V over 28 Ohm.
 

@@ -22,6 +22,7 @@ def site(install: Callable[..., Installation]) -> Installation:
     return install([EXAMPLES / name for name in PACKAGES])
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("name", PACKAGES)
 def test_own_tests_pass(site: Installation, name: str, tmp_path: Path) -> None:
     code = "import sys, pytest; sys.dont_write_bytecode = True; raise SystemExit(pytest.main(sys.argv[1:]))"
@@ -32,6 +33,7 @@ def test_own_tests_pass(site: Installation, name: str, tmp_path: Path) -> None:
     assert re.search(r"\d+ passed", answer.out)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("name", PACKAGES)
 def test_a_package_brings_no_fault(site: Installation, name: str) -> None:
     answer = site.program("plugins", "check", name)
@@ -123,6 +125,7 @@ def test_show_has_every_law_of_a_package_or_a_file(site: Installation, tmp_path:
     assert observer.out.startswith("sliding-wear brings no law")
 
 
+@pytest.mark.full
 def test_all_of_them_in_one_run_close_their_energy(site: Installation, tmp_path: Path) -> None:
     out = tmp_path / "all.h5"
     used = settings_on_the_page()

@@ -84,6 +84,7 @@ def run(site: Installation, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.full
 @pytest.mark.timeout(900)
 def test_in_the_builder(site: Installation, run: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(run.parent)
@@ -98,6 +99,7 @@ def test_in_the_builder(site: Installation, run: Path, monkeypatch: pytest.Monke
     assert "Load share" in seen["view"]
 
 
+@pytest.mark.full
 @pytest.mark.timeout(900)
 def test_in_the_report(site: Installation, run: Path) -> None:
     page = run.with_suffix(".html")

@@ -25,6 +25,7 @@ def site(install: Callable[..., Installation], sources: Path) -> Installation:
     return install([sources], pip_install)
 
 
+@pytest.mark.full
 def test_own_tests_pass(site: Installation, sources: Path, tmp_path: Path) -> None:
     code = "import sys, pytest; raise SystemExit(pytest.main(sys.argv[1:]))"
     options = ["-q", "-p", "no:cacheprovider", "--import-mode=importlib", f"--rootdir={tmp_path}", "-c", "/dev/null"]
@@ -32,6 +33,7 @@ def test_own_tests_pass(site: Installation, sources: Path, tmp_path: Path) -> No
     assert answer.code == 0, answer.out + answer.err
 
 
+@pytest.mark.full
 def test_law_rows_method_and_command_are_found(site: Installation) -> None:
     answer = site.program("plugins", "check", "ferry-law", "--json")
     assert answer.code == 0

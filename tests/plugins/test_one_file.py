@@ -149,6 +149,7 @@ def test_a_law_is_handed_over_as_the_function_itself() -> None:
     assert traction(api.case("6319-cp10-1500").written() | {"models": {"traction": by_hand}}, []).kernel is by_hand
 
 
+@pytest.mark.full
 def test_a_pickled_case_brings_its_laws(tmp_path: Path) -> None:
     """Another process, which knows neither this file nor its law, resolves the case to the same law."""
     code = (
@@ -184,6 +185,7 @@ def test_workers_get_the_files_and_laws_of_the_director(file: Path) -> None:
     assert local_files.guests() == beside or pickle.loads(beside)[0] == pickle.loads(local_files.guests())[0]
 
 
+@pytest.mark.full
 @pytest.mark.timeout(900)  # the first test of a session that needs the solver compiles it
 def test_a_study_works_with_a_file_and_its_law(file: Path, tmp_path: Path) -> None:
     api.use_plugin(file)

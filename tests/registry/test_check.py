@@ -288,6 +288,7 @@ def test_a_sound_kernel_passes(law: Law) -> None:
     assert 0.0 < report.seconds < 1e-5
 
 
+@pytest.mark.full
 def test_a_slow_kernel_may_be_used_but_is_told() -> None:
     report = check_model(elementwise(slow_cells), samples=3)
     assert report.ok
@@ -474,6 +475,7 @@ def test_a_slope_that_is_not_the_derivative_is_told() -> None:
     assert "but by differences it is" in fault
 
 
+@pytest.mark.full
 def test_a4_a_law_that_compiles_for_long_is_said_to(monkeypatch: pytest.MonkeyPatch) -> None:
     """A kernel of 400 branches took 48 s without a word: what takes longer than a moment is named while it goes on."""
     monkeypatch.setattr(apart, "PATIENCE", 0.0)

@@ -128,6 +128,7 @@ def test_second_process_loads_from_disk(package: Package) -> None:
     assert cold["key"] == warm["key"]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("module", "text", "value"),
     [
@@ -155,6 +156,7 @@ def test_a_comment_or_a_new_date_compiles_nothing(package: Package) -> None:
     assert package.ask()["cached"] is True
 
 
+@pytest.mark.full
 def test_bounds_checked_code_has_a_folder_of_its_own(package: Package) -> None:
     package.ask()
     assert package.ask_afresh(NUMBA_BOUNDSCHECK="1")["cached"] is False
@@ -169,6 +171,7 @@ def test_damaged_files_are_compiled_anew(package: Package) -> None:
     assert (again["value"], again["cached"]) == (6.0, False)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("place", [0.1, 0.5, 0.9, 1.0])
 def test_c3_flipped_bytes_in_compiled_code_are_compiled_anew_and_mended(package: Package, place: float) -> None:
     package.ask()
@@ -182,6 +185,7 @@ def test_c3_flipped_bytes_in_compiled_code_are_compiled_anew_and_mended(package:
     assert package.ask()["cached"] is True
 
 
+@pytest.mark.full
 def test_code_that_nobody_used_for_months_is_dropped(package: Package) -> None:
     package.ask()
     (old,) = (package.root / "cache" / "kernels").iterdir()
@@ -195,6 +199,7 @@ def test_code_that_nobody_used_for_months_is_dropped(package: Package) -> None:
     assert new != old
 
 
+@pytest.mark.full
 def test_c3_a_read_only_cache_does_not_stop_anything(package: Package) -> None:
     (package.root / "cache").write_text("a file where a folder should be")
     temporary = package.root / "temporary"

@@ -56,6 +56,7 @@ def ask(**environment: str) -> dict[str, object]:
     return answer
 
 
+@pytest.mark.full
 @pytest.mark.timeout(300)
 def test_the_plain_way_has_the_same_keys_and_numbers() -> None:
     usual, plain = ask(), ask(LAMBDA_BEARING_PLAIN_JIT="1")

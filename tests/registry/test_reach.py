@@ -106,6 +106,7 @@ def test_what_cannot_be_followed_is_refused_by_name(body: str, words: str) -> No
         reach(function(module(), body, **scope))
 
 
+@pytest.mark.full
 def test_keys_of_the_core_are_equal_in_every_process() -> None:
     """Sets (the flags of fast mathematics) have another order under another hash seed."""
     code = (

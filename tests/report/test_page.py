@@ -178,6 +178,7 @@ class Inline(Executor):
         return future
 
 
+@pytest.mark.full
 def test_a_study_has_a_page_too(tmp_path: Path) -> None:
     study = {
         "name": "two-by-two",

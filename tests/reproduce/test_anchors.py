@@ -48,6 +48,7 @@ def test_the_grid_is_no_table_4() -> None:
     assert len(A.LOADS) == len(A.SPEEDS) == 3
 
 
+@pytest.mark.full
 def test_bias_and_scatter_of_known_ratios() -> None:
     found = A.anchors(Invented())  # type: ignore[arg-type]
     first = found.spreads[0]

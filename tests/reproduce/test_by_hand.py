@@ -29,7 +29,9 @@ def both(point: Point, *changes: str) -> tuple[Numbers, dict[str, float]]:
 
 # Both loads at the ends of speed; between them by name.
 @pytest.mark.parametrize(
-    "point", [POINTS[0], pytest.param(POINTS[2], marks=pytest.mark.slow), POINTS[-1]], ids=lambda point: point.case
+    "point",
+    [POINTS[0], pytest.param(POINTS[2], marks=pytest.mark.slow), pytest.param(POINTS[-1], marks=pytest.mark.full)],
+    ids=lambda point: point.case,
 )
 def test_parts_of_the_torque(point: Point) -> None:
     """Within 1 %: the balls' gravity, and the program's rounded corner where the shear stress meets its limit."""
@@ -38,6 +40,7 @@ def test_parts_of_the_torque(point: Point) -> None:
         assert found[name] == pytest.approx(expected, rel=0.01), name
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("point", [POINTS[0], POINTS[-1]], ids=lambda point: point.case)
 def test_one_cell_along_rolling_overestimates_sliding(point: Point) -> None:
     """The default has slices, as the paper: the mean pressure of a strip in place of Hertz's along it.

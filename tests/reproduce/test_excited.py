@@ -15,6 +15,7 @@ def shaken(tmp_path_factory: pytest.TempPathFactory) -> Result:
     return api.run(CASE, [*changes(), "depth.strips=15"], out=tmp_path_factory.mktemp("shaken") / "r.h5")
 
 
+@pytest.mark.full
 def test_the_run_goes_through(shaken: Result) -> None:
     summary = shaken.summary()
     assert summary.state == "finished"

@@ -71,6 +71,7 @@ def test_what_was_found_before_keeps_the_time_that_it_took(tmp_path: Path) -> No
     assert first.processor_s == again.processor_s > 0.0
 
 
+@pytest.mark.full
 def test_a_case_that_is_wrong_fails_alone(tmp_path: Path) -> None:
     """On a worker. Nothing of it is kept, the others go on, its number is NaN, and the reason is kept."""
     with JobRunner(tmp_path, 1) as runner:

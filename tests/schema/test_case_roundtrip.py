@@ -31,6 +31,7 @@ def test_case_to_toml_to_case_is_exact(tables: dict[str, Any]) -> None:
     assert parse_case(case_toml(case)) == case
 
 
+@pytest.mark.full
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 @given(cases(), cases())
 def test_saving_over_another_case_gives_the_new_case(old: dict[str, Any], new: dict[str, Any]) -> None:

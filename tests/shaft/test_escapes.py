@@ -63,6 +63,7 @@ def spoil(file: h5py.File, name: str, key: str) -> None:
         item[()] = np.array([f"{text}{ESCAPE}" for text in item.asstr()[()]], dtype=object)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("name", ["shaft.h5", "left.h5"])
 def test_no_text_of_a_shaft_s_result_drives_the_terminal(
     name: str, made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -125,6 +125,7 @@ def wrong(copies: dict[str, Path], model: ShaftModel, undisturbed: Content) -> l
     return found
 
 
+@pytest.mark.full
 def test_a_run_killed_at_any_moment_goes_on_as_the_undisturbed_one(
     model: ShaftModel, undisturbed: Content, tmp_path: Path
 ) -> None:
@@ -147,6 +148,7 @@ def _slots(folder: Path) -> Any:
         return file["slots"][()]
 
 
+@pytest.mark.full
 def test_a_continuation_killed_at_any_moment_goes_on_as_the_undisturbed_one(
     model: ShaftModel, undisturbed: Content, tmp_path: Path
 ) -> None:
@@ -167,6 +169,7 @@ def test_a_process_killed_while_it_looks_at_its_modes_goes_on_as_the_undisturbed
     assert not wrong({"modes": tmp_path / "run"}, model, undisturbed)
 
 
+@pytest.mark.full
 def test_a_continuation_looks_for_convergence_where_a_revolution_ends(
     model: ShaftModel, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -230,6 +230,7 @@ def test_a_run_goes_on_bit_for_bit(folder: Path) -> None:
     assert np.array_equal(first.revolutions(), second.revolutions())
 
 
+@pytest.mark.full
 def test_a_gear_and_an_unbalance_until_converged(tmp_path: Path) -> None:
     """The 6208 and 6206 of `init --shaft`: every torque known to 1 %, energy to 1e-3; both as in their equilibrium."""
     (tmp_path / "box.toml").write_text(fresh_shaft("box"))

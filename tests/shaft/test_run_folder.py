@@ -32,6 +32,7 @@ def run(made: Path, tmp_path: Path) -> Path:
     return Path(shutil.copytree(made, tmp_path / "run"))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("share", [0.05, 0.5, 0.99])
 @pytest.mark.parametrize("name", ["shaft.h5", "left.h5"])
 def test_a_cut_file_is_seen(name: str, share: float, run: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -62,6 +63,7 @@ def test_a_result_of_another_run(run: Path, capsys: pytest.CaptureFixture[str]) 
     assert "right.h5 is not of the run that" in " ".join(capsys.readouterr().err.split())
 
 
+@pytest.mark.full
 def test_a_folder_goes_on_once(run: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A second one that comes before the first has marked its files is refused, and nothing is lost."""
     pytest.importorskip("fcntl")
@@ -87,6 +89,7 @@ def again(run: Path) -> int:
     return main(["shaft", str(run.parent / "box.toml"), *arguments])
 
 
+@pytest.mark.full
 def test_overwriting_a_run_keeps_every_file_of_others(run: Path) -> None:
     """Of HDF5 files too: one of the user's, and the result of another run that was copied into the folder."""
     (run.parent / "box.toml").write_text(fresh_shaft("box"))

@@ -63,6 +63,7 @@ def seen(monkeypatch: pytest.MonkeyPatch) -> set[int]:
     return found
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     "call",
     [
@@ -82,6 +83,7 @@ def test_a_call_computes_with_one_thread_and_gives_the_others_back(
     assert threads() == {2}
 
 
+@pytest.mark.full
 def test_a_run_begun_from_python_is_gone_on_with_on_the_command_line(tmp_path: Path) -> None:
     """Whatever number of threads there are: what a run begins with has the same bits."""
     api.shaft_run(tomllib.loads(fresh_shaft("box")), out=tmp_path / "run", duration=1e-4)

@@ -59,6 +59,7 @@ def ringing(solver: dict[str, Any]) -> Callable[[FloatArray], FloatArray]:
     return lambda at: 0.5 * np.asarray(up(at) - down(at))
 
 
+@pytest.mark.full
 def test_a_kick_rings_as_in_a_run_a_hundred_times_tighter() -> None:
     """1.1 kHz with 1 % of damping and 0.1 um: to 1 % after eight swings, of which averages leave next to nothing."""
     at = np.linspace(6e-3, 10e-3, 1000)
@@ -176,6 +177,7 @@ def test_a_mistake_in_a_force_element_of_one_bearing_has_its_place() -> None:
     assert "defect" in problem.message
 
 
+@pytest.mark.full
 def test_a_run_with_a_defect_balances_and_goes_on_bit_for_bit(tmp_path: Path) -> None:
     """Every ball that crosses it strikes: one run to the end, and one that stopped halfway."""
     found = box()
@@ -209,6 +211,7 @@ def test_a_time_that_no_machine_simulates_is_refused(tmp_path: Path) -> None:
     assert not (tmp_path / "run").exists()
 
 
+@pytest.mark.full
 def test_the_end_of_the_case_holds_where_none_is_given(tmp_path: Path) -> None:
     found = api.shaft_run(box({"duration": "2 ms"}), out=tmp_path / "run")
     assert found.simulated_s == pytest.approx(2e-3, abs=5e-4)

@@ -94,6 +94,7 @@ def kill_and_resume(warm: Warm, path: Path, delays: list[float], reference: dict
     assert Result(path).status().state == "finished"
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("seed", range(2))
 def test_kill_at_random_moments(seed: int, warm: Warm, tmp_path: Path, undisturbed: dict[str, np.ndarray]) -> None:
     chance = random.Random(seed)
@@ -197,6 +198,7 @@ def test_nothing_left_to_do_is_said(provenance: MakeProvenance, tmp_path: Path) 
         assert path.read_bytes() == before
 
 
+@pytest.mark.full
 def test_a_run_that_converges_after_its_continuation_stops_where_it_would_have(
     provenance: MakeProvenance, tmp_path: Path
 ) -> None:

@@ -64,6 +64,7 @@ def test_powers_meet_as_the_tolerance_shrinks(case: str) -> None:
     assert found.cvode.power_W == pytest.approx(found.reference.power_W, rel=2e-4)
 
 
+@pytest.mark.full
 @pytest.mark.usefixtures("sundials")
 @pytest.mark.parametrize(
     ("case", "options"),

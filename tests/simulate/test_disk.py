@@ -37,7 +37,9 @@ def whole(warm: Warm, tmp_path_factory: pytest.TempPathFactory) -> Result:
     return Result(path)
 
 
-@pytest.mark.parametrize("limit", LIMITS)
+@pytest.mark.parametrize(
+    "limit", [*LIMITS[:-2], *(pytest.param(limit, marks=pytest.mark.full) for limit in LIMITS[-2:])]
+)
 def test_a_full_disk_at_any_point(limit: int, warm: Warm, tmp_path: Path, whole: Result) -> None:
     path = tmp_path / "r.h5"
     code, said = run(warm, "run", path, limit=limit, **WANTED)
@@ -59,6 +61,7 @@ def test_a_full_disk_at_any_point(limit: int, warm: Warm, tmp_path: Path, whole:
         assert Result(path)[channel.name].tobytes() == whole[channel.name].tobytes()
 
 
+@pytest.mark.full
 def test_a_result_deleted_during_the_run_is_said(warm: Warm, tmp_path: Path) -> None:
     path = tmp_path / "r.h5"
     wanted = {"solver": {"duration": 0.2}, "truth": {"slowness": 1e-3}}

@@ -106,6 +106,7 @@ def kill_and_resume(warm: Warm, path: Path, chance: random.Random, whole: Series
     return kills, midway
 
 
+@pytest.mark.full
 def test_some_kills(warm: Warm, tmp_path: Path, undisturbed: Series) -> None:
     _, midway = kill_and_resume(warm, tmp_path / "r.h5", random.Random(0), undisturbed, most=3)
     assert midway > 0

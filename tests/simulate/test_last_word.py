@@ -17,6 +17,7 @@ from lambda_core.solver.drivers.engine import Advance
 TURN = FakeEngine().turn
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("solver", [{}, {"duration": 1.77 * TURN}], ids=["converged", "duration"])
 def test_killed_before_its_last_word(
     solver: dict[str, float], provenance: MakeProvenance, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -54,6 +54,7 @@ def _datasets(file: h5py.File) -> list[h5py.Dataset]:
     return found
 
 
+@pytest.mark.full
 def test_opens_with_xarray_in_one_line(result: Result) -> None:
     import xarray
 

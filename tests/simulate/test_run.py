@@ -139,6 +139,7 @@ def test_limit_of_wall_time_stops_the_run(provenance: MakeProvenance, tmp_path: 
     assert summary.reasons[0].startswith("the limit of wall time was reached at t = ")
 
 
+@pytest.mark.full
 def test_own_sample_interval_does_not_move_the_averages(provenance: MakeProvenance, tmp_path: Path) -> None:
     given = provenance()
     model = replace(given.model, output=replace(given.model.output, interval=1e-5))
@@ -199,6 +200,7 @@ def test_the_window_is_what_extremes_are_taken_over(provenance: MakeProvenance, 
     assert summary.min_film_um == pytest.approx(1e6 * result["film_minimum"][kept][loaded].min())
 
 
+@pytest.mark.full
 def test_memory_is_flat_over_a_long_run(
     provenance: MakeProvenance, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

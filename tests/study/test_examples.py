@@ -63,6 +63,7 @@ def test_every_file_is_a_study(path: Path) -> None:
     assert estimate.points == said.get(path.stem, estimate.points)
 
 
+@pytest.mark.full
 def test_the_warmest_and_tightest_bearing_lies_on_both_limits(inline: Executor, tmp_path: Path) -> None:
     status = api.study_run(STUDIES / "warm-and-tight.toml", tmp_path / "best", executor=inline)
     best = status.best

@@ -78,6 +78,7 @@ class Ends(logging.Handler):
         self.process.wait()
 
 
+@pytest.mark.full
 def test_a_point_waits_for_the_worker_of_a_killed_director(study: Folder, writer: subprocess.Popen[bytes]) -> None:
     folder, rows = study
     ends, log = Ends(writer), logging.getLogger("lambda_core")
@@ -92,6 +93,7 @@ def test_a_point_waits_for_the_worker_of_a_killed_director(study: Folder, writer
     assert api.study_table(folder).rows() == rows
 
 
+@pytest.mark.full
 def test_a_point_in_other_hands_is_left_for_the_next_time(
     study: Folder, writer: subprocess.Popen[bytes], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -121,6 +123,7 @@ def full_after(monkeypatch: pytest.MonkeyPatch, times: int) -> None:
     monkeypatch.setattr(hdf5, "reserve", reserve)
 
 
+@pytest.mark.full
 def test_a_disk_without_room_to_go_on_fails_the_point(study: Folder, monkeypatch: pytest.MonkeyPatch) -> None:
     folder, rows = study
     written_by(folder / rows[1]["file"], {})
@@ -133,6 +136,7 @@ def test_a_disk_without_room_to_go_on_fails_the_point(study: Folder, monkeypatch
     assert api.study_table(folder).rows() == rows
 
 
+@pytest.mark.full
 def test_a_run_that_a_full_disk_ended_goes_on_when_it_is_tried_again(
     study: Folder, monkeypatch: pytest.MonkeyPatch
 ) -> None:

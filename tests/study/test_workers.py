@@ -137,6 +137,7 @@ def killed_and_resumed(start: Start, path: Path, folder: Path, kills: int, seed:
     api.study_resume(folder, workers=last)
 
 
+@pytest.mark.full
 def test_a_killed_study_goes_on_to_the_same_table(
     start: Start, write: Write, tmp_path: Path, reference: dict[str, Any]
 ) -> None:
@@ -170,6 +171,7 @@ def children(pid: int) -> list[int]:
     return found
 
 
+@pytest.mark.full
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks for workers in /proc")
 def test_a_lost_worker_loses_no_point(start: Start, write: Write, tmp_path: Path, reference: dict[str, Any]) -> None:
     folder = tmp_path / "lost"
@@ -201,6 +203,7 @@ def test_workers_do_not_outlive_their_director(start: Start, write: Write, tmp_p
     assert api.study_status(folder).pending == 4
 
 
+@pytest.mark.full
 def test_ctrl_c_stops_the_runs_in_hand_and_begins_no_other(start: Start, write: Write, tmp_path: Path) -> None:
     folder = tmp_path / "stopped"
     text = RUNS.format(duration="5 s", speeds=2, loads=2)
@@ -247,6 +250,7 @@ def deadly(task: Any) -> Any:
     return Outcome(task.number, "done", "", "", {"friction_torque_Nmm": float(task.number)}, "", 0.0)
 
 
+@pytest.mark.full
 def test_a_point_that_kills_its_worker_fails_alone(write: Write, tmp_path: Path, inline: Executor) -> None:
     from lambda_core.batch.job import Outcome, Task, lost
 

@@ -91,6 +91,7 @@ def test_preload_runs_away_and_is_named() -> None:
     assert f"{caught.value.gain.loop:.2f}" in str(caught.value)
 
 
+@pytest.mark.full
 def test_the_same_bearing_runs_away_over_time() -> None:
     course = api.warm_up(preloaded("9000 rpm"), 3600.0)
     assert course.ended == "limit"

@@ -30,6 +30,7 @@ def test_c2_4_an_end_does_not_look_for_cycles_in_all_that_was_compiled(begin: st
     assert done.stdout.strip() == "True"
 
 
+@pytest.mark.full
 def test_d11_a_bearing_at_rest_stops_when_asked(tmp_path: Path) -> None:
     """Standstill with smoothed friction takes thousands of seconds a simulated second: in the time of the processor."""
     (found,) = measure(tmp_path, ("standstill",), signal.SIGTERM).values()

@@ -116,6 +116,7 @@ def test_a_place_that_takes_no_file_is_refused_before_the_work(
     assert "cannot" in said
 
 
+@pytest.mark.full
 def test_c2_3_nothing_is_imported_from_the_working_directory(tmp_path: Path) -> None:
     """Workers that compile, helpers of the builder, workers of studies: each would import these."""
     for name in ("json", "multiprocessing", "lambda_core", "numba", "random"):
@@ -213,6 +214,7 @@ def test_c3_table_files_are_regular_and_bounded(tmp_path: Path) -> None:
         read_bytes(large, 1000)
 
 
+@pytest.mark.full
 def test_c3_of_two_runs_into_one_file_the_later_wins_and_the_other_says_so(tmp_path: Path) -> None:
     path, begun = tmp_path / "r.h5", []
 
@@ -227,6 +229,7 @@ def test_c3_of_two_runs_into_one_file_the_later_wins_and_the_other_says_so(tmp_p
     assert [file.name for file in tmp_path.iterdir()] == ["r.h5"]
 
 
+@pytest.mark.full
 def test_c4_a_result_deleted_meanwhile_is_not_called_kept(tmp_path: Path) -> None:
     path = tmp_path / "r.h5"
     with pytest.raises(PartialResultError, match="no longer stands there"):

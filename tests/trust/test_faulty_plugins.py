@@ -178,6 +178,7 @@ def nothing(subject: Any, options: Options) -> ViewData:
     return ViewData("guest", "a guest", "nowhere", (Panel("nothing", Axis("x", ""), Axis("y", "")),))
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("figure", "words"),
     [(fail, "KeyError: 'rows'"), (number, 'a int, which has no "savefig"'), (lambda _: Unsaved(), "KeyError: 'axes'")],

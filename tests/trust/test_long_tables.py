@@ -31,6 +31,7 @@ def points(count: int) -> list[list[str]]:
     return [[f"{0.1 * number:.6g} ms", f"{100 + number % 7} N"] for number in range(count)]
 
 
+@pytest.mark.full
 def test_c3_a_long_table_is_checked_in_seconds(tmp_path: Path) -> None:
     """20 000 points in the case itself: time with the square of the number was minutes."""
     path = case_with({"kind": "table", "points": points(20_000)}, tmp_path)
@@ -40,6 +41,7 @@ def test_c3_a_long_table_is_checked_in_seconds(tmp_path: Path) -> None:
     assert tomllib.loads(model.case_toml)["loads"]["inner_ring"]["force_x"]["points"][-1] == ["1.9999 s", "100 N"]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("signal", "words"),
     [

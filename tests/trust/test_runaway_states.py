@@ -83,6 +83,7 @@ def faulty(unit: str) -> str:
     return state_fault(replace(law, states=(State("warmth", unit, "of a contact", scale=1.0),)))
 
 
+@pytest.mark.full
 @pytest.mark.timeout(900)
 def test_a_run_ends_with_the_state_that_ran_away(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     """It e-folds in 33 us, so that after 0.9 ms no bound is left: the run names the state, not the time step."""

@@ -64,6 +64,7 @@ def source_of_fva3a() -> str:
     return next(str(row["source"]) for row in rows if row["lubricant"] == "FVA3A" and row["role"] == "permittivity")
 
 
+@pytest.mark.full
 def test_a4_a_parameter_in_front_of_a_built_in_one_is_an_assumption(brings: Callable[..., None]) -> None:
     before = api.check(CASE).assumptions
     brings(lubricant_parameter=PARAMETER.format(source="evil"), source=SOURCE.format(key="evil"))

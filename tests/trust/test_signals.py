@@ -92,6 +92,7 @@ def is_alive(pid: int) -> bool:
         return False
 
 
+@pytest.mark.full
 @pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="who started whom is read from /proc")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
 def test_c2_4_what_compiles_ends_with_its_parent(number: int, program: Program, tmp_path: Path) -> None:
@@ -136,6 +137,7 @@ def test_c2_4_what_would_never_end_is_refused(change: str, words: str) -> None:
         api.check(CASE, [change])
 
 
+@pytest.mark.full
 def test_a4_a_second_signal_ends_a_law_that_never_returns(
     warm: Warm, misbehaving: Mapping[str, str], tmp_path: Path
 ) -> None:
@@ -157,6 +159,7 @@ def test_a4_a_second_signal_ends_a_law_that_never_returns(
     assert result.checkpoint() is not None
 
 
+@pytest.mark.full
 def test_a4_a_law_that_never_returns_does_not_keep_the_others_from_being_checked(
     misbehaving: Mapping[str, str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -50,6 +50,7 @@ def test_c4_what_a_killed_study_left_half_made_is_removed(study: Path, executor:
     assert sorted(path.name for path in runs.iterdir()) == sorted(own)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(
     ("found", "put"),
     [

@@ -108,6 +108,7 @@ def test_a_gif_plays_in_a_loop(radial_run: Result, tmp_path: Path) -> None:
         api.animate(radial_run.path, path, frames=4)
 
 
+@pytest.mark.full
 def test_an_mp4_needs_no_ffmpeg_of_the_system(
     radial_run: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

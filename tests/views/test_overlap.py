@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 OF_A_RESULT = [name for name, view in registry().views.items() if view.subject == "result" and view.offered is None]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("name", OF_A_RESULT)
 def test_texts_of_a_view_keep_apart(combined_run: Result, name: str) -> None:
     """As tests of figures have it for the other run, whose views they draw."""
