@@ -1,6 +1,7 @@
-"""Everything that must hold, in one command: ``python -m tests [arguments of pytest]``.
+"""What must hold at every change, in one command: ``python -m tests [arguments of pytest]``.
 
-Style, types and layers beside compiling, then the tests on three processes. Each part runs whatever the others said.
+Style, types and layers while the solver compiles, then the tests on three processes; with arguments, only the tests
+that they choose. Each part runs whatever became of the others.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ COMPILING = {
 COLLECTING = {"collect": [PYTHON, "-m", "pytest", "--collect-only", "-qq"]}
 # One file stays in one process: what a file prepares for its tests is prepared once. A seventh of the time tests wait
 # (for programs, timers, helpers): one process more than the two cores of CI.
-TESTING = {"pytest": [PYTHON, "-m", "pytest", "-n", "3", "--dist", "loadfile", "--no-loadscope-reorder"]}
+TESTING = {"pytest": [PYTHON, "tests/second_try.py", "-n", "3", "--dist", "loadfile", "--no-loadscope-reorder"]}
 
 
 def environment() -> dict[str, str]:
@@ -64,12 +65,14 @@ def run(parts: dict[str, list[str]], *, is_shown: bool = False) -> list[str]:
 
 def main() -> int:
     """Run every part; the exit code is 0 only if all of them passed."""
-    is_first = not any(ROOT.glob("tests/*/__pycache__/*-pytest-*.pyc"))
+    arguments = sys.argv[1:]
+    is_first = not arguments and not any(ROOT.glob("tests/*/__pycache__/*-pytest-*.pyc"))
+    looked = {} if arguments else LOOKING | (COLLECTING if is_first else {})
     with ThreadPoolExecutor() as beside:
-        looking = beside.submit(run, LOOKING | (COLLECTING if is_first else {}))
+        looking = beside.submit(run, looked)
         compiling = beside.submit(run, COMPILING)
     failed = looking.result() + compiling.result()
-    failed += run({name: [*command, *sys.argv[1:]] for name, command in TESTING.items()}, is_shown=True)
+    failed += run({name: [*command, *arguments] for name, command in TESTING.items()}, is_shown=True)
     if failed:
         print(f"failed: {', '.join(failed)}", file=sys.stderr)
     return 1 if failed else 0

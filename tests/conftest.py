@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,22 +13,18 @@ from typing import TYPE_CHECKING
 import pytest
 from hypothesis import settings
 
+# Helpers of all tests are modules next to this file.
+sys.path.insert(0, str(Path(__file__).parent))
+
+from second_try import DURATIONS
+
 # The same examples on every day: a suite that finds another fault by luck says nothing about the change it is run for.
 # What is drawn anew each time are the campaigns of tests/attacks.
 settings.register_profile("suite", derandomize=True)
 settings.load_profile("suite")
 
-# Screens, signals and programs beside the test have a timing of their own. What fails here is tried once more, and
-# stands as RERUN above the last line: a race to be mended, not a result that is wrong.
-TIMED = (
-    "tests/gui/",
-    "tests/simulate/test_kills.py",
-    "tests/study/test_workers.py",
-    "tests/trust/test_answering.py",
-    "tests/trust/test_signals.py",
-)
-
 # What takes longest comes first: one file of half a minute at the end keeps one process while the others are done.
+# Where times are kept of an earlier run (tests/second_try.py), they decide; elsewhere this list.
 LONGEST = (
     "tests/fmu/test_fmu.py",
     "tests/docs/test_examples.py",
@@ -56,9 +53,6 @@ LONGEST = (
     "tests/physics/",
 )
 
-# Helpers of all tests are modules beside this file.
-sys.path.insert(0, str(Path(__file__).parent))
-
 if TYPE_CHECKING:
     from lambda_db.catalogue import SqlCatalogue
     from warm import Warm
@@ -76,14 +70,13 @@ def pytest_collection_finish() -> None:
     gc.freeze()
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put the longest files first, and give tests with a timing of their own a second try."""
-    items.sort(key=lambda item: [not item.nodeid.startswith(name) for name in LONGEST])
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Put the longest files first."""
+    known = {} if config.cache is None else config.cache.get(DURATIONS, {})
+    seconds: Counter[Path] = Counter()
     for item in items:
-        if item.nodeid.startswith(TIMED):
-            item.add_marker(pytest.mark.flaky(reruns=1))
-        else:  # what another test left behind is found wherever the collector comes by
-            item.add_marker(pytest.mark.flaky(reruns=1, only_rerun=["PytestUnraisableExceptionWarning"]))
+        seconds[item.path] += known.get(item.nodeid, 0.0)
+    items.sort(key=lambda item: (-seconds[item.path], [not item.nodeid.startswith(name) for name in LONGEST]))
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -98,6 +91,7 @@ def own_folders(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPat
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("LAMBDA_BEARING_CACHE", str(request.config.cache.mkdir("lambda-bearing")))
         patch.setenv("LAMBDA_BEARING_DATA", str(root / "data"))
+        patch.setenv("MPLCONFIGDIR", str(request.config.cache.mkdir("matplotlib")))  # the list of this machine's fonts
         yield root
 
 
