@@ -10,12 +10,12 @@ import numpy as np
 from benchmarks.handle import FloatArray as FloatArray
 from benchmarks.handle import Handle
 from lambda_core.domain.channels import LOSSES
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers import tables
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.observation import observe
 from lambda_core.solver.drivers.solver_context import SolverContext
-from lambda_core.solver.entry import core
 
 # How close a run has to come to the reference to count, and how well its energy has to balance.
 RACEWAY, CAGE, ENERGY = 5e-3, 1e-3, 1e-3

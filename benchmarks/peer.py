@@ -21,7 +21,7 @@ from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort, now
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.hertz import stiffness_constant
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.system.bearing import BearingModel
 

@@ -12,8 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.solver_context import SolverContext
 
 SHAFT = 0

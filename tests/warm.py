@@ -176,7 +176,7 @@ def serve(address: str, *also: str) -> None:
     """Fork a process for every request until the input is closed."""
     for name in _LOADED.split():
         importlib.import_module(name)
-    from lambda_core.solver.entry import core
+    from lambda_core.solver.core import core
 
     core()
     if "run" in also:

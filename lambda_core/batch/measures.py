@@ -26,7 +26,7 @@ _BINS = 72  # over azimuth: 5 degrees each
 
 
 def _contacts(point: StaticPoint, name: str) -> FloatArray:
-    from lambda_core.solver.sampling import CONTACT_CHANNELS
+    from lambda_core.solver.records import CONTACT_CHANNELS
 
     found: FloatArray = point.equilibrium.contacts[:, :, CONTACT_CHANNELS.index(name)]
     return found

@@ -178,7 +178,7 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
 
     No dynamics: every ball has the film that belongs to its place in the load zone.
     """
-    from lambda_core.solver.sampling import CONTACT_CHANNELS
+    from lambda_core.solver.records import CONTACT_CHANNELS
     from lambda_core.system.time_functions import initial
 
     model = found[0].context.model

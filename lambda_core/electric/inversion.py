@@ -17,7 +17,7 @@ from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.electric.circuit import circuit_of
 from lambda_core.electric.electrified import of_model
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.records import CONTACT_CHANNELS
 
 if TYPE_CHECKING:
     from lambda_core.solver.drivers.equilibrium import Equilibrium

@@ -13,6 +13,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.electric import columns as L
 from lambda_core.electric.film_laws import FilmLaw
+from lambda_core.laws.pack import pack
 
 
 @dataclass(frozen=True)
@@ -180,7 +181,7 @@ class Network:
         substeps: int = 2,
         announce: Any = None,
     ) -> None:
-        self._run = compiled(announce)
+        self._run = march_code(announce)
         self._circuit, self._strength, self._seed, self._substeps = circuit, strength, seed, substeps
         size = balls + 2
         self._nodes = L.Nodes(*np.zeros((len(L.Nodes._fields), size)))
@@ -333,6 +334,12 @@ def march(
     """March a network through the times of the films; see :class:`Network`."""
     network = Network(circuit, strength, films.film.shape[1], seed=seed, substeps=substeps, announce=announce)
     return network.advance(films, source, window, rest)
+
+
+def march_code(announce: Any) -> Any:
+    """Return the compiled march for calls from Python, out of the pack of the installation where it has one."""
+    packed = pack()
+    return packed.unit("march") if packed else compiled(announce)
 
 
 def compiled(announce: Any) -> Any:

@@ -19,8 +19,10 @@ from lambda_core.fmu.led_rings import LedRings, led_rings
 from lambda_core.fmu.starting import Start, prepare_start
 from lambda_core.fmu.varied import Varied
 from lambda_core.laws.jit.portable import REAL, WORD, Entry
-from lambda_core.solver import layout as L
+from lambda_core.solver import layout as T
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.integrator_memory import CONTROL, Memory
 from lambda_core.solver.drivers.compiled_laws import derive_oils
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium
@@ -28,7 +30,7 @@ from lambda_core.solver.drivers.given import Coupling, given_names, start
 from lambda_core.solver.drivers.solver_context import assemble
 from lambda_core.solver.integrator.arrow import factors_t
 from lambda_core.solver.integrator.blocks import blocks_t
-from lambda_core.solver.integrator.memory import CONTROL, Memory, evaluate_t, jacobian_t, memory_t
+from lambda_core.solver.integrator.memory import evaluate_t, jacobian_t, memory_t
 from lambda_core.solver.sampling import observe_sig
 
 if TYPE_CHECKING:
@@ -154,13 +156,13 @@ def freeze(
     sections = [
         ("evaluate", evaluate_t, core.evaluate_pointer),
         ("jacobian", jacobian_t, core.jacobian_pointer),
-        ("bundle", L.bundle_t, bundle),
+        ("bundle", T.bundle_t, bundle),
         ("blocks", blocks_t, context.blocks),
         ("factors", factors_t, context.factors),
         ("memory", memory_t, memory),
-        ("times", L.array1, now),
-        ("states", L.array2, memory.y.reshape(1, -1)),
-        ("host", L.array1, host),
+        ("times", T.array1, now),
+        ("states", T.array2, memory.y.reshape(1, -1)),
+        ("host", T.array1, host),
         *begin.sections(),
         *(electric.sections() if electric else ()),
         *(led.sections() if led else ()),

@@ -16,15 +16,15 @@ from lambda_core.fmu.frozen import Frozen
 from lambda_core.fmu.variables import Variable, control
 from lambda_core.laws.jit.portable import features, known_processor
 from lambda_core.results.limits import THINNEST_FILM, Grooves, highest_pressure
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.fault_roles import ROLES
+from lambda_core.solver.arrays.integrator_memory import COUNT
 from lambda_core.solver.drivers.ball_paths import NO_PATH, PATH_ITERATIONS, PATH_SHARE, PATH_TOLERANCE
 from lambda_core.solver.drivers.equilibrium import MAX_ITERATIONS
 from lambda_core.solver.drivers.given import MOST_ITERATIONS, MOST_ITERATIONS_PER_SECOND
 from lambda_core.solver.drivers.ring_values import rings_of_contacts
-from lambda_core.solver.faults import ROLES
-from lambda_core.solver.integrator.memory import COUNT
-from lambda_core.solver.statics.continuation import STATIC_REPORT
+from lambda_core.solver.records import STATIC_REPORT
 from lambda_core.solver.status import Status
 
 # What a processor must have that is called so.

@@ -15,10 +15,12 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, DOFS, SPIN
 from lambda_core.laws.jit.portable import REAL, Entry
-from lambda_core.solver import layout as L
+from lambda_core.solver import layout as T
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.jacobian_blocks import Blocks, make_blocks
+from lambda_core.solver.core import Core
 from lambda_core.solver.drivers.solver_context import SolverContext
-from lambda_core.solver.entry import Core
-from lambda_core.solver.integrator.blocks import Blocks, blocks_t, make_blocks
+from lambda_core.solver.integrator.blocks import blocks_t
 
 # Of a tilt: its component of the axis, the sign there, and its rate. A small tilt (y, z) turns the axis to (1, z, -y).
 TILT_STATES = {"tilt_y": (L.SAZ, -1.0, L.SWY), "tilt_z": (L.SAY, 1.0, L.SWZ)}
@@ -46,9 +48,9 @@ class LedRings:
     def sections(self) -> list[tuple[str, Any, Any]]:
         """Return what belongs into the image."""
         return [
-            ("led_bundle", L.bundle_t, self.bundle),
+            ("led_bundle", T.bundle_t, self.bundle),
             ("led_blocks", blocks_t, self.blocks),
-            ("led_state", L.array1, self.state),
+            ("led_state", T.array1, self.state),
         ]
 
     def workspaces(self) -> list[Any]:

@@ -11,13 +11,13 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import CAGE, SPIN
 from lambda_core.laws.jit.machine_code import Pointer
 from lambda_core.laws.jit.portable import WORD, Entry
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.ball_paths import path_velocities
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.first_state import roll
 from lambda_core.solver.entry import UNITS, build
-from lambda_core.solver.statics.continuation import STATIC_REPORT
+from lambda_core.solver.records import STATIC_REPORT
 from lambda_core.system.bearing import TimeFunction
 from lambda_core.system.time_functions import initial
 

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lambda_core.domain.errors import SolverError, UsageError, unknown_name
+from lambda_core.laws.pack import compiled_here
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -148,6 +149,11 @@ def _plain(name: str) -> str:
 
 def write(task: Mapping[str, Any], announce: Callable[[str], None] | None = None) -> None:
     """Write an FMU with the code of this process's processor."""
+    with compiled_here():
+        _write(task, announce)
+
+
+def _write(task: Mapping[str, Any], announce: Callable[[str], None] | None) -> None:
     from importlib.metadata import version
 
     from lambda_core.case.case_io import apply_overrides, parse_case

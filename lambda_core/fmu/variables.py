@@ -15,9 +15,9 @@ from lambda_core.domain.elements import BODIES, DOFS, SPIN
 from lambda_core.electric.columns import T_ARC, T_DISCHARGES
 from lambda_core.fmu.frozen import Frozen
 from lambda_core.fmu.led_rings import TILT_STATES, axis_of
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
-from lambda_core.solver.integrator.memory import CONTROL, COUNT
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.integrator_memory import CONTROL, COUNT
 
 
 class Kind(IntEnum):

@@ -10,7 +10,6 @@ from __future__ import annotations
 import hashlib
 import inspect
 import os
-import re
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -25,6 +24,7 @@ from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.installed import OWN, project_of
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import ROLES
+from lambda_core.laws.compiler_words import gist
 from lambda_core.laws.jit import binding
 from lambda_core.laws.jit.reach import Reach, UnreachableError, reach
 from lambda_core.laws.law import Law
@@ -32,10 +32,6 @@ from lambda_core.laws.par import par_layout
 
 Announce = Callable[[str], None]
 CHECKED_VARIABLE = "LAMBDA_BEARING_CHECKED"
-# What Numba says where memory would have to be managed, which machine code of kernels does not do.
-_ALLOCATES = ("NRT required", "Only accept returning of array passed into the function")
-_LOWERED = re.compile(r" at (\S+\.py) \((\d+)\)")
-_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 
 def cache_folder() -> Path:
@@ -84,6 +80,8 @@ class CompiledKernel:
         Whether it came from disk.
     seconds : float
         Time to compile or load [s].
+    made : str
+        Hash of what the machine code depends on beyond its sources.
     """
 
     pointer: Any = field(repr=False)
@@ -91,6 +89,7 @@ class CompiledKernel:
     dispatcher: Any = field(repr=False)
     cached: bool
     seconds: float
+    made: str = ""
 
 
 def signature(role: str) -> Any:
@@ -129,7 +128,7 @@ def plain_function(model: Law) -> FunctionType:
 
 
 def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKernel:
-    """Compile a model's kernel, or load it from disk.
+    """Compile a model's kernel, or load it from disk; that of a built-in law may be in the pack of the installation.
 
     Parameters
     ----------
@@ -148,6 +147,8 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
     arguments, layout = argument_names(model.role), par_layout(model)
     words = f"{model.role} {reached.key} {binding.source(arguments, layout, binding.taken_by(kernel))}"
     key = hashlib.sha256(words.encode()).hexdigest()
+    if (packed := _packed(model, key, start)) is not None:
+        return packed
     checked = is_checked() and project_of(model.distribution) != OWN
     folder = cache_folder() / f"{model.role}-{key[:24]}-{environment()}{'-checked' if checked else ''}"
     if folder in _in_memory:
@@ -169,12 +170,23 @@ def compile_kernel(model: Law, announce: Announce | None = None) -> CompiledKern
     try:
         dispatcher = machine_code.compile_into(flat, wanted.args, folder, on_miss, **options)
     except Exception as error:  # Numba answers odd source code with exceptions of many kinds
-        raise PluginError(f"{model.label} cannot be compiled: {_gist(error)}") from None
+        raise PluginError(f"{model.label} cannot be compiled: {gist(error)}") from None
     _check_return(model, machine_code.returned_type(dispatcher), wanted.return_type)
     pointer = machine_code.Pointer(dispatcher, wanted)
-    compiled = CompiledKernel(pointer, key, dispatcher, not missed, time.perf_counter() - start)
+    compiled = CompiledKernel(pointer, key, dispatcher, not missed, time.perf_counter() - start, environment())
     _in_memory[folder] = compiled
     return compiled
+
+
+def _packed(model: Law, key: str, start: float) -> CompiledKernel | None:
+    """Return a law out of the pack of the installation, None where it is to be compiled."""
+    from lambda_core.laws.pack import pack
+
+    found = pack()
+    kernel = found.law(model) if found else None
+    if found is None or kernel is None:
+        return None
+    return CompiledKernel(kernel, key, kernel, cached=True, seconds=time.perf_counter() - start, made=found.key[:16])
 
 
 def argument_names(role: str) -> tuple[str, ...]:
@@ -209,21 +221,6 @@ def _check_return(model: Law, found: Any, wanted: Any) -> None:
             f"{model.label} returns {some} where an int64 status is due: "
             "return 1 for a valid result, 2 and up for errors of your own"
         )
-
-
-def _gist(error: Exception) -> str:
-    """Return what a Numba error says about the plugin's own code: the innermost function's fault and its place."""
-    whole = [line.strip() for line in _COLOUR.sub("", str(error)).splitlines()]
-    start = max((n for n, line in enumerate(whole) if line.startswith("Rejected as")), default=-1)
-    places = [line for line in whole[start + 1 :] + whole[start::-1] if line.startswith("File ")]
-    places += [f'File "{path}", line {n}' for path, n in _LOWERED.findall(" ".join(whole))]
-    place = next((line.strip(" :") for line in places if "numba/" not in line and binding.FILE not in line), "")
-    if any(words in str(error) for words in _ALLOCATES):
-        return f"it makes an array or a list: a kernel works in the arrays that it is given {place}".rstrip()
-    noise = ("Failed in", "TypingError: Failed in", "File ", "File:", "During:", "raised from", "<source", "^", "-")
-    idle = (*noise, "There are", "With argument", "Overload ")
-    said = [line.removeprefix(">>> ") for line in whole[start + 1 :] if line and not line.startswith(idle)]
-    return f"{' '.join(said[: 3 if start < 0 else 1])} {place}".rstrip()
 
 
 @dataclass(frozen=True)

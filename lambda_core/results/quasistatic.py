@@ -25,10 +25,10 @@ from lambda_core.results.summary import (
     merged_cage,
     span,
 )
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.wave_tables import waves_at
-from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.records import CONTACT_CHANNELS
 from lambda_core.system.operating_limits import operating_warnings
 from lambda_core.system.time_functions import initial
 

@@ -34,7 +34,7 @@ def equilibrium_state(
     stiffness : 5 x 5 tuple of tuples, optional
         d(load)/d(displacement) of the inner ring, order x, y, z, tilt_y, tilt_z [SI].
     """
-    from lambda_core.solver.layout import BPSI, NB
+    from lambda_core.solver.arrays.bundle import BPSI, NB
 
     arcs = equilibrium.arcs
     sides = arcs.shape[1] // 2

@@ -21,7 +21,7 @@ from lambda_core.domain.loading import CARRYING
 from lambda_core.results.averages import estimate, finite
 from lambda_core.results.record import Record
 from lambda_core.run.cvode import integrate
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.system.bearing import BearingModel, DofState, TimeFunction

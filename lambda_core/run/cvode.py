@@ -14,7 +14,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import SolverError, UsageError
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
 from lambda_core.solver.drivers.right_hand_side import Handle

@@ -10,6 +10,7 @@ from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_folder, check_new, check_target
 from lambda_core.laws.kernels import sources_key
+from lambda_core.laws.pack import NATIVE, code, other_code
 from lambda_core.results.opening import ResultError
 from lambda_core.results.provenance import Provenance, differences, model_data
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
@@ -76,10 +77,12 @@ def relaunch(
             else f"the case now resolves to other values: {_some(changed)}"
         )
         raise ResultError(f"{path} cannot go on: {why}")
+    keys = result.kernel_keys
+    if why := other_code(keys.get("code", NATIVE)):
+        raise ResultError(f"{path} cannot go on: {why}")
     live = _live(model, announce)
     watch = Watch(model)
     engine, provenance = _engine(model, announce, live, watch)
-    keys = result.kernel_keys
     other = sorted(name for name, key in provenance.kernel_keys.items() if keys.get(name) != key)
     if other:
         raise ResultError(f"{path} cannot go on: the code has changed since: {_some(other)}")
@@ -122,7 +125,9 @@ def _engine(
     core = sources_key(*physics_sources())
     rating = rating_of(start, registry().methods)
     keys = live.keys() if live is not None else {}
-    return engine, Provenance(model, {**engine.kernel_keys, **keys, **watch.keys(), "core": core}, rating)
+    return engine, Provenance(
+        model, {**engine.kernel_keys, **keys, **watch.keys(), "core": core, "code": code()}, rating
+    )
 
 
 def _start_line(start: QuasiStatic) -> str:

@@ -147,7 +147,7 @@ def _point(model: Any, kernels: Any) -> tuple[dict[str, float], float | None, fl
 
 
 def _smallest_film(found: Any) -> float:
-    from lambda_core.solver.sampling import CONTACT_CHANNELS
+    from lambda_core.solver.records import CONTACT_CHANNELS
 
     load, film = (found.contacts[:, :, CONTACT_CHANNELS.index(name)] for name in ("load", "film_parameter"))
     return float(film[load > CARRYING * load.max()].min())

@@ -11,8 +11,10 @@ from lambda_core.discovery.registry import Registry
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.domain.roles import ROLES
 from lambda_core.laws.kernels import cache_folder, compile_kernel
+from lambda_core.laws.pack import pack
 from lambda_core.results.record import INTERFACE, Record
-from lambda_core.solver.entry import ON_DEMAND, UNITS, begin, build, core, missing
+from lambda_core.solver.core import begin, core
+from lambda_core.solver.entry import ON_DEMAND, UNITS, missing
 
 
 class Warmup(Record):
@@ -50,7 +52,7 @@ def warmup(models: Registry, announce: Callable[[str], None] | None = None) -> W
         Called with a sentence before something is compiled.
     """
     start = time.perf_counter()
-    absent = missing()
+    absent = missing() if pack() is None else []
     begin(announce, UNITS)
     said: list[str] = []  # one sentence per law that was not on disk
 
@@ -68,9 +70,9 @@ def warmup(models: Registry, announce: Callable[[str], None] | None = None) -> W
             compiled += len(said) - before
         except PluginError as error:
             faults.append(str(error))
-    core(announce)
+    solver = core(announce)
     for name in ON_DEMAND:
-        build(name, announce)
+        solver.find(name)
     return Warmup(
         folder=str(cache_folder()),
         solver_parts=len(UNITS),

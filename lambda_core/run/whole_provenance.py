@@ -7,6 +7,7 @@ import tomllib
 
 from lambda_core.case.case_writer import tables_toml
 from lambda_core.laws.kernels import sources_key
+from lambda_core.laws.pack import code
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.solver.code_files import physics_sources
 from lambda_core.system.bearing import BearingModel, TimeFunction
@@ -20,7 +21,7 @@ def channels_of_bearings(engine: WholeEngine) -> list[tuple]:  # type: ignore[ty
 
 def kernel_keys(engine: WholeEngine, i: int) -> dict[str, str]:
     """Return the hashes of the laws of a bearing and of the core's own code."""
-    return {**engine.parts[i].alone.kernels.keys(), "core": sources_key(*physics_sources())}
+    return {**engine.parts[i].alone.kernels.keys(), "core": sources_key(*physics_sources()), "code": code()}
 
 
 def code_of(engine: WholeEngine) -> str:

@@ -16,6 +16,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.domain.files import check_folder, held
+from lambda_core.laws.pack import NATIVE, other_code
 from lambda_core.results.averages import COLUMNS, Interval, boundaries, finite, row
 from lambda_core.results.checkpoint import Checkpoint, Position
 from lambda_core.results.convergence import Window, are_converged, revolutions_wanted, torque_together, window
@@ -105,6 +106,9 @@ def _resume(
     if checkpoint is None:
         raise UsageError(f"{found.path} holds no checkpoint: start the run anew")
     engine = WholeEngine(model, announce)
+    before = {result.kernel_keys.get("code", NATIVE) for result in found.results().values()}
+    if why := next(filter(None, map(other_code, sorted(before))), ""):
+        raise UsageError(f"{found.path} cannot go on: {why}")
     if code_of(engine) != found.code:
         raise UsageError(f"{found.path} cannot go on: the code or the case has changed since")
     engine.restore({k: v for k, v in checkpoint.state.items() if not k.startswith("rows")})

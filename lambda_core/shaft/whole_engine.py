@@ -31,8 +31,12 @@ from lambda_core.shaft.whole_tables import (
     make_parts,
     whole_bundle,
 )  # fmt: skip
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.factors import make_factors
+from lambda_core.solver.arrays.integrator_memory import Handle, make_memory
+from lambda_core.solver.arrays.jacobian_blocks import make_blocks
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers.compiled_laws import Announce
 from lambda_core.solver.drivers.engine import (
     FIRST_STEP,
@@ -48,11 +52,6 @@ from lambda_core.solver.drivers.observation import Scratch, channels_of
 from lambda_core.solver.drivers.ring_values import losses_of_raceways
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import running
-from lambda_core.solver.entry import core
-from lambda_core.solver.integrator import memory
-from lambda_core.solver.integrator.arrow import make_factors
-from lambda_core.solver.integrator.blocks import make_blocks
-from lambda_core.solver.integrator.handle import Handle
 from lambda_core.solver.integrator.tableau import STAGES
 
 _CAPACITY = 512
@@ -98,7 +97,7 @@ class WholeEngine:
         scales = state_sizes(model, self.shaft, self.parts, self._bundle)
         tolerance = min(part.bearing.model.solver.tolerance for part in self.parts)
         stages = STAGES if model.solver.resolve else 0
-        self._memory = memory.make_memory(start, scales, tolerance, self._bundle, _CAPACITY, stages=stages)
+        self._memory = make_memory(start, scales, tolerance, self._bundle, _CAPACITY, stages=stages)
         self.sample_interval = min(
             usual_interval(part.bearing.model, found.orbit)
             for part, found in zip(self.parts, self.equilibria, strict=True)

@@ -28,8 +28,8 @@ from lambda_core.shaft.whole_tables import (
     motion_signal,
     table_size,
 )
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.solver_context import state_scales

@@ -23,8 +23,8 @@ from lambda_core.elastic.beam import NODE
 from lambda_core.shaft.lumps import LumpedShaft, unbalance_of_lumps
 from lambda_core.shaft.model import GROUND, PLACES, MountedBearing, ShaftModel
 from lambda_core.shaft.structure import Rows, structure
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.time_tables import FORCE, MOMENT, MOTION, PER_BODY
 from lambda_core.system.bearing import DofState

@@ -8,8 +8,6 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 from lambda_core.domain.parents import end_with_parent
@@ -18,42 +16,12 @@ from lambda_core.laws.kernels import compile_host, host_folder, host_key
 from lambda_core.solver import layout
 from lambda_core.solver import sampling as observe
 from lambda_core.solver.code_files import compiled_sources
-from lambda_core.solver.contact import raceway, tangent
+from lambda_core.solver.contact import cell_probe, raceway, tangent
 from lambda_core.solver.integrator import bdf, esdirk, handle, memory, stepping
 from lambda_core.solver.motion import forces, jacobian
 from lambda_core.solver.statics import continuation as statics
 
 SOURCES = compiled_sources()
-
-
-@dataclass(frozen=True)
-class Core:
-    """Compiled functions of the core; pointers are for other compiled code."""
-
-    wrench_pointer: Any
-    tangent_pointer: Any
-    evaluate_pointer: Any
-    jacobian_pointer: Any
-    evaluate: Any
-    jacobian: Any
-    advance: Any
-    observe: Any
-    solve_static: Any
-    advance_pointer: Any
-    observe_pointer: Any
-    integrate: Any
-    sample: Any
-    announce: Callable[[str], None] | None
-
-    @cached_property
-    def advance_finely(self) -> Any:
-        """The one-step formula, which runs that resolve vibrations take."""
-        return _call("advance_finely", build("advance_finely", self.announce))
-
-    @cached_property
-    def advance_finely_pointer(self) -> Any:
-        """Pointer to the one-step formula."""
-        return _pointer("advance_finely", build("advance_finely", self.announce))
 
 
 # Each unit calls the others through pointers, so that none is compiled into another.
@@ -68,13 +36,14 @@ UNITS: dict[str, tuple[Any, Any]] = {
     "solve_static": (statics.solve_static, statics.solve_static_sig),
     "integrate": (handle.integrate, handle.integrate_sig),
     "sample": (handle.sample, handle.sample_sig),
+    "probe": (cell_probe.probe, cell_probe.probe_sig),
 }
-ON_DEMAND = ("advance_finely",)  # compiled when a run first needs it
+ON_DEMAND = ("advance_finely", "probe")  # compiled when a run first needs it
 # What one process compiles, the longest work first. Units of a group call the same functions, which are typed once.
 GROUPS = (
     ("evaluate", "jacobian", "wrench", "tangent"),
     ("advance", "solve_static", "observe", "integrate", "sample"),
-    ("advance_finely",),
+    ("advance_finely", "probe"),
 )
 # The same with more processors; all but the last take about as long.
 FINER_GROUPS = (
@@ -82,7 +51,7 @@ FINER_GROUPS = (
     ("advance",),
     ("evaluate", "observe", "integrate", "sample"),
     ("solve_static", "wrench", "tangent"),
-    ("advance_finely",),
+    ("advance_finely", "probe"),
 )
 # The equilibrium allocates its workspaces; all others run without reference counting.
 # What takes long lets other threads work: one of them hears the signals meanwhile.
@@ -115,9 +84,9 @@ def build_group(names: str) -> None:
 
 
 def begin(announce: Callable[[str], None] | None = None, units: Iterable[str] | None = None) -> None:
-    """Begin to compile what is not on disk, in processes of their own; :func:`core` waits for them.
+    """Begin to compile what is not on disk, in processes of their own; :func:`wait` waits for them.
 
-    A unit whose process fails is compiled by :func:`core`, where its error is seen.
+    A unit whose process fails is compiled by :func:`call_and_pointer`, where its error is seen.
 
     Parameters
     ----------
@@ -127,7 +96,7 @@ def begin(announce: Callable[[str], None] | None = None, units: Iterable[str] | 
         Keys of :data:`UNITS`; by default those that every run needs.
     """
     wanted = set(UNITS.keys() - set(ON_DEMAND) if units is None else units)
-    absent = [] if _loaded or _workers else [name for name in missing() if name in wanted]
+    absent = [] if _workers else [name for name in missing() if name in wanted]
     if len(absent) < 2:
         return
     if announce is not None:
@@ -154,45 +123,22 @@ def _stop() -> None:
         worker.communicate()
 
 
-def _call(name: str, dispatcher: Any) -> Any:
-    """Return the machine code of a unit as a Python callable.
-
-    A dispatcher would work out the types of its arguments at every call, a millisecond for the bundle; here they are
-    always the same, made by lambda_core.solver.drivers.solver_context.
-    """
-    return dispatcher.get_compile_result(UNITS[name][1]).entry_point
-
-
-def _pointer(name: str, dispatcher: Any) -> Pointer:
-    """Return the machine code of a unit as an address for other compiled code."""
-    return Pointer(dispatcher, UNITS[name][1])
-
-
-def _load(announce: Callable[[str], None] | None) -> Core:
-    begin(announce)
+def wait() -> None:
+    """Wait for the processes that compile."""
     for worker in _workers:
         worker.wait()
         worker.communicate()
     _workers.clear()
-    built = {name: build(name, announce) for name in UNITS if name not in ON_DEMAND}
-    pointers = ("wrench", "tangent", "evaluate", "jacobian", "advance", "observe")
-    calls = ("evaluate", "jacobian", "advance", "observe", "solve_static", "integrate", "sample")
-    return Core(
-        **{f"{name}_pointer": _pointer(name, built[name]) for name in pointers},
-        **{name: _call(name, built[name]) for name in calls},
-        announce=announce,
-    )
+
+
+def call_and_pointer(name: str, announce: Callable[[str], None] | None = None) -> tuple[Any, Pointer]:
+    """Return the machine code of a unit as a Python callable, and as an address for other compiled code.
+
+    A dispatcher would work out the types of its arguments at every call, a millisecond for the bundle; here they are
+    always the same, made by lambda_core.solver.drivers.solver_context.
+    """
+    dispatcher, signature = build(name, announce), UNITS[name][1]
+    return dispatcher.get_compile_result(signature).entry_point, Pointer(dispatcher, signature)
 
 
 _workers: list[subprocess.Popen[bytes]] = []
-_loaded: list[Core] = []
-
-
-def core(announce: Callable[[str], None] | None = None) -> Core:
-    """Return the compiled core, from disk when it was compiled before.
-
-    `announce` is called with a sentence before anything is compiled.
-    """
-    if not _loaded:
-        _loaded.append(_load(announce))
-    return _loaded[0]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lambda_core.solver.arrays.factors import LANES, filled
 from lambda_core.solver.layout import helper, rows_helper
 
 
@@ -57,14 +58,6 @@ def lu_solve(m, pivots, b):
         b[i] -= inner_product(m[i], b, i)
     for i in range(n - 1, -1, -1):
         b[i] = (b[i] - inner_product(m[i, i + 1 :], b[i + 1 :], n - i - 1)) / m[i, i]
-
-
-LANES = 8  # numbers that a processor works on at once, at most
-
-
-def filled(n: int) -> int:
-    """Return the length of a row of n numbers that is filled up with zeros, so that none is left over."""
-    return -(-n // LANES) * LANES
 
 
 filled_up = helper(filled)

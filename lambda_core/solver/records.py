@@ -315,3 +315,18 @@ SCRATCH = record(
     ("surface", f8, (3,)),  # height of a raceway and its slopes
     ("fault", FAULT),  # survives the call
 )
+
+# Contact channels, in this order along the last axis of `contacts`.
+CONTACT_CHANNELS: tuple[str, ...] = CONTACT_SAMPLE.names or ()
+# How far the continuation has come.
+STATIC_REPORT = np.dtype(
+    [
+        ("iterations", np.float64),
+        ("last_change", np.float64),  # norm of the last Newton step, over the states' scales [-]
+        ("pseudo_step", np.float64),  # of pseudo-time [s]
+        ("orbit", np.float64),  # mean orbital speed of the balls that grip the rings [rad/s]
+        ("speed", np.float64),  # largest orbital velocity of a ball at the start [m/s]
+        ("spin", np.float64),  # largest component of a ball's spin at the start [rad/s]
+    ],
+    align=True,
+)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from lambda_core.solver.arrays.bundle import MECHANISMS, NB
 from lambda_core.solver.cage.guides import guide_force, land_state, pocket_apply, pocket_state
 from lambda_core.solver.contact.contact_capacitance import bulk_permittivity, contact_capacitance, gap_capacitance
 from lambda_core.solver.contact.contact_kinematics import axis_x, contact_angle, contact_kinematics, near, surface_lift
@@ -11,8 +12,6 @@ from lambda_core.solver.contact.contact_states import hand_states
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.integrator.memory import evaluate_t
 from lambda_core.solver.layout import (
-    MECHANISMS,
-    NB,
     array1,
     array2,
     array3,
@@ -34,8 +33,6 @@ from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.records import BALL, CONTACT_SAMPLE, TOTALS
 from lambda_core.solver.vec import clear, combine_onto, dot, store
 
-# Contact channels, in this order along the last axis of `contacts`.
-CONTACT_CHANNELS: tuple[str, ...] = CONTACT_SAMPLE.names or ()
 _TOTALS = len(TOTALS.names or ())
 observe_sig = i8(array1, array2, bundle_t, evaluate_t, f8, array4, array3, array3, array2, array2, array2, array1)
 

@@ -19,7 +19,7 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.domain.loading import CARRYING
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.records import CONTACT_CHANNELS
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.resolve_geometry import with_clearance
 from lambda_core.thermal.conductances import effusivity, resting_contact, rolling_contact

@@ -46,7 +46,7 @@ def friction(model: BearingModel) -> Numbers:
     """Friction torque of the quasi-static solution, averaged over the positions of the balls [N mm]; no cage."""
     from lambda_core.batch.job import kernels_of, with_temperatures
     from lambda_core.solver.drivers.equilibrium import solve
-    from lambda_core.solver.sampling import CONTACT_CHANNELS
+    from lambda_core.solver.records import CONTACT_CHANNELS
 
     model = with_temperatures(model)
     kernels, total = kernels_of(model), dict.fromkeys((*MECHANISMS, "torque", "max_load_N"), 0.0)
@@ -132,7 +132,7 @@ def capacitance(model: BearingModel) -> Numbers:
     from lambda_core.discovery.manager import registry
     from lambda_core.run.compare_methods import comparison_inputs
     from lambda_core.solver.drivers.equilibrium import solve
-    from lambda_core.solver.sampling import CONTACT_CHANNELS
+    from lambda_core.solver.records import CONTACT_CHANNELS
 
     found = solve(model, kernels_of(model))
     channels = {name: found.contacts[:, :, i] for i, name in enumerate(CONTACT_CHANNELS)}

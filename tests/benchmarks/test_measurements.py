@@ -15,10 +15,10 @@ from benchmarks.cases import BALLS, MIDDLE, with_balls, without_samples
 from benchmarks.handle import Handle
 from benchmarks.integrators import Problem, cvode
 from benchmarks.passage import Horizon, passage
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.solver.entry import core
 
 
 @cache

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from types import SimpleNamespace
 
 import pytest
 from lambda_cli.main import main
@@ -32,8 +33,8 @@ def test_what_is_compiled_is_announced(
     """In an empty cache every law is compiled; the solver is left out here, it would take too long."""
     monkeypatch.setenv("LAMBDA_BEARING_CACHE", str(tmp_path))
     monkeypatch.setattr("lambda_core.run.warmup.begin", lambda announce, units: None)
-    monkeypatch.setattr("lambda_core.run.warmup.build", lambda name, announce: None)
-    monkeypatch.setattr("lambda_core.run.warmup.core", lambda announce: None)
+    solver = SimpleNamespace(find=lambda name: None)
+    monkeypatch.setattr("lambda_core.run.warmup.core", lambda announce: solver)
     monkeypatch.setattr("lambda_core.run.warmup.missing", list)
     wanted = ("damping", "asperity_load")
     monkeypatch.setattr("lambda_core.run.warmup.ROLES", {role: ROLES[role] for role in wanted})

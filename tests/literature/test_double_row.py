@@ -14,7 +14,7 @@ from lambda_core.domain.hertz import ball_raceway_radii, stiffness_constant
 from lambda_core.domain.ratings import dynamic_rating, static_rating
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.stiffness import stiffness_matrix
-from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.records import CONTACT_CHANNELS
 
 from .statics import STEEL
 

@@ -22,7 +22,7 @@ from lambda_core.domain.life import ball_capacities, dynamic_equivalent_load, re
 from lambda_core.domain.life import static_equivalent_load as static_load
 from lambda_core.domain.ratings import dynamic_rating, static_rating
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.records import CONTACT_CHANNELS
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.raceways import raceways
 from lambda_core.system.resolve_shoulders import FOUR_POINT_SHOULDERS

@@ -17,9 +17,9 @@ from scipy.optimize import root
 
 from lambda_core import api
 from lambda_core.domain.hertz import ball_raceway_radii, stiffness_constant
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.equilibrium import solve
-from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.records import CONTACT_CHANNELS
 
 from .published import Published
 from .reference import raceway_motion

@@ -11,7 +11,7 @@ from lambda_core import api
 from lambda_core.domain.kinematics import cage_speed
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.records import CONTACT_CHANNELS
 
 from .published import Published
 

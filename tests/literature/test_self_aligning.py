@@ -28,7 +28,7 @@ from lambda_core.domain.ratings import static_rating as rated
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.drivers.stiffness import stiffness_matrix
-from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.records import CONTACT_CHANNELS
 from lambda_core.system.bearing import Geometry
 
 from .statics import STEEL

@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays import integrator_memory as M
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers.compiled_laws import Kernels, derive_oils
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.modes import dense
 from lambda_core.solver.drivers.observation import observe
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.tables import running
-from lambda_core.solver.entry import core
-from lambda_core.solver.integrator import memory as M
 from lambda_core.solver.integrator.tableau import STAGES
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from lambda_core import api
+from lambda_core.solver.arrays import integrator_memory as M
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.integrator import balance
-from lambda_core.solver.integrator import memory as M
 
 RIM = "6319-cp10-1500"
 

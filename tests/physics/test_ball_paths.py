@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.ball_paths import path_velocities
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import solve

@@ -10,9 +10,9 @@ import pytest
 
 from benchmarks.shaft import SHAFT, on_a_shaft, together
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers.solver_context import SolverContext
-from lambda_core.solver.entry import core
 
 from .support import Machine, dense, integrate, integrate_tables
 from .test_power import MODELS, machine, random_state

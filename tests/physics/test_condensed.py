@@ -10,8 +10,9 @@ import sys
 PLAIN = """
 import numpy as np
 
-from lambda_core.solver.integrator.condensed import condense, make_condensed, solve_condensed
-from lambda_core.solver.integrator.reach import Reach
+from lambda_core.solver.integrator.condensed import condense, solve_condensed
+from lambda_core.solver.arrays.factors import make_condensed
+from lambda_core.solver.arrays.own_bodies import Reach
 
 NONE, TABLE = np.zeros(0, dtype=np.int64), np.zeros((0, 0), dtype=np.int64)
 

@@ -16,10 +16,10 @@ from lambda_core.domain import handed_laws
 from lambda_core.domain.errors import CaseError
 from lambda_core.domain.plugin_errors import PluginError
 from lambda_core.plugins import OK, Parameters, State, law, parameter
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.first_state import first_state
-from lambda_core.solver.entry import core
 
 NAME = "6208-axial-1300"
 TURN = 3.0  # turns of the spiral over its decay

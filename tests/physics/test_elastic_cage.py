@@ -11,7 +11,7 @@ from scipy.optimize import fsolve
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.dynamics import BearingEngine
 
 from .ring_of_beams import waves_of_beams

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.dynamics import BearingEngine
 
 from .support import integrate, machine

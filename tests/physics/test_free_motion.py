@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
 
 from .support import (
     ALL_FREE,

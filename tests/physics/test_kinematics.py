@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lambda_core.domain.hertz import ball_raceway_radii
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.contact_grid import unit_grid
 
 from .support import (

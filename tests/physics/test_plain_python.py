@@ -20,7 +20,8 @@ import numpy as np
 from lambda_core import api
 from lambda_core.laws.par import flat_kernel
 from lambda_core.solver.motion import forces
-from lambda_core.solver import layout as L, records as R
+from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.contact import raceway
 
 given = np.load(sys.argv[1])

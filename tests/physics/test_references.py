@@ -11,21 +11,24 @@ import pytest
 from numba import njit, types
 
 from lambda_core.laws.jit.portable import words_of as words_of_abi
-from lambda_core.laws.jit.references import by_reference, reference_t, words_of
+from lambda_core.laws.jit.references import reference_t
+from lambda_core.laws.jit.words import by_reference, words_of
 from lambda_core.solver import layout as L
+from lambda_core.solver.arrays.bundle import ARRAY1, ARRAY3, INTEGERS, Bundle
+from lambda_core.solver.arrays.integrator_memory import Handle, Memory
 from lambda_core.solver.integrator import handle, memory
 
 from .test_power import MODELS, machine
 
 
-@by_reference
+@by_reference(INTEGERS)
 class Inner(NamedTuple):
     """A tuple within a tuple."""
 
     counts: Any
 
 
-@by_reference
+@by_reference(ARRAY1, inner=Inner, cube=ARRAY3)
 class Outer(NamedTuple):
     """Arrays of one and more dimensions, and a tuple."""
 
@@ -34,7 +37,7 @@ class Outer(NamedTuple):
     cube: Any
 
 
-@by_reference
+@by_reference(ARRAY1, inner=Inner, cube=ARRAY3)
 class Other(NamedTuple):
     """Another tuple with the same fields."""
 
@@ -43,12 +46,7 @@ class Other(NamedTuple):
     cube: Any
 
 
-FIELDS = {
-    "cube": types.float64[:, :, ::1],
-    "line": types.float64[::1],
-    "inner": reference_t(Inner, {"counts": L.iarray1}),
-}
-outer_t, other_t = reference_t(Outer, FIELDS), reference_t(Other, FIELDS)
+outer_t, other_t = reference_t(Outer), reference_t(Other)
 
 
 @njit(types.float64(outer_t))
@@ -118,11 +116,15 @@ def test_another_tuple_is_refused() -> None:
             entry(wrong)
 
 
-@pytest.mark.parametrize("kind", [L.bundle_t, handle.handle_t, memory.memory_t], ids=str)
-def test_words_are_laid_out_as_numba_lays_out_values(kind: Any) -> None:
+@pytest.mark.parametrize(
+    ("named", "kind"),
+    [(Bundle, L.bundle_t), (Handle, handle.handle_t), (Memory, memory.memory_t)],
+    ids=["bundle", "handle", "memory"],
+)
+def test_words_are_laid_out_as_numba_lays_out_values(named: Any, kind: Any) -> None:
     """Arrays and functions of an image are loaded as Numba's values; a field takes as many words."""
     for field, of_field in kind.fields.items():
-        assert words_of(of_field) == words_of_abi(of_field), field
+        assert words_of(named.KINDS[field]) == words_of_abi(of_field), field
 
 
 def test_the_bundle_of_a_model_is_taken() -> None:

@@ -9,7 +9,7 @@ import pytest
 from lambda_core import api
 from lambda_core.domain.channels import SHORTED
 from lambda_core.solver.drivers.equilibrium import solve
-from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.records import CONTACT_CHANNELS
 
 CAPACITANCE, LAMBDA = (CONTACT_CHANNELS.index(name) for name in ("capacitance", "film_parameter"))
 

@@ -9,11 +9,11 @@ import pytest
 
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers.equilibrium import Equilibrium, continue_static, solve
 from lambda_core.solver.drivers.solver_context import assemble
 from lambda_core.solver.drivers.stiffness import stiffness_matrix
-from lambda_core.solver.entry import core
 from lambda_core.system.bearing import DofState, TimeFunction
 
 NAMES = ("x", "y", "z", "tilt_y", "tilt_z")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
 
 from .support import (
     ALL_FREE,

@@ -11,7 +11,7 @@ import pytest
 from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
 
 from lambda_core import api
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
 
 from .support import CASE, FloatArray, Machine, machine, time_function
 

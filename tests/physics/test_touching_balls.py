@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.jacobian_blocks import AFTER, BEFORE
 from lambda_core.solver.drivers.modes import dense
-from lambda_core.solver.integrator.chain import AFTER, BEFORE
 
 from .support import FloatArray, Machine, jostle, machine, rolling
 from .test_jacobian import differences, scaled
@@ -53,9 +53,10 @@ def test_slopes_of_touching_balls_are_those_of_differences(pairs: tuple[int, ...
 PLAIN = """
 import sys
 import numpy as np
-from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve, make_factors
-from lambda_core.solver.integrator.blocks import Blocks
-from lambda_core.solver.integrator.reach import Reach
+from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve
+from lambda_core.solver.arrays.factors import make_factors
+from lambda_core.solver.arrays.jacobian_blocks import Blocks
+from lambda_core.solver.arrays.own_bodies import Reach
 
 given = np.load(sys.argv[1])
 reach = Reach(*(given[f"reach.{name}"] for name in Reach._fields))

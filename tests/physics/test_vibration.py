@@ -11,10 +11,10 @@ from scipy.optimize import least_squares
 
 from lambda_core import api
 from lambda_core.results.followed import added
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import continue_static, first_state
-from lambda_core.solver.entry import core
 from lambda_core.solver.integrator.tableau import EMBEDDED, LOSS, NODES, WEIGHTS, A
 
 from .support import FloatArray, Machine, Motion, integrate, machine

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from lambda_core.solver.entry import core
+from lambda_core.solver.core import core
 
 if TYPE_CHECKING:
     from warm import Warm

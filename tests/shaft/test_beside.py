@@ -21,8 +21,8 @@ from lambda_core.shaft.structure import static_rows, stretch
 from lambda_core.shaft.vibration import criticals, damped, masses, modes_at, supported
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.shaft.whole_tables import LUMP_STATES, beside_bodies
-from lambda_core.solver import layout as L
-from lambda_core.solver.entry import core
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
 
 KERNELS = SharedKernels()
 MOUNT = {"x": "20 N/um", "y": "30 N/um", "z": "40 N/um", "damping_y": "2000 N s/m", "damping_z": "2000 N s/m"}

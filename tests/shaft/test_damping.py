@@ -12,13 +12,13 @@ from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.shaft.vibration import bearing_damping, damped, housed_damping, modes_at, supported
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers.damping import damping_matrix
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.modes import dense
 from lambda_core.solver.drivers.stiffness import freed, stiffness_at
-from lambda_core.solver.entry import core
 
 Solved = tuple[ShaftModel, ShaftState, list[Equilibrium]]
 

@@ -17,12 +17,12 @@ from lambda_core.results.quasistatic import QuasiStatic
 from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import solve_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers.damping import damping_matrix
 from lambda_core.solver.drivers.dynamics import BearingEngine, initial_state
 from lambda_core.solver.drivers.modes import dense
 from lambda_core.solver.drivers.stiffness import freed, stiffness_at
-from lambda_core.solver.entry import core
 
 SOFT = {"housing_stiffness": "100 N/um", "orders": 4}
 CAGE = {"orders": 3, "section_height": "3 mm", "section_width": "8 mm"}

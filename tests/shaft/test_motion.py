@@ -25,9 +25,9 @@ from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.shaft.whole_file import WholeFile
 from lambda_core.shaft.whole_tables import LUMP_STATES, SIGNS, STATES, lump_bodies
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
-from lambda_core.solver.entry import core
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
 
 STIFF = (5e7, 1e8, 1e8, 1e3, 1e3)  # of a bearing [N/m, N m/rad]
 

@@ -8,10 +8,10 @@ import pytest
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
-from lambda_core.solver.entry import core
-from lambda_core.solver.integrator.handle import Handle
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.integrator_memory import Handle
+from lambda_core.solver.core import core
 from lambda_core.solver.motion.bearing_sums import AGAIN
 
 from .test_motion import tables

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from lambda_core import api
-from lambda_core.solver.entry import core
+from lambda_core.solver.core import core
 
 CASE = "6208-axial-700"
 DURATION = 0.8  # [s]

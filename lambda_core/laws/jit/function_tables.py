@@ -8,21 +8,14 @@ raceways and cages.
 # mypy: disable-error-code="no-untyped-call,no-untyped-def,untyped-decorator"
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
-import numpy as np
 from llvmlite import ir  # type: ignore[import-untyped]
 from numba.core import cgutils, types
 from numba.extending import lower_builtin, type_callable
-from numpy.typing import NDArray
 
 TABLE = types.Array(types.int64, 2, "C")
-
-
-def addresses(rows: Sequence[Sequence[Any]]) -> NDArray[np.int64]:
-    """Return the table of a row of pointers (machine_code.Pointer) each; it does not keep their code alive."""
-    return np.array([[pointer.__wrapper_address__() for pointer in row] for row in rows], dtype=np.int64)
 
 
 def reader(kind: Any) -> Callable[[Any, int], Any]:

@@ -98,7 +98,7 @@ def environment_key() -> str:
     words += _way().processor()
     words += [str(config.OPT), config.BOUNDSCHECK, config.DEBUGINFO_DEFAULT]
     words += [OPTIONS["error_model"], sorted(OPTIONS["fastmath"]), is_plain()]
-    words += [Path(__file__).with_name(f"{name}.py").read_bytes() for name in ("inside_callers", "references")]
+    words += [Path(__file__).with_name(f"{name}.py").read_bytes() for name in ("inside_callers", "references", "words")]
     return hashlib.sha256(repr(words).encode()).hexdigest()[:16]
 
 

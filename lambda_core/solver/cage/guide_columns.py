@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lambda_core.solver.arrays.bundle import NB, NS, SVY, SVZ, SY, SZ
 from lambda_core.solver.cage.cage_waves import guide_pushes
 from lambda_core.solver.cage.guides import (
     first_arm,
@@ -14,7 +15,7 @@ from lambda_core.solver.cage.guides import (
     pocket_state,
 )
 from lambda_core.solver.contact.ring_waves import add_push_slope
-from lambda_core.solver.layout import NB, NS, SVY, SVZ, SY, SZ, guide_law, helper, part
+from lambda_core.solver.layout import guide_law, helper, part
 from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
 from lambda_core.solver.records import BALL, BODY_STATE
 from lambda_core.solver.vec import clear, clear_each

@@ -6,9 +6,10 @@ import math
 
 import numpy as np
 
+from lambda_core.solver.arrays.fault_roles import CAGE_CONTACT
 from lambda_core.solver.cage.cage_waves import carry_land, carry_pocket
 from lambda_core.solver.contact.contact_kinematics import axis_x
-from lambda_core.solver.faults import CAGE_CONTACT, report
+from lambda_core.solver.faults import report
 from lambda_core.solver.layout import helper
 from lambda_core.solver.vec import (
     add,

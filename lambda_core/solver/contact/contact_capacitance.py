@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from lambda_core.solver.faults import CAPACITANCE, PERMITTIVITY, report
+from lambda_core.solver.arrays.fault_roles import CAPACITANCE, PERMITTIVITY
+from lambda_core.solver.faults import report
 from lambda_core.solver.layout import cells_of, grid_of, helper, part
 
 VACUUM_PERMITTIVITY = 8.8541878128e-12  # [F/m], CODATA 2018

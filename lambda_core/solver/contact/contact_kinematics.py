@@ -10,8 +10,9 @@ import math
 
 import numpy as np
 
+from lambda_core.solver.arrays.fault_roles import SURFACE
 from lambda_core.solver.contact.ring_waves import widen
-from lambda_core.solver.faults import SURFACE, report
+from lambda_core.solver.faults import report
 from lambda_core.solver.layout import helper, part, raceway_laws
 from lambda_core.solver.vec import (
     add,

@@ -10,7 +10,8 @@ import math
 
 import numpy as np
 
-from lambda_core.solver.faults import CONTACT_STATE, report
+from lambda_core.solver.arrays.fault_roles import CONTACT_STATE
+from lambda_core.solver.faults import report
 from lambda_core.solver.layout import helper, part, raceway_laws
 
 

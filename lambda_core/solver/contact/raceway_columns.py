@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from lambda_core.solver.arrays.bundle import NB, NS, STHETA, SVY, SVZ, SY, SZ
 from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, near, surface_lift
 from lambda_core.solver.contact.contact_states import hand_states
 from lambda_core.solver.contact.ring_waves import add_push_slope, wave_pushes
 from lambda_core.solver.contact.tangent import wrench_at
-from lambda_core.solver.layout import NB, NS, STHETA, SVY, SVZ, SY, SZ, helper, raceway_laws
+from lambda_core.solver.layout import helper, raceway_laws
 from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
 from lambda_core.solver.records import BALL, BODY_STATE
 from lambda_core.solver.vec import clear

@@ -13,7 +13,8 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.solver.layout import NS, SSIGMA, SVY, SVZ, helper
+from lambda_core.solver.arrays.bundle import NS, SSIGMA, SVY, SVZ
+from lambda_core.solver.layout import helper
 
 
 @helper

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from lambda_core.solver.faults import (
+from lambda_core.solver.arrays.fault_roles import (
     ASPERITY_LOAD,
     DAMPING,
     ELASTIC_HYSTERESIS,
@@ -16,8 +16,8 @@ from lambda_core.solver.faults import (
     ROLLING_RESISTANCE,
     SUPPLY,
     THERMAL_CORRECTION,
-    report,
 )
+from lambda_core.solver.faults import report
 from lambda_core.solver.layout import helper, part, vector_helper
 
 

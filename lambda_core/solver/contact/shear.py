@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
+from lambda_core.solver.arrays.fault_roles import BOUNDARY_FRICTION, CONTACT_TEMPERATURE, OUTSIDE, RHEOLOGY, TRACTION
 from lambda_core.solver.contact.scalar_stages import finite
-from lambda_core.solver.faults import BOUNDARY_FRICTION, CONTACT_TEMPERATURE, OUTSIDE, RHEOLOGY, TRACTION, report
+from lambda_core.solver.faults import report
 from lambda_core.solver.layout import helper, part, rows_helper, vector_helper
 from lambda_core.solver.vec import inverse_root
 

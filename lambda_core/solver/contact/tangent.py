@@ -7,11 +7,12 @@ plugin needs no derivative of its own.
 
 from __future__ import annotations
 
+from lambda_core.solver.arrays.bundle import KINEMATIC_ROWS
 from lambda_core.solver.contact.raceway import pipeline
 from lambda_core.solver.contact.resultant import rolling_speeds, sum_wrench
 from lambda_core.solver.contact.scalar_stages import damping_force, film_stage
 from lambda_core.solver.contact.shear import CELL_VARIANCE, shear_stage
-from lambda_core.solver.layout import KINEMATIC_ROWS, cells_of, grid_of, helper, vector_helper
+from lambda_core.solver.layout import cells_of, grid_of, helper, vector_helper
 from lambda_core.solver.vec import clear, store
 
 _RELATIVE = 1e-5  # relative step of the small differences; the laws are smooth at this scale

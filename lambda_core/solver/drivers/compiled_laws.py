@@ -11,12 +11,12 @@ import numpy as np
 
 from lambda_core.domain.errors import SolverError
 from lambda_core.laws.context import Oil
-from lambda_core.laws.jit.function_tables import addresses
+from lambda_core.laws.jit.words import addresses
 from lambda_core.laws.kernels import compile_kernel
 from lambda_core.laws.tried import Choice, try_out
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import begin
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of, times
-from lambda_core.solver.entry import begin
 from lambda_core.solver.records import RACEWAY_ROLES
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame, build_context, prepare

@@ -16,11 +16,9 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError
-from lambda_core.laws.kernels import compile_host
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
-from lambda_core.solver.code_files import compiled_sources
-from lambda_core.solver.contact import cell_probe as probe
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers.contact_grid import cell_blocks, unit_grid
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.solver_context import SolverContext
@@ -125,15 +123,13 @@ def contact_field(
     losses = np.zeros(L.MECHANISMS * bundle.raceways.size)
     scratch[0].fault.role = -1
     finer = bundle._replace(grid=grid, cells=cells, scratch=scratch)
-    probed = compile_host(probe.probe, probe.probe_sig, compiled_sources()).dispatcher
-    run = probed.get_compile_result(probe.probe_sig).entry_point  # a dispatcher would work out types, and warn
-    status = run(ball.view(R.BALL), body.view(R.BODY_STATE), place, finer, losses)
+    status = core().probe(ball.view(R.BALL), body.view(R.BODY_STATE), place, finer, losses)
     if status == -1:
         raise SolverError(f"the ball does not touch the {RINGS[groove.ring]} ring at this moment")
     if status != 1:
         bundle.scratch["fault"] = scratch["fault"]
         raise SolverError(fault_sentence(context))
-    contact, its = scratch[0].contact[0], L.cells_of.py_func(cells[0])  # type: ignore[no-untyped-call]
+    contact, its = scratch[0].contact[0], L.named_cells(cells[0])
     places, a, b = L.Grid(*grid), float(contact.semi_axis_a), float(contact.semi_axis_b)
 
     def mesh(values: FloatArray) -> FloatArray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.solver.layout import CELL_ROWS, GUARD, Grid
+from lambda_core.solver.arrays.bundle import CELL_ROWS, GUARD, Grid
 
 _VECTOR = 16  # cells that vectorised loops take at once
 _LINE = 8  # numbers in a line of the processor's cache

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import CAGE, INNER
 from lambda_core.domain.errors import SolverError
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
-from lambda_core.solver.entry import core
 from lambda_core.system.bearing import DofState
 
 DIRECTIONS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")

@@ -12,8 +12,10 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, SHORTED
 from lambda_core.domain.elements import CAGE
 from lambda_core.domain.errors import SolverError
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.integrator_memory import Memory, make_memory
+from lambda_core.solver.core import Core, core
 from lambda_core.solver.drivers.compiled_laws import Announce
 from lambda_core.solver.drivers.engine import (
     FIRST_STEP,
@@ -31,10 +33,8 @@ from lambda_core.solver.drivers.ring_values import losses_by_ring
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import running
-from lambda_core.solver.entry import Core, core
-from lambda_core.solver.integrator import memory
 from lambda_core.solver.integrator.tableau import STAGES
-from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.records import CONTACT_CHANNELS
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.state_channels import result_channels
 
@@ -99,7 +99,7 @@ class BearingEngine:
         self.given = make_room(self._context, given)
         self._balls = model.geometry.balls
         start = initial_state(self._equilibrium)
-        self._memory = memory.make_memory(
+        self._memory = make_memory(
             start,
             self._context.scale,
             model.solver.tolerance,
@@ -130,7 +130,7 @@ class BearingEngine:
         """Newton iterations since the start."""
         return int(self._memory.count["newton_iterations"][0])
 
-    def parts(self) -> tuple[Core, SolverContext, memory.Memory, Scratch]:
+    def parts(self) -> tuple[Core, SolverContext, Memory, Scratch]:
         """Return what takes steps and looks at states, for code that is to do so elsewhere."""
         return self._core, self._context, self._memory, self._scratch
 

@@ -16,7 +16,9 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import INNER, OUTER
 from lambda_core.domain.errors import EquilibriumError, SolverError
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.fault_roles import OUTSIDE, ROLES
+from lambda_core.solver.core import Core, core
 from lambda_core.solver.drivers.ball_paths import follow_paths
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
 from lambda_core.solver.drivers.first_state import first_frame, first_state, roll
@@ -24,10 +26,7 @@ from lambda_core.solver.drivers.law_inputs import guides, links, times
 from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring, rings_of_contacts
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.warmer_oil import StaticReport, from_warmer_oil
-from lambda_core.solver.entry import Core, core
-from lambda_core.solver.faults import OUTSIDE, ROLES
-from lambda_core.solver.sampling import CONTACT_CHANNELS
-from lambda_core.solver.statics.continuation import STATIC_REPORT
+from lambda_core.solver.records import CONTACT_CHANNELS, STATIC_REPORT
 from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel, Geometry
 from lambda_core.system.law_context import ContactFrame

@@ -11,10 +11,10 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import DOFS, INNER, OUTER
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.solver_context import SolverContext
-from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.records import CONTACT_CHANNELS
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame
 from lambda_core.system.raceways import row_places

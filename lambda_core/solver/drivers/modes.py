@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.solver import layout as L
-from lambda_core.solver.integrator.blocks import Blocks
-from lambda_core.solver.integrator.chain import AFTER, BEFORE
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.jacobian_blocks import AFTER, BEFORE, Blocks
 
 _RING = 0.5  # share of a mode's kinetic energy in the rings, from which on it is one of theirs
 _SLOWEST = 20.0  # [Hz]

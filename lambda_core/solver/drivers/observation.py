@@ -10,16 +10,16 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import BODIES
 from lambda_core.domain.errors import SolverError
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import Core
 from lambda_core.solver.drivers.contact_memory import channels_of_states
 from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.drivers.wave_tables import wave_values
-from lambda_core.solver.entry import Core
-from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.records import CONTACT_CHANNELS
 from lambda_core.system.state_channels import arc_channels
 
 

@@ -16,11 +16,12 @@ from numba import njit, types
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.laws.jit.unstable import NumbaExperimentalFeatureWarning
-from lambda_core.solver import layout as L
+from lambda_core.solver import layout as T
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.integrator_memory import make_memory
+from lambda_core.solver.arrays.jacobian_blocks import AFTER, BEFORE
 from lambda_core.solver.drivers.solver_context import SolverContext
-from lambda_core.solver.integrator.chain import AFTER, BEFORE
 from lambda_core.solver.integrator.handle import handle_t
-from lambda_core.solver.integrator.memory import make_memory
 from lambda_core.solver.integrator.state_blocks import dense_slopes
 
 _frozen1 = types.Array(types.float64, 1, "C", readonly=True)
@@ -89,12 +90,12 @@ def _rates(times, states, out, handle):
     return 1
 
 
-_f8, _i8, _a1 = types.float64, types.int64, L.array1
+_f8, _i8, _a1 = types.float64, types.int64, T.array1
 _SIGNATURES: dict[Any, Any] = {
     _slope: _i8(_f8, _frozen1, _a1, handle_t),
     _slope_and_rates: _i8(_f8, _frozen1, _a1, handle_t),
-    _dense: _i8(_f8, _frozen1, L.array2, handle_t),
-    _rates: _i8(_a1, L.array2, L.array2, handle_t),
+    _dense: _i8(_f8, _frozen1, T.array2, handle_t),
+    _rates: _i8(_a1, T.array2, T.array2, handle_t),
 }
 
 

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import LOSSES, RINGS
-from lambda_core.solver import layout as L
-from lambda_core.solver.sampling import CONTACT_CHANNELS
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.records import CONTACT_CHANNELS
 from lambda_core.system.bearing import Geometry
 from lambda_core.system.raceways import raceways, raceways_of_a_ball
 

@@ -11,8 +11,12 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES
 from lambda_core.laws.context import Oil
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays.factors import make_factors
+from lambda_core.solver.arrays.integrator_memory import Handle, Memory
+from lambda_core.solver.arrays.jacobian_blocks import make_blocks
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.contact_grid import cell_blocks, unit_grid
 from lambda_core.solver.drivers.contact_memory import state_arrays, state_tail
@@ -20,11 +24,6 @@ from lambda_core.solver.drivers.law_inputs import Oils
 from lambda_core.solver.drivers.tables import build_tables
 from lambda_core.solver.drivers.time_tables import build_times
 from lambda_core.solver.drivers.wave_tables import waves_of
-from lambda_core.solver.entry import core
-from lambda_core.solver.integrator.arrow import make_factors
-from lambda_core.solver.integrator.blocks import make_blocks
-from lambda_core.solver.integrator.handle import Handle
-from lambda_core.solver.integrator.memory import Memory
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame
 from lambda_core.system.raceways import raceways

@@ -9,10 +9,10 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
-from lambda_core.solver import layout as L
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
-from lambda_core.solver.entry import core
 from lambda_core.system.bearing import DofState
 
 _FREED = ("x", "y", "z", "tilt_y", "tilt_z")

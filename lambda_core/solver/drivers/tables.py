@@ -14,8 +14,8 @@ from lambda_core.domain.hertz import ball_raceway_radii
 from lambda_core.laws.context import Oil
 from lambda_core.laws.par import number_in
 from lambda_core.laws.state import names_behind
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of, times
 from lambda_core.solver.drivers.wave_tables import give_waves, wave_bodies, wave_rows
 from lambda_core.system.bearing import BearingModel

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import DOFS
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.law_inputs import times
 from lambda_core.solver.drivers.wave_tables import wave_states, weightless
 from lambda_core.system.bearing import BearingModel, LawTerm, TableTerm, TimeFunction

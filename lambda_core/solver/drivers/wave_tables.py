@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, BodyName
 from lambda_core.elastic.ring import RingWaves, ovality
-from lambda_core.solver import layout as L
 from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
 from lambda_core.system.bearing import BearingModel
 
 _AMPLITUDES = (L.SY, L.SZ)

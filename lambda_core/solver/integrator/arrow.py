@@ -14,11 +14,9 @@ Balls that touch each other are coupled beside the arrow (:mod:`.chain`).
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
-
-import numpy as np
-
-from lambda_core.laws.jit.references import by_reference, reference_t
+from lambda_core.laws.jit.references import reference_t
+from lambda_core.solver.arrays.bundle import NB
+from lambda_core.solver.arrays.factors import Factors
 from lambda_core.solver.integrator.chain import (
     find_chains,
     take_from_block,
@@ -27,70 +25,18 @@ from lambda_core.solver.integrator.chain import (
     take_part,
     write_ahead,
 )
-from lambda_core.solver.integrator.condensed import condense, condensed_t, make_condensed, solve_condensed
-from lambda_core.solver.integrator.reach import Reach, is_split
+from lambda_core.solver.integrator.condensed import condense, solve_condensed
+from lambda_core.solver.integrator.reach import is_split
 from lambda_core.solver.integrator.sweeps import add_columns, add_row, spread, take_columns, take_rows, write_multiple
-from lambda_core.solver.layout import NB, array1, array2, array3, helper, iarray1, large_helper
-from lambda_core.solver.lu import filled, filled_up, lu_factor, lu_solve
+from lambda_core.solver.layout import helper, large_helper
+from lambda_core.solver.lu import filled_up, lu_factor, lu_solve
 
 # Relative change of g beyond which what a step divides by it is factored anew; not a tie with one growth of the step.
 REFACTOR = 0.41
 _ALIKE = 0.05  # likewise, up to which single balls of a row are factored for the g of the others
 
 
-@by_reference
-class Factors(NamedTuple):
-    """Inverses of the ball blocks and LU factors of the Schur complement."""
-
-    inverse: Any  # (Z, 9, 9): (A_j^-1)^T
-    pivots: Any  # int64 (9,)
-    x: Any  # (9, filled): A_j^-1 B_j of the ball in hand
-    across: Any  # (Z, widest, 9): (A_j^-1 B_j)^T
-    c: Any  # (Z, 9, filled): C_j^T, scaled
-    schur: Any  # (n, filled)
-    schur_pivots: Any  # int64 (n,)
-    condensed: Any  # Condensed: the same where there are several bearings
-    own: Any  # (rows, widest, filled): what each row of balls has of the Schur complement
-    gamma: Any  # (rows,): g that each row is factored for
-    tail: Any  # (filled,): of the shared part of a right-hand side
-    part: Any  # (9,): one ball's part of a solution, or what rows are multiplied by
-    begin: Any  # int64 (rows,): ball of each row that is eliminated first
-    joined: Any  # int64 (Z or 0,): whether a ball's coupling with the next one is eliminated
-    behind: Any  # (Z or 0, 9, 9): X_j,j-1, scaled
-    ahead: Any  # (Z or 0, 9, 9): A_j^-1 X_j,j+1
-
-
-_TYPES = (
-    dict.fromkeys(("inverse", "across", "c", "own", "behind", "ahead"), array3)
-    | dict.fromkeys(("x", "schur"), array2)
-    | dict.fromkeys(("pivots", "schur_pivots", "begin", "joined"), iarray1)
-    | {"condensed": condensed_t}
-)
-factors_t = reference_t(Factors, dict.fromkeys(Factors._fields, array1) | _TYPES)
-
-
-def make_factors(reach: Reach, n: int, coupled: int) -> Factors:
-    """Allocate for the rows of balls that `reach` describes, n shared states and `coupled` balls that may touch."""
-    balls, widest = int(reach.first[-1]), reach.columns.shape[1]
-    row = filled(widest)
-    return Factors(
-        np.zeros((balls, NB, NB)),
-        np.zeros(NB, dtype=np.int64),
-        np.zeros((NB, row)),
-        np.zeros((balls, widest, NB)),
-        np.zeros((balls, NB, row)),
-        np.zeros((n, filled(n))),
-        np.zeros(n, dtype=np.int64),
-        make_condensed(reach.positions.size, reach.speeds.size),
-        np.zeros((reach.width.size, widest, row)),
-        np.ones(reach.width.size),
-        np.zeros(row),
-        np.zeros(NB),
-        reach.first[:-1].copy(),
-        np.zeros(coupled, dtype=np.int64),
-        np.zeros((coupled, NB, NB)),
-        np.zeros((coupled, NB, NB)),
-    )
+factors_t = reference_t(Factors)
 
 
 @helper

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.solver.layout import (
+from lambda_core.solver.arrays.bundle import (
     BESIDE_LOSSES,
     BPSI,
     BVR,
@@ -25,10 +25,8 @@ from lambda_core.solver.layout import (
     SSIGMA,
     SVX,
     SWY,
-    helper,
-    large_helper,
-    running_of,
 )
+from lambda_core.solver.layout import helper, large_helper, running_of
 from lambda_core.solver.records import PRESCRIBED
 
 # Shares of the energy that flows, over the tolerance, which a step may lose.

@@ -13,9 +13,9 @@ left to the iteration.
 
 from __future__ import annotations
 
-from lambda_core.solver.layout import BVT, BVX, NB, helper, rows_helper
-
-BEFORE, AFTER = 0, 1  # places of X_j,j-1 and X_j,j+1 in the blocks of ball j
+from lambda_core.solver.arrays.bundle import BVT, BVX, NB
+from lambda_core.solver.arrays.jacobian_blocks import AFTER, BEFORE
+from lambda_core.solver.layout import helper, rows_helper
 
 
 @rows_helper

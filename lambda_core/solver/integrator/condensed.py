@@ -11,48 +11,8 @@ rows are filled up with zeros (:func:`~lambda_core.solver.lu.filled`).
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
-
-import numpy as np
-
-from lambda_core.laws.jit.references import by_reference, reference_t
-from lambda_core.solver.layout import array1, array2, helper, iarray1
-from lambda_core.solver.lu import factor_turned, filled, solve_turned, take_multiple
-
-
-@by_reference
-class Condensed(NamedTuple):
-    """Factors of speeds and positions."""
-
-    upper: Any  # (speeds, filled): of the turned matrix of the speeds
-    lower: Any  # (speeds, filled): multipliers, below a diagonal of ones that is not kept
-    inverse: Any  # (speeds,): of the diagonal of `upper`
-    pivots: Any  # int64 (speeds,)
-    on_speeds: Any  # (positions, filled): what the positions have of the rows of speeds
-    packed: Any  # (filled,): the speeds' part of a right-hand side
-    found: Any  # (filled,): and of its solution
-
-
-condensed_t = reference_t(
-    Condensed,
-    dict.fromkeys(Condensed._fields, array1)
-    | dict.fromkeys(("upper", "lower", "on_speeds"), array2)
-    | {"pivots": iarray1},
-)
-
-
-def make_condensed(positions: int, speeds: int) -> Condensed:
-    """Allocate for so many states that all bearings share."""
-    row = filled(speeds)
-    return Condensed(
-        np.zeros((speeds, row)),
-        np.zeros((speeds, row)),
-        np.zeros(speeds),
-        np.zeros(speeds, dtype=np.int64),
-        np.zeros((positions, row)),
-        np.zeros(row),
-        np.zeros(row),
-    )
+from lambda_core.solver.layout import helper
+from lambda_core.solver.lu import factor_turned, solve_turned, take_multiple
 
 
 @helper

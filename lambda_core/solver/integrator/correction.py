@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 
+from lambda_core.solver.arrays.bundle import NB
 from lambda_core.solver.integrator.arrow import REFACTOR, arrow_factor, arrow_solve
 from lambda_core.solver.integrator.resting import follow
 from lambda_core.solver.integrator.state_blocks import solve_states
-from lambda_core.solver.layout import NB, helper
+from lambda_core.solver.layout import helper
 from lambda_core.solver.motion.bearing_sums import AGAIN
 from lambda_core.solver.status import Status
 

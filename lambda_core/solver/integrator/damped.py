@@ -10,9 +10,10 @@ to no part in the residual keep their Jacobian, as long as it falls.
 
 from __future__ import annotations
 
+from lambda_core.solver.arrays.bundle import BVX, NB, NS, SVX
 from lambda_core.solver.integrator.balance import finalise_step, leak_of_iterate
 from lambda_core.solver.integrator.correction import norm, renew, solve_correction
-from lambda_core.solver.layout import BVX, NB, NS, SVX, helper, large_helper
+from lambda_core.solver.layout import helper, large_helper
 from lambda_core.solver.status import Status
 
 _MAX_ITERATIONS = 20

@@ -2,32 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
-
 from numba import types
 
-from lambda_core.laws.jit.references import by_reference, reference_t
+from lambda_core.laws.jit.references import reference_t
 from lambda_core.solver import sampling as observe
+from lambda_core.solver.arrays.integrator_memory import Handle
 from lambda_core.solver.integrator import memory as memo
-from lambda_core.solver.integrator.arrow import factors_t
-from lambda_core.solver.integrator.blocks import blocks_t
 from lambda_core.solver.integrator.stepping import advance_sig
-from lambda_core.solver.layout import array1, array2, array3, array4, bundle_t, f8, i8
-
-
-@by_reference
-class Handle(NamedTuple):
-    """Everything that an integration takes."""
-
-    evaluate: Any  # pointer to forces.evaluate
-    jacobian: Any  # pointer to jacobian.jacobian
-    advance: Any  # pointer to bdf.advance or esdirk.advance
-    observe: Any  # pointer to sampling.observe
-    bundle: Any  # Bundle
-    blocks: Any  # Blocks
-    factors: Any  # Factors
-    memory: Any  # Memory
-
+from lambda_core.solver.layout import array1, array2, array3, array4, f8, i8
 
 handle_t = reference_t(
     Handle,
@@ -36,10 +18,6 @@ handle_t = reference_t(
         "jacobian": memo.jacobian_t,
         "advance": types.FunctionType(advance_sig),
         "observe": types.FunctionType(observe.observe_sig),
-        "bundle": bundle_t,
-        "blocks": blocks_t,
-        "factors": factors_t,
-        "memory": memo.memory_t,
     },
 )
 integrate_sig = i8(handle_t, f8, i8)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from lambda_core.solver.arrays.bundle import NB
 from lambda_core.solver.integrator.balance import finalise_step, leak_of_iterate
 from lambda_core.solver.integrator.correction import norm, renew, shared_norm, solve_correction
 from lambda_core.solver.integrator.damped import solve_damped
 from lambda_core.solver.integrator.resting import forget_moves, let_rest
-from lambda_core.solver.layout import NB, helper
+from lambda_core.solver.layout import helper
 from lambda_core.solver.motion.bearing_sums import rests
 from lambda_core.solver.status import Status
 

@@ -13,7 +13,8 @@ from __future__ import annotations
 
 import math
 
-from lambda_core.solver.layout import NB, NS, helper
+from lambda_core.solver.arrays.bundle import NB, NS
+from lambda_core.solver.layout import helper
 from lambda_core.solver.lu import inner_product
 from lambda_core.solver.motion.bearing_sums import AGAIN
 

@@ -5,9 +5,10 @@ Beside :mod:`.balance`, which knows what the stages have in common with a step o
 
 from __future__ import annotations
 
+from lambda_core.solver.arrays.bundle import BESIDE_LOSSES, NS, SSIGMA, SVX, SWY
 from lambda_core.solver.integrator.balance import LEAK, SCATTER, allowed, floor_of
 from lambda_core.solver.integrator.tableau import ERROR, LOSS, STAGES, WEIGHTS, A
-from lambda_core.solver.layout import BESIDE_LOSSES, NS, SSIGMA, SVX, SWY, helper, running_of
+from lambda_core.solver.layout import helper, running_of
 from lambda_core.solver.records import PRESCRIBED
 
 

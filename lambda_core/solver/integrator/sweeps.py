@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from lambda_core.solver.layout import NB, ordered_rows_helper, rows_helper
+from lambda_core.solver.arrays.bundle import NB
+from lambda_core.solver.layout import ordered_rows_helper, rows_helper
 
 
 @ordered_rows_helper

@@ -6,7 +6,8 @@ do to them is known by the body.
 
 from __future__ import annotations
 
-from lambda_core.solver.layout import MECHANISMS, helper
+from lambda_core.solver.arrays.bundle import MECHANISMS
+from lambda_core.solver.layout import helper
 from lambda_core.solver.vec import clear
 
 AGAIN = 3  # of `want` in forces.evaluate

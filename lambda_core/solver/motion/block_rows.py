@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from lambda_core.solver.arrays.bundle import BR, BVR, BVT, BVX, BWR, BWT, NB, NS, SSIGMA, SVX, SWY, SWZ
 from lambda_core.solver.contact.contact_kinematics import axis_x
-from lambda_core.solver.layout import BR, BVR, BVT, BVX, BWR, BWT, NB, NS, SSIGMA, SVX, SWY, SWZ, helper
+from lambda_core.solver.layout import helper
 from lambda_core.solver.motion.equations import body_rates
 from lambda_core.solver.motion.steps import body_step
 from lambda_core.solver.records import BODY_STATE

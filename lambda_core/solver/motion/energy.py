@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from lambda_core.solver.arrays.bundle import NB
 from lambda_core.solver.cage.guides import (
     GAUSS_NODES,
     GAUSS_WEIGHTS,
@@ -13,7 +14,7 @@ from lambda_core.solver.cage.guides import (
     pocket_state,
 )
 from lambda_core.solver.contact.contact_kinematics import axis_x, contact_kinematics, surface_lift
-from lambda_core.solver.layout import NB, guide_law, helper, part, raceway_laws
+from lambda_core.solver.layout import guide_law, helper, part, raceway_laws
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.motion.structures import structure_energy
 from lambda_core.solver.records import BALL

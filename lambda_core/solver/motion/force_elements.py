@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from lambda_core.solver.arrays.fault_roles import FLUID_DRAG
 from lambda_core.solver.cage.cage_waves import push_cage
 from lambda_core.solver.cage.guides import (
     first_arm,
@@ -22,7 +23,7 @@ from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_
 from lambda_core.solver.contact.contact_states import hand_states, lost_in, state_rates
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.contact.ring_waves import push_waves
-from lambda_core.solver.faults import FLUID_DRAG, report
+from lambda_core.solver.faults import report
 from lambda_core.solver.layout import cells_of, drag_law, grid_of, guide_law, helper, part, raceway_laws
 from lambda_core.solver.motion.bearing_sums import powers_of_bearing, rests
 from lambda_core.solver.vec import clear, increase

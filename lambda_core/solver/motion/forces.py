@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
+from lambda_core.solver.arrays.bundle import NB
 from lambda_core.solver.contact.ring_waves import turn_waves
-from lambda_core.solver.layout import NB, helper, losses_of, running_of
+from lambda_core.solver.layout import helper, losses_of, running_of
 from lambda_core.solver.motion.bearing_sums import (
     AGAIN,
     add_bearing_powers,

@@ -17,12 +17,13 @@ from __future__ import annotations
 
 import math
 
+from lambda_core.solver.arrays.bundle import BPSI, NB, NS
+from lambda_core.solver.arrays.jacobian_blocks import AFTER, BEFORE
 from lambda_core.solver.cage.guide_columns import land_columns, neighbour_columns, pocket_columns
 from lambda_core.solver.contact.raceway_columns import raceway_columns
 from lambda_core.solver.contact.ring_waves import turning_columns
-from lambda_core.solver.integrator.chain import AFTER, BEFORE
 from lambda_core.solver.integrator.reach import is_split
-from lambda_core.solver.layout import BPSI, NB, NS, helper
+from lambda_core.solver.layout import helper
 from lambda_core.solver.motion.block_rows import (
     ball_block,
     body_rows,

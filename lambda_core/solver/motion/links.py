@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from lambda_core.solver.arrays.bundle import NS
+from lambda_core.solver.arrays.fault_roles import FORCE_ELEMENT
 from lambda_core.solver.cage.guides import turning_body, write_frame
-from lambda_core.solver.faults import FORCE_ELEMENT, report
-from lambda_core.solver.layout import NS, helper, link_law, part
+from lambda_core.solver.faults import report
+from lambda_core.solver.layout import helper, link_law, part
 from lambda_core.solver.motion.steps import add_slope, body_step
 from lambda_core.solver.records import BODY_STATE
 from lambda_core.solver.vec import add, clear, combine, cross, decrease, dot, increase, store, subtract

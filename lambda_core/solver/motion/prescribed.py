@@ -6,8 +6,10 @@ import math
 
 import numpy as np
 
-from lambda_core.solver.faults import TIME_FUNCTION, report
-from lambda_core.solver.layout import NB, helper, part, time_law
+from lambda_core.solver.arrays.bundle import NB
+from lambda_core.solver.arrays.fault_roles import TIME_FUNCTION
+from lambda_core.solver.faults import report
+from lambda_core.solver.layout import helper, part, time_law
 from lambda_core.solver.records import CONSTANT, GIVEN, HARMONIC, LAW, PRESCRIBED, RAMP
 
 

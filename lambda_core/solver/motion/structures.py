@@ -7,8 +7,9 @@ the body, one along its angle a moment about its axis.
 
 from __future__ import annotations
 
+from lambda_core.solver.arrays.bundle import NS, SAY, SAZ, SSIGMA, SVX, SWY, SWZ
 from lambda_core.solver.contact.contact_kinematics import axis_x
-from lambda_core.solver.layout import NS, SAY, SAZ, SSIGMA, SVX, SWY, SWZ, helper
+from lambda_core.solver.layout import helper
 from lambda_core.solver.lu import inner_product
 
 

@@ -11,32 +11,19 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
-from numba import types
 
+from lambda_core.solver.arrays.bundle import BR, BVT, MECHANISMS, NB, RUNNING_SIZE
 from lambda_core.solver.contact.contact_kinematics import contact_kinematics, surface_lift
 from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve, factors_t
 from lambda_core.solver.integrator.blocks import blocks_t
 from lambda_core.solver.integrator.memory import evaluate_t, jacobian_t
-from lambda_core.solver.layout import BR, BVT, MECHANISMS, NB, RUNNING_SIZE, array1, bundle_t, helper, i8, iarray1
-from lambda_core.solver.records import BALL
+from lambda_core.solver.layout import array1, bundle_t, helper, i8, iarray1, table_t
+from lambda_core.solver.records import BALL, STATIC_REPORT
 from lambda_core.solver.statics.pseudo_transient import mask, residual
 from lambda_core.solver.status import Status
 
-# How far the continuation has come.
-STATIC_REPORT = np.dtype(
-    [
-        ("iterations", np.float64),
-        ("last_change", np.float64),  # norm of the last Newton step, over the states' scales [-]
-        ("pseudo_step", np.float64),  # of pseudo-time [s]
-        ("orbit", np.float64),  # mean orbital speed of the balls that grip the rings [rad/s]
-        ("speed", np.float64),  # largest orbital velocity of a ball at the start [m/s]
-        ("spin", np.float64),  # largest component of a ball's spin at the start [rad/s]
-    ],
-    align=True,
-)
-report_t = types.Array(numba.from_dtype(STATIC_REPORT), 1, "C")
+report_t = table_t(STATIC_REPORT)
 solve_static_sig = i8(
     evaluate_t, jacobian_t, bundle_t, blocks_t, factors_t, array1, array1, array1, array1, iarray1, report_t, i8
 )

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from lambda_core.solver.layout import BR, BVT, BX, NB, NS, SAY, SAZ, allocating_helper, helper
+from lambda_core.solver.arrays.bundle import BR, BVT, BX, NB, NS, SAY, SAZ
+from lambda_core.solver.layout import allocating_helper, helper
 
 _MOBILITY = 1e-4  # [s2] turns an acceleration into the rate of a position
 _HOLD = 1e4  # [1/s] rate at which an unloaded ball takes the speed of the others

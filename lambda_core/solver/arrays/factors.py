@@ -1,0 +1,97 @@
+"""Factors of the block-arrow matrix, and of what is left of it where there are several bearings."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from lambda_core.laws.jit.words import by_reference
+from lambda_core.solver.arrays.bundle import ARRAY1, ARRAY2, ARRAY3, INTEGERS, NB
+from lambda_core.solver.arrays.own_bodies import Reach
+
+LANES = 8  # numbers that a processor works on at once, at most
+
+
+def filled(n: int) -> int:
+    """Return the length of a row of n numbers that is filled up with zeros, so that none is left over."""
+    return -(-n // LANES) * LANES
+
+
+@by_reference(ARRAY1, **dict.fromkeys(("upper", "lower", "on_speeds"), ARRAY2), pivots=INTEGERS)
+class Condensed(NamedTuple):
+    """Factors of speeds and positions."""
+
+    upper: Any  # (speeds, filled): of the turned matrix of the speeds
+    lower: Any  # (speeds, filled): multipliers, below a diagonal of ones that is not kept
+    inverse: Any  # (speeds,): of the diagonal of `upper`
+    pivots: Any  # int64 (speeds,)
+    on_speeds: Any  # (positions, filled): what the positions have of the rows of speeds
+    packed: Any  # (filled,): the speeds' part of a right-hand side
+    found: Any  # (filled,): and of its solution
+
+
+@by_reference(
+    ARRAY1,
+    **dict.fromkeys(("inverse", "across", "c", "own", "behind", "ahead"), ARRAY3),
+    **dict.fromkeys(("x", "schur"), ARRAY2),
+    **dict.fromkeys(("pivots", "schur_pivots", "begin", "joined"), INTEGERS),
+    condensed=Condensed,
+)
+class Factors(NamedTuple):
+    """Inverses of the ball blocks and LU factors of the Schur complement."""
+
+    inverse: Any  # (Z, 9, 9): (A_j^-1)^T
+    pivots: Any  # int64 (9,)
+    x: Any  # (9, filled): A_j^-1 B_j of the ball in hand
+    across: Any  # (Z, widest, 9): (A_j^-1 B_j)^T
+    c: Any  # (Z, 9, filled): C_j^T, scaled
+    schur: Any  # (n, filled)
+    schur_pivots: Any  # int64 (n,)
+    condensed: Any  # Condensed: the same where there are several bearings
+    own: Any  # (rows, widest, filled): what each row of balls has of the Schur complement
+    gamma: Any  # (rows,): g that each row is factored for
+    tail: Any  # (filled,): of the shared part of a right-hand side
+    part: Any  # (9,): one ball's part of a solution, or what rows are multiplied by
+    begin: Any  # int64 (rows,): ball of each row that is eliminated first
+    joined: Any  # int64 (Z or 0,): whether a ball's coupling with the next one is eliminated
+    behind: Any  # (Z or 0, 9, 9): X_j,j-1, scaled
+    ahead: Any  # (Z or 0, 9, 9): A_j^-1 X_j,j+1
+
+
+def make_condensed(positions: int, speeds: int) -> Condensed:
+    """Allocate for so many states that all bearings share."""
+    row = filled(speeds)
+    return Condensed(
+        np.zeros((speeds, row)),
+        np.zeros((speeds, row)),
+        np.zeros(speeds),
+        np.zeros(speeds, dtype=np.int64),
+        np.zeros((positions, row)),
+        np.zeros(row),
+        np.zeros(row),
+    )
+
+
+def make_factors(reach: Reach, n: int, coupled: int) -> Factors:
+    """Allocate for the rows of balls that `reach` describes, n shared states and `coupled` balls that may touch."""
+    balls, widest = int(reach.first[-1]), reach.columns.shape[1]
+    row = filled(widest)
+    return Factors(
+        np.zeros((balls, NB, NB)),
+        np.zeros(NB, dtype=np.int64),
+        np.zeros((NB, row)),
+        np.zeros((balls, widest, NB)),
+        np.zeros((balls, NB, row)),
+        np.zeros((n, filled(n))),
+        np.zeros(n, dtype=np.int64),
+        make_condensed(reach.positions.size, reach.speeds.size),
+        np.zeros((reach.width.size, widest, row)),
+        np.ones(reach.width.size),
+        np.zeros(row),
+        np.zeros(NB),
+        reach.first[:-1].copy(),
+        np.zeros(coupled, dtype=np.int64),
+        np.zeros((coupled, NB, NB)),
+        np.zeros((coupled, NB, NB)),
+    )

@@ -1,0 +1,117 @@
+"""The compiled core, wherever its code comes from: out of the pack of the installation, or compiled here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from lambda_core.laws.pack import pack
+
+
+@dataclass(frozen=True)
+class Unit:
+    """One entry point: for calls from Python, and as a pointer for other compiled code."""
+
+    call: Callable[..., int]
+    pointer: Any
+
+
+@dataclass(frozen=True)
+class Core:
+    """Compiled functions of the core; pointers are for other compiled code.
+
+    Parameters
+    ----------
+    find : function
+        The unit of a name, see :data:`lambda_core.solver.entry.UNITS`.
+    """
+
+    find: Callable[[str], Unit]
+    wrench_pointer: Any
+    tangent_pointer: Any
+    evaluate_pointer: Any
+    jacobian_pointer: Any
+    evaluate: Any
+    jacobian: Any
+    advance: Any
+    observe: Any
+    solve_static: Any
+    advance_pointer: Any
+    observe_pointer: Any
+    integrate: Any
+    sample: Any
+
+    @classmethod
+    def of(cls, find: Callable[[str], Unit]) -> Core:
+        """Return the core with the units that every run needs."""
+        pointers = ("wrench", "tangent", "evaluate", "jacobian", "advance", "observe")
+        calls = ("evaluate", "jacobian", "advance", "observe", "solve_static", "integrate", "sample")
+        units = {name: find(name) for name in {*pointers, *calls}}
+        return cls(
+            find,
+            **{f"{name}_pointer": units[name].pointer for name in pointers},
+            **{name: units[name].call for name in calls},
+        )
+
+    @cached_property
+    def advance_finely(self) -> Any:
+        """The one-step formula, which runs that resolve vibrations take."""
+        return self.find("advance_finely").call
+
+    @cached_property
+    def advance_finely_pointer(self) -> Any:
+        """Pointer to the one-step formula."""
+        return self.find("advance_finely").pointer
+
+    @cached_property
+    def probe(self) -> Any:
+        """One raceway contact on its own, which views of its field take."""
+        return self.find("probe").call
+
+
+_loaded: dict[str, Core] = {}  # by where the code comes from
+
+
+def core(announce: Callable[[str], None] | None = None) -> Core:
+    """Return the compiled core; `announce` is called with a sentence before anything is compiled."""
+    packed = pack()
+    origin = packed.key if packed else ""
+    if origin not in _loaded:
+        _loaded[origin] = Core.of(_found_in(packed) if packed else _compiled(announce))
+    return _loaded[origin]
+
+
+def begin(announce: Callable[[str], None] | None = None, units: Iterable[str] | None = None) -> None:
+    """Begin to compile what is not on disk, where there is no pack.
+
+    Parameters
+    ----------
+    announce, units
+        As for :func:`lambda_core.solver.entry.begin`.
+    """
+    if pack() is None and "" not in _loaded:
+        from lambda_core.solver import entry
+
+        entry.begin(announce, units)
+
+
+def _found_in(packed: Any) -> Callable[[str], Unit]:
+    def find(name: str) -> Unit:
+        found = packed.unit(name)
+        return Unit(found, found)
+
+    return find
+
+
+def _compiled(announce: Callable[[str], None] | None) -> Callable[[str], Unit]:
+    from lambda_core.solver import entry
+
+    entry.begin(announce)
+    entry.wait()
+
+    def find(name: str) -> Unit:
+        return Unit(*entry.call_and_pointer(name, announce))
+
+    return find
