@@ -21,6 +21,7 @@ from lambda_core.batch.scheduler import Director, Report
 from lambda_core.batch.store import Manifest, readable
 from lambda_core.batch.study_check import Announce, Ready, check, duration
 from lambda_core.domain.errors import UsageError
+from lambda_core.laws.pack import NATIVE, code, other_code
 from lambda_core.views.table import StudyTable
 
 if TYPE_CHECKING:
@@ -112,6 +113,7 @@ def start(
         target, ready.study, text, ready.case_toml, ready.study.title or ready.study.name, ready.headings
     )
     with closing(manifest):
+        manifest.write_meta("code", code())
         manifest.write_meta("fingerprint", _fingerprint(ready.plan, ready.case_toml, ready.names))
         manifest.add(list(ready.plan.points()))
         return _work(manifest, ready.plan, ready.names, where, workers, report, retry=False)
@@ -141,6 +143,8 @@ def resume(
         if manifest.counts().total < plan.fixed_count:  # killed while it was being set up
             manifest.add([plan.point(number) for number in range(manifest.counts().total, plan.fixed_count)])
         names = tuple(h.name for h in manifest.headings() if h.kind == "response")
+        if why := other_code(manifest.meta("code") or NATIVE):
+            raise UsageError(f"{folder} cannot go on: {why}")
         now, then = _fingerprint(plan, manifest.case_toml, names), manifest.meta("fingerprint")
         if then and now != then:
             raise UsageError(

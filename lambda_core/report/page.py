@@ -109,7 +109,9 @@ def run_report(registry: Registry, result: Result, cover: Cover = _NO_COVER) -> 
     summary, units = result.summary(), cover.units
     pictures = _pictures(registry, result, "result", cover)
     versions = [(name, version) for name, version in result.versions.items()]
-    keys = [(f"code of {name}", key[:16]) for name, key in sorted(result.kernel_keys.items())]
+    hashes = dict(result.kernel_keys)
+    versions.append(("machine code", hashes.pop("code", "native")))
+    keys = [(f"code of {name}", key[:16]) for name, key in sorted(hashes.items())]
     inputs = Inputs(
         value_tables(result.values, units),
         tuple(map(units.sentence, result.assumptions)),

@@ -209,10 +209,8 @@ def test_a_law_of_ones_own_is_compiled_alone_and_runs_in_the_packed_solver(insta
     run += ["--progress", "none", "--out", "own.h5"]
     done = call("-c", RUN, *run, cwd=tmp_path, PYTHONPATH=str(installed), LAMBDA_BEARING_CACHE=str(cache))
     assert done.stdout.splitlines()[-1] == "5 True", done.stderr
-    assert [line for line in done.stderr.splitlines() if line.startswith("compiling")] == [
-        "compiling asperity_load/half (once)"
-    ]
-    assert len({file.parent.name for file in cache.rglob("*.nbc")}) == 1
+    (compiled,) = cache.rglob("*.nbc")
+    assert compiled.parent.name.startswith("asperity_load-")
 
 
 @LINUX
