@@ -61,7 +61,7 @@ def test_ratings_of_the_hr30306j() -> None:
 
 
 def test_static_rating_of_the_32216() -> None:
-    # the printed inner geometry gives 222 kN after ISO 76, the catalogue prints 260 kN: a maker's geometry, or rating
+    # the printed inner geometry gives 222 kN after ISO 76; the paper prints 260 kN, SKF's catalogue of 2018 245 kN
     found = roller_static_rating(16, 17e-3, 22.7e-3, 108.5e-3, contact_angle=math.radians(15.64))
     Published(222.0, "ISO 76 with the geometry of Wingertszahn et al. 2023 [M]", "digits", rel=0.003).check(
         found * 1e-3
@@ -73,6 +73,16 @@ def test_catalogue_factors_of_the_32216() -> None:
     found = roller_equivalent_load(1e3, 1e3, math.radians(15.64))
     Published(0.42, "SKF catalogue, 32216 [K]", "two digits", abs=0.005).check(found.limit)
     Published(1.4, "SKF catalogue, 32216 [K]", "two digits", abs=0.05).check(found.axial_factor)
+
+
+# designation: C_0 [kN], mean diameter [m], C_u [kN]
+@pytest.mark.parametrize(
+    ("static", "pitch", "limit"), [(53.0, 60e-3, 6.7), (245.0, 108.5e-3, 28.5)], ids=["NU 208 ECP", "32216"]
+)
+def test_fatigue_load_limit(static: float, pitch: float, limit: float) -> None:
+    reason = "SKF computes C_u from the contacts, ISO 281 offers C_0/8.2 as an estimate"
+    found = roller_fatigue_load_limit(static * 1e3, pitch)
+    Published(limit, "SKF, Rolling bearings, 2018, product tables [R]", reason, rel=0.04).check(found * 1e-3)
 
 
 def test_palmgren_and_iso_agree() -> None:
