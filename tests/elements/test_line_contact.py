@@ -73,6 +73,17 @@ def test_long_rollers_have_a_flat() -> None:
     assert np.all(drop[np.abs(x) > 0.5 * (LENGTH - 5e-3) + 1e-6] > 0.0)
 
 
+def test_profiles_of_the_standard_have_their_drop_at_half_the_crown() -> None:
+    # where the crown's argument is 1/2: scale times ln(4/3)
+    drop = math.log(4.0 / 3.0)
+    assert float(profiles.iso_cylindrical(3e-3, LENGTH, 11e-3)) == pytest.approx(0.00035 * 11e-3 * drop)
+    long = profiles.iso_cylindrical(0.5 * (LENGTH - 2.5e-3), LENGTH, 2e-3)  # middle of a crown of 2.5 mm
+    assert float(long) == pytest.approx(0.0005 * 2e-3 * drop)
+    assert float(profiles.iso_tapered(3e-3, LENGTH, 11e-3, 0.035)) == pytest.approx(
+        0.00045 * 11e-3 / math.cos(0.035) * drop
+    )
+
+
 def test_the_edge_drop_is_met() -> None:
     drop = profiles.logarithmic(0.5 * LENGTH, LENGTH, 4e-6, edge_drop=20e-6)
     assert float(drop) == pytest.approx(20e-6, rel=1e-12)

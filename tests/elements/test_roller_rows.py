@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lambda_core.elements.roller import profiles, slices
+from lambda_core.elements.roller import line_contact, profiles, slices
 from lambda_core.elements.roller.load_distribution import RollerRow, distribute, loads_at
 
 LENGTH, COUNT = 12e-3, 30
@@ -70,6 +70,12 @@ def test_pure_axial_load_is_even() -> None:
     found = distribute(RollerRow(16, LENGTH, DROP, contact_angle=CUP), 0.0, 6e3)
     assert found.slices.load == pytest.approx(np.full(16, 6e3 / (16 * math.sin(CUP))), rel=1e-7)
     assert found.radial == pytest.approx(0.0, abs=1e-12)
+
+
+def test_displacements_close_the_rollers_along_the_contact_normal() -> None:
+    row = RollerRow(16, LENGTH, np.zeros(COUNT), contact_angle=CUP, clearance=4e-6)
+    closed = (3e-5 * np.cos(row.angles) - 2e-6) * math.cos(CUP) + 5e-5 * math.sin(CUP)
+    assert loads_at(row, 3e-5, 5e-5, 0.0).slices.load == pytest.approx(line_contact.iso_load(closed, LENGTH), rel=1e-12)
 
 
 def test_rows_of_elastic_slices_balance_too() -> None:
