@@ -105,10 +105,10 @@ def _resume(
     checkpoint = found.checkpoint()
     if checkpoint is None:
         raise UsageError(f"{found.path} holds no checkpoint: start the run anew")
-    engine = WholeEngine(model, announce)
     before = {result.kernel_keys.get("code", NATIVE) for result in found.results().values()}
     if why := next(filter(None, map(other_code, sorted(before))), ""):
         raise UsageError(f"{found.path} cannot go on: {why}")
+    engine = WholeEngine(model, announce)
     if code_of(engine) != found.code:
         raise UsageError(f"{found.path} cannot go on: the code or the case has changed since")
     engine.restore({k: v for k, v in checkpoint.state.items() if not k.startswith("rows")})

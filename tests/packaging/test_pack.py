@@ -8,6 +8,7 @@ import platform
 import shutil
 import subprocess
 import sys
+import tarfile
 import zipfile
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -117,7 +118,20 @@ def test_neither_an_sdist_nor_an_editable_install_compiles(kind: str, tmp_path: 
     assert not (tmp_path / "cache").exists()
     (built,) = tmp_path.iterdir()
     if kind == "editable":
-        assert not [name for name in zipfile.ZipFile(built).namelist() if "/pack/" in name]
+        names = zipfile.ZipFile(built).namelist()
+    else:
+        with tarfile.open(built) as archive:
+            names = archive.getnames()
+        assert [name for name in names if name.endswith("/hatch_build.py")]  # which builds the wheel from it
+    assert not [name for name in names if "/pack/" in name]
+
+
+def test_a_wheel_with_a_pack_needs_what_the_program_needs(tmp_path: Path) -> None:
+    """For the build alone; without a pack nothing but hatchling."""
+    code = "import hatch_build; print(*hatch_build.get_requires_for_build_wheel())"
+    asked = [call("-c", code, cwd=ROOT, LAMBDA_BEARING_PACK=wanted).stdout.split() for wanted in ("1", "0")]
+    assert [name.split(">=")[0] for name in asked[0][:3]] == ["numpy", "scipy", "numba"]
+    assert asked[1] == []
 
 
 def test_a_wheel_without_a_c_compiler_has_no_pack_and_says_so(tmp_path: Path) -> None:

@@ -74,6 +74,16 @@ def test_a_folder_goes_on_once(run: Path, capsys: pytest.CaptureFixture[str]) ->
     assert main(again) == 5
 
 
+def test_a_folder_does_not_go_on_under_other_code(
+    run: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("lambda_core.laws.pack.code", lambda: "pack linux x86-64-v3 numba 0.0")
+    assert main(["resume", str(run), "--quiet", "--duration", "1.2 ms"]) == 2
+    said = " ".join(capsys.readouterr().err.split())
+    assert "cannot go on: it was computed by other machine code (native; this is pack linux" in said
+    assert "set LAMBDA_BEARING_CODE=native" in said
+
+
 def test_a_bearing_on_a_shaft_names_no_option_of_one_bearing(made: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     said = "more than it takes"
     monkeypatch.setitem(operating_limits._TILTS, "deep groove", (1e-12, said))

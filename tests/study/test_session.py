@@ -213,6 +213,16 @@ def test_a_study_of_other_laws_does_not_go_on(write: Write, inline: Executor, tm
         api.study_resume(folder, executor=inline)
 
 
+def test_a_study_does_not_go_on_under_other_code(
+    write: Write, inline: Executor, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "map"
+    api.study_run(write(MAP.replace("points = 3", "points = 2")), folder, executor=inline)
+    monkeypatch.setattr("lambda_core.laws.pack.code", lambda: "pack linux x86-64-v3 numba 0.0")
+    with pytest.raises(UsageError, match=r"native; this is pack linux .* set LAMBDA_BEARING_CODE=native"):
+        api.study_resume(folder, executor=inline)
+
+
 GOAL = """
 name = "cool"
 case = "6319-cp10-1500"
