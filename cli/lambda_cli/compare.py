@@ -30,7 +30,7 @@ def compare(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Put catalogue formulas, standards and the quasi-static solution of a case side by side.
+    """Compare the quasi-static solution of a case with catalogue formulas and standards.
 
     Friction by the SKF and Schaeffler models, analytical capacitance, rating life after ISO 281 and ISO/TS
     16281, loads and stiffness of the quasi-static equilibrium, and the methods of plugins.

@@ -22,11 +22,12 @@ def cross_check(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Integrate a case with the program's own integrator and with SUNDIALS CVODE, and compare.
+    """Compare the program's own integrator with SUNDIALS CVODE on one case.
 
-    The cage is led along its kinematic path, because a free one is chaotic and parts any two trajectories; --free-cage
-    compares mean dissipated powers instead. Needs the extra "sundials". Exit code 5 when the two do not agree: power
-    within 0.02 % and states within 10 tolerances; cage free: power within the joint 95 % interval, or 0.02 %.
+    The cage follows its kinematic path: a free cage moves chaotically, and trajectories could not be compared.
+    --free-cage compares mean dissipated powers instead. Needs the extra "sundials". Exit code 5 when the two do not
+    agree: power within 0.02 % and states within 10 tolerances; cage free: power within the joint 95 % interval, or
+    0.02 %.
     """
     from lambda_core import api
 

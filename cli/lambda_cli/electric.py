@@ -29,10 +29,16 @@ SourceArgument = Annotated[
 def electric(
     source: SourceArgument,
     changes: SetOption = None,
-    udc: Annotated[str | None, typer.Option("--udc", metavar="VOLTAGE", help='Dc link, "800V".')] = None,
-    fsw: Annotated[str | None, typer.Option("--fsw", metavar="FREQUENCY", help='Switching, "10kHz".')] = None,
-    rise_time: Annotated[str | None, typer.Option("--rise-time", metavar="TIME", help='Of an edge, "50ns".')] = None,
-    duration: Annotated[str | None, typer.Option("--duration", metavar="TIME", help='That is computed, "1s".')] = None,
+    udc: Annotated[str | None, typer.Option("--udc", metavar="VOLTAGE", help='Dc-link voltage, e.g. "800V".')] = None,
+    fsw: Annotated[
+        str | None, typer.Option("--fsw", metavar="FREQUENCY", help='Switching frequency, e.g. "10kHz".')
+    ] = None,
+    rise_time: Annotated[
+        str | None, typer.Option("--rise-time", metavar="TIME", help='Rise time of an edge, e.g. "50ns".')
+    ] = None,
+    duration: Annotated[
+        str | None, typer.Option("--duration", metavar="TIME", help='Simulated time, e.g. "1s".')
+    ] = None,
     seed: Annotated[int | None, typer.Option("--seed", metavar="N", help="Key of the random numbers.")] = None,
     out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Table of discharges, .csv or .h5.")] = None,
     force: ForceOption = False,

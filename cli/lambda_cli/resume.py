@@ -23,10 +23,10 @@ def resume(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Go on with a run from its last checkpoint, bit for bit as if it had not been interrupted.
+    """Continue a run from its last checkpoint, with the same results as without the interruption.
 
     Works after Ctrl+C, a kill, a full disk or the limit of wall time. --duration makes a
-    finished run longer. --max-wall counts from now; the limit that the run began with is over.
+    finished run longer. --max-wall applies to this session; the earlier limit is discarded.
     Exit codes as for run.
     """
     from lambda_core import api

@@ -51,11 +51,11 @@ def shaft(
 ) -> None:
     """Solve a shaft in its bearings: reactions, deflection, lives, critical speeds; with --run its motion.
 
-    One quasi-static equilibrium of the whole: elastic shaft, nonlinear bearings, housing, preload, thermal clearance,
-    gear forces. With --run it is where one integration of shaft, housing, balls and cages begins, until the friction
-    torque of every bearing is known to 1 %, or for --duration. Ctrl+C keeps what there is; lambda-bearing resume DIR
-    goes on. Exit codes: 0 found, or converged; 3 invalid case, 4 no equilibrium or the solver failed, 5 not converged
-    or stopped early, 130 interrupted.
+    Computes the quasi-static equilibrium of elastic shaft, nonlinear bearings, housing, preload, thermal clearance and
+    gear forces. With --run the equilibrium is the initial state of a transient simulation of shaft, housing, balls and
+    cages, until the friction torque of every bearing is known to 1 %, or for --duration. Ctrl+C keeps the results so
+    far; lambda-bearing resume DIR continues. Exit codes: 0 found, or converged; 3 invalid case, 4 no equilibrium or the
+    solver failed, 5 not converged or stopped early, 130 interrupted.
     """
     from lambda_core import api
 

@@ -202,7 +202,7 @@ def _coordinate(parameter: Parameter, kind: str) -> Coordinate:
     if kind in SAMPLED and parameter.points is not None:
         raise ValueError(f"points do not belong to {_a(kind)} design: its samples spread over the range")
     if parameter.points == 1:
-        raise ValueError("one point is no range: write values = [...]")
+        raise ValueError("a range needs at least two points; for one point give `values`")
     return Coordinate(parameter, scale, (first, last))
 
 

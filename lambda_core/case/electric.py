@@ -165,7 +165,7 @@ class Grounding(Section):
     @model_validator(mode="after")
     def _shunt_needs_insulation(self) -> Grounding:
         if self.shunt is not None and self.insulation is None:
-            raise ValueError("a shunt bridges an insulation: give insulation too")
+            raise ValueError("`shunt` requires `insulation`")
         return self
 
 

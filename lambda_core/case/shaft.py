@@ -83,9 +83,9 @@ class Shaft(Section):
     def _is_made_of_something(cls, sections: list[ShaftSection], info: ValidationInfo) -> list[ShaftSection]:
         reduced = info.data.get("reduced", "unknown" if not sections else None)
         if not sections and reduced is None:
-            raise ValueError("are required: at least one piece; or reduced, a file")
+            raise ValueError("must have at least one entry, or give the file `reduced`")
         if sections and reduced is not None:
-            raise ValueError("and reduced exclude each other: one of them")
+            raise ValueError("give either `sections` or `reduced`, not both")
         return sections
 
 
@@ -115,7 +115,7 @@ class Support(Section):
     damping_z: Damping = option("0 N s/m", "vertical, likewise", ge=0.0)
     damping_tilt_y: AngularDamping = option("0 N m s/rad", "of rotation about y, likewise", ge=0.0)
     damping_tilt_z: AngularDamping = option("0 N m s/rad", "of rotation about z, likewise", ge=0.0)
-    motion_x: LengthSignal | None = option(None, "where a locked ring is led, beside its drawn place, over time: axial")
+    motion_x: LengthSignal | None = option(None, "prescribed displacement of a locked ring from its place, axial")
     motion_y: LengthSignal | None = option(None, "horizontal, likewise")
     motion_z: LengthSignal | None = option(None, "vertical, likewise")
     motion_tilt_y: AngleSignal | None = option(None, "rotation about y, likewise: a seat that is not in line")
@@ -165,7 +165,7 @@ class ShaftBearing(Bearing, Placed):
         if preloaded and self.takes is None:
             raise ValueError('a preload needs takes = "+x" or "-x": the force on the shaft that it makes it carry')
         if self.preload is not None and self.preload_force is not None:
-            raise ValueError("preload (rigid) and preload_force (spring) exclude each other")
+            raise ValueError("give either `preload` (rigid) or `preload_force` (spring), not both")
         if self.preload_force is not None and "x" in self.support.model_fields_set and self.support.x == "locked":
             raise ValueError('preload_force needs an outer ring that slides: support.x = "free" or a stiffness')
         if self.contact_angle is not None and self.takes is None:

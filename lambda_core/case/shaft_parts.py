@@ -45,7 +45,7 @@ class Placed(Section):
         if position is None and marker is None:
             raise ValueError("is required, or a marker")
         if position is not None and marker is not None:
-            raise ValueError("and marker exclude each other: one of them")
+            raise ValueError("give either `position` or `marker`, not both")
         return position
 
     @property
@@ -85,8 +85,8 @@ def without_motion(value: Any) -> Any:
     """Refuse a motion over time where a degree of freedom is held."""
     if isinstance(value, Mapping):
         raise ValueError(
-            'no motion is led here: write "locked", "free" or a stiffness; a shaft is moved by operation.speed, loads '
-            "over time, unbalance, and what is locked where it is led (motion_x and so on, beside this option)"
+            'must be "locked", "free" or a stiffness; to move the shaft give operation.speed, loads over time or an '
+            "unbalance; to move a locked seat or body give its motion_x to motion_tilt_z"
         )
     return value
 
@@ -96,7 +96,7 @@ def leads_what_is_locked(motion: Any, info: ValidationInfo, prefix: str) -> Any:
     dof = prefix + str(info.field_name).removeprefix("motion_")
     how = info.data.get(dof, "locked")
     if motion is not None and how != "locked":
-        raise ValueError(f'needs {dof} = "locked", not "{how}": what is led does not give way')
+        raise ValueError(f'needs {dof} = "locked", not "{how}": only a locked direction can have a prescribed motion')
     return motion
 
 
@@ -123,9 +123,7 @@ class ShaftBody(Section):
     hold_tilt_x: str = option("free", 'rotation about x: "free", "locked" or a stiffness ("50 N m/mrad")')
     hold_tilt_y: str = option("free", "rotation about y, likewise")
     hold_tilt_z: str = option("free", "rotation about z, likewise")
-    motion_x: LengthSignal | None = option(
-        None, "where a locked centre is led beside its drawn place, over time: axial"
-    )
+    motion_x: LengthSignal | None = option(None, "prescribed displacement of a locked centre from its place, axial")
     motion_y: LengthSignal | None = option(None, "horizontal, likewise")
     motion_z: LengthSignal | None = option(None, "vertical, likewise")
     motion_tilt_y: AngleSignal | None = option(None, "rotation about y, likewise")
@@ -154,7 +152,7 @@ class ShaftBody(Section):
     def _has_a_mass(self) -> ShaftBody:
         round_, box = self.diameter is not None, self.width is not None or self.height is not None
         if round_ and box:
-            raise ValueError("diameter is that of a cylinder, width and height are those of a box: one of them")
+            raise ValueError("give either `diameter` (cylinder) or `width` and `height` (box), not both")
         if (round_ or box) != (self.length is not None) or (self.width is None) != (self.height is None):
             raise ValueError("a shape needs length and diameter (cylinder), or length, width and height (box)")
         given = (self.mass, self.polar_inertia, self.transverse_inertia)
@@ -183,7 +181,7 @@ class ShaftDisc(Placed):
     @model_validator(mode="after")
     def _has_a_mass(self) -> ShaftDisc:
         if (self.mass is None) == (self.diameter is None):
-            raise ValueError("give the mass, or diameter and width of a cylinder, one of them")
+            raise ValueError("give either `mass` or `diameter` and `width` (cylinder)")
         if (self.diameter is None) != (self.width is None):
             raise ValueError("a cylinder needs diameter and width")
         if self.diameter is not None and self.bore >= self.diameter:
@@ -245,7 +243,7 @@ class Gear(Placed):
     @model_validator(mode="after")
     def _transmits(self) -> Gear:
         if (self.power is None) == (self.torque is None):
-            raise ValueError("give the power or the torque, one of them")
+            raise ValueError("give either `power` or `torque`")
         if self.helix_angle > 0.0 and self.hand is None:
             raise ValueError('a helical gear needs hand = "right" or "left"')
         return self

@@ -143,7 +143,7 @@ def _curves(option: Varied, base: FloatArray, sample: Callable[[Mapping[str, flo
             "narrow its range"
         )
     if (values == base).all():
-        raise UsageError(f"{option.path} changes nothing that this bearing works with: it cannot vary")
+        raise UsageError(f"`{option.path}` has no effect on this bearing")
     return values
 
 
@@ -153,7 +153,7 @@ def _checked(option: Varied, base: FloatArray, found: FloatArray) -> FloatArray:
         counts = _counts(base) | _counts(found)
         if (found[counts] == base[counts]).all() and np.isfinite(found).all():
             return found
-    raise UsageError(f"{option.path} changes what is computed, not numbers alone: it cannot vary")
+    raise UsageError(f"`{option.path}` selects a model and cannot be varied")
 
 
 def _counts(values: FloatArray) -> NDArray[np.bool_]:

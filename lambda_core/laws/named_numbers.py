@@ -138,9 +138,9 @@ def _words(layout: Layout, record: Any, path: str) -> Iterator[float]:
             yield from values.tolist()
         else:
             if not isinstance(value, int | float | np.number):
-                raise RecordError(f"{name} = {value!r}, which is no number")
+                raise RecordError(f"{name} = {value!r}, must be a number")
             if not np.isfinite(value):
-                raise RecordError(f"{name} = {value}; finite numbers are due")
+                raise RecordError(f"{name} = {value}, must be finite")
             yield float(value)
 
 
@@ -150,8 +150,8 @@ def _numbers(value: Any, name: str) -> np.ndarray[Any, np.dtype[np.float64]]:
     except (TypeError, ValueError):
         raise RecordError(f"{name} is a {type(value).__name__}, which is no array of numbers") from None
     if values.ndim != 1:
-        raise RecordError(f"{name} has {values.ndim} dimensions; an array of one is due")
+        raise RecordError(f"{name} has {values.ndim} dimensions, must have one")
     if not np.isfinite(values).all():
         index = int(np.flatnonzero(~np.isfinite(values))[0])
-        raise RecordError(f"{name}[{index}] = {values[index]}; finite numbers are due")
+        raise RecordError(f"{name}[{index}] = {values[index]}, must be finite")
     return values

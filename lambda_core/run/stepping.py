@@ -143,7 +143,7 @@ class Stepping(Iterator[Step]):
         if name not in self.given:
             raise UsageError(unknown_name("signal", name, self.given))
         if not all(map(math.isfinite, (value, rate, acceleration))):
-            raise UsageError(f"{name} is given as {value:g}, {rate:g}, {acceleration:g}: finite numbers are due")
+            raise UsageError(f"{name} is given as {value:g}, {rate:g}, {acceleration:g}: all must be finite numbers")
         row = self._engine.given[self.given.index(name)]
         row["value"], row["rate"], row["acceleration"], row["begin"] = value, rate, acceleration, self.time_s
 

@@ -92,7 +92,7 @@ def connections(case: ShaftCase, stand: Places, ledger: Ledger) -> tuple[ShaftSp
             own = np.diag([getattr(given, prefix + dof) for dof in _DOFS])
             matrices.append(_along(place).T @ own @ _along(place))
         if SHAFT in (place.body, to) and max(np.abs(matrix[3]).max() for matrix in matrices) > _ROUNDING:
-            ledger.problem(f"springs.{name}.tilt_x", "would hold the shaft against turning: leave it out")
+            ledger.problem(f"springs.{name}.tilt_x", "would prevent rotation of the shaft; remove it")
         found.append(ShaftSpring(name, place, to, *matrices))
     return tuple(found)
 

@@ -61,7 +61,7 @@ def elastic_housing(
         follows = np.linalg.solve(k[np.ix_(others, others)], k[np.ix_(others, kept)])
         condensed: FloatArray = k[np.ix_(kept, kept)] - k[np.ix_(kept, others)] @ follows
     except np.linalg.LinAlgError:
-        file.problem("some of it is held by nothing: its stiffness is singular beside the bearings")
+        file.problem("part of the housing is unconstrained: its stiffness is singular apart from the bearing seats")
         return None, None
     scale = np.sqrt(np.abs(np.diag(condensed)))
     stretch = np.linalg.eigvalsh(condensed / np.outer(scale, scale))

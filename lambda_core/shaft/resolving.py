@@ -192,7 +192,7 @@ def _shaft(
             shared.setdefault(sentence, []).append(name)
     for sentence, names in shared.items():
         ledger.assume(f"{', '.join(names)}: {sentence}")
-    ledger.assume("the friction of the bearings does not count in the balance of the shaft")
+    ledger.assume("bearing friction is neglected in the equilibrium of the shaft")
     gravity = (case.gravity.x, case.gravity.y, case.gravity.z)
     drive = case.shaft.drive if case.shaft.drive is not None else float(body.positions[0])
     acting = [(name, load.place) for name, load in case.loads.items() if stand.on_shaft("loads", name)]

@@ -70,9 +70,12 @@ def refuse_motion(name: str, given: ShaftBearing, is_carried: bool, ledger: Ledg
             continue
         refuse_far(where, dof, time_function(motion), ledger)
         if is_carried:
-            ledger.problem(where, "a ring is led only where it sits in the ground, without an elastic housing")
+            ledger.problem(
+                where,
+                "only a ring whose `outer` is the ground, without an elastic housing, can have a prescribed motion",
+            )
         elif dof == "x" and given.preload_force is not None:
-            ledger.problem(where, "preload_force has the ring slide along x: one of them")
+            ledger.problem(where, "`preload_force` makes the ring slide along x; give either it or this motion")
 
 
 def axial_play(given: ShaftBearing, model: BearingModel) -> float:

@@ -192,7 +192,7 @@ class WholeFile:
         for name, result in found.items():
             run, bearing = result.part_of or ("", "")
             if self.run and run != self.run:
-                raise ResultError(f"{result.path} is not of the run that {self.path} is of: the folder was mixed up")
+                raise ResultError(f"{result.path} belongs to another run than {self.path}")
             if self.run and bearing != name:
                 raise ResultError(f'{result.path} is the result of "{bearing}", not of "{name}": it was renamed')
         return found

@@ -143,8 +143,8 @@ def test_curves_follow_what_they_were_made_from() -> None:
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        (lambda w, t, g: w * 0.0 + 1.0, "changes nothing"),
-        (lambda w, t, g: np.append(w, [t] * (t > 330.0)), "changes what is computed"),
+        (lambda w, t, g: w * 0.0 + 1.0, "has no effect"),
+        (lambda w, t, g: np.append(w, [t] * (t > 330.0)), "selects a model"),
         (lambda w, t, g: w + abs(t - 333.0) * np.array([1, 0, 0, 0, 0, 0]), "a jump or a bend between 300 and 360 K"),
         (lambda w, t, g: w + np.exp(1e-3 * t * g * 1e6) * np.array([1, 0, 0, 0, 0, 0]), "oil and gap act together"),
     ],

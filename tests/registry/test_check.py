@@ -331,9 +331,9 @@ class TestPreparation:
         ("made", "words"),
         [
             (np.ones(2), "prepare returns a ndarray, its annotation is Shape"),
-            (Shape(math.nan, np.ones(2)), "prepare returns factor = nan; finite numbers are due"),
-            (Shape("thick", np.ones(2)), "prepare returns factor = 'thick', which is no number"),
-            (Shape(1.0, np.array([1.0, np.inf])), r"prepare returns knots\[1\] = inf; finite numbers are due"),
+            (Shape(math.nan, np.ones(2)), "prepare returns factor = nan, must be finite"),
+            (Shape("thick", np.ones(2)), "prepare returns factor = 'thick', must be a number"),
+            (Shape(1.0, np.array([1.0, np.inf])), r"prepare returns knots\[1\] = inf, must be finite"),
             (Shape(1.0, np.ones((2, 2))), "prepare returns knots has 2 dimensions"),
         ],
     )

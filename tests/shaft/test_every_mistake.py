@@ -40,7 +40,7 @@ def test_no_stage_hides_another_one() -> None:
         "bearings.right.designation": '"SKF 62066" is not a known bearing',
         "bearings.left.position": "300 mm is not on the shaft: 0 mm to 170 mm",
         "springs.a.marker": "there are no [markers]",
-        "springs.b.tilt_x": "would hold the shaft against turning",
+        "springs.b.tilt_x": "would prevent rotation",
         "discs.wheel.position": "400 mm is not on the shaft",
         "shaft.material": '"cheese" is not a known material',
         "bodies.plate.polar_inertia": "more than twice its transverse one",

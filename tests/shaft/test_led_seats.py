@@ -138,12 +138,12 @@ def test_what_cannot_be_led() -> None:
         (
             merged(tables({"motion_y": "1 um"}, {}, bodies={"box": box}), {"bearings": {"left": {"outer": "box"}}}),
             "support.motion_y",
-            "only where it sits in the ground",
+            "only a ring whose `outer` is the ground",
         ),
         (
             merged(tables({"motion_x": "1 um"}, {}), {"bearings": {"left": {"takes": "+x", "preload_force": "100 N"}}}),
             "support.motion_x",
-            "preload_force has the ring slide",
+            "`preload_force` makes the ring slide",
         ),
         (
             tables({}, {}, bodies={"box": {**box, "motion_z": "1 um"}}),

@@ -175,5 +175,5 @@ def test_what_does_not_stand_at_a_node_is_said(beam: ShaftModel, tmp_path: Path)
     write_reduced(craig_bampton(alone(beam), [0.0, 0.085, 0.17], 0), tmp_path / "shaft.json")
     with pytest.raises(api.CaseError, match=r"bearings\.left\.position +there is no node at 21 mm"):
         check_shaft(tables(shaft={"reduced": "shaft.json"}), folder=tmp_path)
-    with pytest.raises(api.CaseError, match=r"shaft\.sections +are required"):
+    with pytest.raises(api.CaseError, match=r"shaft\.sections +must have at least one entry"):
         check_shaft(tables(shaft={"material": "100Cr6"}))

@@ -76,7 +76,7 @@ def test_no_motion_is_led() -> None:
     said = {problem.where: problem.message for problem in found.value.problems}
     assert sorted(said) == ["bearings.left.support.y", "bodies.box.hold_z", "shaft.z"]
     for where in ("bearings.left.support.y", "bodies.box.hold_z"):
-        assert said[where].startswith('no motion is led here: write "locked", "free" or a stiffness')
+        assert said[where].startswith('must be "locked", "free" or a stiffness')
     assert "is not an option here" in said["shaft.z"]
 
 

@@ -60,7 +60,7 @@ def test_a_result_of_another_run(run: Path, capsys: pytest.CaptureFixture[str]) 
     with h5py.File(run / "right.h5", "r+") as file:
         file.attrs["shaft_run"] = "another"
     assert main(["show", str(run)]) == 2
-    assert "right.h5 is not of the run that" in " ".join(capsys.readouterr().err.split())
+    assert "right.h5 belongs to another run than" in " ".join(capsys.readouterr().err.split())
 
 
 @pytest.mark.full

@@ -114,7 +114,7 @@ def test_values_share_one_unit() -> None:
         (['path = "a"\nrange = ["low", "high"]\npoints = 2'], "are not numbers"),
         (['path = "a"\nrange = [1, 2]'], "points = 10"),
         (['path = "a"\nrange = [1, 2]\npoints = 0'], "points"),
-        (['path = "a"\nrange = [1, 2]\npoints = 1'], "one point is no range"),
+        (['path = "a"\nrange = [1, 2]\npoints = 1'], "at least two points"),
         (['path = "a"\nrange = [-1, 2]\npoints = 4\nspacing = "log"'], "needs positive ends"),
         (['path = "a"'], "either values or a range"),
         (['path = "a"\nvalues = [1]\nrange = [1, 2]'], "either values or a range"),

@@ -171,7 +171,7 @@ def test_nothing_runs_before_the_temperatures_are_found(ordinary: dict[str, Any]
     from lambda_core.solver.drivers.equilibrium import solve
 
     model = api.check(merged(ordinary, {"operation": {"temperatures": "computed"}}))
-    with pytest.raises(SolverError, match="still to be found"):
+    with pytest.raises(SolverError, match="temperatures must be computed"):
         solve(model)
 
 

@@ -111,7 +111,7 @@ def solve(
         When there is none, with what was tried.
     """
     if model.thermal is not None:
-        raise SolverError(f"{model.name}: its temperatures are still to be found: nothing can be solved before")
+        raise SolverError(f"{model.name}: internal error: temperatures must be computed before the equilibrium")
     kernels = kernels or Kernels(model, announce)
     frame = first_frame(model)
     oils = derive_oils(model, kernels, frame)

@@ -71,7 +71,7 @@ def stiffness_at(
         matrix = _eliminated(context)
     except np.linalg.LinAlgError:
         name = context.model.name
-        raise SolverError(f"{name}: no stiffness matrix: a ball is held by nothing but its own inertia") from None
+        raise SolverError(f"{name}: a ball has no contact, so the stiffness matrix is singular") from None
     # Contact forces are conservative at frozen radii: what is not symmetric is noise of the Jacobian's differences.
     return 0.5 * (matrix + matrix.T)
 
