@@ -27,7 +27,7 @@ def shaft(
         ),
     ] = None,
     run: Annotated[
-        bool, typer.Option("--run", help="Simulate the motion of the whole, with every ball and cage, into a folder.")
+        bool, typer.Option("--run", help="Simulate the motion of shaft, balls and cages into a folder.")
     ] = False,
     out: Annotated[
         Path | None,

@@ -89,7 +89,7 @@ def _methods(models: Registry) -> list[str]:
         if _own(models, "method", m.name)
     ]
     head = ("method", "what it gives", "reference", "validity")
-    return ["## Comparison methods", "", "Shown beside the simulation.", "", *md.table(head, rows)]
+    return ["## Comparison methods", "", "Methods that are compared with the simulation.", "", *md.table(head, rows)]
 
 
 def _views(models: Registry) -> list[str]:

@@ -21,8 +21,8 @@ _ASKING = (("↑ ↓ or ← →", "between the answers"), ("Enter", "take the an
 ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     "BuilderScreen": (
         "The model",
-        "The tree mirrors the multibody set-up; the form of the node under the cursor stands beside it, the numbers "
-        "that follow from the case below or beside that. Everything is checked as you type.",
+        "The tree mirrors the multibody set-up. The form of the selected node is at its right, the derived numbers are "
+        "below or at the right of the form. The builder checks every input as you type.",
         (
             ("↑ ↓", "move in the tree, or between the fields of a form"),
             ("→ ←", "open or close a node; → on an open node goes into its form"),
@@ -44,12 +44,12 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     ),
     "ShaftScreen": (
         "A shaft in several bearings",
-        "The tree has pieces, bearings, gears, discs and loads; the form of the node under the cursor stands beside "
-        "it. Below, the upper half of the shaft is drawn to scale, and how it bends (z vertical, y horizontal); beside "
-        "it stands what the equilibrium says, grey while it is solved anew.",
+        "The tree has pieces, bearings, gears, discs and loads; the form of the selected node is at its right. Below, "
+        "the drawing shows the upper half of the shaft to scale and its deflection (z vertical, y horizontal). The "
+        "results of the equilibrium are next to it, in grey while the solver works.",
         (
             ("↑ ↓ → ←", "move in the tree; open or close a node; → on an open node goes into its form"),
-            ("+  Del", "in the tree: add a piece, a bearing ... beside the node; remove the one under the cursor"),
+            ("+  Del", "in the tree: add a piece, a bearing ... after the node; remove the one under the cursor"),
             ("Enter", "into the form; in a field: complete the unit and go on; on a choice: open its list"),
             ("Esc", "from the form back to the tree"),
             ("F2", "catalogue: for the bearing whose form is shown; oils on the form of the lubricant"),
@@ -68,8 +68,8 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     ),
     "ShaftAnswerScreen": (
         "What the shaft does",
-        "The equilibrium of the whole: every bearing in a column, the shaft below, then the bend, the bending moment "
-        "and the natural frequencies over speed.",
+        "The equilibrium: every bearing in a column, the shaft below, then deflection, bending moment and natural "
+        "frequencies over speed.",
         (("PgUp PgDn", "scroll; Space goes on, too"), ("Esc or F3", "back"), *_ALL),
     ),
     "CatalogueScreen": (
@@ -90,7 +90,7 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     "OwnRow": (
         "A catalogue row of your own",
         "A copy of a row, to be changed. Values that you change get the source and grade that you give; all others "
-        "keep theirs. It is stored in your own catalogue, beside the published one.",
+        "keep theirs. Your own catalogue stores it; the published one does not change.",
         (
             ("↑ ↓ or Tab", "between the values"),
             ("Ctrl+S", "save the row"),
@@ -100,8 +100,8 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     ),
     "StudyScreen": (
         "A study",
-        "One or two options of the case take many values; each point is an equilibrium, or a run. What it will take "
-        "stands below before anything is started; catalogues answer beside the simulation, on one axis.",
+        "One or two options of the case take many values; each point is an equilibrium, or a run. The estimate of "
+        "the run time is below. Pictures show simulation and catalogues on one axis.",
         (
             ("↑ ↓ or Tab", "between the rows"),
             ("Enter", "complete the unit or the path, and go on"),
@@ -143,9 +143,9 @@ ABOUT: dict[str, tuple[str, str, tuple[tuple[str, str], ...]]] = {
     ),
     "ResultsScreen": (
         "Results",
-        "The results and studies (with a /) beside the case, the newest first; one that grows is read again. The list "
-        "below has the summary and all views. Two or more marked results are compared: what differs in their cases, "
-        "numbers beside each other, pictures with catalogues on the same axis.",
+        "The results and studies (with a /) in the folder of the case, the newest first; the screen follows one that "
+        "grows. The list below has the summary and all views. The screen compares two or more marked results: "
+        "differences of their cases, numbers in columns, pictures with catalogues on the same axis.",
         (
             ("Tab", "between the results and the views"),
             ("↑ ↓", "move in the list; what is under the cursor is shown"),

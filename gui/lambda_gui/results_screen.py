@@ -171,7 +171,7 @@ class ResultsScreen(ExportScreen):
         if path is None:
             return
         if is_study(path):
-            self.notify("a study is looked at by itself; its points stand beside each other in its views", timeout=4)
+            self.notify("a study cannot be compared with results; its views compare its points", timeout=4)
             return
         if is_shaft_run(path):
             self.notify("a shaft is looked at by itself; its bearings can be marked", timeout=4)

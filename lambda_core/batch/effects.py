@@ -120,7 +120,7 @@ def _regression(table: StudyTable, column: Column, varied: list[Column]) -> Sens
     target = (values - values.mean()) / spread
     solution, _, rank, _ = np.linalg.lstsq(scaled, target, rcond=None)
     if rank < len(varied):
-        raise NotApplicable("parameters vary in step: their effects cannot be told apart")
+        raise NotApplicable("parameters vary in step, so their effects cannot be separated; vary them independently")
     rest = target - scaled @ solution
     ranks = [float(spearmanr(inputs[:, i], values).statistic) for i in range(len(varied))]
     missing = int((~known).sum())

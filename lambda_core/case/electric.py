@@ -180,7 +180,7 @@ class Film(Section):
     surroundings: Capacitance | None = option(
         None, "of the rings against each other past the balls; absent: shoulders as coaxial cylinders in air", ge=0.0
     )
-    seals: Capacitance = option("0 pF", "of seals and shields between the rings, beside that", ge=0.0)
+    seals: Capacitance = option("0 pF", "of seals and shields between the rings, in addition", ge=0.0)
     ball_permittivity: float | None = option(
         None,
         "relative permittivity of balls that insulate; absent: 8 for balls of silicon nitride, all others conduct",

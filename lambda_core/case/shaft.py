@@ -194,7 +194,7 @@ class ShaftCase(Section):
     shaft: Shaft = option(description="the shaft")
     bearings: dict[str, ShaftBearing] = option(description="its bearings, by name", min_length=1)
     markers: dict[str, ShaftMarker] = option({}, "named places on the shaft, on bodies and on the ground, by name")
-    bodies: dict[str, ShaftBody] = option({}, "rigid bodies beside the shaft: housings that give way, by name")
+    bodies: dict[str, ShaftBody] = option({}, "other rigid bodies, such as flexibly mounted housings, by name")
     discs: dict[str, ShaftDisc] = option({}, "rigid bodies on the shaft, by name")
     loads: dict[str, PointLoad] = option({}, "forces and moments on the shaft and on bodies, by name")
     gears: dict[str, Gear] = option({}, "gears on the shaft, by name")

@@ -59,8 +59,8 @@ class ShaftMarker(Section):
 
     body: str = option("shaft", 'body that carries it: "shaft", "ground" or one of [bodies]', min_length=1)
     x: Length = option(description="place along the shaft, from its left end, where it is drawn")
-    y: Length = option("0 mm", "beside the shaft's axis, horizontal")
-    z: Length = option("0 mm", "beside the shaft's axis, vertical")
+    y: Length = option("0 mm", "distance from the shaft's axis, horizontal")
+    z: Length = option("0 mm", "distance from the shaft's axis, vertical")
     about_x: Angle = option("0 deg", "axes of springs and loads here: turned about x, then about y and z as they were")
     about_y: Angle = option("0 deg", "likewise about y")
     about_z: Angle = option("0 deg", "likewise about z")
@@ -101,11 +101,11 @@ def leads_what_is_locked(motion: Any, info: ValidationInfo, prefix: str) -> Any:
 
 
 class ShaftBody(Section):
-    """A rigid body beside the shaft, a housing: mass and inertia, or a shape; what holds its centre of mass."""
+    """A rigid body such as a housing: mass and inertia, or a shape, and the supports of its centre of mass."""
 
     x: Length = option(description="centre of mass along the shaft, from the shaft's left end")
-    y: Length = option("0 mm", "centre of mass beside the shaft's axis, horizontal")
-    z: Length = option("0 mm", "centre of mass beside the shaft's axis, vertical")
+    y: Length = option("0 mm", "distance of the centre of mass from the shaft's axis, horizontal")
+    z: Length = option("0 mm", "distance of the centre of mass from the shaft's axis, vertical")
     mass: Mass | None = option(None, "mass; absent: that of the shape", gt=0.0)
     polar_inertia: Inertia | None = option(None, "about x through the centre; absent: that of the shape", gt=0.0)
     transverse_inertia: Inertia | None = option(

@@ -114,9 +114,7 @@ def _nodes(data: dict[str, Any], found: list[Problem]) -> FloatArray:
             found.append(Problem("nodes", f"has rows of {nodes.shape[1]}: write x, or x, y, z of every node"))
         elif np.abs(nodes[:, 1:]).max() > _SYMMETRY * max(float(np.ptp(nodes)), 1e-12):
             found.append(
-                Problem(
-                    "nodes", "stand beside the axis (y, z): join each bore to a node on the axis before the reduction"
-                )
+                Problem("nodes", "are off the axis (y, z): join each bore to a node on the axis before the reduction")
             )
         nodes = np.ascontiguousarray(nodes[:, 0])
     if nodes.size > 1 and np.diff(nodes).min() <= 0.0:

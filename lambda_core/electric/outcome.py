@@ -222,7 +222,7 @@ def assumptions(bearing: Electrified, events: Events | None = None) -> list[str]
         found.append("the cage does not conduct")
     found += assumed(bearing.laws)
     if options.film.ball_permittivity is not None:
-        found.append("balls insulate: no film breaks down, field lines beside the Hertzian areas are left out")
+        found.append("balls insulate: no film breaks down, field lines outside the Hertzian areas are neglected")
         return found
     ball = bearing.contexts[0].ball
     if _CERAMIC.search(ball.name):

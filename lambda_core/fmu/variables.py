@@ -139,7 +139,7 @@ def _input_text(name: str, field: str) -> str:
     if word.startswith(("force", "moment")):
         kind, axis = word.split("_")
         about = "" if kind == "force" else "about its centre, axis "
-        return f"{kind} on the {title}, {about}{axis}, beside the loads of the case"
+        return f"{kind} on the {title}, {about}{axis}, added to the loads of the case"
     text = f"speed of the {title}" if word == SPIN else f"{word} of the {title}"
     return text if field == "value" else f"{field} of the {text}"
 

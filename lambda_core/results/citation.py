@@ -45,7 +45,7 @@ class Citation(Record):
     interface: int = INTERFACE
     file: str
     program: str = Field(description="name, version and licence of the program that ran")
-    method: str = Field(description="publication of the model as a whole")
+    method: str = Field(description="publication of the complete model")
     laws: list[LawReference] = Field(description="in the order of the pipeline")
     data: list[DataReference] = Field(description="sources of the values from the catalogue")
     without_reference: list[str] = Field(description='laws that need none, "role/name"')

@@ -109,7 +109,7 @@ def copy(path: Path, rows: Rows, *, compress: bool, stop: layout.Stop = layout.n
         raise
     except Exception as error:  # a garbled file misleads h5py into errors of every kind
         made.unlink(missing_ok=True)
-        raise UsageError(f"cannot write a copy of {path} beside it: {reason(error)}") from None
+        raise UsageError(f"cannot write a copy of {path} in its folder: {reason(error)}") from None
 
 
 def reason(error: Exception) -> str:

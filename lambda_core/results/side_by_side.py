@@ -101,7 +101,7 @@ def side_by_side(runs: Sequence[Result]) -> SideBySide:
         For fewer than two.
     """
     if len(runs) < 2:
-        raise UsageError("name at least two results to put beside each other")
+        raise UsageError("a comparison needs at least two results")
     summaries = [run.summary() for run in runs]
     numbers = [
         Number(name=name, unit=unit, values=[getattr(summary, field) for summary in summaries])

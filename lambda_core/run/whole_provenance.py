@@ -46,8 +46,8 @@ def bearing_alone(engine: WholeEngine, i: int) -> BearingModel:
     tables["loads"] = {"inner_ring": {key: f"{-float(f):.6g} N" for key, f in loads}}
     tables["bodies"] = {**tables.get("bodies", {}), "inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}}
     note = (
-        f"a bearing of the shaft {shaft}: its rings move with shaft and housing, energy is balanced for the whole; "
-        "its case here is that of the bearing alone under the load at the start"
+        f"a bearing of the shaft {shaft}: its rings move with shaft and housing, and the energy balance covers all of "
+        "them; this case has the bearing alone under the load at the start"
     )
     return dataclasses.replace(
         model, name=f"{shaft}-{name}", title=f"{model.title}, {name} of {shaft}", inner_ring=inner,

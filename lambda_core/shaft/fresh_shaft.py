@@ -47,7 +47,7 @@ designation = "SKF 6206"
 position = "148 mm"
 support.x = "free"             # floats in its seat; also y, z, tilt_y, tilt_z; or a stiffness: "200 N/um"
 # outer = "box"                # sits in a body, not in the ground
-# support.motion_tilt_y = "0.5 mrad"   # a locked seat that is out of line, or led over time
+# support.motion_tilt_y = "0.5 mrad"   # a misaligned seat, or a prescribed motion over time
 
 # An angular contact bearing has a contact angle, the direction of the force on the shaft that it takes ("+x", "-x"),
 # and perhaps a preload: preload = "5 um" (rigid) or preload_force = "300 N" (spring).

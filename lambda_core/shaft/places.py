@@ -93,7 +93,9 @@ def _fits(table: str, where: str, marker: str, place: Place, ledger: Ledger) -> 
     if table in _ON_AXIS and (place.body != SHAFT or beside):
         ledger.problem(f"{where}.marker", f'"{marker}" is not on the axis of the shaft, where this has to stand')
     elif table == "springs" and place.body == SHAFT and beside:
-        ledger.problem(f"{where}.marker", f'"{marker}" turns with the shaft beside its axis: no spring can stand there')
+        ledger.problem(
+            f"{where}.marker", f'"{marker}" turns with the shaft off its axis, where no spring can be attached'
+        )
 
 
 def _ends(

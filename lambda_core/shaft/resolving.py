@@ -275,7 +275,9 @@ def _check_one_place(case: ShaftCase, stand: Places, ledger: Ledger) -> None:
     for name, bearing in ((name, one) for name, one in case.bearings.items() if f"bearings.{name}" in stand.of):
         other = seen.setdefault(round(bearing.place, 7), name)
         if other != name:
-            ledger.problem(f"bearings.{name}.position", f'is that of "{other}" too: bearings stand beside each other')
+            ledger.problem(
+                f"bearings.{name}.position", f'is also that of "{other}"; give each bearing a position of its own'
+            )
 
 
 def _gears(case: ShaftCase, ledger: Ledger) -> dict[str, GearForces]:

@@ -85,8 +85,8 @@ class ModeAtSpeed(Record):
 
     frequency_Hz: float
     direction: float = Field(description="+1 whirls with the shaft, -1 against it, between: elliptic or in a line")
-    kind: str = Field(description="how the shaft moves: bending, axial, torsion; body: bodies beside it alone")
-    bodies_share: float = Field(description="of the kinetic energy, in the bodies beside the shaft")
+    kind: str = Field(description="motion of the shaft: bending, axial, torsion; body: motion of other bodies only")
+    bodies_share: float = Field(description="share of the kinetic energy in the other bodies")
     damping_ratio: float = Field(description="share of critical damping, by the bearings; 0 where it is left out")
 
 
@@ -103,7 +103,7 @@ class CriticalSpeed(Record):
     speed_rpm: float
     direction: float
     kind: str = Field(description="how the shaft moves most: bending, axial, torsion")
-    bodies_share: float = Field(description="of the kinetic energy, in the bodies beside the shaft")
+    bodies_share: float = Field(description="share of the kinetic energy in the other bodies")
 
 
 class BodyMoved(Record):
@@ -125,7 +125,7 @@ class ShaftReport(Record):
     springs: dict[str, list[float]] = Field(
         default={}, description="force of each spring on the body of its place: x, y, z [N]"
     )
-    bodies: dict[str, BodyMoved] = Field(default={}, description="bodies beside the shaft")
+    bodies: dict[str, BodyMoved] = Field(default={}, description="bodies other than the shaft")
     markers: dict[str, BodyMoved] = Field(default={}, description="named places")
     system_life_h: float | None = Field(description="of all bearings by their reference rating lives, 90 %")
     friction_torque_Nmm: float | None = Field(description="of all bearings")

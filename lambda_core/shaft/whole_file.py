@@ -34,8 +34,8 @@ CHANNELS = (
     Channel("shaft_position", ("lump", "axis"), "m", "displacement of the shaft at every lump"),
     Channel("shaft_tilt", ("lump", "tilt"), "rad", "tilt of the shaft at every lump about y and z"),
     Channel("shaft_twist", ("lump",), "rad", "turn of the shaft at every lump beyond that of the coupling"),
-    Channel("body_position", ("body", "axis"), "m", "displacement of every body beside the shaft"),
-    Channel("body_tilt", ("body", "axis"), "rad", "turn of every body beside the shaft about x, y and z"),
+    Channel("body_position", ("body", "axis"), "m", "displacement of every other body"),
+    Channel("body_tilt", ("body", "axis"), "rad", "rotation of every other body about x, y and z"),
     Channel("marker_position", ("marker", "axis"), "m", "displacement of every named place"),
     Channel("reaction_force", ("bearing", "axis"), "N", "force of every bearing on the shaft"),
     Channel("reaction_moment", ("bearing", "axis"), "N m", "moment of every bearing on the shaft about its centre"),
@@ -100,7 +100,7 @@ class WholeWriter:
             os.replace(made, path)
         except (OSError, RuntimeError, KeyError, ValueError) as error:
             made.unlink(missing_ok=True)
-            raise UsageError(f"cannot write a copy of {path} beside it: {reason(error)}") from None
+            raise UsageError(f"cannot write a copy of {path} in its folder: {reason(error)}") from None
         return cls(path, h5py.File(path, "r+", libver="latest"), rows)
 
     def add(self, samples: Mapping[str, FloatArray]) -> None:

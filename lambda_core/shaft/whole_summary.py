@@ -79,7 +79,7 @@ class WholeSummary(Record):
         description="of the coupling on the shaft, with friction; null where torques change"
     )
     orbit: list[OrbitOfShaft] = Field(description="at every lump of the shaft")
-    bodies: dict[str, PlaceInMotion] = Field(default={}, description="bodies beside the shaft")
+    bodies: dict[str, PlaceInMotion] = Field(default={}, description="bodies other than the shaft")
     markers: dict[str, PlaceInMotion] = Field(default={}, description="named places")
     energy_residual: float | None = Field(description="(input - dissipated - stored) over integral of |input power|")
     simulated_s: float = Field(description="simulated time")

@@ -108,8 +108,8 @@ def _resolve_cage(
     )
     if options.section_width is None:
         ledger.assume(
-            "pockets take nothing from the cage's stiffness beside the mass they leave out: give elastic.cage."
-            "section_width where bars and rims are known"
+            "pockets reduce the mass of the cage but not its stiffness: give elastic.cage.section_width if bars and "
+            "rims are known"
         )
     _tell("cage", ring, options, height, ledger)
     return RingWaves(ring, options.orders, options.damping_ratio)

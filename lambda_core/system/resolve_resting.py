@@ -103,7 +103,7 @@ def _with_shims(
             return None
         free = math.asin(sine)
     if free is None:
-        ledger.problem("bearing.contact_angle", "is required beside the shim angle, or a clearance")
+        ledger.problem("bearing.contact_angle", "is required in addition to the shim angle, or give a clearance")
         return None
     if not shim < free:
         ledger.problem(_SHIM, f"{show(shim, 'angle', 4)} must be below the contact angle of {show(free, 'angle', 4)}")

@@ -81,7 +81,7 @@ class SteadyTemperatures(Record):
     energy_residual: float = Field(description="(heat put in - heat that leaves)/heat put in")
     iterations: int = Field(description="of Newton's method")
     network_assumptions: list[str] = Field(description="of the thermal network, and what it fills in")
-    assumptions: list[str] = Field(description="of the case beside them")
+    assumptions: list[str] = Field(description="other assumptions of the case")
 
     def text(self) -> str:
         """Return the lines for people."""
@@ -123,7 +123,7 @@ class TemperaturesOverTime(Record):
     points_solved: int = Field(description="quasi-static points; those between are interpolated")
     gain: LoopGain | None = Field(description="at the end, where the limit was passed")
     network_assumptions: list[str] = Field(description="of the thermal network, and what it fills in")
-    assumptions: list[str] = Field(description="of the case beside them")
+    assumptions: list[str] = Field(description="other assumptions of the case")
 
     def text(self) -> str:
         """Return the lines for people."""

@@ -45,7 +45,7 @@ class Arc(Channel):
     "arc-voltage",
     Arc,
     role_api=2,
-    reference="constant arc voltage beside Ohm's law",
+    reference="constant arc voltage and Ohm's law",
     validity="arcs that burn longer than they take to form",
 )
 def arc_voltage(V: float, h: float, area: float, par: Arc, out: FloatArray) -> int:

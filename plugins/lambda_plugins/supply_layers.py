@@ -163,7 +163,7 @@ def layer_after(fresh: float, time: float, flow: float, replenishment: float) ->
     role_api=2,
     reference=f"{_SIDE_FLOW}; {CHEVALIER}; inlet: {INLET}; rolling: {ROLLING}",
     validity="base oil of a grease or an oil-air layer after churning; every contact of a track taken as this one; no "
-    "flow back from the ridges beside the track, no spin; originals not seen, derived anew",
+    "flow back from the ridges at the sides of the track, no spin; originals not seen, derived anew",
     prepare=prepare_side_flow,
 )
 def side_flow_layer(

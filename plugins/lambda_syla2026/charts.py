@@ -51,7 +51,7 @@ def table4_chart(found: Table4) -> ViewData:
         axes = Axis("speed", "1/min", low=0.0, high=3300.0), Axis("friction torque", "N mm", low=0.0, high=_TOP)
         panels.append(Panel(title, *axes, tuple(series)))
     errors = ", ".join(f"{name} {value:.1f} %" for name, value in found.mean_absolute_error_pct.items())
-    notes = (f"mean absolute error: {errors}", "printed values of other methods stand a little beside their speed")
+    notes = (f"mean absolute error: {errors}", "printed values of other methods are drawn slightly off their speed")
     return ViewData("table4", "Friction torque of the 6319, oil bath", PAPER, tuple(panels), 2, notes)
 
 

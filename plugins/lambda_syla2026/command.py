@@ -19,7 +19,7 @@ def reproduce(
     out: Annotated[
         Path, typer.Option("--out", metavar="DIR", help="Folder of figures, page, and all that was computed.")
     ] = Path("reproduction"),
-    quick: Annotated[bool, typer.Option("--quick", help="Fewer runs: what is left out is said.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Run fewer cases and list the omitted ones.")] = False,
     workers: Annotated[
         int | None, typer.Option("--workers", min=1, metavar="N", help="Processes; default: up to 4.")
     ] = None,

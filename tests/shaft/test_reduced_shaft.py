@@ -153,7 +153,7 @@ def test_every_kind_of_file_says_the_same(beam: ShaftModel, tmp_path: Path) -> N
         (lambda d: d.__setitem__("nodes", np.array([0.0, 85.0, 170.0])), "moving all nodes as one about"),
         (lambda d: d.__setitem__("stiffness", 0.0 * d["stiffness"]), "20 motions take no force"),
         (lambda d: d.__setitem__("nodes", np.array([0.17, 0.085, 0.0])), "must rise along x"),
-        (lambda d: d.__setitem__("nodes", np.array([[0.0, 0, 0], [0.085, 0.01, 0], [0.17, 0, 0]])), "beside the axis"),
+        (lambda d: d.__setitem__("nodes", np.array([[0.0, 0, 0], [0.085, 0.01, 0], [0.17, 0, 0]])), "off the axis"),
         (lambda d: d.__setitem__("damping", d["mass"]), "turns with it"),
         (lambda d: d.__setitem__("units", "inch"), 'must be "m kg N"'),
         (lambda d: d.__setitem__("stifness", d.pop("stiffness")), "stiffness"),

@@ -139,7 +139,7 @@ def test_what_only_the_whole_shows(folder: Path, capsys: pytest.CaptureFixture[s
     said = capsys.readouterr().err
     assert "gears.wheel.position" in said
     assert "0 mm to 170 mm" in said
-    assert 'is that of "left" too' in said
+    assert 'is also that of "left"' in said
     assert "needs a speed" in said
 
 

@@ -30,7 +30,7 @@ WITHOUT_YEAR = {
     "Ohm's law",
     "linear spring and damper along and about each axis (Kelvin-Voigt)",
     "linear swept sine sin(2 pi integral of f dt), f rising evenly (ISO 7626-2, swept sinusoidal excitation)",
-    "constant arc voltage beside Ohm's law",
+    "constant arc voltage and Ohm's law",
     "Poisson statistics of particles",
 }
 

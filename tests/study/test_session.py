@@ -314,7 +314,7 @@ def test_regression_finds_linear_shares() -> None:
         (np.ones((9, 2)), np.arange(9.0), "no numeric parameter varies"),
         (np.arange(9.0)[:, None], np.arange(9.0), "alone varies: there is nothing to weigh it against"),
         (np.arange(4.0)[:, None] * np.ones((1, 2)), np.arange(4.0), "too few"),
-        (np.arange(9.0)[:, None] * np.ones((1, 2)), np.arange(9.0), "cannot be told apart"),
+        (np.arange(9.0)[:, None] * np.ones((1, 2)), np.arange(9.0), "cannot be separated"),
         (np.arange(18.0).reshape(9, 2) ** 2, np.ones(9), "does not vary"),
     ],
 )

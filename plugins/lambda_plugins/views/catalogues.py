@@ -54,4 +54,12 @@ def catalogues(run: RunData, options: Options) -> ViewData:
     return ViewData("catalogues", "Simulation and catalogues", source(run), (panel,), 1, notes)
 
 
-VIEWS = (View("catalogues", "friction torque beside SKF's and Schaeffler's models", "result", catalogues, view_api=1),)
+VIEWS = (
+    View(
+        "catalogues",
+        "friction torque, compared with the models of SKF and Schaeffler",
+        "result",
+        catalogues,
+        view_api=1,
+    ),
+)
