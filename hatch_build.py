@@ -45,7 +45,7 @@ def is_wanted() -> bool:
 
 
 def get_requires_for_build_wheel(config_settings: dict[str, Any] | None = None) -> list[str]:
-    """Return what the build of a wheel needs beside hatchling: what the program needs."""
+    """Return what the build of a wheel needs in addition to hatchling."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     return list(project["dependencies"]) if is_wanted() else []
 

@@ -1,4 +1,4 @@
-"""What the compiler says of a law that it cannot compile, in words for the author of the law."""
+"""Explain to the author of a law why it cannot be compiled."""
 
 from __future__ import annotations
 

@@ -40,7 +40,6 @@ STILL_QUESTIONS = {  # compiled code, rewritten together
     "lambda_core/laws/jit/unstable.py",
     "lambda_core/solver/code_files.py",
     "lambda_core/solver/faults.py",
-    "lambda_core/solver/integrator/memory.py",
     "lambda_core/solver/integrator/reach.py",
     "lambda_core/solver/sampling.py",
     "lambda_core/solver/status.py",

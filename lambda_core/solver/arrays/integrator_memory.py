@@ -1,4 +1,4 @@
-"""What the integrator remembers, and what leads compiled code to all of a model."""
+"""Memory of the integrator, and the handle on a model."""
 
 from __future__ import annotations
 

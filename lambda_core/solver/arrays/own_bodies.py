@@ -1,4 +1,4 @@
-"""Which bodies the balls of each row reach, and where their states stand."""
+"""List the bodies that the balls of each row reach."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Type of what the integrator remembers in compiled code, and the types of what it calls."""
+"""Types of the integrator's memory and of the functions that it calls."""
 
 from __future__ import annotations
 
