@@ -44,7 +44,7 @@ def environment() -> dict[str, str]:
 
 
 def run(parts: dict[str, list[str]], *, is_shown: bool = False) -> list[str]:
-    """Run parts one after the other; return those that failed. What passes without being shown is told in a line."""
+    """Run parts one after the other; return those that failed. A part that passes without being shown prints a line."""
     failed = []
     pipe = None if is_shown else subprocess.PIPE
     for name, command in parts.items():
@@ -68,9 +68,9 @@ def main() -> int:
     arguments = sys.argv[1:]
     is_first = not arguments and not any(ROOT.glob("tests/*/__pycache__/*-pytest-*.pyc"))
     looked = {} if arguments else LOOKING | (COLLECTING if is_first else {})
-    with ThreadPoolExecutor() as beside:
-        looking = beside.submit(run, looked)
-        compiling = beside.submit(run, COMPILING)
+    with ThreadPoolExecutor() as pool:
+        looking = pool.submit(run, looked)
+        compiling = pool.submit(run, COMPILING)
     failed = looking.result() + compiling.result()
     failed += run({name: [*command, *arguments] for name, command in TESTING.items()}, is_shown=True)
     if failed:

@@ -61,7 +61,7 @@ if TYPE_CHECKING:
 
 
 def pytest_configure() -> None:
-    """Look for rubbish seldom: going through all that tests have loaded takes a third of the time of some."""
+    """Collect garbage seldom: each pass over all that tests have loaded takes a third of the time of some tests."""
     gc.set_threshold(100_000, 50, 50)
 
 

@@ -128,11 +128,11 @@ def _link(command: tuple[str, ...], objects: Mapping[str, bytes], sources: list[
         files = [Path(made, name) for name in objects]
         for file in files:
             file.write_bytes(objects[file.name])
-        beside = Path(made, library.name)  # among what some linkers leave there
-        line = [*command, *_OPTIONS, *map(str, [*sources, *files]), "-o", str(beside), "-lm"]
+        linked = Path(made, library.name)  # among what some linkers leave there
+        line = [*command, *_OPTIONS, *map(str, [*sources, *files]), "-o", str(linked), "-lm"]
         done = subprocess.run(line, capture_output=True, text=True, stdin=subprocess.DEVNULL, check=False)
         if done.returncode == 0:
-            shutil.copy(beside, library)
+            shutil.copy(linked, library)
     if done.returncode != 0:
         raise UsageError(f"the C compiler {' '.join(command)} fails: {done.stderr.strip()[:2000]}")
 

@@ -216,7 +216,7 @@ def other_code(before: str) -> str:
 
 @cache
 def _opened() -> Pack | str:
-    """Return the pack, or why it cannot be used; faults are said once."""
+    """Return the pack, or why it cannot be used; each fault is reported once."""
     try:
         return _open(FOLDER)
     except _UnusableError as error:

@@ -1,4 +1,7 @@
-"""Which source files make results: they name compiled code on disk, and tell whether other code continues a run."""
+"""List the source files that determine results.
+
+They name compiled code on disk, and tell whether other code continues a run.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a kernel that refuses leaves behind."""
+"""Define the report that a refusing kernel leaves behind."""
 
 from __future__ import annotations
 

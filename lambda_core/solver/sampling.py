@@ -1,4 +1,7 @@
-"""What a sample shows beyond the state: contact channels, energies. Off the hot path."""
+"""Compute contact channels and energies of a sample.
+
+It runs off the hot path.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a compiled function of the solver says when it returns, and what that means.
+"""Define the status codes of compiled solver functions.
 
 A law's kernel has codes of its own (1: well, 2 and up: declared with it); the solver turns every refusal into `REFUSED`
 and leaves in the fault report which law it was.

@@ -1,4 +1,7 @@
-"""Books of a march: sums that have to balance, the record of voltages, and the table of discharges."""
+"""Accumulate sums and records of a circuit simulation.
+
+These are sums that have to balance, the record of voltages, and the table of discharges.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Films of the other balls while an arc burns in one film of a ball: when the voltage that goes on breaks them down."""
+"""Detect breakdown of other balls' films during an arc.
+
+The voltage that continues while an arc burns in one film of a ball may break them down.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """One discharge: arcs through the films of one ball, from the breakdown until the last one quenches.
 
 The first film that breaks down lets the ball's voltage collapse within a nanosecond; the other film of the ball then
-stands the whole bearing voltage. Where it breaks down too, the rotor's charge flows through both: both contacts of a
+carries the full bearing voltage. Where it breaks down too, the rotor's charge flows through both: both contacts of a
 ball make one discharge. Balls are followed one at a time: after the first the voltage is gone. Where the other film of
 the ball holds, an edge of the source may drive the voltage on: the discharge ends when a film of another ball breaks
 down, which is the next one.

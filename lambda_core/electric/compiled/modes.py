@@ -37,7 +37,7 @@ def factorise(n, c, low):
 def modes(n, low, g, b, s, decay):
     """Find the modes of a network of n nodes from the Cholesky factor of its capacitances; `b` is workspace.
 
-    Jacobi's rotations of L^-1 G L^-T keep small decay rates beside large ones accurate (Demmel and Veselic 1992, SIAM
+    Jacobi's rotations of L^-1 G L^-T keep small decay rates accurate next to large ones (Demmel and Veselic 1992, SIAM
     J. Matrix Anal. 13, 1204): oil leaks in seconds where touching metal does in picoseconds.
     """
     for j in range(n):  # b = L^-1 G

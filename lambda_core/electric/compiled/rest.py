@@ -1,4 +1,7 @@
-"""Where a network begins: the charges that a source which has long been on brings back after each of its periods."""
+"""Compute the periodic initial charges of a network.
+
+A source that has long been on restores these charges after each of its periods.
+"""
 
 from __future__ import annotations
 

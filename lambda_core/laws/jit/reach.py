@@ -1,4 +1,4 @@
-"""What a function reaches: its code, the functions it calls and every constant they use.
+"""Follow what a function reaches: code, called functions, constants.
 
 Numba stamps a cached function with its own source file only, so an edited helper or an
 edited constant in another file would silently leave the old physics running. The hash

@@ -1,4 +1,4 @@
-"""What Numba offers without a promise to keep it: named here alone, so that a new version is met in one room."""
+"""Name all parts of Numba's interface that may change without notice."""
 
 from __future__ import annotations
 

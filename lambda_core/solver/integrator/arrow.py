@@ -9,7 +9,7 @@ product do. So the ball blocks are kept as inverses, and the other blocks in the
 Rows are filled up with zeros to whole vectors, and an entry is in a register while multiples of nine rows are taken
 from it (:mod:`.sweeps`).
 
-Balls that touch each other are coupled beside the arrow (:mod:`.chain`).
+Further blocks couple balls that touch each other (:mod:`.chain`).
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""Energy over one step: what loads and drives give, what the scheme itself takes.
+"""Balance the energy over one integration step.
+
+The terms are the work of loads and drives, and what the scheme itself takes.
 
 The step solves D(y) = f(y), where D(u) = (u_n - base)/gamma is the difference quotient of the BDF. Energies are of
 second order in the states, D(E) = grad E . D(y) but for squares of differences (_dissipated). So the running integrals
@@ -47,7 +49,7 @@ def _quotient(mem, shared, k):
 
 @helper
 def _power_of_speed(mem, shared, k):
-    """Return what a led speed's kinetic energy takes, per mass: D(v^2/2) of a BDF, v D(v) of a stage (settle_led).
+    """Return the kinetic power per mass of a prescribed speed: D(v^2/2) of a BDF, v D(v) of a stage (settle_led).
 
     Such a speed is known, and its kinetic energy with it: v D(v) of the step across a jump would be twice as much.
     """
@@ -87,8 +89,8 @@ def _work_of_motion(body, now, wrench, inputs, first, shared, mem, running):
 def _work_of_motions(bundle, mem):
     """Add to the input what differences of prescribed motions differ by from their derivatives.
 
-    A ring that is led has the kinetic power m D(v^2/2), a force F on it does the work F D(x): not m v dv/dt and F v,
-    where a motion has a corner or changes fast. Translation, tilt, spin.
+    A ring with prescribed motion has the kinetic power m D(v^2/2), a force F on it does the work F D(x): not m v dv/dt
+    and F v, where a motion has a corner or changes fast. Translation, tilt, spin.
     """
     running = running_of(mem.rates)[0]
     for b in range(bundle.bodies.size):
@@ -128,7 +130,7 @@ def _work_of_loads(bundle, mem):
 
 @helper
 def _led_speeds(bundle):
-    """Return the speed and the circumferential speed of the raceways of rings that are led [m/s]."""
+    """Return speed and circumferential speed of the raceways of rings with prescribed motion [m/s]."""
     speed, spin = 0.0, 0.0
     for k in range(bundle.raceways.size):
         raceway = bundle.raceways[k]
@@ -153,8 +155,8 @@ def _residual_work(bundle, mem):
 
     Creep is stiff: within the error allowed per step the tractions of an iterate may be off by more than themselves,
     and what the step accelerates the balls by, D(v), is not f. The difference is a force R on each ball (moment M)
-    that came from the rings. A ring that is led and whose surface moves at u gave at most (|R| + |M|/r) |u|; the
-    rest is an unattributed energy error.
+    that came from the rings. A ring with prescribed motion whose surface moves at u gave at most (|R| + |M|/r) |u|;
+    the rest is an unattributed energy error.
     """
     power, force = 0.0, 0.0
     for r in range(bundle.rows.size):

@@ -1,6 +1,8 @@
-"""Balls that touch each other, where no cage keeps them apart: their coupling in the block-arrow matrix.
+"""Couple balls that touch each other in the block-arrow matrix.
 
-Blocks X_j,i stand beside the diagonal where ball j touches ball i = j - 1 or j + 1. Balls that touch are a chain, which
+No cage keeps such balls apart.
+
+Blocks X_j,i are next to the diagonal where ball j touches ball i = j - 1 or j + 1. Balls that touch are a chain, which
 is eliminated from one end to the other (block LU of a tridiagonal matrix: Golub and Van Loan 2013, Matrix
 Computations, 4.5.1), every ball behind the one before it:
 

@@ -1,4 +1,6 @@
-"""Newton's iteration where balls come to rest: begun at the last speeds, damped, with the Jacobian of the iterate.
+"""Run a damped Newton iteration where balls come to rest.
+
+It starts from the last velocities and uses the exact Jacobian of the iterate.
 
 Friction in a contact at rest is almost a sign function. From a speed on the wrong side of it an undamped iteration
 goes to and fro for ever, in steps of any length. What is solved is M (v - v_0)/gamma = F(v) with a friction that

@@ -1,4 +1,4 @@
-"""Which bodies, and so which columns of the Jacobian, the balls of each row reach.
+"""List the bodies and Jacobian columns that each row reaches.
 
 A ball touches the raceways of its row and its cage, the waves of all of them and nothing else, so its blocks hold the
 columns of those bodies alone: the *own* bodies of its row. Numbers among them are places; a row with fewer than the

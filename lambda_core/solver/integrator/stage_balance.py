@@ -1,6 +1,7 @@
-"""Energy over one step of several stages: what the formula takes, what goes to and fro, what led rings take.
+"""Balance the energy over one step of several stages.
 
-Beside :mod:`.balance`, which knows what the stages have in common with a step of the BDF.
+The terms are those of the formula, of the exchange, and of rings with prescribed motion; :mod:`.balance` has what the
+stages share with a step of the BDF.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ def add_turn_over(mem, h):
 
 @helper
 def _settled(mem, end, inertia, k, h):
-    """Return what the kinetic energy of a led speed grows by in a step beyond what the stages were given [J]."""
+    """Return the growth of a prescribed speed's kinetic energy in a step beyond that given to the stages [J]."""
     start, given = mem.shared[k], 0.0
     for i in range(STAGES):
         v = start
@@ -60,7 +61,7 @@ def _settled(mem, end, inertia, k, h):
 
 @helper
 def settle_led(bundle, mem, h):
-    """Have the input of a step of stages account for the kinetic energy of rings that are led, also across jumps."""
+    """Add the kinetic energy of rings with prescribed motion to the input of a step, also across jumps."""
     running = running_of(mem.integrals)[0]
     for b in range(bundle.bodies.size):
         body, first = bundle.bodies[b], NS * b

@@ -48,7 +48,7 @@ def ball_block(ball, row, bl, a, b):
 
 @helper
 def neighbour_block(row, bl, block):
-    """Turn the slopes of a ball's force with the states of the ball beside it into rows of the first."""
+    """Turn the slopes of a ball's force with the states of its neighbour into rows of the first."""
     for i in range(6):
         inverse = 1.0 / row.ball_mass if i < 3 else 1.0 / row.ball_inertia
         for c in range(NB):

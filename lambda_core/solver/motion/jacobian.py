@@ -6,7 +6,7 @@ Each ball couples to itself and to the bodies:
           [      ...       ... ],
           [ C_1, ..., C_Z,  D  ] ]
 
-Without a cage, balls that touch each other are coupled too, each to those beside it.
+Without a cage, further blocks couple neighbouring balls that touch.
 B and C hold the columns and rows of the bodies that the ball touches (:mod:`lambda_core.solver.integrator.reach`).
 
 A contact's wrench depends on the states through nine kinematic numbers; its slope with them is
@@ -75,7 +75,7 @@ def _add_part(bl, r, j):
 
 @helper
 def _guide_columns(balls, j, row, bundle, bl):
-    """Add the pocket of ball j, or its contacts with the balls beside it."""
+    """Add the pocket of ball j, or its contacts with the neighbouring balls."""
     if row.caged == 1:
         return pocket_columns(balls[j], j, row, bundle, bl)
     first, z, i = row.first_ball, row.balls, j - row.first_ball
