@@ -1,4 +1,4 @@
-"""The command cite: what to cite beside a result."""
+"""Cite the program and the sources that a result used."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command compare: methods side by side, and a simulation beside them."""
+"""Compare methods with each other and with a simulation."""
 
 from __future__ import annotations
 

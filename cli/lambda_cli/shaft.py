@@ -1,4 +1,4 @@
-"""The command shaft: a shaft in several bearings, one equilibrium of the whole, or its motion."""
+"""Solve or simulate a shaft in several bearings."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ def stribeck(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Friction torque of a case over speed, its parts, and SKF's catalogue model beside it.
+    """Compute the friction torque and its parts over speed, and compare them with SKF's catalogue model.
 
     Quasi-static and without cage; from 1 1/min to n d_m = 500 000 mm/min unless speeds are given.
     """

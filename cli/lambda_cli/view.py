@@ -71,7 +71,7 @@ def view(
 
 
 def _drawn(data: ViewData, out: Path, stem: str, formats: tuple[str, ...], alone: bool) -> list[Path]:
-    """Draw a view; one of a plugin that fails among others is told, and the others are drawn."""
+    """Draw a view; report a plugin's view that fails among others, and draw the others."""
     from lambda_core import api
     from lambda_core.domain.plugin_errors import PluginError, went_on_without
 

@@ -1,4 +1,4 @@
-"""CHECK constraints that carry, beside their name, the sentence people read when a row is refused."""
+"""Define CHECK constraints with the message for a refused row."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ def sqlite_engine(
     Parameters
     ----------
     begin : str
-        What starts a transaction: nothing (each statement stands for itself, so that a long-lived reader sees what
+        What starts a transaction: nothing (each statement is independent, so that a long-lived reader sees what
         others have written), BEGIN, or BEGIN IMMEDIATE, which takes the write lock at once: a transaction that
         reads first cannot wait for another writer. The sqlite3 module's own handling, which starts no transaction
         for SAVEPOINT, is switched off.

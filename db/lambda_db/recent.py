@@ -26,7 +26,7 @@ def recent_cases() -> list[Path]:
 
 
 def remember(path: str | Path) -> None:
-    """Put a case file at the head of the list; what is no file is left out, and no failure to write is told."""
+    """Put a case file at the head of the list; omit what is no file, and ignore failures to write."""
     with suppress(OSError):
         case = Path(path).resolve()
         if case.suffix != ".toml" or not case.is_file():

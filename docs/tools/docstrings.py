@@ -112,7 +112,7 @@ def parameters(function: Any) -> list[str]:
 
 
 def fields(cls: type) -> dict[str, str]:
-    """Return the declared fields of a dataclass or pydantic model, each with the comment beside or above it."""
+    """Return the declared fields of a dataclass or pydantic model, each with the comment after or above it."""
     names = [f.name for f in dataclasses.fields(cls)] if dataclasses.is_dataclass(cls) else []
     if issubclass(cls, BaseModel):
         names = [name for name in cls.model_fields if name in cls.__annotations__]

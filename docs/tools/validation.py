@@ -1,7 +1,7 @@
 """Put the numbers of a reproduction into docs/validation.md: ``python docs/tools/validation.py RESULT.json``.
 
 RESULT.json is what ``lambda-bearing reproduce all --json``, or that of one experiment, prints. Bars and tables between
-the marks are written anew; what is said about them is written by hand.
+the marks are written anew; the text about them is written by hand.
 """
 
 from __future__ import annotations

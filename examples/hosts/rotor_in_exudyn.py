@@ -8,8 +8,8 @@ The FMU: ``lambda-bearing export fmu 6208-axial-1300 --couple motion --set loads
 One of another case begins elsewhere, and the rotor falls into its bearings.
 
 Exudyn's trapezoidal rule moves a body in a step by the mean of its speeds at both ends, which is a motion at constant
-acceleration: with this the ring is led, and stands at the end where Exudyn has the shaft, as fast. As often as the rule
-looks for the force at the end of a step, the bearing takes that step from its saved state anew.
+acceleration. The ring has this motion as a prescribed one, and ends at the position and speed of Exudyn's shaft. As
+often as the rule looks for the force at the end of a step, the bearing takes that step from its saved state anew.
 
 The rotor does not spin in Exudyn: the bearings know the speed, gyroscopic moments are left out.
 """
@@ -39,7 +39,7 @@ PUSH, PUSHED_AT, PUSHED_IN = -400.0, 1e-3, 0.2e-3  # [N], [s]: it grows to its f
 
 
 def push(time: float) -> float:
-    """Return the force on the rotor beside its weight, vertical [N]."""
+    """Return the vertical force on the rotor without its weight [N]."""
     return PUSH * min(max((time - PUSHED_AT) / PUSHED_IN, 0.0), 1.0)
 
 

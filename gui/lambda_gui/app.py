@@ -100,7 +100,7 @@ class BuilderApp(CaseApp):
             self.screen.focus_next()
 
     def stands(self) -> None:
-        """Take what is loaded as there to stay: looking through it for rubbish stops the picture for 0.1 s."""
+        """Take what is loaded as there to stay: a garbage collection over it stops the picture for 0.1 s."""
         if self._is_alone:
             gc.collect()
             gc.freeze()
@@ -246,7 +246,7 @@ class BuilderApp(CaseApp):
     # -- results --
 
     def action_results(self) -> None:
-        """Show the results beside the case."""
+        """Show the results in the folder of the case."""
         path = self.builder.draft.path
         self.show_result(None, path.resolve().parent if path else Path.cwd())
 

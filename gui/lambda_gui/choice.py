@@ -97,7 +97,7 @@ class PickList(ModalScreen[str | None]):
         self.dismiss(self._entries[event.option_index].value)
 
     def on_click(self, event: events.Click) -> None:
-        """Leave when clicked beside the list."""
+        """Leave when clicked outside the list."""
         if event.widget is self:
             self.dismiss(None)
 

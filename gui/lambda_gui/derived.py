@@ -1,4 +1,4 @@
-"""The numbers that follow from a case, beside its form."""
+"""Show the numbers derived from a case next to its form."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ class Derived(Static):
         return lines if len(lines) <= room else [*lines[: room - 1], Text(f"▲ {len(lines)} warnings: F8", colour)]
 
     def _mistakes(self, check: Check) -> Text:
-        """Write as many mistakes as there is room for, each as a whole; F8 goes to the others."""
+        """Write as many complete mistakes as there is room for; F8 goes to the others."""
         width, room = max(20, self.size.width), max(self.size.height, 1)
         shown: list[Text] = []
         used = 0

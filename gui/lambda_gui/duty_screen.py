@@ -208,7 +208,7 @@ class DutyScreen(Screen[None]):
         self.query_one("#sum").scroll_home(animate=False)
 
     def action_save(self) -> None:
-        """Write the cycle into a file of its own, beside the case."""
+        """Write the cycle into a file of its own in the folder of the case."""
         path = self._draft.path
         if path is None or self._draft.is_changed():
             self.notify("a duty cycle names the case's file: save the case first (Esc, Ctrl+S)", severity="warning")

@@ -28,7 +28,7 @@ class Helper:
     say : callable
         Called with a sentence about what is being done.
     is_wanted : callable, optional
-        Tells whether anybody is left to be told: nothing is said to a screen that is being taken down.
+        Tells whether a screen is left to report to; one that is being taken down gets no answer.
     """
 
     def __init__(self, say: Callable[[str], None], is_wanted: Callable[[], bool] = lambda: True) -> None:

@@ -122,7 +122,7 @@ def study_summary(say: Say, path: str) -> Any:
 
 
 def differences(say: Say, sources: list[str]) -> Any:
-    """Return several results beside each other."""
+    """Return a comparison of several results."""
     from lambda_core import api
 
     say("reading ...")

@@ -1,4 +1,7 @@
-"""Files that a screen writes beside the case: studies, duty cycles, cases of results."""
+"""Write new files into the folder of the case.
+
+These are studies, duty cycles and cases of results.
+"""
 
 from __future__ import annotations
 

@@ -202,7 +202,7 @@ def _electric() -> Node:
 
 
 def _film_law(role: str, title: str) -> Node:
-    """Return the node of a law that stands in a section of its own, beside further options of that section."""
+    """Return the node of a law in a section of its own that has further options."""
     table = ("electric", role)
     names = tuple(name for name in plain_fields(Case, table) if name not in ("law", "parameters"))
     return Node(

@@ -44,7 +44,7 @@ class Option:
 
 
 class Part:
-    """An entry of a list that is written as a whole."""
+    """An entry of a list that is written completely."""
 
     def __init__(self, whole: Place, *path: int | str) -> None:
         self._whole, self._path = whole, path

@@ -84,7 +84,7 @@ class ResultsScreen(ExportScreen):
         self._drawn: TemporaryDirectory[str] | None = None  # where pictures are drawn; none: text charts are shown
 
     def compose(self) -> ComposeResult:
-        """Lay out files and views beside what is shown."""
+        """Lay out files and views at the left of the picture."""
         with Horizontal():
             with Vertical(id="left"):
                 yield DataTable(cursor_type="row", show_header=False, cell_padding=0, id="files")

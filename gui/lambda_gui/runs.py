@@ -1,4 +1,4 @@
-"""The builder's runs: a queue whose files stand beside the builder's own."""
+"""Manage the builder's queue of runs in its own folder."""
 
 from __future__ import annotations
 

@@ -117,7 +117,7 @@ def _table(report: ShaftReport, units: UnitSystem, width: int, style: str) -> li
 
 
 def _of_the_shaft(report: ShaftReport, units: UnitSystem) -> list[str]:
-    """Return what there is to say of the whole."""
+    """Return the text about the complete shaft."""
     bends = ((math.hypot(y, z), x) for (_, y, z), x in zip(report.deflection_um, report.positions_mm, strict=True))
     bend, place = max(bends)
     told = [f"bends {bend:.3g} um at {place:.4g} mm"]

@@ -57,7 +57,7 @@ class Canvas:
             self._dots[cell] = (self._dots.get(cell, (0, ""))[0] | _DOTS[down % 4][across % 2], colour)
 
     def is_free(self, line: int, column: int, length: int) -> bool:
-        """Tell whether no letter stands in a place, nor beside it."""
+        """Tell whether no letter stands in a place or next to it."""
         return all((line, at) not in self._letters for at in range(column - 1, column + length + 1))
 
     def words(self, line: int, column: int, text: str, colour: str) -> None:
@@ -153,7 +153,7 @@ def _largest(model: ShaftModel) -> float:
 def _bodies(
     canvas: Canvas, model: ShaftModel, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]
 ) -> None:
-    """Draw the bodies beside the shaft that have a shape, from the outer rings in them outwards."""
+    """Draw the other bodies that have a shape, from the outer rings in them outwards."""
     for number, body in enumerate(model.bodies, start=1):
         length, *across = body.extent
         rings = [0.5 * b.model.geometry.outside_diameter for b in model.bearings if b.carrier == number]

@@ -1,4 +1,4 @@
-"""A few words beside each node of a shaft's tree."""
+"""Summarise each node of a shaft's tree in a few words."""
 
 from __future__ import annotations
 

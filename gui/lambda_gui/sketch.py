@@ -23,7 +23,7 @@ _MARKS = 17  # room for the diameters beside a section
 
 
 class Sketch(Static):
-    """The upper half-section of the bearing of the case; axes and signs beside forms about loads and motion."""
+    """The upper half-section of the bearing of the case; axes and signs for forms about loads and motion."""
 
     DEFAULT_CSS = """
     Sketch { width: 1fr; padding: 0 1; }

@@ -196,7 +196,7 @@ class StudyScreen(Screen[None]):
         self.app.run_study(study_tables(self.values), self._model.case_toml)  # type: ignore[attr-defined]
 
     def action_save(self) -> None:
-        """Write the study into a file of its own, beside the case."""
+        """Write the study into a file of its own in the folder of the case."""
         path = self._draft.path
         if path is None or self._draft.is_changed():
             self.notify("a study file names the case's file: save the case first (Esc, Ctrl+S)", severity="warning")

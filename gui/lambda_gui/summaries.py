@@ -1,4 +1,4 @@
-"""A few words beside each node of the tree: what is set there."""
+"""Summarise the values of each node of the tree."""
 
 from __future__ import annotations
 

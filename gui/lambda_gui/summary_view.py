@@ -78,7 +78,7 @@ def summary_view(summary: Summary, colours: Mapping[str, str], units: UnitSystem
 
 
 def _rated(summary: Summary) -> list[tuple[str, str, str]]:
-    """Return what standards and catalogues say beside the run."""
+    """Return the ratings of standards and catalogues for the run."""
     rating = summary.rating
     if rating is None:
         return []

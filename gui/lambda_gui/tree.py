@@ -1,4 +1,4 @@
-"""The model tree with what is set, what has changed and what is wrong beside each node."""
+"""Show the model tree with values, changes and errors."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class ModelTree(Tree[Node]):
         """The person goes into the form of the node under the cursor."""
 
     class Wished(Message):
-        """A table is to be added beside the node under the cursor, or that of the node is to go."""
+        """A table is to be added after the node under the cursor, or that of the node is to go."""
 
         def __init__(self, what: str, node: Node) -> None:
             super().__init__()

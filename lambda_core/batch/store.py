@@ -135,7 +135,7 @@ class Manifest:
     # -- what it says --
 
     def meta(self, name: str) -> str:
-        """Return one entry about the study as a whole; "" when there is none."""
+        """Return one entry about the complete study; "" when there is none."""
         row = self._database.execute("SELECT value FROM meta WHERE name = ?", (name,)).fetchone()
         return str(row[0]) if row else ""
 
@@ -245,7 +245,7 @@ class Manifest:
             )
 
     def write_meta(self, name: str, value: str) -> None:
-        """Set one entry about the study as a whole."""
+        """Set one entry about the complete study."""
         with self._database:
             self._database.execute("INSERT OR REPLACE INTO meta VALUES (?, ?)", (name, value))
 

@@ -205,7 +205,7 @@ def _names_together(study: Study, plan: Plan) -> Iterator[tuple[str, tuple[str, 
 
 
 def _tried(c: Coordinate) -> Iterator[tuple[str, float | str]]:
-    """Yield values of a parameter beside its first: of a list all of them, of a range the last and one between.
+    """Yield further values of a parameter after its first: of a list all of them, of a range the last and one between.
 
     The one between shows options that take whole numbers only.
     """

@@ -107,7 +107,7 @@ class Case(Section):
 
 
 def merged(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Merge tables key by key; None removes a key, a table with a ``kind`` replaces as a whole."""
+    """Merge tables key by key; None removes a key, a table with a ``kind`` replaces completely."""
     result = dict(base)
     for key, value in changes.items():
         old = result.get(key)

@@ -32,7 +32,7 @@ CLEARANCE_PARTS = "LHMP"
 
 
 class InlineGeometry(Section):
-    """Inner geometry written in the case; beside a designation it replaces single catalogue values."""
+    """Inner geometry written in the case; with a designation it replaces single catalogue values."""
 
     ball_count: int | None = option(None, "number of balls, of one row", ge=3, le=60)
     ball_diameter: Length | None = option(None, "ball diameter D_w", gt=0.0)

@@ -1,4 +1,4 @@
-"""Parts of the case of a shaft: markers, bodies beside it, wheels, springs, loads and gears."""
+"""Declare markers, bodies, wheels, springs, loads and gears."""
 
 from __future__ import annotations
 

@@ -71,7 +71,7 @@ class Harmonic(TimeTable, Generic[V]):
 class Table(TimeTable, Generic[V]):
     """Values at points in time, joined by a smooth curve and held constant outside.
 
-    ``points`` stand in the case; ``file`` names a CSV file beside it whose header is
+    ``points`` stand in the case; ``file`` names a CSV file in its folder whose header is
     ``time [s],value [kN]`` (the units in brackets are those of the columns).
 
     Between two neighbours the curve stays between their values (``monotone``), with a continuous first derivative. A

@@ -24,7 +24,7 @@ class Designation:
     base : str
         Name in the catalogue.
     maker : str
-        Word that stands beside it, "" without one.
+        Word that follows it, "" without one.
     suffixes : tuple of (str, Suffix)
         As written, in capitals, and what each is.
     text : str
@@ -78,7 +78,7 @@ def designated(catalogue: Catalogue, text: str, maker: str | None = None) -> tup
     Raises
     ------
     CatalogueError
-        When it is unknown, stands in the catalogue from several makers, names a maker beside another one, or has
+        When it is unknown, stands in the catalogue from several makers, names a maker and another one, or has
         an unknown suffix.
     """
     read = read_designation(text, catalogue.names("bearing"), catalogue.suffixes())

@@ -37,7 +37,7 @@ def lambda_laws(register: Callable[[Callable[..., int] | LazyLaw], None]) -> Non
 
 @hookspec
 def lambda_methods(register: Callable[[Method], None]) -> None:
-    """Register comparison methods (case -> table), shown beside the simulation."""
+    """Register comparison methods (case -> table), compared with the simulation."""
 
 
 @hookspec

@@ -1,7 +1,7 @@
 """Plugins that are one file: nothing to package, nothing to install, and only those that somebody named.
 
 Three ways lead in, each on purpose: ``--plugin FILE.py`` for one call, the variable ``LAMBDA_BEARING_PLUGINS`` for
-files and folders, and the folder ``plugins`` beside the user's settings. The working directory is none of them, and
+files and folders, and the folder ``plugins`` with the user's settings. The working directory is none of them, and
 a file sees no other files beside it.
 """
 
@@ -24,7 +24,7 @@ _texts: dict[Path, bytes] = {}  # of each file as it was first read: all of a pr
 
 
 def user_folder() -> Path:
-    """Return the folder whose files are in use without being named: ``plugins`` beside the user's settings."""
+    """Return the folder whose files are in use without being named: ``plugins`` with the user's settings."""
     import platformdirs
 
     return Path(platformdirs.user_config_dir("lambda-bearing")) / "plugins"

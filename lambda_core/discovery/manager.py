@@ -2,7 +2,7 @@
 
 Each entry point of the group ``lambda_bearing.plugins`` is loaded on its own. One that
 fails, misspells a hook, claims a taken name or is written for another version of the
-role interface is switched off as a whole and kept as a named fault; the rest works.
+role interface is switched off completely and kept as a named fault; the rest works.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def use_plugin(path: str | Path) -> None:
     ----------
     path : path-like
         A Python file with laws, or with hooks, as the module of a package would have them. It is read now, executed
-        once, and needs no package; it sees no other files beside it.
+        once, and needs no package; it cannot import other files of its folder.
 
     Raises
     ------

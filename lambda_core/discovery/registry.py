@@ -224,7 +224,7 @@ class Registry:
     def _first(self, hook: str, has: str, **given: Any) -> Any:
         """Return what the first plugin answers that has an answer.
 
-        One that fails is told with its name, and the next is asked; where none is left it is an error.
+        The registry reports one that fails with its name, and asks the next; where none is left it is an error.
 
         Parameters
         ----------
@@ -298,7 +298,7 @@ class Registry:
 
 
 def _watched(frames: Iterator[NDArray[np.uint8]], what: str) -> Iterator[NDArray[np.uint8]]:
-    """Yield frames; what their drawing raises is told with its name."""
+    """Yield frames; report what their drawing raises with its name."""
     steps = iter(frames)
     while True:
         with blamed(what):

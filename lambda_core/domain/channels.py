@@ -54,7 +54,7 @@ class Channel:
     name : str
         In lower case with underscores.
     dims : tuple of str
-        What it is per, beside time: names of :data:`DIMENSIONS`, "ball", "marker".
+        Dimensions in addition to time: names of :data:`DIMENSIONS`, "ball", "marker".
     unit, meaning : str
         SI unit, "-" for plain numbers; one line for people.
     """

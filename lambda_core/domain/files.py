@@ -36,7 +36,7 @@ def kind_of(path: Path) -> str:
 
 @contextmanager
 def held(folder: Path) -> Iterator[None]:
-    """Keep a folder for oneself meanwhile; the system lets go of it when the process ends, however it does.
+    """Keep a folder for oneself meanwhile; the system releases it when the process ends, however it does.
 
     Raises
     ------

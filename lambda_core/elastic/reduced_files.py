@@ -121,7 +121,7 @@ def _of_hdf5(content: bytes) -> dict[str, Any]:
 
 
 def _of_toml(text: str, folder: Path) -> dict[str, Any]:
-    """Return the tables of a TOML file; a name in place of a matrix is that of a CSV file beside it."""
+    """Return the tables of a TOML file; a name in place of a matrix is that of a CSV file in its folder."""
     found = tomllib.loads(text)
     for name in ("nodes", *MATRICES):
         if isinstance(found.get(name), str):

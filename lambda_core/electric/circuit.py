@@ -30,7 +30,7 @@ def bearing_capacitance(films: Films) -> FloatArray:
 def impedance(films: Films, circuit: Circuit, frequency: FloatArray) -> NDArray[np.complex128]:
     """Return the impedance between the rings, as a meter sees it while the bearing turns, shape (n, frequencies) [Ohm].
 
-    Each film is a capacitance beside a conductance, the films of a ball are in series, balls and the direct
+    Each film is a capacitance in parallel with a conductance, the films of a ball are in series, balls and the direct
     capacitance of the rings in parallel; a cage that conducts joins the balls. Valid where the period is short against
     the passage of a ball.
     """

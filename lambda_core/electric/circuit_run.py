@@ -104,7 +104,7 @@ def simulate(
         Its circuit, and what laws may know of it.
     settled : float, optional
         Time from which on is counted [s]; the circuit is marched from the first sample on all the same, so that it is
-        the one of a run that computes it beside the motion. The samples are those of a run then, and the march ends as
+        the one that a run computes with the motion. The samples are those of a run then, and the march ends as
         far before the last as the source needs. Default: everything is counted.
     window : tuple of float, optional
         Times between which every corner of the voltages is recorded [s]; default: none.

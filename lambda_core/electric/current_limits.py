@@ -1,6 +1,6 @@
 """Limits of bearing currents in circulation, with where they come from.
 
-None of them was read in its original here: they are shown beside a result, and nothing is decided by them.
+None of them was read in its original here: results list them, and the program decides nothing by them.
 """
 
 from __future__ import annotations

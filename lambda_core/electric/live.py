@@ -1,4 +1,4 @@
-"""The circuit of a run beside its motion: what films and voltages do is known while the run goes on."""
+"""Couple an electric circuit one-way to a running simulation."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ _SIZES = ("roughness", "least", "machine")
 
 @dataclass(frozen=True)
 class Circuit:
-    """What the image of a bearing with a circuit holds beside its motion.
+    """What the image of a bearing with a circuit holds in addition to its motion.
 
     Attributes
     ----------

@@ -119,7 +119,7 @@ def header_text(frozen: Frozen, variables: Sequence[Variable]) -> str:
 
 
 def _limit_numbers(frozen: Frozen) -> dict[str, object]:
-    """Return the numbers of what is told where laws end: :mod:`lambda_core.results.limits`."""
+    """Return the numbers of the warnings at the limits of laws: :mod:`lambda_core.results.limits`."""
     contacts, grooves = frozen.scratch.contacts, Grooves.of(dataclasses.asdict(frozen.model.geometry))
     places = {f"CONTACT_{name.upper()}": _at(R.CONTACT_SAMPLE, name) for name in _LOOKED_AT}
     return {
@@ -238,7 +238,7 @@ def _slope_numbers(frozen: Frozen) -> dict[str, object]:
 
 
 def _slope_table(frozen: Frozen) -> list[str]:
-    """Return the entries of the shared state that the Jacobian of a led bearing counts as free."""
+    """Return the shared states that the Jacobian of a bearing with prescribed motion counts as free."""
     states = ", ".join(map(str, frozen.led.bundle.active)) if frozen.led else ""
     return [f"static const unsigned lb_slope_states[] = {{{states}}};"] if states else []
 

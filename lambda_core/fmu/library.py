@@ -132,7 +132,7 @@ def build(parts: Parts, interface: str, folder: Path, name: str, platform: str) 
 
 @dataclass(frozen=True)
 class Parts:
-    """What a library is made of, beside the interface.
+    """What a library is made of, except for the interface.
 
     Attributes
     ----------

@@ -197,7 +197,7 @@ def _write(task: Mapping[str, Any], announce: Callable[[str], None] | None) -> N
 
 
 def _zip(parts: Mapping[str, bytes], target: Path) -> None:
-    """Write an archive beside its place, and move it there whole."""
+    """Write an archive to a temporary name in its folder, and move it to its place."""
     target.parent.mkdir(parents=True, exist_ok=True)
     beside = target.with_name(f".{target.name}.part")
     try:

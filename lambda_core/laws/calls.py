@@ -27,7 +27,7 @@ class _EndlessError(Exception):
 
 @contextmanager
 def _ending(most: int) -> Iterator[None]:
-    """Count the lines that Python executes within, and end what takes more than `most`; not beside a debugger."""
+    """Count the lines that Python executes within, and end what takes more than `most`; not with a debugger."""
     before = sys.gettrace()
     if before is not None:
         yield

@@ -144,7 +144,7 @@ def parameters_of(model: Law, parameters: BaseModel | Mapping[str, Any] | None) 
 
 
 def _faults(model: Law, par: FloatArray, compiled: CompiledKernel | None, samples: int) -> Iterator[str]:
-    """Yield every fault that can be told safely; those that make machine code unsafe end the search."""
+    """Yield every fault that can be reported safely; those that make machine code unsafe end the search."""
     role = ROLES[model.role]
     for code in kernel_reach(model).codes:
         if raises(code):

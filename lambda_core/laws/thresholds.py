@@ -1,7 +1,7 @@
 """Arguments at which a kernel may take another path: the numbers in its own code, and what lies between them.
 
 Draws from the range of a ball bearing rarely meet a branch like ``if 1.2e9 < p[i] < 1.2005e9``. The numbers that
-decide it stand in the code, so a kernel is tried at them, beside them and between each two.
+decide it stand in the code, so a kernel is tried at them, near them and between each two.
 """
 
 from __future__ import annotations

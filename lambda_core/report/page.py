@@ -83,7 +83,7 @@ class Cover:
 
     @property
     def line(self) -> str:
-        """One line for the head of the page, "" where nothing was said."""
+        """One line for the head of the page, "" without one."""
         return "   ".join(filter(None, (self.project, self.author, self.date)))
 
 

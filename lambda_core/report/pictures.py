@@ -228,7 +228,7 @@ def report(
     overwrite : bool
         Replace a page that stands there.
     project, author : str
-        What the head of the page says, beside the day.
+        What the head of the page says, except for the day.
     appendices : sequence of str, optional
         What follows the first page: ``tables``, ``views``, ``trust``, ``inputs``, ``assumptions``, ``laws``,
         ``references``, ``origin``; default: all of it.
@@ -272,7 +272,7 @@ def report(
 
 
 def _cover(project: str, author: str, appendices: Sequence[str] | None, units: str) -> Cover:
-    """Return what stands on the page beside the results; the day only where somebody signs."""
+    """Return the parts of the page other than the results; the day only where somebody signs."""
     from datetime import date
 
     from lambda_core.domain.unit_systems import unit_system

@@ -166,5 +166,5 @@ def torque_by_revolution(rows: FloatArray) -> FloatArray:
 
 
 def finite(value: float) -> float | None:
-    """Return the number, None when there is none: how NaN and infinity are said in JSON."""
+    """Return the number, None when there is none: JSON has no NaN and no infinity."""
     return float(value) if math.isfinite(value) else None

@@ -110,7 +110,7 @@ def _program(text: str) -> Entry:
 
 
 def _method(text: str) -> Entry:
-    """Read the publication of the model as a whole: authors and year, title, journal, DOI."""
+    """Read the publication of the complete model: authors and year, title, journal, DOI."""
     found = re.fullmatch(
         r"(?P<authors>.+?) (?P<year>\d{4}), (?P<title>.+), (?P<journal>\w+) (?P<volume>\d+)\((?P<number>\d+)\), "
         r"(?P<pages>\d+), https://doi\.org/(?P<doi>\S+)",

@@ -66,7 +66,7 @@ class Followed(Record):
         return f'solver.accuracy = "vibration"{more} follows it'
 
     def note(self, frequency: float) -> str:
-        """Return what stands beside a spectrum that ends at a frequency [Hz]."""
+        """Return the note of a spectrum that ends at a frequency [Hz]."""
         damping, shift = self.at(frequency)
         half = self.at(0.5 * frequency)
         where, middle = show(frequency, "frequency", 3), show(0.5 * frequency, "frequency", 3)

@@ -86,7 +86,7 @@ def trim(path: Path, size: int) -> None:
 
 
 def copy(path: Path, rows: Rows, *, compress: bool, stop: layout.Stop = layout.never) -> Path:
-    """Copy a result with the first `rows` rows beside itself; return where. `stop` is asked on the way.
+    """Copy a result with the first `rows` rows into its own folder; return where. `stop` is asked on the way.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Several results beside each other: what their cases say differently, and the numbers that follow."""
+"""Compare several results by their cases and key numbers."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ def differing_inputs(runs: Sequence[Any]) -> list[Differing]:
 
 
 def side_by_side(runs: Sequence[Result]) -> SideBySide:
-    """Put several results beside each other.
+    """Compare several results.
 
     Raises
     ------

@@ -270,7 +270,7 @@ def _edges(result: Result) -> list[Shoulder]:
 def _highest_pressure(result: Result) -> float:
     """Return the largest Hertzian pressure of the whole run [Pa]; 0 of a file that holds no samples yet.
 
-    Another run that was told to overwrite the file may have put its own, just begun, in this one's place.
+    Another run with the option to overwrite the file may have put its own, just begun, in this one's place.
     """
     return max((float(block["max_pressure"].max()) for block in result.blocks(("max_pressure",))), default=0.0)
 

@@ -113,7 +113,7 @@ def _four(value: float | None) -> str:
 
 
 def rating_lines(rating: Rating | None, units: UnitSystem = SI) -> list[str]:
-    """Return what standards and catalogues say beside the run; their numbers are those of the case at its start."""
+    """Return the ratings of standards and catalogues for the run; their numbers are those of the case at its start."""
     if rating is None:
         return []
     makers = (("SKF", rating.skf_torque_Nmm), ("Schaeffler", rating.schaeffler_torque_Nmm))

@@ -45,7 +45,7 @@ def result(path: str | PathLike[str]) -> Result:
 
 
 def side_by_side(paths: Sequence[str | PathLike[str]]) -> SideBySide:
-    """Put several results beside each other: what their cases say differently, and the numbers that follow.
+    """Compare several results: the options in which their cases differ, and the numbers that follow.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ def compare(
     contamination: float | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Comparison:
-    """Put every comparison method beside the others on one case, at its start.
+    """Apply every comparison method to one case, at its start.
 
     Parameters
     ----------

@@ -53,7 +53,7 @@ class ComparedMethod(Record):
 
 
 class Comparison(Record):
-    """Every method on one case, at its start; the simulation beside them where a result was given."""
+    """Every method on one case, at its start; with the simulation if a result was given."""
 
     interface: int = INTERFACE
     case: str
@@ -185,7 +185,7 @@ def _group_lines(group: str, methods: Sequence[ComparedMethod], units: UnitSyste
 
 
 def _cell(value: float | None, largest: float) -> str:
-    """Write one number; what is nothing beside the largest of its unit, or at all, is rounding and written as 0."""
+    """Write one number; rounding, tiny compared with the largest of its unit, is written as 0."""
     if value is None:
         return ""
     if abs(value) < max(_ROUNDING * largest, _NOTHING):

@@ -92,7 +92,7 @@ def _line(name: str, row: Integration) -> str:
 
 
 def with_locked_cage(model: BearingModel, start: Equilibrium) -> BearingModel:
-    """Return the model with the cage led along its kinematic path: centred, at the balls' mean orbital speed."""
+    """Return the model with the cage on its kinematic path: centred, at the balls' mean orbital speed."""
     count = model.geometry.balls
     axial = float(np.mean(start.state[: L.NB * count].reshape(count, L.NB)[:, L.BX]))
     dofs = dict.fromkeys(model.cage_body.dofs, DofState("locked"))

@@ -25,7 +25,7 @@ _TRIAL_WALL = 2.0  # [s] longest trial; slow bearings do not get as far
 
 
 class Estimate(Record):
-    """Numbers beside a case that is being set up; null where there is none."""
+    """Numbers for a case that is being set up; null where there is none."""
 
     equilibrium: QuasiStatic
     rating_life_h: float | None = Field(description="basic rating life L_10h (ISO 281)")

@@ -106,7 +106,7 @@ def destination(model: BearingModel, out: Path | None, force: bool) -> Path:
 
 
 def _live(model: BearingModel, announce: Announce | None) -> Live | None:
-    """Return the electric circuit beside the motion, where the case has one."""
+    """Return the electric circuit of the run, where the case has one."""
     if model.electric is None:
         return None
     from lambda_core.electric.live import Live

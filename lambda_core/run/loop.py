@@ -61,7 +61,7 @@ def run(
     report : callable, optional
         Called with a :class:`Progress` some ten times a second.
     live : Live, optional
-        The electric circuit beside the motion.
+        The electric circuit of the run.
     watch : Watch, optional
         Observers and events.
 

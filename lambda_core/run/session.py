@@ -36,7 +36,7 @@ _REPORT_AFTER = 0.1  # wall time [s]
 
 @dataclass(frozen=True)
 class Beside:
-    """What a run computes beside the motion, from its samples."""
+    """What a run computes from its samples in addition to the motion."""
 
     live: Live | None  # the electric circuit
     watch: Watch

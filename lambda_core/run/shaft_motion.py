@@ -31,7 +31,7 @@ def shaft_run(
     progress: Callable[[Progress], None] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> WholeSummary:
-    """Simulate a shaft in its bearings into a folder: the whole, and a result of its own for every bearing.
+    """Simulate a shaft in its bearings into a folder: one result of the shaft and one for every bearing.
 
     Parameters
     ----------

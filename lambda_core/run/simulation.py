@@ -63,7 +63,7 @@ def quasistatic(
 def estimate(
     source: str | Path | Mapping[str, Any] | Case | BearingModel, *, announce: Callable[[str], None] | None = None
 ) -> Estimate:
-    """Say what can be said of a case before it is run: equilibrium, rating life, wall time.
+    """Estimate a case before it is run: equilibrium, rating life, wall time.
 
     Parameters
     ----------
@@ -242,7 +242,7 @@ def cross_check(
     source, overrides
         As for :func:`check`, or a resolved model.
     free_cage : bool
-        Leave the cage free and compare mean powers; otherwise it is led along its kinematic path, where single
+        Leave the cage free and compare mean powers; otherwise it follows its kinematic path, where single
         trajectories can be compared.
     announce : callable, optional
         Called with a sentence before something is compiled.

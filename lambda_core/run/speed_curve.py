@@ -1,4 +1,7 @@
-"""The Stribeck curve of a bearing: friction torque over speed with its parts, SKF's catalogue model beside it."""
+"""Compute the Stribeck curve of a bearing.
+
+It has the friction torque over speed with its parts, and SKF's catalogue model.
+"""
 
 from __future__ import annotations
 
@@ -90,7 +93,7 @@ def stribeck(
     Returns
     -------
     SpeedCurve
-        Parts of the torque, SKF's model beside it; quasi-static, the mean over positions of the balls, without cage.
+        Parts of the torque, and SKF's model; quasi-static, the mean over positions of the balls, without cage.
 
     Raises
     ------

@@ -148,7 +148,7 @@ class Stepping(Iterator[Step]):
         row["value"], row["rate"], row["acceleration"], row["begin"] = value, rate, acceleration, self.time_s
 
     def push(self, force: Sequence[float] = (0.0, 0.0, 0.0), moment: Sequence[float] = (0.0, 0.0)) -> None:
-        """Put a load on the inner ring, beside those of the case, from now on until the next call.
+        """Put a load on the inner ring, in addition to those of the case, from now on until the next call.
 
         Parameters
         ----------

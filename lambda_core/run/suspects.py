@@ -60,7 +60,7 @@ class SuspiciousEngine(BearingEngine):
         self._start = start
 
     def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
-        """Integrate as the engine does; a failure is told with the law behind it, where one can be found."""
+        """Integrate as the engine does; report a failure with the law behind it, where one can be found."""
         found = super().advance(until, lambda: bool(self._run_away()) or (pause is not None and pause()))
         if gone := self._run_away():
             return Advance(False, gone)

@@ -170,7 +170,7 @@ class Watch:
         return self._guarded(key, what, happens)
 
     def _guarded(self, key: str, what: str, call: Callable[[], Answer]) -> Answer | None:
-        """Call a plugin's function; what it does wrong is said once, and it is not called again."""
+        """Call a plugin's function; report its first error, and do not call it again."""
         if key in self._failed:
             return None
         try:

@@ -291,7 +291,7 @@ class BearingModel:
     contradictions : tuple of str
         Where the case says two things, and which of them counts.
     electric : ElectricModel or None
-        The circuit that a run computes beside the motion; it does not act on the motion.
+        The circuit that a run computes together with the motion; it does not act on the motion.
     observers, events : mapping of str to ChosenObserver, ChosenEvent
         What plugins write of a run, and what they look out for, by name.
     links : mapping of str to Link

@@ -58,7 +58,7 @@ def law_by_name(
     Parameters
     ----------
     texts : mapping
-        What stands in the table `parameters` beside the name.
+        What stands in the table `parameters` after the name.
     where : str
         Path in the case of the table that has `law` and `parameters`.
     """

@@ -1,4 +1,7 @@
-"""The curve through the points of a table over time, how far it goes, and what is said where it leaves their range."""
+"""Interpolate the points of a table over time.
+
+The module also reports how far the curve goes beyond the range of its points.
+"""
 
 from __future__ import annotations
 

@@ -2,8 +2,8 @@
 
 The limits are those of the bearing, its oil and the laws.
 
-Every sentence here follows from the resolved case alone; what needs a solution (pressures, shoulders, tilt) is told by
-:mod:`lambda_core.results.limits`.
+Every sentence here follows from the resolved case alone;
+:mod:`lambda_core.results.limits` reports what needs a solution (pressures, shoulders, tilt).
 """
 
 from __future__ import annotations

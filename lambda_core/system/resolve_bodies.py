@@ -183,7 +183,7 @@ def resolve_inertia(name: str, spec: InnerRing | OuterRing | CageBody, estimate:
 
 
 def _check_mass(path: str, mass: float | None, ledger: Ledger) -> None:
-    """Refuse a mass whose motion double precision cannot follow beside that of a ball."""
+    """Refuse a mass whose motion double precision cannot follow together with that of a ball."""
     if mass is not None and mass > MOST_MASS:
         ledger.problem(path, f"{mass:g} kg is more than a bearing carries: at most {MOST_MASS:g} kg")
 

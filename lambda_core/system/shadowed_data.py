@@ -37,7 +37,7 @@ def tell_shadows(
 ) -> None:
     """Add an assumption for each row in use, and each source of a value, that a plugin puts in front of another one.
 
-    Rows of a plugin that were left out, and a catalogue that failed, are told as well.
+    The list also has omitted rows of a plugin and a catalogue that failed.
 
     Parameters
     ----------

@@ -1,4 +1,7 @@
-"""The channels of a resolved model beside those of every run: states of contacts, arcs, waves of elastic rings."""
+"""List the channels of a model that not every run has.
+
+These are states of contacts, arcs and waves of elastic rings.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Time functions of a case as sums of SI terms, and what can be said of them beforehand."""
+"""Convert time functions of a case into sums of SI terms.
+
+The module also gives their bounds beforehand.
+"""
 
 from __future__ import annotations
 

@@ -78,7 +78,7 @@ def resolve_time_laws(
 
 
 def refuse_laws(signals: Signals, ledger: Ledger) -> None:
-    """Refuse courses by laws where nothing takes them: a shaft as a whole."""
+    """Refuse courses by laws where nothing takes them, as on a shaft."""
     for path, _ in _by_law(signals):
         ledger.problem(f"{path}.law", "the course of a shaft's load or speed is no law yet: write a table of points")
 

@@ -133,7 +133,7 @@ class TemperaturesOverTime(Record):
 
 
 def _assumptions(loop: Loop) -> tuple[list[str], list[str]]:
-    """Return what the network assumes, and what the case does beside it."""
+    """Return the assumptions of the network and those of the case."""
     found = network_assumptions(loop.thermal)
     if loop.model.mounting is not None and not loop.model.mounting.shaft:
         found.append("the stated clearance is that of the mounted bearing at the reference temperature")

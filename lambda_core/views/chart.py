@@ -100,7 +100,7 @@ class Mark:
     Attributes
     ----------
     label : str
-        What stands beside it.
+        Text next to it.
     value : float
         Where it is, in the axis' unit.
     axis : str

@@ -1,7 +1,7 @@
 """Comparison methods: what a plugin registers through the hook ``lambda_methods``.
 
 A method answers the same question as the simulation by other means (a catalogue formula, a standard, an analytical
-model) and is shown beside it. It gets plain numbers (:class:`MethodInputs`) and returns a table of named values with
+model) and is compared with it. It gets plain numbers (:class:`MethodInputs`) and returns a table of named values with
 units (:class:`MethodTable`), so that a new method is one small function.
 """
 

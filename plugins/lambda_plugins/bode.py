@@ -141,7 +141,7 @@ def bode_permittivity(p: FloatArray, T: FloatArray, rho: FloatArray, par: BodePe
 
     eps_r = k1 beta^-1/2 rho_T^1/6 + k2 T + k3 (rho - rho_T), beta = a1/N the compressibility in 1/bar: Syla et al.
     2026, eq. 35-37. The density is Bode's own, with which the constants were fitted, so that the law does not change
-    with the rheology model beside it.
+    together with the rheology model.
     """
     for i in range(eps_r.size):
         temperature = within_range(T[i])

@@ -38,7 +38,7 @@ def starved_film(layer: float, gamma: float) -> float:
 def meniscus(film: float) -> float:
     """Gap at the meniscus over the flooded film, from the film over the flooded one, 0..1.
 
-    Grubin's inlet: beside Hertz's ellipse the gap grows with the power 3/2 of the distance, and whatever the film is,
+    Grubin's inlet: outside Hertz's ellipse the gap grows with the power 3/2 of the distance, and whatever the film is,
     Reynolds' equation has to raise the reduced pressure from nothing at the meniscus to the same 1/alpha. Hence
     f^(4/3) = J(T)/J(inf), J(T) = int_0^T t^1.5/(1 + t^1.5)^3 dt, where the gap is f (1 + T^1.5): the starved inlet of
     Wolveridge, Baglin and Archard 1971, Proc. IMechE 185, 1159, for line contacts.

@@ -48,7 +48,7 @@ class Harmonic(Parameters):
 
 
 class Waviness(Harmonic):
-    """Parameters of waviness: a first harmonic, and any others beside it."""
+    """Parameters of waviness: a first harmonic and any additional ones."""
 
     amplitude: SmallLength = parameter(
         "1 um", "amplitude of the wave, half its peak to valley", source=_MEASURED, status="assumed", ge=0.0

@@ -1,4 +1,4 @@
-"""Courses over time beside those that a case writes down itself."""
+"""Define time functions in addition to those of a case file."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ _OF = "SKF, Rolling bearings (2018), Friction"
 
 
 def chapter(found: Anchors, notes: tuple[str, ...]) -> Chapter:
-    """Return what is said, drawn and tabled."""
+    """Return the texts, figures and tables."""
     return Chapter(
         "anchors",
         "Catalogue: friction of other bearings against SKF's model",
@@ -92,7 +92,7 @@ def _with_range(spread: list[float]) -> str:
 
 
 def _stribeck_chart(found: Anchors) -> ViewData:
-    """Torque over speed beside SKF's, and its boundary part."""
+    """Compare torque over speed, and its boundary part, with SKF's."""
     speed = np.array([p.speed_rpm for p in found.stribeck])
     series = (
         Series("quasi-static", speed, np.array([p.torque_Nmm for p in found.stribeck]), "line", "total"),

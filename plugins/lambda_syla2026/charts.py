@@ -123,7 +123,7 @@ def _slope_of_one(points: Sequence[BoundaryPoint]) -> Series:
 
 
 def fig7_chart(found: Fig7) -> ViewData:
-    """C_Hertz over axial load, simulation beside analytical, for both rings."""
+    """Compare simulated and analytical C_Hertz over axial load, for both rings."""
     panels = []
     for ring in ("inner", "outer"):
         mine = [c for c in found.contacts if c.ring == ring]

@@ -28,7 +28,7 @@ _DYNAMIC_LOAD = 1300  # [N] the run of a quick reproduction
 
 
 class RingCapacitance(Record):
-    """One raceway at one load: simulation beside the analytical value."""
+    """One raceway at one load, simulated and analytical."""
 
     load_N: float
     ring: str

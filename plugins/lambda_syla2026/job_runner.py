@@ -1,7 +1,7 @@
 """Many models worked on side by side, each once: what is found is kept on disk and not done again.
 
 A job is a case, changes to it and a kind of reading. Its numbers stand in a file named by the hash of the
-resolved model; a run's own result file lies beside. Both belong to the code of the solver, whose hash names
+resolved model; a run's own result file lies in the same folder. Both belong to the code of the solver, whose hash names
 their folder: after a change of the physics everything is computed anew. Jobs go through the director that works
 through studies, too.
 """
@@ -90,7 +90,7 @@ def do(assigned: Assignment) -> Found:
 
 
 def lost(assigned: Assignment, reason: str) -> Found:
-    """Return what is said of a job whose worker died."""
+    """Return the message about a job whose worker died."""
     return Found(assigned.job, JobResult("failed", reason, "", {}))
 
 

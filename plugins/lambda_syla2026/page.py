@@ -21,7 +21,7 @@ _RESOLUTION = 160  # of PNG [dots per inch]
 
 @dataclass(frozen=True)
 class Chapter:
-    """One experiment: what is said, drawn and tabled about it."""
+    """One experiment with its texts, figures and tables."""
 
     name: str
     title: str

@@ -72,7 +72,7 @@ def skf(model: BearingModel) -> Numbers:
 
 
 def anchor(model: BearingModel) -> Numbers:
-    """Friction torque without cage and drag, mean over the positions of the balls, and SKF's beside it [N mm]."""
+    """Friction torque without cage and drag, mean over the positions of the balls, and SKF's [N mm]."""
     from lambda_core.batch.job import kernels_of
     from lambda_core.discovery.manager import registry
     from lambda_core.run.compare_methods import comparison_inputs
@@ -127,7 +127,7 @@ def rated(model: BearingModel) -> Numbers:
 
 
 def capacitance(model: BearingModel) -> Numbers:
-    """Contacts of the quasi-static solution, means over the loaded balls, and the analytical capacitance beside."""
+    """Contacts of the quasi-static solution, means over the loaded balls, and the analytical capacitance."""
     from lambda_core.batch.job import kernels_of
     from lambda_core.discovery.manager import registry
     from lambda_core.run.compare_methods import comparison_inputs
@@ -177,8 +177,9 @@ def axial_resonance(model: BearingModel) -> Numbers:
     """Axial stiffness about the equilibrium and the natural frequency of the inner ring with its shaft on it [Hz].
 
     Of the bearing under its static load; where the rings share their axial motion it is the frequency that the
-    inner ring would have. Beside it what only centrifugal force holds axially, in the outer groove: a ball that
-    rolls across it (mass 7/5 m, as for any solid sphere), and the cage on all unloaded balls, without play.
+    inner ring would have. It also returns those of bodies that only centrifugal force holds axially, in the
+    outer groove: a ball that rolls across it (mass 7/5 m, as for any solid sphere), and the cage on all
+    unloaded balls, without play.
     """
     from lambda_core.batch.job import kernels_of
     from lambda_core.solver.drivers.equilibrium import solve

@@ -123,7 +123,7 @@ def _effort(name: str, answers: Sequence[JobResult], wall: float) -> Effort:
 
 
 def chapters(found: Reproduction) -> list[Chapter]:
-    """Return what is said, drawn and tabled about each experiment, points without a result marked."""
+    """Return texts, figures and tables of each experiment; points without a result are marked."""
     return [
         replace(each, bars=tuple(text.marked(bar) for bar in each.bars), tables=text.marked_tables(each.tables))
         for each in _chapters(found)

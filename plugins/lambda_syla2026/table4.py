@@ -1,4 +1,7 @@
-"""Table 4: friction torque of the 6319, blind and calibrated, beside the measurement and other methods."""
+"""Compare the 6319's friction torque with Table 4.
+
+The blind and the calibrated set are compared with the measurement and other methods.
+"""
 
 from __future__ import annotations
 

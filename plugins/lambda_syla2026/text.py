@@ -173,7 +173,7 @@ def blind_table() -> Table:
 
 
 def fig5_tables(found: Fig5) -> tuple[Table, ...]:
-    """Resonances, boundaries with brackets, slopes, steps of the load, variations, dynamics beside quasi-static."""
+    """Resonances, boundaries with brackets, slopes, steps of the load, variations, dynamics and quasi-static."""
     tables = [_resonances(found), _boundaries(found), _slopes(found), _rises(found)]
     if found.variations:
         rows = tuple((v.what, v.criterion, *(number(r, 2) for r in v.ratios)) for v in found.variations)
@@ -248,7 +248,7 @@ def _parting(found: Fig5) -> Table:
 
 
 def fig7_tables(found: Fig7) -> tuple[Table, ...]:
-    """Contacts and bearing: simulation beside analytical."""
+    """Contacts and bearing, simulated and analytical."""
     contacts = tuple(
         (f"{c.load_N:g}", c.ring, number(c.ball_load_N), number(c.contact_angle_deg, 2), number(c.area_mm2, 4),
          number(c.film_um, 3), number(c.hertz_pF, 2), number(c.dynamic_hertz_pF, 2), number(c.analytical_pF, 2),

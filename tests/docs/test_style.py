@@ -37,13 +37,12 @@ QUESTIONS = ("What", "Where", "How", "Which", "Whether", "When", "Who")  # no mo
 # Words to avoid in strings and names of the code. A number can only fall: lower it with every text that you improve.
 CEILINGS = {
     "benchmarks": 28,
-    "cli": 7,
-    "db": 5,
-    "docs": 2,
-    "examples": 4,
-    "gui": 40,
-    "lambda_core": 263,
-    "plugins": 36,
+    "cli": 2,
+    "db": 2,
+    "examples": 1,
+    "gui": 15,
+    "lambda_core": 187,
+    "plugins": 11,
     "tests": 185,
 }
 

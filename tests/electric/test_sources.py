@@ -100,7 +100,7 @@ def test_series_is_repeated(tmp_path: Path) -> None:
             '"points" entry 3: the times',
         ),
         ({"series": {"points": ["0 s 1 V"]}}, "electric.series", "write a time and a voltage"),
-        ({"grounding": {"shunt": "1 Ohm"}}, "electric.grounding", "bridges an insulation"),
+        ({"grounding": {"shunt": "1 Ohm"}}, "electric.grounding", "`shunt` requires `insulation`"),
         ({"series": {}}, "electric.series", "give either points or file"),
     ],
 )

@@ -10,8 +10,8 @@ import pytest
 
 from lambda_core import api
 from lambda_core.laws.law import Law
-from lambda_core.solver import faults
 from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.arrays import fault_roles as faults
 from lambda_core.solver.drivers.contact_field import contact_field
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.solver.drivers.surface_steps import longest_step

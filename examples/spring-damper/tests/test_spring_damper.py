@@ -1,4 +1,7 @@
-"""A ring in a bearing too wide to touch it, let go: frequency and decay are those of one mass on a spring."""
+"""Test a released ring against one mass on a spring.
+
+The bearing is too wide to touch the ring; frequency and decay are those of the mass.
+"""
 
 import numpy as np
 from spring_damper import spring_damper

@@ -1,4 +1,4 @@
-"""Axial and radial velocity of balls along their paths: what a ball has beside its orbital speed where loads differ."""
+"""Axial and radial velocity of balls along their paths, in addition to their orbital speed, where loads differ."""
 
 from __future__ import annotations
 

@@ -228,7 +228,7 @@ def _without_friction(compiled: Core, context: SolverContext, state: FloatArray)
 def _with_friction(compiled: Core, context: SolverContext, state: FloatArray, *, strict: bool) -> StaticReport:
     """Find the friction's equilibrium from that without, in place; by way of warmer oil where it has to be found.
 
-    Where there is none, what lies beyond the limits of bearing, oil and laws is said with it.
+    Where there is none, the message lists what lies beyond the limits of bearing, oil and laws.
     """
 
     def found(where: SolverContext, start: FloatArray) -> StaticReport:

@@ -62,7 +62,7 @@ def given_names(model: BearingModel, couple: Coupling) -> tuple[str, ...]:
 def make_room(context: SolverContext, names: Sequence[str]) -> Any:
     """Add signals that are given from outside to the loads and motions of a context.
 
-    A given load comes beside those of the case and is 0 at first; a given motion takes the place of the case's and
+    A given load adds to those of the case and is 0 at first; a given motion takes the place of the case's and
     begins at its value at t = 0.
 
     Returns

@@ -30,7 +30,7 @@ def notes(span: Span) -> tuple[str, ...]:
 
 
 def load_distribution(run: RunData, options: Options) -> ViewData:
-    """Load of every ball on both rings, polar, beside the same over azimuth."""
+    """Draw the load of every ball on both rings, polar and over azimuth."""
     span = averaging(run)
     series = tuple(_series(run, span, "load", 1e-3, loaded=False))
     polar = Panel("around the bearing", AZIMUTH, Axis("load", "kN", low=0.0), series, shape="polar")

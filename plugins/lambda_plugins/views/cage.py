@@ -63,7 +63,7 @@ def cage_orbit(run: RunData, options: Options) -> ViewData:
 
 
 def _close_up(path: Series, end: Series, radius: float) -> tuple[Panel, ...]:
-    """Return the orbit alone where it is small beside the circle [um] of the clearance."""
+    """Return the orbit alone where it is small compared with the circle [um] of the clearance."""
     size = max(float(np.ptp(path.x)), float(np.ptp(path.y)))
     if not math.isfinite(radius) or size > _SMALL * 2.0 * radius:
         return ()

@@ -1,4 +1,4 @@
-"""A run beside the catalogue methods, on one axis."""
+"""Compare a run with the catalogue methods on one axis."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ _OUTSIDE = 4  # a longer legend stands beside the axes
 
 
 class Numbers(ScalarFormatter):
-    """Numbers of an axis as plain text, a power of ten beside the axis as a formula.
+    """Print numbers of an axis as plain text, a power of ten at the axis as a formula.
 
     The library sets every number as a formula where the power is one; reading those took a quarter of a figure's time.
     """
@@ -140,7 +140,7 @@ def _is_full(panel: Panel) -> bool:
 
 
 def draw_legend(axes: Any, panel: Panel) -> None:
-    """Put a legend where it hides nothing: inside, beside or below the axes."""
+    """Put a legend where it hides nothing: inside, next to or below the axes."""
     handles, labels = axes.get_legend_handles_labels()
     if not labels or (len(labels) == 1 and panel.field is None and not panel.marks and len(panel.series) == 1):
         return

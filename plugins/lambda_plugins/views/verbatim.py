@@ -8,7 +8,7 @@ from typing import Any
 
 
 def verbatim(value: Any) -> Any:
-    """Return data to draw in which every text stands for itself.
+    """Return data to draw in which every text is literal.
 
     Parameters
     ----------
