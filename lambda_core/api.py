@@ -66,11 +66,11 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.run.duty_cycle import DutyCycle
     from lambda_core.run.estimate import Estimate
     from lambda_core.run.progress import Progress
-    from lambda_core.shaft.model import MountedBearing, ShaftModel
     from lambda_core.shaft.shaft_report import BearingOnShaft, ShaftReport
     from lambda_core.shaft.whole_summary import WholeSummary
     from lambda_core.system.bearing import BearingModel, Geometry
     from lambda_core.system.describe import ValueReport, value_reports
+    from lambda_core.system.machine import Machine, MountedBearing
     from lambda_core.system.oil_table import oil_table
     from lambda_core.system.operating_limits import operating_warnings
 

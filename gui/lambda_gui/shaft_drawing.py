@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from rich.text import Text
 
 if TYPE_CHECKING:
-    from lambda_core.api import MountedBearing, ShaftModel, ShaftReport
+    from lambda_core.api import Machine, MountedBearing, ShaftReport
 
 _DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))  # of a braille sign: four down, two across
 _HALF = 1.4  # a half section is drawn where a whole one would be that much smaller
@@ -104,7 +104,7 @@ class _Scale:
 
 
 def drawn_shaft(
-    model: ShaftModel, report: ShaftReport | None, width: int, height: int, colours: Mapping[str, str]
+    model: Machine, report: ShaftReport | None, width: int, height: int, colours: Mapping[str, str]
 ) -> Text:
     """Draw sections, bearings, bodies, gears, discs and loads to scale, names around them, and the bend below.
 
@@ -142,7 +142,7 @@ def drawn_shaft(
     return canvas.text(colours["background"])
 
 
-def _largest(model: ShaftModel) -> float:
+def _largest(model: Machine) -> float:
     """Return the largest radius of what is drawn [m]."""
     shaft = 0.5 * max(diameter for _, _, diameter, _ in model.outline)
     found = [0.5 * max(body.extent[1:]) for body in model.bodies]
@@ -150,9 +150,7 @@ def _largest(model: ShaftModel) -> float:
     return max(*found, *(0.5 * bearing.model.geometry.outside_diameter for bearing in model.bearings))
 
 
-def _bodies(
-    canvas: Canvas, model: ShaftModel, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]
-) -> None:
+def _bodies(canvas: Canvas, model: Machine, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]) -> None:
     """Draw the other bodies that have a shape, from the outer rings in them outwards."""
     for number, body in enumerate(model.bodies, start=1):
         length, *across = body.extent
@@ -164,9 +162,7 @@ def _bodies(
                 canvas.box(left, right, *scale.rows(inner, outer, below=below), colours["surface"])
 
 
-def _rotor(
-    canvas: Canvas, model: ShaftModel, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]
-) -> None:
+def _rotor(canvas: Canvas, model: Machine, scale: _Scale, sides: tuple[bool, ...], colours: Mapping[str, str]) -> None:
     """Draw gears and discs behind the sections of the shaft."""
     tall = 0.5 * max(diameter for _, _, diameter, _ in model.outline)
     for below in sides:
@@ -201,7 +197,7 @@ def _bearing(
             canvas.words(int(centre) // 2, int(middle), sign, colours["foreground" if size >= _BALL else "background"])
 
 
-def _names_above(canvas: Canvas, model: ShaftModel, scale: _Scale, colours: Mapping[str, str]) -> None:
+def _names_above(canvas: Canvas, model: Machine, scale: _Scale, colours: Mapping[str, str]) -> None:
     """Name gears, discs, loads and bodies over the drawing, a load with the way it pushes."""
     bodies = [(f"[{body.name}]", body.centre[0]) for body in model.bodies]
     for name, place in (*model.load_places, *model.discs, *bodies):
@@ -224,7 +220,7 @@ def _label(canvas: Canvas, line: int, middle: float, label: str, colour: str, *,
 
 
 def _names_below(
-    canvas: Canvas, model: ShaftModel, report: ShaftReport | None, scale: _Scale, line: int, colours: Mapping[str, str]
+    canvas: Canvas, model: Machine, report: ShaftReport | None, scale: _Scale, line: int, colours: Mapping[str, str]
 ) -> None:
     """Name bearings with what holds them along x and the way in which they push the shaft, and springs."""
     forces = {bearing.name: bearing.force_N for bearing in report.bearings} if report is not None else {}

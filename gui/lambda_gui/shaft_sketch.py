@@ -10,7 +10,7 @@ from lambda_gui.shaft_drawing import drawn_shaft
 from lambda_gui.sketch import Sketch
 
 if TYPE_CHECKING:
-    from lambda_core.api import ShaftModel, ShaftReport
+    from lambda_core.api import Machine, ShaftReport
     from lambda_gui.checking import Check
     from lambda_gui.nodes import Node
 
@@ -20,7 +20,7 @@ class ShaftSketch(Sketch):
 
     def __init__(self) -> None:
         super().__init__()
-        self._shaft: ShaftModel | None = None
+        self._shaft: Machine | None = None
         self._report: ShaftReport | None = None
 
     def show_check(self, check: Check) -> None:

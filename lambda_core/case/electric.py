@@ -138,7 +138,7 @@ _MOST_VOLTAGE = 1e6  # [V]
 _GAP = 20.0  # times the usual distance of rows
 
 
-class Machine(Section):
+class MachineCapacitances(Section):
     """Capacitances of the machine between winding, rotor and frame."""
 
     winding_rotor: Capacitance = option(
@@ -218,7 +218,7 @@ class Electric(Section):
     sine: Sine | None = option(None, "source: sinusoidal common-mode voltage")
     step: Step | None = option(None, "source: one edge of the common-mode voltage")
     series: Series | None = option(None, "source: measured common-mode voltage")
-    machine: Machine = option({}, "capacitances of the machine")
+    machine: MachineCapacitances = option({}, "capacitances of the machine")
     grounding: Grounding = option({}, "brush, insulation, shunt")
     film: Film = option({}, "conduction and surroundings of the films")
     cage: Cage | None = option(None, "a cage that conducts")

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 ROTOR, RING = 0, 1
 
 
-class Machine(NamedTuple):
+class CircuitConstants(NamedTuple):
     """Constants of what surrounds the films; capacitances [F], conductances [S]."""
 
     winding: float  # against the rotor

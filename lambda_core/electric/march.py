@@ -85,10 +85,10 @@ class Circuit:
         """Whether the outer ring has a potential of its own."""
         return bool(np.isfinite(self.bridge))
 
-    def constants(self) -> L.Machine:
+    def constants(self) -> L.CircuitConstants:
         """Return what the compiled march reads."""
         bridge = self.bridge if self.insulated else 0.0
-        return L.Machine(
+        return L.CircuitConstants(
             self.winding,
             self.rotor,
             self.rings,

@@ -13,15 +13,15 @@ if TYPE_CHECKING:
 
     from lambda_core.run.progress import Progress
     from lambda_core.run.whole_run import Ends
-    from lambda_core.shaft.model import ShaftModel
     from lambda_core.shaft.resolving import Source
     from lambda_core.shaft.whole_summary import WholeSummary
+    from lambda_core.system.machine import Machine
     from lambda_core.views.chart import ViewData
 
 
 @one_blas_thread()
 def shaft_run(
-    source: Source | ShaftModel,
+    source: Source | Machine,
     overrides: Iterable[str] = (),
     *,
     out: str | Path | None = None,
@@ -60,11 +60,11 @@ def shaft_run(
         With a sentence about the case, the folder, the solver (the folder keeps what there is) or the disk.
     """
     from lambda_core.run.whole_run import launch_whole
-    from lambda_core.shaft.model import ShaftModel
     from lambda_core.shaft.resolving import check_shaft
     from lambda_core.shaft.whole_summary import summarise_whole
+    from lambda_core.system.machine import Machine
 
-    model = source if isinstance(source, ShaftModel) else check_shaft(source, overrides)
+    model = source if isinstance(source, Machine) else check_shaft(source, overrides)
     ends = _ends(model, duration, max_wall or model.solver.max_wall)
     folder = None if out is None else Path(out)
     return summarise_whole(launch_whole(model, folder, ends, force=force, report=progress, announce=announce))
@@ -108,7 +108,7 @@ def shaft_resume(
     return summarise_whole(resume_whole(Path(folder), model, ends, report=progress, announce=announce))
 
 
-def _ends(model: ShaftModel, duration: float | None, max_wall: float) -> Ends:
+def _ends(model: Machine, duration: float | None, max_wall: float) -> Ends:
     """Return when a run ends [s]; UsageError where it has no end, or none that a machine reaches."""
     from lambda_core.domain.errors import UsageError
     from lambda_core.domain.units import show

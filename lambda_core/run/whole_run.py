@@ -31,7 +31,7 @@ from lambda_core.shaft.whole_file import WHOLE, WholeFile, WholeWriter, earlier_
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
 
 if TYPE_CHECKING:
-    from lambda_core.shaft.model import ShaftModel
+    from lambda_core.system.machine import Machine
 
 _FLUSH_AFTER, _REPORT_AFTER, _SAVE_AFTER = 1.0, 0.1, 10.0  # wall time [s]
 
@@ -45,7 +45,7 @@ class Ends:
 
 
 def launch_whole(
-    model: ShaftModel, out: Path | None, ends: Ends, *, force: bool, report: Report | None,
+    model: Machine, out: Path | None, ends: Ends, *, force: bool, report: Report | None,
     announce: Callable[[str], None] | None,
 ) -> WholeFile:  # fmt: skip
     """Run a shaft from its quasi-static equilibrium into a new folder."""
@@ -87,7 +87,7 @@ def _launch(engine: WholeEngine, folder: Path, ends: Ends, report: Report | None
 
 
 def resume_whole(
-    path: Path, model: ShaftModel, ends: Ends, *, report: Report | None, announce: Callable[[str], None] | None
+    path: Path, model: Machine, ends: Ends, *, report: Report | None, announce: Callable[[str], None] | None
 ) -> WholeFile:
     """Go on with a run from its last checkpoint, bit for bit as if it had not been interrupted."""
     found = WholeFile(path)
@@ -96,7 +96,7 @@ def resume_whole(
 
 
 def _resume(
-    found: WholeFile, model: ShaftModel, ends: Ends, report: Report | None, announce: Callable[[str], None] | None
+    found: WholeFile, model: Machine, ends: Ends, report: Report | None, announce: Callable[[str], None] | None
 ) -> WholeFile:
     """Go on in a folder that is held."""
     status = found.status()
@@ -133,7 +133,7 @@ def _resume(
     return session.drive()
 
 
-def _folder(model: ShaftModel, out: Path | None, force: bool) -> Path:
+def _folder(model: Machine, out: Path | None, force: bool) -> Path:
     """Return the folder of the run; UsageError where that cannot be."""
     folder, number = out or Path(f"{model.name}-run"), 1
     while out is None and folder.exists():

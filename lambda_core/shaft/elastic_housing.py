@@ -10,9 +10,9 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.body import ElasticBody
-from lambda_core.shaft.model import GROUND, PLACES, MountedBearing
 from lambda_core.shaft.outside import OutsideFile
 from lambda_core.system.ledger import Ledger
+from lambda_core.system.machine import GROUND, PLACES, MountedBearing
 
 _WHERE = "housing.reduced"
 _LOOSE = 1e-9  # of the largest eigenvalue: below, the housing moves without force

@@ -11,7 +11,7 @@ from itertools import combinations
 
 from lambda_core.case.shaft import ShaftBearing, ShaftCase
 from lambda_core.domain.units import show
-from lambda_core.shaft.model import MountedBearing
+from lambda_core.system.machine import MountedBearing
 
 Outline = Sequence[tuple[float, float, float, float]]  # begin, end, diameter, bore of each section [m]
 

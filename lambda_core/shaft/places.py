@@ -14,8 +14,8 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.units import show
 from lambda_core.elastic.body import ElasticBody
-from lambda_core.shaft.model import GROUND, SHAFT, Place
 from lambda_core.system.ledger import Ledger
+from lambda_core.system.machine import GROUND, SHAFT, Place
 
 _PLACED = ("bearings", "discs", "gears", "loads", "springs")
 _ON_AXIS = ("bearings", "discs", "gears")  # stand on the shaft itself

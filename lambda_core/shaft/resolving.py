@@ -38,7 +38,6 @@ from lambda_core.shaft.body_material import body_material
 from lambda_core.shaft.elastic_housing import elastic_housing
 from lambda_core.shaft.fitting import fitting_warnings
 from lambda_core.shaft.follow_ups import independent, is_shape_known
-from lambda_core.shaft.model import GROUND, SHAFT, MountedBearing, ShaftModel, Unbalance
 from lambda_core.shaft.places import Places, places
 from lambda_core.shaft.reduced_shaft import reduced_shaft
 from lambda_core.shaft.seating import mounted, refuse_motion
@@ -47,6 +46,7 @@ from lambda_core.system.bearing import BearingModel
 from lambda_core.system.checking import check
 from lambda_core.system.interpolation import say_overshoot
 from lambda_core.system.ledger import Ledger
+from lambda_core.system.machine import GROUND, SHAFT, Machine, MountedBearing, Unbalance
 from lambda_core.system.time_functions import initial, planned_speed, time_function
 from lambda_core.system.time_laws import refuse_laws
 
@@ -61,7 +61,7 @@ def check_shaft(
     *,
     folder: Path | None = None,
     catalogue: Catalogue | None = None,
-) -> ShaftModel:
+) -> Machine:
     """Read and resolve the case of a shaft in bearings without solving it.
 
     Parameters
@@ -77,7 +77,7 @@ def check_shaft(
 
     Returns
     -------
-    ShaftModel
+    Machine
         With the model of every bearing.
 
     Raises
@@ -144,7 +144,7 @@ def _bearings(
 
 def _shaft(
     case: ShaftCase, models: Mapping[str, BearingModel], catalogue: Catalogue, ledger: Ledger, found: Sequence[Problem]
-) -> ShaftModel | None:
+) -> Machine | None:
     """Return the whole; None where something is wrong, here or as `found` before, after all else has been looked at."""
     folder, outside, shape_known = case.folder or Path(), None, is_shape_known(found)
     if case.shaft.reduced is not None:
@@ -199,7 +199,7 @@ def _shaft(
     acting += [(name, gear.place) for name, gear in case.gears.items()]
     pulled = np.concatenate([body.weight(gravity), *(one.mass * np.array([*gravity, 0.0, 0.0, 0.0]) for one in bodies)])
     loads, varying = all_loads(case, stand, body, bodies, gears)
-    return ShaftModel(
+    return Machine(
         name=case.name,
         body=body,
         bearings=tuple(bearings),

@@ -9,8 +9,8 @@ from typing import Any
 from lambda_core.case.shaft import ShaftCase
 from lambda_core.domain.elements import POSE
 from lambda_core.shaft.beside import COMPONENTS
-from lambda_core.shaft.model import MountedBearing, ShaftModel
 from lambda_core.system.ledger import Ledger
+from lambda_core.system.machine import Machine, MountedBearing
 from lambda_core.system.resolve_solver import (
     cage_period,
     end_in_sight,
@@ -45,14 +45,14 @@ def refuse_settings(case: ShaftCase, ledger: Ledger) -> None:
         end_in_sight(given, None, end, math.inf, ledger)
 
 
-def with_settings(case: ShaftCase, model: ShaftModel, ledger: Ledger) -> ShaftModel:
+def with_settings(case: ShaftCase, model: Machine, ledger: Ledger) -> Machine:
     """Return the whole with bearings that are all followed alike: vibrations where one of them asks for that.
 
     Parameters
     ----------
     case : ShaftCase
         What the engineer wrote, without mistakes.
-    model : ShaftModel
+    model : Machine
         Whose bearings were resolved each by itself.
     ledger : Ledger
         Takes what was chosen.

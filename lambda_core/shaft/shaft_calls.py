@@ -9,21 +9,21 @@ from typing import TYPE_CHECKING
 from lambda_core.domain.blas_threads import one_blas_thread
 
 if TYPE_CHECKING:
-    from lambda_core.shaft.model import ShaftModel
     from lambda_core.shaft.resolving import Source
     from lambda_core.shaft.shaft_report import ShaftReport
+    from lambda_core.system.machine import Machine
     from lambda_core.views.chart import ViewData
 
 
 @one_blas_thread()
 def shaft(
-    source: Source | ShaftModel, overrides: Iterable[str] = (), *, announce: Callable[[str], None] | None = None
+    source: Source | Machine, overrides: Iterable[str] = (), *, announce: Callable[[str], None] | None = None
 ) -> ShaftReport:
     """Solve a shaft in its bearings: reactions, displacements, lives, deflection, critical speeds.
 
     Parameters
     ----------
-    source : str, Path, mapping, ShaftCase or ShaftModel
+    source : str, Path, mapping, ShaftCase or Machine
         File, plain tables as they stand in one, a case, or what :func:`check_shaft` returned.
     overrides : iterable of str
         Changes ``path=value``.
@@ -40,21 +40,21 @@ def shaft(
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
-    from lambda_core.shaft.model import ShaftModel
     from lambda_core.shaft.resolving import check_shaft
     from lambda_core.shaft.shaft_equilibrium import solve_shaft
     from lambda_core.shaft.shaft_report import report_of
+    from lambda_core.system.machine import Machine
 
-    model = source if isinstance(source, ShaftModel) else check_shaft(source, overrides)
+    model = source if isinstance(source, Machine) else check_shaft(source, overrides)
     return report_of(model, solve_shaft(model, announce))
 
 
-def shaft_pictures(model: ShaftModel, report: ShaftReport) -> list[ViewData]:
+def shaft_pictures(model: Machine, report: ShaftReport) -> list[ViewData]:
     """Return what there is to see of a shaft: itself with deflection and bending moment, its whirl over speed.
 
     Parameters
     ----------
-    model : ShaftModel
+    model : Machine
         From :func:`check_shaft`.
     report : ShaftReport
         From :func:`shaft`.
@@ -68,12 +68,12 @@ def shaft_pictures(model: ShaftModel, report: ShaftReport) -> list[ViewData]:
     return pictures(model, report)
 
 
-def describe_shaft(model: ShaftModel) -> str:
+def describe_shaft(model: Machine) -> str:
     """Return what a resolved shaft is, in lines for people: bearings, loads, mass, assumptions.
 
     Parameters
     ----------
-    model : ShaftModel
+    model : Machine
         From :func:`check_shaft`.
 
     Returns

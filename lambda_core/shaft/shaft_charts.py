@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.shaft_report import ShaftReport
+from lambda_core.system.machine import Machine
 from lambda_core.views.chart import Arrows, Axis, Mark, Panel, Series, ViewData
 
 _ROLES = {"bending": "inner", "axial": "reference", "torsion": "cage", "body": "outer"}
 
 
-def pictures(model: ShaftModel, report: ShaftReport) -> list[ViewData]:
+def pictures(model: Machine, report: ShaftReport) -> list[ViewData]:
     """Return what there is to see: shaft and deflection, whirl over speed where the shaft turns."""
     found = [_bent(model, report)]
     return [*found, _campbell(report)] if len(report.campbell) > 1 else found
@@ -24,7 +24,7 @@ def _source(report: ShaftReport) -> str:
     )
 
 
-def _bent(model: ShaftModel, report: ShaftReport) -> ViewData:
+def _bent(model: Machine, report: ShaftReport) -> ViewData:
     """Return the shaft, its deflection and its bending moment over one axis."""
     length = 1e3 * model.outline[-1][1]
     along = Axis("position", "mm", low=0.0, high=length)
@@ -52,7 +52,7 @@ def _bent(model: ShaftModel, report: ShaftReport) -> ViewData:
     return ViewData("shaft", "A shaft in its bearings", _source(report), panels, 1, notes)
 
 
-def _drawing(model: ShaftModel, report: ShaftReport) -> Panel:
+def _drawing(model: Machine, report: ShaftReport) -> Panel:
     """Return the shaft from the side with its bearings, discs, and the reactions as arrows."""
     series = [_loop("shaft", [_box(1e3 * a, 1e3 * b, -500.0 * d, 500.0 * d) for a, b, d, _ in model.outline], "total")]
     bores = [_box(1e3 * a, 1e3 * b, -500.0 * bore, 500.0 * bore) for a, b, _, bore in model.outline if bore > 0.0]

@@ -15,8 +15,8 @@ from lambda_core.domain.life import (
     static_equivalent_load,
 )
 from lambda_core.domain.ratings import static_factor
-from lambda_core.shaft.model import MountedBearing
 from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.system.machine import MountedBearing
 
 _LEAST_RATIO = 0.1  # kappa of ISO 281's a_ISO
 

@@ -18,7 +18,6 @@ from lambda_core.results.limits import warnings
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import LOADED_BALLS, MAX_LOAD, Contact
-from lambda_core.shaft.model import MountedBearing, Place, ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState
 from lambda_core.shaft.shaft_lives import bearing_life
 from lambda_core.shaft.structure import point_on, static_rows, stretch
@@ -33,6 +32,7 @@ from lambda_core.shaft.vibration import (
     supported,
 )
 from lambda_core.solver.drivers.equilibrium import Equilibrium
+from lambda_core.system.machine import Machine, MountedBearing, Place
 from lambda_core.system.operating_limits import load_warnings, operating_warnings
 
 _CAMPBELL = 9  # speeds
@@ -155,7 +155,7 @@ class ShaftReport(Record):
         return report_text(self, width)
 
 
-def report_of(model: ShaftModel, state: ShaftState) -> ShaftReport:
+def report_of(model: Machine, state: ShaftState) -> ShaftReport:
     """Put the equilibrium into the units of the interface; every bearing is solved once more with its friction."""
     equilibria = [ring.equilibrium() for ring in state.rings]
     dampings = bearing_damping(model, equilibria)
@@ -217,13 +217,13 @@ def _moved(motion: FloatArray) -> BodyMoved:
     return BodyMoved(displacement_um=_listed(1e6 * motion[:3]), tilt_mrad=_listed(1e3 * motion[3:]))
 
 
-def _at(model: ShaftModel, state: ShaftState, place: Place) -> FloatArray:
+def _at(model: Machine, state: ShaftState, place: Place) -> FloatArray:
     """Return how a place moves and turns, zeros on the ground and off the nodes of the shaft."""
     own, moves = point_on(model, static_rows(model), place.body, place.point)
     return np.asarray(moves @ state.motions[own])
 
 
-def _fastest(model: ShaftModel, critical: list[Mode]) -> float:
+def _fastest(model: Machine, critical: list[Mode]) -> float:
     """Return the end of the speeds at which the whirl is shown: beyond the first critical ones [rad/s]."""
     return max(2.0 * abs(model.speed), *(1.2 * mode.frequency for mode in critical[:2]), 1.0)
 
@@ -249,7 +249,7 @@ def six(matrix: FloatArray) -> list[list[float]]:
 
 
 def _bearing(
-    model: ShaftModel, state: ShaftState, index: int, found: Equilibrium,
+    model: Machine, state: ShaftState, index: int, found: Equilibrium,
     matrices: tuple[FloatArray, FloatArray, FloatArray],
 ) -> BearingOnShaft:  # fmt: skip
     """Return what there is to say of one bearing: housed stiffness, damping and housed damping are given."""

@@ -11,8 +11,8 @@ from lambda_core.domain.wrapping import HEAD, wrapped
 from lambda_core.system.operating_limits import operating_warnings
 
 if TYPE_CHECKING:
-    from lambda_core.shaft.model import ShaftModel
     from lambda_core.shaft.shaft_report import BearingOnShaft, ShaftReport
+    from lambda_core.system.machine import Machine
 
 _HEAD, _COLUMN = 24, 14
 _LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
@@ -146,12 +146,12 @@ def _way(direction: float) -> str:
     return "forward" if direction > 0.5 else "backward" if direction < -0.5 else "elliptic"
 
 
-def shaft_warnings(model: ShaftModel) -> list[str]:
+def shaft_warnings(model: Machine) -> list[str]:
     """Return what does not fit on a shaft, and what of its bearings is beyond a limit, before anything is solved.
 
     Parameters
     ----------
-    model : ShaftModel
+    model : Machine
         From :func:`check_shaft`.
 
     Returns
@@ -163,7 +163,7 @@ def shaft_warnings(model: ShaftModel) -> list[str]:
     return [*model.warnings, *(f"{name}: {warning}" for name, told in beyond for warning in told)]
 
 
-def model_text(model: ShaftModel) -> str:
+def model_text(model: Machine) -> str:
     """Return what a resolved shaft is."""
     length = 1e3 * model.outline[-1][1]
     lines = [

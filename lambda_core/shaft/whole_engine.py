@@ -13,7 +13,6 @@ from lambda_core.domain.channels import LOSSES, SHORTED
 from lambda_core.domain.elements import CAGE, INNER, OUTER
 from lambda_core.domain.errors import SolverError
 from lambda_core.shaft.lumps import lump, unbalance_of_lumps
-from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.shaft.whole_markers import MarkerMotion, motions
 from lambda_core.shaft.whole_samples import WholeSamples
@@ -53,6 +52,7 @@ from lambda_core.solver.drivers.ring_values import losses_of_raceways
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.integrator.tableau import STAGES
+from lambda_core.system.machine import Machine
 
 _CAPACITY = 512
 _COUNTERS = (
@@ -68,7 +68,7 @@ class WholeEngine:
 
     Parameters
     ----------
-    model : ShaftModel
+    model : Machine
     announce : callable, optional
         Called with a sentence before something is compiled.
 
@@ -80,7 +80,7 @@ class WholeEngine:
         That each of them starts from.
     """
 
-    def __init__(self, model: ShaftModel, announce: Announce = None) -> None:
+    def __init__(self, model: Machine, announce: Announce = None) -> None:
         self.model = model
         self.start: ShaftState = solve_shaft(model, announce)
         self._core, self.shaft = core(announce), lump(model)

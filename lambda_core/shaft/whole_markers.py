@@ -7,8 +7,8 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.beam import NODE
 from lambda_core.shaft.lumps import LumpedShaft
-from lambda_core.shaft.model import GROUND, SHAFT, ShaftModel
 from lambda_core.shaft.structure import carried
+from lambda_core.system.machine import GROUND, SHAFT, Machine
 
 _AXES = 3
 
@@ -23,7 +23,7 @@ def motions(bodies: np.ndarray, twist: FloatArray | None = None) -> FloatArray:
 class MarkerMotion:
     """Displacements of the named places of a whole from the motions of its lumps and bodies."""
 
-    def __init__(self, model: ShaftModel, shaft: LumpedShaft) -> None:
+    def __init__(self, model: Machine, shaft: LumpedShaft) -> None:
         count = len(model.markers)
         self._of_lumps = np.zeros((count, _AXES, NODE * shaft.positions.size))
         self._of_bodies = np.zeros((count, _AXES, NODE * len(model.bodies)))

@@ -13,7 +13,6 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import CAGE, INNER, OUTER
 from lambda_core.elastic.beam import NODE
 from lambda_core.shaft.lumps import LumpedShaft, unbalance_of_lumps
-from lambda_core.shaft.model import GROUND, PLACES, ShaftModel
 from lambda_core.shaft.shaft_equilibrium import ShaftState
 from lambda_core.shaft.whole_tables import (
     LUMP_SIGNS,
@@ -35,13 +34,14 @@ from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.solver_context import state_scales
 from lambda_core.solver.drivers.time_tables import add_terms
 from lambda_core.system.bearing import TimeFunction
+from lambda_core.system.machine import GROUND, PLACES, Machine
 from lambda_core.system.time_functions import initial, scaled
 
 _SPIN = 5  # degree of freedom
 _ABOUT_X = 3  # row of a node
 
 
-def load_terms(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> tuple[np.ndarray, FloatArray]:
+def load_terms(model: Machine, shaft: LumpedShaft, parts: tuple[Part, ...]) -> tuple[np.ndarray, FloatArray]:
     """Return what acts on lumps and outer rings, and what leads them: terms of compiled code, and their table.
 
     Loads, weight and growth by temperature go to the lumps as the beam hands them on; of the weight the part that
@@ -91,7 +91,7 @@ def _signals(lumps: np.ndarray) -> list[int]:
 
 
 def start_state(
-    model: ShaftModel,
+    model: Machine,
     shaft: LumpedShaft,
     parts: tuple[Part, ...],
     active: np.ndarray,
@@ -130,7 +130,7 @@ def start_state(
     return np.concatenate([*balls, flat[active], *kept])
 
 
-def state_sizes(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...], bundle: L.Bundle) -> FloatArray:
+def state_sizes(model: Machine, shaft: LumpedShaft, parts: tuple[Part, ...], bundle: L.Bundle) -> FloatArray:
     """Return the absolute scales of all states that the tolerance multiplies: lumps and bodies are as inner rings."""
     shared, lumps = np.zeros(bundle.shared.size), np.zeros(L.NS)
     balls, kept = [], []

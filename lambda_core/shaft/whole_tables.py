@@ -21,13 +21,13 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import CAGE, DOFS, INNER, OUTER
 from lambda_core.elastic.beam import NODE
 from lambda_core.shaft.lumps import LumpedShaft, unbalance_of_lumps
-from lambda_core.shaft.model import GROUND, PLACES, MountedBearing, ShaftModel
 from lambda_core.shaft.structure import Rows, structure
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
 from lambda_core.solver.drivers.time_tables import FORCE, MOMENT, MOTION, PER_BODY
 from lambda_core.system.bearing import DofState
+from lambda_core.system.machine import GROUND, PLACES, Machine, MountedBearing
 
 # State that each displacement of PLACES or POSE moves, and its sign: turning about +y moves a_z towards -.
 STATES = np.array([L.SX, L.SY, L.SZ, L.SAZ, L.SAY])
@@ -78,7 +78,7 @@ def all_free(found: SolverContext) -> SolverContext:
     return assemble(dataclasses.replace(model, **bodies, links={}), found.kernels, found.frame, found.oils)
 
 
-def make_parts(model: ShaftModel, shaft: LumpedShaft, contexts: list[SolverContext]) -> tuple[Part, ...]:
+def make_parts(model: Machine, shaft: LumpedShaft, contexts: list[SolverContext]) -> tuple[Part, ...]:
     """Give every bearing its places."""
     found: list[Part] = []
     balls, rows, raceways, states, slots, waves = 0, 0, 0, 0, 0, 0
@@ -105,7 +105,7 @@ def lump_bodies(shaft: LumpedShaft) -> NDArray[np.int64]:
     return np.array([0, *range(2, shaft.positions.size + 1)])
 
 
-def led_bodies(model: ShaftModel, shaft: LumpedShaft) -> NDArray[np.int64]:
+def led_bodies(model: Machine, shaft: LumpedShaft) -> NDArray[np.int64]:
     """Return the bodies that the coupling turns: all lumps, or where the shaft twists one, or the body behind all."""
     lumps = lump_bodies(shaft)
     if not model.twists:
@@ -113,23 +113,23 @@ def led_bodies(model: ShaftModel, shaft: LumpedShaft) -> NDArray[np.int64]:
     return np.append(lumps, body_count(model, shaft))[[shaft.driven]]
 
 
-def beside_bodies(model: ShaftModel, shaft: LumpedShaft) -> NDArray[np.int64]:
+def beside_bodies(model: Machine, shaft: LumpedShaft) -> NDArray[np.int64]:
     """Return the bodies beside the shaft."""
     return np.arange(body_count(model, shaft) - len(model.bodies), body_count(model, shaft))
 
 
-def table_size(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> int:
+def table_size(model: Machine, shaft: LumpedShaft, parts: tuple[Part, ...]) -> int:
     """Return how many bodies there are: those with a mass, one that leads, waves of elastic parts."""
     led = int(led_bodies(model, shaft).max())
     return 1 + max(body_count(model, shaft) - 1, led, *(max(part.bodies) for part in parts), 0)
 
 
-def body_count(model: ShaftModel, shaft: LumpedShaft) -> int:
+def body_count(model: Machine, shaft: LumpedShaft) -> int:
     """Return how many bodies have a mass: lumps, outer rings and cages, bodies beside the shaft."""
     return shaft.positions.size + 2 * len(model.bearings) + len(model.bodies)
 
 
-def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> L.Bundle:
+def whole_bundle(model: Machine, shaft: LumpedShaft, parts: tuple[Part, ...]) -> L.Bundle:
     """Return everything that compiled code works on; loads are those of :func:`add_loads`."""
     first, bundles = parts[0].alone.bundle, [part.alone.bundle for part in parts]
     spans = np.concatenate([[0], np.cumsum([b.par.size for b in bundles])])
@@ -162,7 +162,7 @@ def whole_bundle(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...])
     )  # fmt: skip
 
 
-def _bodies(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> Any:
+def _bodies(model: Machine, shaft: LumpedShaft, parts: tuple[Part, ...]) -> Any:
     led = led_bodies(model, shaft)
     bodies = np.zeros(table_size(model, shaft, parts), R.BODY)
     bodies["moves"], bodies["mode"] = 1, R.LOCKED
@@ -194,7 +194,7 @@ def _bodies(model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]) -> A
     return bodies
 
 
-def _outer_modes(model: ShaftModel, i: int) -> list[int]:
+def _outer_modes(model: Machine, i: int) -> list[int]:
     """Return how an outer ring is held: springs and elastic housings tie it, and it is free between them."""
     seating, carrier = model.bearings[i].seating, model.bearings[i].carrier
     found = []
@@ -276,7 +276,7 @@ def _slots(part: Part, begin: int) -> Any:
 
 
 def _ties(
-    model: ShaftModel, shaft: LumpedShaft, parts: tuple[Part, ...]
+    model: Machine, shaft: LumpedShaft, parts: tuple[Part, ...]
 ) -> tuple[NDArray[np.int64], FloatArray, FloatArray, FloatArray]:
     """Return the entries of the shared state that structures tie, their stiffness and damping, and where they rest.
 

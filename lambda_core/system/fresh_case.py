@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lambda_core.system.machine_templates import GENERAL, Machine
+from lambda_core.system.machine_templates import GENERAL, MachineTemplate
 from lambda_core.system.operating_limits import ONE_SIDE
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ _AXIAL = {"four-point": "100 um", "double row": "20 um"}  # kinds that have an a
 _HALF_LOADED = 1.216
 
 
-def fresh_case(name: str, bearing: BearingRow, read: Designation, machine: Machine = GENERAL) -> str:
+def fresh_case(name: str, bearing: BearingRow, read: Designation, machine: MachineTemplate = GENERAL) -> str:
     """Write the text of a case for a bearing in a machine: loads by its rating, everything else default.
 
     Suffixes of the designation stay in it and decide what they stand for.
@@ -78,7 +78,7 @@ def fresh_case(name: str, bearing: BearingRow, read: Designation, machine: Machi
     )
 
 
-def _clearance(machine: Machine, bearing: BearingRow, read: Designation) -> str:
+def _clearance(machine: MachineTemplate, bearing: BearingRow, read: Designation) -> str:
     """Return the lines that say the clearance, or the contact angle that it follows from."""
     classes = [written for written, suffix in read.suffixes if suffix.kind == "clearance"]
     if bearing.kind in _AXIAL and not classes:
@@ -93,7 +93,7 @@ def _clearance(machine: Machine, bearing: BearingRow, read: Designation) -> str:
     return _told(f'clearance = "{machine.clearance}"', f"class of ISO 5753-1, {_MEASURED}") + _PICK
 
 
-def _thrust(machine: Machine, bearing: BearingRow) -> tuple[float, str]:
+def _thrust(machine: MachineTemplate, bearing: BearingRow) -> tuple[float, str]:
     """Return axial over radial load, and the comment on it; angular contact needs enough to be held together."""
     if bearing.kind == "four-point":
         return max(machine.thrust, ONE_SIDE), f"along the shaft: {ONE_SIDE:g} of the radial load at least, SKF"
@@ -112,7 +112,7 @@ def _newton(load: float) -> str:
     return f"{load / 1e3:.3g} kN" if load >= 1e3 else f"{load:.3g} N"
 
 
-def _speed(machine: Machine, bearing: BearingRow) -> float:
+def _speed(machine: MachineTemplate, bearing: BearingRow) -> float:
     """Return the speed to start with [rpm], well below the limit of the bearing where the catalogue has one."""
     limit = bearing.limiting_speed
     return min(machine.speed, _MOST_SPEED * limit.value * 30.0 / math.pi) if limit else machine.speed

@@ -37,7 +37,7 @@ housing_stiffness = "300 N/um"  # force over displacement of a rigid ring pushed
 
 
 @dataclass(frozen=True)
-class Machine:
+class MachineTemplate:
     """One kind of machine.
 
     Attributes
@@ -72,40 +72,40 @@ class Machine:
     about: tuple[str, str, str] = ("", "", "")  # comments on oil, load and speed
 
 
-GENERAL = Machine(
+GENERAL = MachineTemplate(
     "", "SKF 6208", "FVA3A", 60, 0.1, 0.0, 1500.0, "CN", _TILT,
     (
         "lambda-bearing db search --lubricants", "acts downwards on the inner ring",
         "inner ring; the outer ring stands still",
     ),
 )  # fmt: skip
-MACHINES: dict[str, Machine] = {
-    "electric-motor": Machine(
+MACHINES: dict[str, MachineTemplate] = {
+    "electric-motor": MachineTemplate(
         "drive end of an electric motor, grease", "SKF 6308", "arcanol-multi2", 70, 0.05, 0.1, 3000.0, "C3",
         _TILT + _SEATS.format(shaft="k5", housing="H7", inner=75, outer=65),
         ("a grease: lambda-bearing db search --lubricants grease", "rotor and belt or coupling", "two poles at 50 Hz"),
     ),
-    "gearbox-shaft": Machine(
+    "gearbox-shaft": MachineTemplate(
         "shaft of a gearbox, oil bath", "SKF 6208", "mineral-vg220", 80, 0.1, 0.25, 1500.0, "C3",
         _TILT + _SEATS.format(shaft="k5", housing="H7", inner=85, outer=78),
         ("gear oil", "from the teeth", "input shaft"),
     ),
-    "spindle": Machine(
+    "spindle": MachineTemplate(
         "spindle, light and fast, oil mist", "SKF 6008", "mineral-vg32", 45, 0.02, 0.5, 9000.0, "C2",
         _TILT,
         ("thin: speed makes the film", "cutting force", "finishing"),
     ),
-    "pump": Machine(
+    "pump": MachineTemplate(
         "centrifugal pump, oil sump", "SKF 6306", "mineral-vg46", 65, 0.06, 0.4, 2950.0, "C3",
         _TILT + _SEATS.format(shaft="k5", housing="H7", inner=70, outer=62),
         ("circulating oil", "from the impeller", "two poles at 50 Hz, with slip"),
     ),
-    "wheel": Machine(
+    "wheel": MachineTemplate(
         "wheel or roller on a standing axle, grease", "SKF 6206", "arcanol-load150", 40, 0.12, 0.1, 0.0, "CN",
         _TILT + _HUB,
         ("a grease", "share of the vehicle's weight", "the axle stands still; see the outer ring"),
     ),
-    "thin-housing": Machine(
+    "thin-housing": MachineTemplate(
         "fast shaft in a thin light-metal housing, ring and cage bend", "SKF 6208", "mineral-vg46", 70, 0.08, 0.2,
         6000.0, "C3", _TILT + _ELASTIC,
         ("gear oil, thin", "from the teeth", "electric drive"),

@@ -18,11 +18,11 @@ from scipy.optimize import brentq
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.domain.hertz import ball_raceway_radii, stiffness_constant
-from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 from lambda_core.solver.drivers.held_ring import HeldRing
 from lambda_core.system.bearing import BearingModel
+from lambda_core.system.machine import Machine
 
 from .statics import STEEL
 
@@ -104,7 +104,7 @@ def thrust(closed: float) -> float:
     return -float(reaction(pose, math.atan2(pose[0], DISTANCE * math.cos(FREE)))[0])
 
 
-def solved(case: dict[str, Any]) -> tuple[ShaftModel, ShaftState]:
+def solved(case: dict[str, Any]) -> tuple[Machine, ShaftState]:
     model = check_shaft(case)
     return model, solve_shaft(model, kernels=KERNELS)
 

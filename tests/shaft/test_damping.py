@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from lambda_core.shaft.fresh_shaft import fresh_shaft
-from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.shaft.vibration import bearing_damping, damped, housed_damping, modes_at, supported
@@ -19,8 +18,9 @@ from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.modes import dense
 from lambda_core.solver.drivers.stiffness import freed, stiffness_at
+from lambda_core.system.machine import Machine
 
-Solved = tuple[ShaftModel, ShaftState, list[Equilibrium]]
+Solved = tuple[Machine, ShaftState, list[Equilibrium]]
 
 
 @pytest.fixture(scope="module")

@@ -24,10 +24,10 @@ from lambda_core.results.run_status import Status
 from lambda_core.results.writer import ResultWriter
 from lambda_core.run import whole_run
 from lambda_core.shaft.fresh_shaft import fresh_shaft
-from lambda_core.shaft.model import ShaftModel
 from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.shaft.whole_file import WHOLE, WholeFile, WholeWriter
+from lambda_core.system.machine import Machine
 
 if TYPE_CHECKING:
     from warm import Warm
@@ -49,7 +49,7 @@ Content = dict[str, bytes]
 
 
 @pytest.fixture(scope="module")
-def model() -> ShaftModel:
+def model() -> Machine:
     return check_shaft(tomllib.loads(fresh_shaft("box")))
 
 
@@ -61,7 +61,7 @@ def often(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(scope="module")
-def undisturbed(model: ShaftModel, tmp_path_factory: pytest.TempPathFactory) -> Content:
+def undisturbed(model: Machine, tmp_path_factory: pytest.TempPathFactory) -> Content:
     folder = tmp_path_factory.mktemp("undisturbed") / "run"
     api.shaft_run(model, out=folder, duration=DURATION)
     return content(folder)
@@ -110,7 +110,7 @@ def copied(folder: Path, moments: tuple[tuple[Any, str], ...] = MOMENTS) -> Iter
         yield found
 
 
-def wrong(copies: dict[str, Path], model: ShaftModel, undisturbed: Content) -> list[str]:
+def wrong(copies: dict[str, Path], model: Machine, undisturbed: Content) -> list[str]:
     """Go on with every copy; return the moments after which it is not the undisturbed run."""
     found = []
     for moment, folder in copies.items():
@@ -127,7 +127,7 @@ def wrong(copies: dict[str, Path], model: ShaftModel, undisturbed: Content) -> l
 
 @pytest.mark.full
 def test_a_run_killed_at_any_moment_goes_on_as_the_undisturbed_one(
-    model: ShaftModel, undisturbed: Content, tmp_path: Path
+    model: Machine, undisturbed: Content, tmp_path: Path
 ) -> None:
     """From the first checkpoint on; before it there is none to go on from, and that is said."""
     with copied(tmp_path / "run") as copies:
@@ -150,7 +150,7 @@ def _slots(folder: Path) -> Any:
 
 @pytest.mark.full
 def test_a_continuation_killed_at_any_moment_goes_on_as_the_undisturbed_one(
-    model: ShaftModel, undisturbed: Content, tmp_path: Path
+    model: Machine, undisturbed: Content, tmp_path: Path
 ) -> None:
     api.shaft_run(model, out=tmp_path / "run", duration=0.2e-3)
     with copied(tmp_path / "run", ((os, "replace"),)) as copies:
@@ -160,7 +160,7 @@ def test_a_continuation_killed_at_any_moment_goes_on_as_the_undisturbed_one(
 
 
 def test_a_process_killed_while_it_looks_at_its_modes_goes_on_as_the_undisturbed_one(
-    warm: Warm, model: ShaftModel, undisturbed: Content, tmp_path: Path
+    warm: Warm, model: Machine, undisturbed: Content, tmp_path: Path
 ) -> None:
     (tmp_path / "box.toml").write_text(fresh_shaft("box"))
     process = warm.start(KILLED, str(tmp_path / "box.toml"), str(tmp_path / "run"), str(DURATION))
@@ -171,7 +171,7 @@ def test_a_process_killed_while_it_looks_at_its_modes_goes_on_as_the_undisturbed
 
 @pytest.mark.full
 def test_a_continuation_looks_for_convergence_where_a_revolution_ends(
-    model: ShaftModel, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    model: Machine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """In the midst of a revolution the undisturbed run does not look, and a shorter run would have other averages."""
     api.shaft_run(model, out=tmp_path / "run", duration=DURATION)

@@ -20,7 +20,6 @@ from lambda_core.elastic.whirl import natural_frequencies
 from lambda_core.results.reader import Result
 from lambda_core.shaft.fresh_shaft import fresh_shaft
 from lambda_core.shaft.lumps import LumpedShaft, lump
-from lambda_core.shaft.model import PLACES, ShaftModel
 from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.shaft.whole_file import WholeFile
@@ -28,6 +27,7 @@ from lambda_core.shaft.whole_tables import LUMP_STATES, SIGNS, STATES, lump_bodi
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
+from lambda_core.system.machine import PLACES, Machine
 
 STIFF = (5e7, 1e8, 1e8, 1e3, 1e3)  # of a bearing [N/m, N m/rad]
 
@@ -51,7 +51,7 @@ LONG = {
 }
 
 
-def frequencies(model: ShaftModel, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
+def frequencies(model: Machine, shaft: LumpedShaft) -> tuple[FloatArray, FloatArray]:
     """Return natural frequencies of the lumps and of the beam on the same springs."""
     lumped, whole = shaft.stiffness.copy(), model.body.stiffness.copy()
     places = np.array(PLACES)

@@ -185,7 +185,7 @@ def march(
         Times of the contact samples [s].
     tables : Tables
         The contacts at these times; `film` is the central one where it may break down (0: none).
-    machine : Machine
+    machine : CircuitConstants
         What surrounds the films.
     roughness, least : float
         Composite rms roughness [m]; voltage below which nothing breaks down [V].

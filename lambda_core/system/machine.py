@@ -111,7 +111,7 @@ class RigidBody:
 
 
 @dataclass(frozen=True)
-class ShaftModel:
+class Machine:
     """Shaft, bearings and loads.
 
     Attributes
