@@ -9,6 +9,7 @@ import bisect
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.ratings import conformity_term
@@ -225,14 +226,43 @@ def reference_viscosity(speed: float, pitch_diameter: float) -> float:
     return 4500e-6 / math.sqrt(rpm * pitch)
 
 
-def life_modification_factor(
-    viscosity_ratio: float, contamination: float, fatigue_limit: float, equivalent_load: float
-) -> float:
-    """Factor a_ISO of radial ball bearings (ISO 281:2007, eq. 31-33).
+class LifeFactorNumbers(NamedTuple):
+    """Numbers of the factor a_ISO for one kind of bearing, in the formula of :func:`life_modification_factor`."""
 
-    0.1 [1 - (2.5671 - c/kappa^e)^0.83 (e_C C_u/P)^(1/3)]^-9.3 with (c, e) = (2.2649, 0.054381) for
-    0.1 <= kappa < 0.4, (1.9987, 0.19087) for 0.4 <= kappa < 1, (1.9987, 0.071739) for 1 <= kappa <= 4; kappa above
-    4 counts as 4; a_ISO <= 50.
+    level: float
+    film: float
+    load: float
+    power: float
+    low: float  # c for 0.1 <= kappa < 0.4
+    high: float  # c for 0.4 <= kappa <= 4
+
+
+RADIAL_BALL = LifeFactorNumbers(2.5671, 0.83, 1.0 / 3.0, -9.3, 2.2649, 1.9987)  # ISO 281:2007, 9.3.3.2, eq. 31-33
+RADIAL_ROLLER = LifeFactorNumbers(1.5859, 1.0, 0.4, -9.185, 1.3993, 1.2348)  # ISO 281:2007, 9.3.3.3
+
+
+def life_modification_factor(
+    viscosity_ratio: float,
+    contamination: float,
+    fatigue_limit: float,
+    equivalent_load: float,
+    numbers: LifeFactorNumbers = RADIAL_BALL,
+) -> float:
+    """Return the factor a_ISO (ISO 281:2007, 9.3.3).
+
+    0.1 [1 - (level - c/kappa^e)^film (e_C C_u/P)^load]^power with e = 0.054381 for 0.1 <= kappa < 0.4, 0.19087 for
+    0.4 <= kappa < 1, 0.071739 for 1 <= kappa <= 4; kappa above 4 counts as 4; a_ISO <= 50.
+
+    Parameters
+    ----------
+    viscosity_ratio : float
+        kappa = nu/nu_1.
+    contamination : float
+        e_C.
+    fatigue_limit, equivalent_load : float
+        C_u and P [N].
+    numbers : LifeFactorNumbers
+        Those of the kind of bearing.
 
     Raises
     ------
@@ -243,17 +273,17 @@ def life_modification_factor(
         raise ValueError(f"a_ISO is defined for a viscosity ratio kappa of 0.1 and more, got {viscosity_ratio:.3g}")
     kappa = min(viscosity_ratio, 4.0)
     if kappa < 0.4:
-        film = 2.5671 - 2.2649 / kappa**0.054381
+        film = numbers.level - numbers.low / kappa**0.054381
     elif kappa < 1.0:
-        film = 2.5671 - 1.9987 / kappa**0.19087
+        film = numbers.level - numbers.high / kappa**0.19087
     else:
-        film = 2.5671 - 1.9987 / kappa**0.071739
+        film = numbers.level - numbers.high / kappa**0.071739
     if equivalent_load <= 0.0:
         return 50.0
-    inner = 1.0 - film**0.83 * (contamination * fatigue_limit / equivalent_load) ** (1.0 / 3.0)
+    inner = 1.0 - film**numbers.film * (contamination * fatigue_limit / equivalent_load) ** numbers.load
     if inner <= 0.0:  # beyond the pole the fatigue limit is never reached
         return 50.0
-    return float(min(0.1 * inner**-9.3, 50.0))
+    return float(min(0.1 * inner**numbers.power, 50.0))
 
 
 @dataclass(frozen=True)

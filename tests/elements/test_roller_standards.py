@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 
 import numpy as np
@@ -9,13 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lambda_core.domain.life import RADIAL_ROLLER, life_modification_factor
 from lambda_core.elements.roller.axial_limit import axial_limit
 from lambda_core.elements.roller.roller_life import (
     lamina_equivalent_loads,
     lamina_life,
     modified_lamina_life,
     roller_basic_life,
-    roller_life_factor,
     stress_riser,
 )
 from lambda_core.elements.roller.roller_ratings import (
@@ -29,6 +30,7 @@ from lambda_core.elements.roller.roller_ratings import (
 )
 
 RATING, GAMMA = 60e3, 0.17
+roller_factor = functools.partial(life_modification_factor, numbers=RADIAL_ROLLER)
 RATINGS = lamina_ratings(RATING, 15, GAMMA, 30)
 LOADS = np.outer(np.maximum(np.cos(2.0 * math.pi * np.arange(15) / 15), 0.0), np.full(30, 50.0))
 
@@ -121,35 +123,35 @@ def test_even_laminae_share_one_equivalent_load() -> None:
 
 def test_the_modified_life_of_even_laminae_has_one_factor() -> None:
     found = lamina_life(LOADS, RATINGS, RATING, riser=1.0)
-    factor = roller_life_factor(2.0, 0.5, 8e3, float(lamina_equivalent_loads(found, RATING)[0]))
+    factor = roller_factor(2.0, 0.5, 8e3, float(lamina_equivalent_loads(found, RATING)[0]))
     assert modified_lamina_life(found, RATING, 2.0, 0.5, 8e3) == pytest.approx(factor * found.life)
 
 
 @pytest.mark.parametrize("kappa", [0.4, 1.0])
 def test_the_life_factor_is_continuous(kappa: float) -> None:
     # the standard's branches join within its printed digits
-    below, above = (roller_life_factor(kappa * scale, 0.5, 8e3, 5e3) for scale in (1.0 - 1e-9, 1.0))
+    below, above = (roller_factor(kappa * scale, 0.5, 8e3, 5e3) for scale in (1.0 - 1e-9, 1.0))
     assert above == pytest.approx(below, rel=0.003)
 
 
 @given(kappa=st.floats(0.11, 4.0), share=st.floats(0.01, 5.0))
 def test_the_life_factor_grows_with_film_and_limit(kappa: float, share: float) -> None:
-    here = roller_life_factor(kappa, 1.0, share, 1.0)
+    here = roller_factor(kappa, 1.0, share, 1.0)
     assert 0.1 <= here <= 50.0
-    assert roller_life_factor(1.2 * kappa, 1.0, share, 1.0) >= here * 0.997
-    assert roller_life_factor(kappa, 1.0, 1.1 * share, 1.0) >= here
-    assert roller_life_factor(8.0, 1.0, share, 1.0) == roller_life_factor(4.0, 1.0, share, 1.0)
+    assert roller_factor(1.2 * kappa, 1.0, share, 1.0) >= here * 0.997
+    assert roller_factor(kappa, 1.0, 1.1 * share, 1.0) >= here
+    assert roller_factor(8.0, 1.0, share, 1.0) == roller_factor(4.0, 1.0, share, 1.0)
 
 
 def test_the_life_factor_begins_at_one_tenth() -> None:
     # the printed digits make the film term -5e-5 there: the factor falls with the fatigue limit, but by 1e-4 only
-    assert roller_life_factor(0.1, 1.0, 5.0, 1.0) == pytest.approx(0.1, rel=1.1e-3)
+    assert roller_factor(0.1, 1.0, 5.0, 1.0) == pytest.approx(0.1, rel=1.1e-3)
 
 
 def test_the_life_factor_refuses_a_lean_film() -> None:
     with pytest.raises(ValueError, match=r"0\.1 and more"):
-        roller_life_factor(0.05, 0.5, 8e3, 5e3)
-    assert roller_life_factor(1.0, 0.5, 8e3, 0.0) == 50.0
+        roller_factor(0.05, 0.5, 8e3, 5e3)
+    assert roller_factor(1.0, 0.5, 8e3, 0.0) == 50.0
 
 
 NJ_208 = {"bore": 40e-3, "outside": 80e-3, "width": 18e-3, "static_rating": 53e3, "light_series": True}

@@ -12,13 +12,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.life import RADIAL_ROLLER, life_modification_factor
 from lambda_core.elements.roller.roller_ratings import REDUCTION_FACTOR, LaminaRatings
 
 LIFE_EXPONENT = 10.0 / 3.0
 _LAMINA_EXPONENT = 4.5
 _MOVING, _RESTING = 4.0, 4.5  # exponents of the mean on the ring that turns relative to the load, and on the other
 _SYSTEM = 8.0 / 9.0
-_LARGEST_FACTOR = 50.0
 
 
 @dataclass(frozen=True)
@@ -98,56 +98,19 @@ def lamina_equivalent_loads(life: RollerLife, dynamic_rating: float) -> FloatArr
     return found
 
 
-def roller_life_factor(
-    viscosity_ratio: float, contamination: float, fatigue_limit: float, equivalent_load: float
-) -> float:
-    """Return the factor a_ISO of radial roller bearings (ISO 281:2007, 9.3.3.3).
-
-    0.1 [1 - (1.5859 - c/kappa^e) (e_C C_u/P)^0.4]^-9.185 with (c, e) = (1.3993, 0.054381) for 0.1 <= kappa < 0.4,
-    (1.2348, 0.19087) for 0.4 <= kappa < 1, (1.2348, 0.071739) for 1 <= kappa <= 4; kappa above 4 counts as 4;
-    a_ISO <= 50.
-
-    Parameters
-    ----------
-    viscosity_ratio : float
-        kappa = nu/nu_1.
-    contamination : float
-        e_C.
-    fatigue_limit, equivalent_load : float
-        C_u and P [N].
-
-    Raises
-    ------
-    ValueError
-        For kappa below 0.1, where the standard's calculation is not valid.
-    """
-    if viscosity_ratio < 0.1:
-        raise ValueError(f"a_ISO is defined for a viscosity ratio kappa of 0.1 and more, got {viscosity_ratio:.3g}")
-    kappa = min(viscosity_ratio, 4.0)
-    if kappa < 0.4:
-        film = 1.5859 - 1.3993 / kappa**0.054381
-    elif kappa < 1.0:
-        film = 1.5859 - 1.2348 / kappa**0.19087
-    else:
-        film = 1.5859 - 1.2348 / kappa**0.071739
-    if equivalent_load <= 0.0:
-        return _LARGEST_FACTOR
-    inner = 1.0 - film * (contamination * fatigue_limit / equivalent_load) ** 0.4
-    if inner <= 0.0:  # beyond the pole the fatigue limit is never reached
-        return _LARGEST_FACTOR
-    return float(min(0.1 * inner**-9.185, _LARGEST_FACTOR))
-
-
 def modified_lamina_life(
     life: RollerLife, dynamic_rating: float, viscosity_ratio: float, contamination: float, fatigue_limit: float
 ) -> float:
     """Return the modified reference rating life L_10mr [1e6 revolutions] (ISO 16281:2025).
 
     {sum_k a_ISO,k^(-9/8) X_k}^(-8/9): each lamina has the factor a_ISO of its own equivalent load
-    (:func:`lamina_equivalent_loads`). Parameters as for :func:`roller_life_factor`.
+    (:func:`lamina_equivalent_loads`). Parameters as for
+    :func:`lambda_core.domain.life.life_modification_factor`.
     """
     loads = lamina_equivalent_loads(life, dynamic_rating)
-    factors = np.array([roller_life_factor(viscosity_ratio, contamination, fatigue_limit, load) for load in loads])
+    factors = np.array(
+        [life_modification_factor(viscosity_ratio, contamination, fatigue_limit, load, RADIAL_ROLLER) for load in loads]
+    )
     total = float((factors ** (-1.0 / _SYSTEM) * life.damage).sum())
     return float(total**-_SYSTEM) if total > 0.0 else math.inf
 
