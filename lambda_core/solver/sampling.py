@@ -10,7 +10,7 @@ import numpy as np
 from lambda_core.solver.arrays.bundle import MECHANISMS, NB
 from lambda_core.solver.cage.guides import guide_force, land_state, pocket_apply, pocket_state
 from lambda_core.solver.contact.contact_capacitance import bulk_permittivity, contact_capacitance, gap_capacitance
-from lambda_core.solver.contact.contact_kinematics import axis_x, contact_angle, contact_kinematics, near, surface_lift
+from lambda_core.solver.contact.contact_kinematics import axis_x, contact_angle, contact_wrench, near, touch
 from lambda_core.solver.contact.contact_states import hand_states
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.integrator.memory import evaluate_t
@@ -63,9 +63,7 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
     ring, kin, contact = bundle.bodies_now[raceway.body], scratch.kinematics[0], scratch.contact[0]
     values[:] = 0.0
     sample = values.view(CONTACT_SAMPLE)[0]
-    if system.surfaces == 1:
-        surface_lift(ball, ring, raceway, bundle, kin)
-    delta = contact_kinematics(ball, ring, raceway, kin)
+    delta = touch(ball, ring, raceway, bundle, kin)
     if not delta < np.inf:
         return 0
     sample.contact_angle = contact_angle(kin, raceway)
@@ -75,10 +73,7 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
     if delta <= -near(raceway, system):
         return 1
     hand_states(raceway, j, bundle)
-    ok = bundle.wrench(
-        raceway, kin, laws, bundle.par, system, bundle.grid, bundle.cells[0], scratch, contact, scratch.wrench[0]
-    )
-    if ok != 1:
+    if contact_wrench(raceway, bundle) != 1:
         return 0
     if delta > 0.0:
         _show(kin, contact, sample)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from lambda_core.solver import records as R
-from lambda_core.solver.contact.contact_kinematics import contact_kinematics, surface_lift
+from lambda_core.solver.contact.contact_kinematics import contact_wrench, touch
 from lambda_core.solver.contact.dissipation import raceway_losses
-from lambda_core.solver.layout import array1, bundle_t, cells_of, grid_of, i8, losses_of, raceway_laws, table_t
+from lambda_core.solver.layout import array1, bundle_t, cells_of, grid_of, i8, losses_of, table_t
 
 probe_sig = i8(table_t(R.BALL), table_t(R.BODY_STATE), i8, bundle_t, array1)
 
@@ -30,13 +30,9 @@ def probe(balls, rings, k, bundle, losses):
     """
     scratch, system, raceway = bundle.scratch[0], bundle.system[0], bundle.raceways[k]
     kin, contact, ball, ring = scratch.kinematics[0], scratch.contact[0], balls[0], rings[0]
-    surface_lift(ball, ring, raceway, bundle, kin)
-    if not contact_kinematics(ball, ring, raceway, kin) > 0.0:
+    if not touch(ball, ring, raceway, bundle, kin) > 0.0:
         return -1
-    laws = raceway_laws(bundle.laws.raceways, raceway.laws)
-    ok = bundle.wrench(
-        raceway, kin, laws, bundle.par, system, bundle.grid, bundle.cells[0], scratch, contact, scratch.wrench[0]
-    )
+    ok = contact_wrench(raceway, bundle)
     if ok == 1:
         cells, grid, named = cells_of(bundle.cells[0]), grid_of(bundle.grid), losses_of(losses, bundle.raceways.size)
         raceway_losses(raceway, kin, system, grid, contact, cells, named)

@@ -181,6 +181,28 @@ def _velocities(ball, ring, axis, centre, azimuth, frame, lengths, reach, arm, k
 
 
 @helper
+def touch(ball, ring, raceway, bundle, kin):
+    """Identify the contact of a ball with a raceway, on its surface where that is not nominal; returns the penetration.
+
+    See contact_kinematics.
+    """
+    if bundle.system[0].surfaces == 1:
+        surface_lift(ball, ring, raceway, bundle, kin)
+    return contact_kinematics(ball, ring, raceway, kin)
+
+
+@helper
+def contact_wrench(raceway, bundle):
+    """Run the laws of the contact in scratch, into its first contact, cells and wrench; returns 1, or 0 on a fault."""
+    scratch = bundle.scratch[0]
+    laws = raceway_laws(bundle.laws.raceways, raceway.laws)
+    return bundle.wrench(
+        raceway, scratch.kinematics[0], laws, bundle.par, bundle.system[0], bundle.grid, bundle.cells[0], scratch,
+        scratch.contact[0], scratch.wrench[0],
+    )  # fmt: skip
+
+
+@helper
 def contact_angle(kin, raceway):
     """Return the contact angle of an identified contact [rad]."""
     return math.atan2(raceway.side * kin.axial, raceway.side * kin.radial)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lambda_core.solver.arrays.bundle import NB, NS, STHETA, SVY, SVZ, SY, SZ
-from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, near, surface_lift
+from lambda_core.solver.contact.contact_kinematics import apply_wrench, near, touch
 from lambda_core.solver.contact.contact_states import hand_states
 from lambda_core.solver.contact.ring_waves import add_push_slope, wave_pushes
 from lambda_core.solver.contact.tangent import wrench_at
@@ -13,14 +13,6 @@ from lambda_core.solver.layout import helper, raceway_laws
 from lambda_core.solver.motion.steps import add_slope, ball_step, body_step
 from lambda_core.solver.records import BALL, BODY_STATE
 from lambda_core.solver.vec import clear
-
-
-@helper
-def _touches(ball, ring, raceway, bundle, kin):
-    """Write the kinematics of a contact; returns its penetration."""
-    if bundle.system[0].surfaces == 1:
-        surface_lift(ball, ring, raceway, bundle, kin)
-    return contact_kinematics(ball, ring, raceway, kin)
 
 
 @helper
@@ -47,12 +39,12 @@ def _contact_columns(ball, j, ring, raceway, row, bundle, bl):
         step = ball_step(c, False)
         near_ball[0] = ball
         bl.ball[c] += step
-        if _touches(near_ball[0], ring, raceway, bundle, kin) <= apart:
+        if touch(near_ball[0], ring, raceway, bundle, kin) <= apart:
             # The step leaves a lightly loaded contact, which deserves its stiffness all the same: step back instead.
             near_ball[0] = ball
             step = -step
             bl.ball[c] += step
-            if _touches(near_ball[0], ring, raceway, bundle, kin) <= apart:
+            if touch(near_ball[0], ring, raceway, bundle, kin) <= apart:
                 continue
         _wrenches_near(scratch, bl)
         add_slope(bl.own, c, fm[2], fm[0], step)
@@ -64,11 +56,11 @@ def _contact_columns(ball, j, ring, raceway, row, bundle, bl):
         step = body_step(c, False)
         near_ring[0] = ring
         bl.body[c] += step
-        if _touches(ball, near_ring[0], raceway, bundle, kin) <= apart:
+        if touch(ball, near_ring[0], raceway, bundle, kin) <= apart:
             near_ring[0] = ring
             step = -step
             bl.body[c] += step
-            if _touches(ball, near_ring[0], raceway, bundle, kin) <= apart:
+            if touch(ball, near_ring[0], raceway, bundle, kin) <= apart:
                 continue
         _wrenches_near(scratch, bl)
         add_slope(bl.to_shared, column, fm[2], fm[0], step)
@@ -106,7 +98,7 @@ def _wave_columns(ball, j, ring, raceway, row, bundle, bl):
                 bl.ball[c] += step
             else:
                 bl.body[c - NB] += step
-            if _touches(near_ball[0], near_ring[0], raceway, bundle, kin) > -near(raceway, bundle.system[0]):
+            if touch(near_ball[0], near_ring[0], raceway, bundle, kin) > -near(raceway, bundle.system[0]):
                 _wrenches_near(scratch, bl)
                 if c < NB:
                     _push_slopes(raceway, r, bundle, bl.from_ball, c, step, bl)
@@ -121,7 +113,7 @@ def _wave_columns(ball, j, ring, raceway, row, bundle, bl):
             kept, step = bundle.shared[NS * body + c], body_step(c, False)
             for _ in range(2):
                 bundle.shared[NS * body + c] = kept + step
-                touches = _touches(ball, ring, raceway, bundle, kin) > -near(raceway, bundle.system[0])
+                touches = touch(ball, ring, raceway, bundle, kin) > -near(raceway, bundle.system[0])
                 bundle.shared[NS * body + c] = kept
                 if touches:
                     _wrenches_near(scratch, bl)
@@ -140,7 +132,7 @@ def raceway_columns(ball, j, row, bundle, bl):
     for k in range(row.first_raceway, row.first_raceway + row.raceways):
         raceway = bundle.raceways[k]
         ring = bundle.bodies_now[raceway.body]
-        delta = _touches(ball, ring, raceway, bundle, kin)
+        delta = touch(ball, ring, raceway, bundle, kin)
         if delta <= -near(raceway, bundle.system[0]):
             continue
         if not delta < np.inf:

@@ -13,7 +13,7 @@ from lambda_core.solver.cage.guides import (
     neighbour_state,
     pocket_state,
 )
-from lambda_core.solver.contact.contact_kinematics import axis_x, contact_kinematics, surface_lift
+from lambda_core.solver.contact.contact_kinematics import axis_x, touch
 from lambda_core.solver.layout import guide_law, helper, part, raceway_laws
 from lambda_core.solver.motion.prescribed import fill_shared
 from lambda_core.solver.motion.structures import structure_energy
@@ -50,9 +50,7 @@ def _ball_energy(ball, row):
 def _raceway_energy(ball, raceway, bundle):
     """Return the elastic energy of a ball's contact with a raceway [J]."""
     ring, kin = bundle.bodies_now[raceway.body], bundle.scratch[0].kinematics[0]
-    if bundle.system[0].surfaces == 1:
-        surface_lift(ball, ring, raceway, bundle, kin)
-    if contact_kinematics(ball, ring, raceway, kin) > 0.0:
+    if touch(ball, ring, raceway, bundle, kin) > 0.0:
         return _contact_energy(raceway, kin.penetration, bundle)
     return 0.0
 

@@ -19,12 +19,12 @@ from lambda_core.solver.cage.guides import (
     pocket_apply,
     pocket_state,
 )
-from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_kinematics, near, surface_lift
+from lambda_core.solver.contact.contact_kinematics import apply_wrench, contact_wrench, near, touch
 from lambda_core.solver.contact.contact_states import hand_states, lost_in, state_rates
 from lambda_core.solver.contact.dissipation import raceway_losses
 from lambda_core.solver.contact.ring_waves import push_waves
 from lambda_core.solver.faults import report
-from lambda_core.solver.layout import cells_of, drag_law, grid_of, guide_law, helper, part, raceway_laws
+from lambda_core.solver.layout import cells_of, drag_law, grid_of, guide_law, helper, part
 from lambda_core.solver.motion.bearing_sums import powers_of_bearing, rests
 from lambda_core.solver.vec import clear, increase
 
@@ -62,9 +62,7 @@ def raceway_forces(t, ball, j, row, bundle, losses, want):
     for k in range(row.first_raceway, row.first_raceway + row.raceways):
         raceway = bundle.raceways[k]
         ring = bundle.bodies_now[raceway.body]
-        if system.surfaces == 1:
-            surface_lift(ball, ring, raceway, bundle, kin)
-        delta = contact_kinematics(ball, ring, raceway, kin)
+        delta = touch(ball, ring, raceway, bundle, kin)
         keeps = raceway.states > 0 and system.friction_on == 1
         hand_states(raceway, j, bundle)
         if delta <= 0.0 and keeps and state_rates(t, raceway, j, -1.0, bundle) != 1:
@@ -74,11 +72,7 @@ def raceway_forces(t, ball, j, row, bundle, losses, want):
         if not delta < np.inf:
             scratch.fault.ball = j
             return 0
-        laws = raceway_laws(bundle.laws.raceways, raceway.laws)
-        ok = bundle.wrench(
-            raceway, kin, laws, bundle.par, system, bundle.grid, bundle.cells[0], scratch, contact, scratch.wrench[0]
-        )
-        if ok != 1:
+        if contact_wrench(raceway, bundle) != 1:
             scratch.fault.ball = j
             return 0
         add_contact(raceway, j, bundle)

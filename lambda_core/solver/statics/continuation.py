@@ -14,7 +14,7 @@ import math
 import numpy as np
 
 from lambda_core.solver.arrays.bundle import BR, BVT, MECHANISMS, NB, RUNNING_SIZE
-from lambda_core.solver.contact.contact_kinematics import contact_kinematics, surface_lift
+from lambda_core.solver.contact.contact_kinematics import touch
 from lambda_core.solver.integrator.arrow import arrow_factor, arrow_solve, factors_t
 from lambda_core.solver.integrator.blocks import blocks_t
 from lambda_core.solver.integrator.memory import evaluate_t, jacobian_t
@@ -50,9 +50,7 @@ def _load_shares(y, bundle, share):
             for k in range(row.first_raceway, row.first_raceway + row.raceways):
                 raceway = bundle.raceways[k]
                 if raceway.body == body:
-                    if bundle.system[0].surfaces == 1:
-                        surface_lift(balls[j], bundle.bodies_now[body], raceway, bundle, kin)
-                    delta = contact_kinematics(balls[j], bundle.bodies_now[body], raceway, kin)
+                    delta = touch(balls[j], bundle.bodies_now[body], raceway, bundle, kin)
                     share[j] = max(share[j], delta)
             largest = max(largest, share[j])
     for j in range(share.size):
