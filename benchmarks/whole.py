@@ -11,11 +11,11 @@ from collections.abc import Callable, Mapping
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort, now, sum_of_minima
 from lambda_core.run.whole_provenance import bearing_alone
-from lambda_core.shaft.fresh_shaft import fresh_shaft
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.system.checking import check
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 CHANGES = ("discs.wheel.unbalance=50 g mm",)  # of the case that `init --shaft` writes
 MOST = 1.3  # times the sum
@@ -30,7 +30,7 @@ Passage = tuple[tuple[float, ...], Mapping[str, float]]  # time of each piece [s
 
 def starts(changes: tuple[str, ...] = CHANGES) -> dict[str, Callable[[], Engine]]:
     """Return how the whole and each of its bearings alone are started, by name."""
-    model = check_shaft(tomllib.loads(fresh_shaft("whole")), changes)
+    model = check_shaft(tomllib.loads(geared_shaft("whole")), changes)
     first = WholeEngine(model)
     found: dict[str, Callable[[], Engine]] = {WHOLE: lambda: WholeEngine(model)}
     for i, part in enumerate(first.parts):

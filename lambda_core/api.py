@@ -34,13 +34,13 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.run.speed_curve import stribeck, stribeck_picture
     from lambda_core.shaft.export import stiffness_target, write_stiffness
-    from lambda_core.shaft.resolving import check_shaft
     from lambda_core.shaft.ross import ross_rotor
     from lambda_core.shaft.shaft_calls import describe_shaft, init_shaft, is_shaft_file, shaft, shaft_pictures
     from lambda_core.shaft.shaft_text import shaft_warnings
     from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, machines, save, schema
     from lambda_core.system.checking import check, describe, problems, resolve
     from lambda_core.system.law_trials import law_problems
+    from lambda_core.system.resolve_machine import check_shaft
     from lambda_core.thermal.temperatures import thermal, thermal_pictures, warm_up
 if TYPE_CHECKING:  # what the faces build on, and the classes that calls take and return
     from lambda_core.batch.run_queue import QueuedRun, RunKind, RunQueue

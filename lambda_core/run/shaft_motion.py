@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
     from lambda_core.run.progress import Progress
     from lambda_core.run.whole_run import Ends
-    from lambda_core.shaft.resolving import Source
     from lambda_core.shaft.whole_summary import WholeSummary
     from lambda_core.system.machine import Machine
+    from lambda_core.system.resolve_machine import Source
     from lambda_core.views.chart import ViewData
 
 
@@ -60,9 +60,9 @@ def shaft_run(
         With a sentence about the case, the folder, the solver (the folder keeps what there is) or the disk.
     """
     from lambda_core.run.whole_run import launch_whole
-    from lambda_core.shaft.resolving import check_shaft
     from lambda_core.shaft.whole_summary import summarise_whole
     from lambda_core.system.machine import Machine
+    from lambda_core.system.resolve_machine import check_shaft
 
     model = source if isinstance(source, Machine) else check_shaft(source, overrides)
     ends = _ends(model, duration, max_wall or model.solver.max_wall)
@@ -99,9 +99,9 @@ def shaft_resume(
     """
     from lambda_core.case.case_io import toml_tables
     from lambda_core.run.whole_run import resume_whole
-    from lambda_core.shaft.resolving import check_shaft
     from lambda_core.shaft.whole_file import WholeFile
     from lambda_core.shaft.whole_summary import summarise_whole
+    from lambda_core.system.resolve_machine import check_shaft
 
     model = check_shaft(toml_tables(WholeFile(folder).case_toml, str(folder)))
     ends = _ends(model, duration, max_wall or math.inf)

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from lambda_core.domain.blas_threads import one_blas_thread
 
 if TYPE_CHECKING:
-    from lambda_core.shaft.resolving import Source
     from lambda_core.shaft.shaft_report import ShaftReport
     from lambda_core.system.machine import Machine
+    from lambda_core.system.resolve_machine import Source
     from lambda_core.views.chart import ViewData
 
 
@@ -40,10 +40,10 @@ def shaft(
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
-    from lambda_core.shaft.resolving import check_shaft
     from lambda_core.shaft.shaft_equilibrium import solve_shaft
     from lambda_core.shaft.shaft_report import report_of
     from lambda_core.system.machine import Machine
+    from lambda_core.system.resolve_machine import check_shaft
 
     model = source if isinstance(source, Machine) else check_shaft(source, overrides)
     return report_of(model, solve_shaft(model, announce))
@@ -114,10 +114,10 @@ def init_shaft(name: str, path: str | Path | None = None, overwrite: bool = Fals
     from lambda_core.case.case_writer import save_text
     from lambda_core.case.shaft_io import validate_shaft
     from lambda_core.domain.files import check_new
-    from lambda_core.shaft.fresh_shaft import fresh_shaft
+    from lambda_core.system.machine_templates import geared_shaft
 
     target = Path(path) if path is not None else Path(f"{name}.toml")
-    text = fresh_shaft(name)
+    text = geared_shaft(name)
     validate_shaft(tomllib.loads(text), f'new shaft "{name}"')
     save_text(text, check_new(target, overwrite))
     return target

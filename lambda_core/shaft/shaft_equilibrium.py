@@ -199,7 +199,7 @@ def solve_shaft(model: Machine, announce: Announce = None, kernels: SharedKernel
     Parameters
     ----------
     model : Machine
-        From :func:`lambda_core.shaft.resolving.check_shaft`.
+        From :func:`lambda_core.system.resolve_machine.check_shaft`.
     announce : callable, optional
         Called with a sentence before something is compiled.
     kernels : SharedKernels, optional

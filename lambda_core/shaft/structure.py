@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE
 from lambda_core.elastic.beam import NODE
+from lambda_core.system.locations import carried
 from lambda_core.system.machine import GROUND, PLACES, SHAFT, Machine, ShaftSpring
 
 _RING = np.array(PLACES)
@@ -43,14 +44,6 @@ def static_rows(model: Machine) -> Rows:
     rings = model.body.stiffness.shape[0]
     bodies = rings + len(POSE) * len(model.bearings)
     return Rows(lambda x: model.body.rows(x).start, rings, bodies, bodies + NODE * len(model.bodies))
-
-
-def carried(arm: Sequence[float] | FloatArray) -> FloatArray:
-    """Return how a point moves and turns with a body, `arm` from its centre [m], shape (6, 6): u + theta x arm."""
-    x, y, z = (float(a) for a in arm)
-    found: FloatArray = np.eye(NODE)
-    found[:3, 3:] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
-    return found
 
 
 def point_on(model: Machine, rows: Rows, body: int, point: Sequence[float]) -> tuple[NDArray[np.int64], FloatArray]:

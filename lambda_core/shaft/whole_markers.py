@@ -7,7 +7,7 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.beam import NODE
 from lambda_core.shaft.lumps import LumpedShaft
-from lambda_core.shaft.structure import carried
+from lambda_core.system.locations import carried
 from lambda_core.system.machine import GROUND, SHAFT, Machine
 
 _AXES = 3

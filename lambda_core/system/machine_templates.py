@@ -6,7 +6,9 @@ tables of SKF, Rolling bearings, PUB BU/P1 17000 EN (2018): seat tolerances for 
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
+from importlib import resources
 
 _TILT = """\
 [bodies.inner_ring]
@@ -111,3 +113,9 @@ MACHINES: dict[str, MachineTemplate] = {
         ("gear oil, thin", "from the teeth", "electric drive"),
     ),
 }  # fmt: skip
+
+
+def geared_shaft(name: str) -> str:
+    """Return the commented case of a shaft in two bearings with a gear, called `name`."""
+    text = resources.files("lambda_core.system").joinpath("templates", "geared-shaft.toml").read_text(encoding="utf-8")
+    return text.replace('"NAME"', json.dumps(name), 1)

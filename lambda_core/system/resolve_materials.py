@@ -10,6 +10,7 @@ from lambda_core.case.parts import InlineMaterial, Lubricant
 from lambda_core.catalogue.protocol import Catalogue, LubricantRow, Value
 from lambda_core.domain.fits import Solid
 from lambda_core.domain.units import show
+from lambda_core.elastic.sections import BodyMaterial
 from lambda_core.laws.context import Material, Oil
 from lambda_core.system.ledger import Ledger
 
@@ -143,3 +144,16 @@ def _inline_row(lubricant: Lubricant) -> LubricantRow | None:
     return LubricantRow(
         name=lubricant.name, base_type=own.base_type, rheology=own.rheology, properties=properties, parameters={}
     )
+
+
+def body_material(
+    choice: str | InlineMaterial, where: str, catalogue: Catalogue, ledger: Ledger
+) -> BodyMaterial | None:
+    """Return the material of a shaft, wheel or body; a name that the catalogue lacks is noted at `where`."""
+    if isinstance(choice, InlineMaterial):
+        return BodyMaterial(choice.youngs_modulus, choice.poisson_ratio, choice.density, choice.thermal_expansion)
+    row = ledger.ask(where, lambda: catalogue.material(choice))
+    if row is None:
+        return None
+    names = ("youngs_modulus", "poisson_ratio", "density", "thermal_expansion")
+    return BodyMaterial(*(getattr(row, name).value for name in names))

@@ -25,7 +25,7 @@ from lambda_core.case.draft import draft_of
 from lambda_core.case.shaft import ShaftCase
 from lambda_core.domain.option_tree import option_paths
 from lambda_core.domain.roles import ROLES
-from lambda_core.shaft.fresh_shaft import fresh_shaft
+from lambda_core.system.machine_templates import geared_shaft
 
 NAMES = {
     "shaft.sections": ("0",),
@@ -280,7 +280,7 @@ z = "1 N/um"
 
 
 def test_a_housing_is_drawn_with_its_springs() -> None:
-    case = tomllib.loads(fresh_shaft("box") + HOUSED)
+    case = tomllib.loads(geared_shaft("box") + HOUSED)
     case["bearings"]["left"]["outer"] = "box"
     names = [
         "primary",
@@ -300,7 +300,7 @@ def test_a_housing_is_drawn_with_its_springs() -> None:
 
 def test_a_new_name_goes_wherever_it_is_named(tmp_path: Path) -> None:
     """A body in markers, springs and bearings, a marker in springs; one undo each."""
-    text = fresh_shaft("box").replace("# outer = ", "outer = ") + HOUSED
+    text = geared_shaft("box").replace("# outer = ", "outer = ") + HOUSED
     draft = draft_of(text, tmp_path / "box.toml")
     found = [m for top in shaft_outline(shaft_names(draft)) for m in top.walk()]
     (node,) = (n for n in found if n.key == "bodies.box")

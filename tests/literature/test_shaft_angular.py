@@ -18,11 +18,11 @@ from scipy.optimize import brentq
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import SolverError
 from lambda_core.domain.hertz import ball_raceway_radii, stiffness_constant
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 from lambda_core.solver.drivers.held_ring import HeldRing
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.machine import Machine
+from lambda_core.system.resolve_machine import check_shaft
 
 from .statics import STEEL
 

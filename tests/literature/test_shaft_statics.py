@@ -18,10 +18,10 @@ from lambda_core.elastic.body import shaft_body
 from lambda_core.elastic.reduced import write_reduced
 from lambda_core.elastic.sections import BodyMaterial, RoundSection
 from lambda_core.elastic.whirl import craig_bampton
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import ShaftState, SharedKernels, solve_shaft
 from lambda_core.shaft.vibration import supported
 from lambda_core.system.machine import Machine
+from lambda_core.system.resolve_machine import check_shaft
 
 PINNED = {"tilt_y": "free", "tilt_z": "free"}  # outer rings that follow, so that no bearing bears a moment
 SHARED: dict[str, Any] = {

@@ -14,12 +14,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lambda_core import api
-from lambda_core.shaft.fresh_shaft import fresh_shaft
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.solver import records as R
 from lambda_core.solver.drivers.time_tables import add_terms
 from lambda_core.solver.motion.prescribed import _spline
 from lambda_core.system.bearing import TableTerm, TimeFunction
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 from lambda_core.system.time_functions import initial, peak, scaled
 
 PULSE = [["0 ms", "0 N"], ["2 ms", "0 N"], ["2.5 ms", "30 N"], ["3 ms", "0 N"], ["100 ms", "0 N"]]
@@ -135,7 +135,7 @@ def test_a_spline_through_a_well_sampled_sine_is_silent() -> None:
 def test_a_shaft_says_where_a_spline_leaves_its_points() -> None:
     table = {"kind": "table", "interpolation": "spline", "points": PULSE}
     speed = {**table, "points": [["0 s", "1000 rpm"], ["1 s", "1000 rpm"], ["1.1 s", "2000 rpm"], ["3 s", "2000 rpm"]]}
-    case = tomllib.loads(fresh_shaft("box")) | {"loads": {"kick": {"position": "85 mm", "force_z": table}}}
+    case = tomllib.loads(geared_shaft("box")) | {"loads": {"kick": {"position": "85 mm", "force_z": table}}}
     del case["gears"]  # whose power asks for a constant speed
     case["operation"] = {**case["operation"], "speed": speed}
     told = [sentence for sentence in api.shaft_warnings(check_shaft(case)) if "spline" in sentence]

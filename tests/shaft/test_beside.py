@@ -12,8 +12,6 @@ import pytest
 from lambda_core import api
 from lambda_core.domain.errors import SolverError
 from lambda_core.elastic.whirl import natural_frequencies
-from lambda_core.shaft.fresh_shaft import fresh_shaft
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import SharedKernels, solve_shaft
 from lambda_core.shaft.shaft_report import BodyMoved
 from lambda_core.shaft.structure import static_rows, stretch
@@ -23,6 +21,8 @@ from lambda_core.shaft.whole_tables import LUMP_STATES, beside_bodies
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.system.machine import Machine
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 KERNELS = SharedKernels()
 MOUNT = {"x": "20 N/um", "y": "30 N/um", "z": "40 N/um", "damping_y": "2000 N s/m", "damping_z": "2000 N s/m"}
@@ -30,7 +30,7 @@ MOUNT = {"x": "20 N/um", "y": "30 N/um", "z": "40 N/um", "damping_y": "2000 N s/
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Return the case of init in a housing of 12 kg on four mounts, the left bearing's seat damped."""
-    found = tomllib.loads(fresh_shaft("box"))
+    found = tomllib.loads(geared_shaft("box"))
     found["bodies"] = {"box": {"x": "85 mm", "z": "-40 mm", "length": "160 mm", "width": "120 mm", "height": "80 mm"}}
     feet = {f"{a}{b}": (x, y) for a, x in (("l", 10), ("r", 160)) for b, y in (("f", -60), ("b", 60))}
     found["markers"] = {
@@ -201,7 +201,7 @@ def test_a_spring_along_turned_axes() -> None:
 def test_a_torque_over_time() -> None:
     """moment_x over time: the coupling answers it at once where the shaft does not twist."""
     wave = {"kind": "harmonic", "amplitude": "20 N m", "frequency": "100 Hz", "phase": "90 deg"}
-    case = tomllib.loads(fresh_shaft("box")) | {"loads": {"fan": {"position": "160 mm", "moment_x": wave}}}
+    case = tomllib.loads(geared_shaft("box")) | {"loads": {"fan": {"position": "160 mm", "moment_x": wave}}}
     model = check_shaft(case)
     assert model.loads[model.body.rows(0.16).start + 3] == pytest.approx(20.0)
     assert dict(model.varying)[model.body.rows(0.16).start + 3].terms[0].kind == "harmonic"

@@ -10,18 +10,18 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.shaft.fresh_shaft import fresh_shaft
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import solve_shaft
 from lambda_core.shaft.vibration import damped, supported
 from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 SEAL = {"position": "110 mm", "y": "10 N/um", "z": "20 N/um", "tilt_y": "1 N m/mrad", "damping_z": "500 N s/m"}
 
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Return the case that init writes, with a spring and changes."""
-    return tomllib.loads(fresh_shaft("box")) | {"springs": {"seal": SEAL}} | changes
+    return tomllib.loads(geared_shaft("box")) | {"springs": {"seal": SEAL}} | changes
 
 
 def test_a_disc_by_its_shape() -> None:

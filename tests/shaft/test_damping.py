@@ -7,8 +7,6 @@ import tomllib
 import numpy as np
 import pytest
 
-from lambda_core.shaft.fresh_shaft import fresh_shaft
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.shaft.vibration import bearing_damping, damped, housed_damping, modes_at, supported
 from lambda_core.solver.arrays import bundle as L
@@ -19,6 +17,8 @@ from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.solver.drivers.modes import dense
 from lambda_core.solver.drivers.stiffness import freed, stiffness_at
 from lambda_core.system.machine import Machine
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 Solved = tuple[Machine, ShaftState, list[Equilibrium]]
 
@@ -26,7 +26,7 @@ Solved = tuple[Machine, ShaftState, list[Equilibrium]]
 @pytest.fixture(scope="module")
 def solved() -> Solved:
     """Return the gearbox shaft, its right bearing on springs, and the equilibria of its bearings with friction."""
-    case = tomllib.loads(fresh_shaft("box"))
+    case = tomllib.loads(geared_shaft("box"))
     case["bearings"]["right"]["support"] = {"x": "free", "y": "50 N/um", "z": "80 N/um"}
     model = check_shaft(case)
     state = solve_shaft(model)

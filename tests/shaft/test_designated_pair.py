@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from lambda_core.domain.errors import CaseError
-from lambda_core.shaft.resolving import check_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 
 def pair(**left: str) -> dict[str, Any]:

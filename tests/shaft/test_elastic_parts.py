@@ -14,7 +14,6 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import CAGE as CAGE_BODY
 from lambda_core.domain.errors import CaseError
 from lambda_core.results.quasistatic import QuasiStatic
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import solve_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.solver.arrays import bundle as L
@@ -23,6 +22,7 @@ from lambda_core.solver.drivers.damping import damping_matrix
 from lambda_core.solver.drivers.dynamics import BearingEngine, initial_state
 from lambda_core.solver.drivers.modes import dense
 from lambda_core.solver.drivers.stiffness import freed, stiffness_at
+from lambda_core.system.resolve_machine import check_shaft
 
 SOFT = {"housing_stiffness": "100 N/um", "orders": 4}
 CAGE = {"orders": 3, "section_height": "3 mm", "section_width": "8 mm"}

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from lambda_cli.main import main
 
-from lambda_core.shaft.fresh_shaft import fresh_shaft
+from lambda_core.system.machine_templates import geared_shaft
 
 ESCAPE = "\x1b]0;owned\x07\x9b2J\u202e"
 MORE = """
@@ -35,7 +35,7 @@ x = "150 mm"
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a run of a tenth of a millisecond."""
     found = tmp_path_factory.mktemp("escapes")
-    (found / "box.toml").write_text(fresh_shaft("box") + MORE)
+    (found / "box.toml").write_text(geared_shaft("box") + MORE)
     arguments = ["--run", "--quiet", "--out", str(found / "run"), "--duration", "0.1 ms"]
     assert main(["shaft", str(found / "box.toml"), *arguments]) == 5
     return found / "run"

@@ -11,13 +11,13 @@ import pytest
 
 from lambda_core import api
 from lambda_core.case.case import merged
-from lambda_core.shaft.fresh_shaft import fresh_shaft
+from lambda_core.system.machine_templates import geared_shaft
 
 
 def mistakes(changes: Mapping[str, Any]) -> dict[str, str]:
     """Return what is wrong with the case that init writes after changes, by its path."""
     with pytest.raises(api.CaseError) as caught:
-        api.check_shaft(merged(tomllib.loads(fresh_shaft("box")), changes))
+        api.check_shaft(merged(tomllib.loads(geared_shaft("box")), changes))
     found = {problem.where: problem.message for problem in caught.value.problems}
     assert len(found) == len(caught.value.problems)
     return found
@@ -106,6 +106,6 @@ def test_too_few_are_said_in_words() -> None:
 
 def test_nothing_in_a_table_is_nothing_said(tmp_path: Path) -> None:
     """None in plain tables takes an option back, as in the case of one bearing."""
-    tables = tomllib.loads(fresh_shaft("box"))
+    tables = tomllib.loads(geared_shaft("box"))
     tables["life"]["contamination"] = None
     assert api.check_shaft(tables, folder=tmp_path).contamination is None

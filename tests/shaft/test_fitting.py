@@ -17,14 +17,14 @@ from lambda_core.case.case import merged
 from lambda_core.case.case_writer import tables_toml
 from lambda_core.domain.errors import Problem
 from lambda_core.results.limits import warnings
-from lambda_core.shaft.fresh_shaft import fresh_shaft
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.whole_file import WholeFile, WholeWriter
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Return the case that init writes, with changes."""
-    return merged(tomllib.loads(fresh_shaft("box")), changes)
+    return merged(tomllib.loads(geared_shaft("box")), changes)
 
 
 @pytest.mark.parametrize(
@@ -114,7 +114,7 @@ def test_laws_are_tried_out(
 ) -> None:
     """As `check` does of one bearing: what is wrong with a plugin's law is said once for all bearings."""
     monkeypatch.setattr(api, "law_problems", lambda model: (Problem("models.traction", "gives no number"),))
-    (tmp_path / "box.toml").write_text(fresh_shaft("box"))
+    (tmp_path / "box.toml").write_text(geared_shaft("box"))
     assert main(["check", str(tmp_path / "box.toml")]) == 3
     said = capsys.readouterr().err.splitlines()
     assert said[0].endswith("1 error")

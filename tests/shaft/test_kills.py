@@ -23,11 +23,11 @@ from lambda_core.results import hdf5
 from lambda_core.results.run_status import Status
 from lambda_core.results.writer import ResultWriter
 from lambda_core.run import whole_run
-from lambda_core.shaft.fresh_shaft import fresh_shaft
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.shaft.whole_file import WHOLE, WholeFile, WholeWriter
 from lambda_core.system.machine import Machine
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 if TYPE_CHECKING:
     from warm import Warm
@@ -50,7 +50,7 @@ Content = dict[str, bytes]
 
 @pytest.fixture(scope="module")
 def model() -> Machine:
-    return check_shaft(tomllib.loads(fresh_shaft("box")))
+    return check_shaft(tomllib.loads(geared_shaft("box")))
 
 
 @pytest.fixture(autouse=True)
@@ -162,7 +162,7 @@ def test_a_continuation_killed_at_any_moment_goes_on_as_the_undisturbed_one(
 def test_a_process_killed_while_it_looks_at_its_modes_goes_on_as_the_undisturbed_one(
     warm: Warm, model: Machine, undisturbed: Content, tmp_path: Path
 ) -> None:
-    (tmp_path / "box.toml").write_text(fresh_shaft("box"))
+    (tmp_path / "box.toml").write_text(geared_shaft("box"))
     process = warm.start(KILLED, str(tmp_path / "box.toml"), str(tmp_path / "run"), str(DURATION))
     _, errors = process.communicate()
     assert process.returncode == 9, errors

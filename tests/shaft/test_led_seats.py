@@ -11,22 +11,22 @@ import pytest
 from lambda_core import api
 from lambda_core.case.case import merged
 from lambda_core.domain.elements import OUTER
-from lambda_core.shaft.fresh_shaft import fresh_shaft
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import solve_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 
 def tables(left: dict[str, Any], right: dict[str, Any], **changes: Any) -> dict[str, Any]:
     """Return the case that init writes with seats that are led."""
     seats = {"left": {"support": left}, "right": {"support": right}}
-    return merged(tomllib.loads(fresh_shaft("box")), {"bearings": seats, **changes})
+    return merged(tomllib.loads(geared_shaft("box")), {"bearings": seats, **changes})
 
 
 def test_a_shaft_that_is_carried_along_stays_as_it_is() -> None:
     """Both seats on one rigid carrier that moves by 20 um and turns by 0.2 mrad: the same reactions, second order."""
     angle, y, z = 2e-4, 2e-5, -1e-5  # about z [rad], [m]
-    model = check_shaft(tomllib.loads(fresh_shaft("box")))
+    model = check_shaft(tomllib.loads(geared_shaft("box")))
     places = {bearing.name: bearing.position for bearing in model.bearings}
     seats = [
         {"motion_y": f"{y + angle * places[name]:.12g} m", "motion_z": f"{z} m", "motion_tilt_z": f"{angle} rad"}

@@ -18,9 +18,7 @@ from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.whirl import natural_frequencies
 from lambda_core.results.reader import Result
-from lambda_core.shaft.fresh_shaft import fresh_shaft
 from lambda_core.shaft.lumps import LumpedShaft, lump
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.shaft.whole_file import WholeFile
 from lambda_core.shaft.whole_tables import LUMP_STATES, SIGNS, STATES, lump_bodies
@@ -28,13 +26,15 @@ from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.system.machine import PLACES, Machine
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 STIFF = (5e7, 1e8, 1e8, 1e3, 1e3)  # of a bearing [N/m, N m/rad]
 
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Return the case that init writes, with an unbalance and changes."""
-    found = tomllib.loads(fresh_shaft("box")) | changes
+    found = tomllib.loads(geared_shaft("box")) | changes
     if "wheel" in found["discs"]:
         found["discs"]["wheel"]["unbalance"] = "50 g mm"
     return found
@@ -174,7 +174,7 @@ def test_a_shaft_that_twists() -> None:
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with a case and a run of 6 ms of it that went on to 9 ms, as after a kill."""
     found = tmp_path_factory.mktemp("motion")
-    (found / "box.toml").write_text(fresh_shaft("box"))
+    (found / "box.toml").write_text(geared_shaft("box"))
     arguments = ["--set", 'discs.wheel.unbalance="50 g mm"', "--quiet", "--run"]
     part = str(found / "part")
     assert main(["shaft", str(found / "box.toml"), *arguments, "--out", part, "--duration", "6 ms"]) == 5
@@ -233,7 +233,7 @@ def test_a_run_goes_on_bit_for_bit(folder: Path) -> None:
 @pytest.mark.full
 def test_a_gear_and_an_unbalance_until_converged(tmp_path: Path) -> None:
     """The 6208 and 6206 of `init --shaft`: every torque known to 1 %, energy to 1e-3; both as in their equilibrium."""
-    (tmp_path / "box.toml").write_text(fresh_shaft("box"))
+    (tmp_path / "box.toml").write_text(geared_shaft("box"))
     model = api.check_shaft(tmp_path / "box.toml", ['discs.wheel.unbalance="50 g mm"'])
     found = api.shaft_run(model, out=tmp_path / "run")
     assert found.converged, found.reasons

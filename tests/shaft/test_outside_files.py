@@ -20,8 +20,8 @@ from lambda_core.elastic.body import ElasticBody, shaft_body
 from lambda_core.elastic.reduced import FORMAT, read_reduced, write_reduced
 from lambda_core.elastic.sections import BodyMaterial, RoundSection
 from lambda_core.elastic.whirl import craig_bampton
-from lambda_core.shaft.reduced_shaft import reduced_shaft
 from lambda_core.system.ledger import Ledger
+from lambda_core.system.reduced_shaft import reduced_shaft
 
 STEEL = BodyMaterial(210e9, 0.3, 7850.0)
 ENDS = [0.0, 0.1, 0.2]

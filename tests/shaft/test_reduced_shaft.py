@@ -16,18 +16,18 @@ from lambda_core import api
 from lambda_core.elastic.body import ElasticBody, internal_forces
 from lambda_core.elastic.reduced import FORMAT, read_reduced, write_reduced
 from lambda_core.elastic.whirl import craig_bampton
-from lambda_core.shaft.fresh_shaft import fresh_shaft
 from lambda_core.shaft.lumps import lump
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.shaft_equilibrium import solve_shaft
 from lambda_core.shaft.vibration import criticals, modes_at, supported
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.system.machine import Machine
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Return the case that init writes, warm, with an unbalance."""
-    found = tomllib.loads(fresh_shaft("box")) | changes
+    found = tomllib.loads(geared_shaft("box")) | changes
     found["discs"]["wheel"]["unbalance"] = "50 g mm"
     return found
 

@@ -16,13 +16,13 @@ from lambda_core.case.case import merged
 from lambda_core.elastic.body import ElasticBody
 from lambda_core.elastic.reduced import write_reduced
 from lambda_core.elastic.whirl import craig_bampton
-from lambda_core.shaft.fresh_shaft import fresh_shaft
-from lambda_core.shaft.resolving import check_shaft
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Return the case that init writes, with changes."""
-    return merged(tomllib.loads(fresh_shaft("box")), changes)
+    return merged(tomllib.loads(geared_shaft("box")), changes)
 
 
 @pytest.fixture

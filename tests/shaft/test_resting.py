@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.integrator_memory import Handle
 from lambda_core.solver.core import core
 from lambda_core.solver.motion.bearing_sums import AGAIN
+from lambda_core.system.resolve_machine import check_shaft
 
 from .test_motion import tables
 

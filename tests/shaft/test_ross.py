@@ -6,11 +6,11 @@ import tomllib
 
 import pytest
 
-from lambda_core.shaft.fresh_shaft import fresh_shaft
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.ross import ross_rotor
 from lambda_core.shaft.shaft_equilibrium import solve_shaft
 from lambda_core.shaft.vibration import bearing_damping, criticals, damped, modes_at, supported
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 pytest.importorskip("ross")
 
@@ -20,7 +20,7 @@ def test_natural_frequencies_and_critical_speeds_agree() -> None:
 
     ROSS has two-node elements and Hutchinson's shear coefficient.
     """
-    model = check_shaft(tomllib.loads(fresh_shaft("box")))
+    model = check_shaft(tomllib.loads(geared_shaft("box")))
     state = solve_shaft(model)
     rotor, stiffness = ross_rotor(model, state), supported(model, state)
     damping = damped(model, state, bearing_damping(model, [ring.equilibrium() for ring in state.rings]))

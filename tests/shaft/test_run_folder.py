@@ -12,15 +12,15 @@ from lambda_cli.main import main
 
 from lambda_core.domain.files import held
 from lambda_core.results.reader import Result
-from lambda_core.shaft.fresh_shaft import fresh_shaft
 from lambda_core.system import operating_limits
+from lambda_core.system.machine_templates import geared_shaft
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a run of a millisecond."""
     found = tmp_path_factory.mktemp("folder")
-    (found / "box.toml").write_text(fresh_shaft("box"))
+    (found / "box.toml").write_text(geared_shaft("box"))
     arguments = ["--run", "--quiet", "--out", str(found / "run"), "--duration", "1 ms"]
     assert main(["shaft", str(found / "box.toml"), *arguments]) == 5
     return found / "run"
@@ -102,7 +102,7 @@ def again(run: Path) -> int:
 @pytest.mark.full
 def test_overwriting_a_run_keeps_every_file_of_others(run: Path) -> None:
     """Of HDF5 files too: one of the user's, and the result of another run that was copied into the folder."""
-    (run.parent / "box.toml").write_text(fresh_shaft("box"))
+    (run.parent / "box.toml").write_text(geared_shaft("box"))
     (run / "measurement.h5").write_text("x")
     shutil.copy(run / "left.h5", run / "kept.h5")
     before = Result(run / "left.h5").part_of
@@ -112,7 +112,7 @@ def test_overwriting_a_run_keeps_every_file_of_others(run: Path) -> None:
 
 
 def test_overwriting_a_run_removes_the_bearings_that_it_named(run: Path) -> None:
-    (run.parent / "box.toml").write_text(fresh_shaft("box").replace("[bearings.left", "[bearings.first"))
+    (run.parent / "box.toml").write_text(geared_shaft("box").replace("[bearings.left", "[bearings.first"))
     assert again(run) == 5
     assert sorted(path.name for path in run.glob("*.h5")) == ["first.h5", "right.h5", "shaft.h5"]
 
@@ -122,7 +122,7 @@ def test_overwriting_a_run_removes_the_bearings_that_it_named(run: Path) -> None
 def test_a_file_that_no_run_of_a_shaft_wrote_is_not_overwritten(
     name: str, kind: str, run: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (run.parent / "box.toml").write_text(fresh_shaft("box"))
+    (run.parent / "box.toml").write_text(geared_shaft("box"))
     if kind == "text":
         (run / name).write_text("x")
     else:

@@ -17,7 +17,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 from lambda_core import api
 from lambda_core.elastic import whirl
-from lambda_core.shaft.fresh_shaft import fresh_shaft
+from lambda_core.system.machine_templates import geared_shaft
 
 CASE = "6208-axial-1300"
 TIMED = """
@@ -78,7 +78,7 @@ def seen(monkeypatch: pytest.MonkeyPatch) -> set[int]:
 def test_a_call_computes_with_one_thread_and_gives_the_others_back(
     call: Callable[[Any, Path], object], seen: set[int], tmp_path: Path
 ) -> None:
-    call(tomllib.loads(fresh_shaft("box")), tmp_path / "r.h5")
+    call(tomllib.loads(geared_shaft("box")), tmp_path / "r.h5")
     assert seen == {1}
     assert threads() == {2}
 
@@ -86,14 +86,14 @@ def test_a_call_computes_with_one_thread_and_gives_the_others_back(
 @pytest.mark.full
 def test_a_run_begun_from_python_is_gone_on_with_on_the_command_line(tmp_path: Path) -> None:
     """Whatever number of threads there are: what a run begins with has the same bits."""
-    api.shaft_run(tomllib.loads(fresh_shaft("box")), out=tmp_path / "run", duration=1e-4)
+    api.shaft_run(tomllib.loads(geared_shaft("box")), out=tmp_path / "run", duration=1e-4)
     with threadpool_limits(1, user_api="blas"):
         assert main(["resume", str(tmp_path / "run"), "--quiet", "--duration", "0.5 ms"]) == 5
 
 
 @pytest.mark.clock
 def test_a_shaft_takes_no_more_processor_time_than_time_and_than_with_one_thread(tmp_path: Path) -> None:
-    (tmp_path / "box.toml").write_text(fresh_shaft("box"))
+    (tmp_path / "box.toml").write_text(geared_shaft("box"))
     installed = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
     command = [sys.executable, "-c", TIMED, str(tmp_path / "box.toml")]
     found = [

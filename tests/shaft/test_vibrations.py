@@ -14,10 +14,10 @@ from scipy.interpolate import CubicSpline
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.results.reader import Result
-from lambda_core.shaft.fresh_shaft import fresh_shaft
-from lambda_core.shaft.resolving import check_shaft
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.solver.integrator.tableau import STAGES
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 WHEEL = 0.085  # [m]
 VIBRATION = {"accuracy": "vibration"}
@@ -32,7 +32,7 @@ DEFECT = {
 
 def box(solver: dict[str, Any] | None = None, **changes: Any) -> dict[str, Any]:
     """Return the case that init writes, with settings of the solver and changes."""
-    return tomllib.loads(fresh_shaft("box")) | ({"solver": solver} if solver is not None else {}) | changes
+    return tomllib.loads(geared_shaft("box")) | ({"solver": solver} if solver is not None else {}) | changes
 
 
 def kicked(force: float, solver: dict[str, Any]) -> dict[str, Any]:

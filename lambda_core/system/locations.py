@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +13,7 @@ from lambda_core.case.shaft_parts import ShaftMarker
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.units import show
+from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import ElasticBody
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.machine import GROUND, SHAFT, Place
@@ -85,6 +86,14 @@ def places(case: ShaftCase, outside: ElasticBody | None, ledger: Ledger) -> Plac
                 _fits(table, where, part.marker, found[where], ledger)
     _ends(case, carriers, markers, found, ledger)
     return Places(found, carriers, markers)
+
+
+def carried(arm: Sequence[float] | FloatArray) -> FloatArray:
+    """Return how a point moves and turns with a body, `arm` from its centre [m], shape (6, 6): u + theta x arm."""
+    x, y, z = (float(a) for a in arm)
+    found: FloatArray = np.eye(NODE)
+    found[:3, 3:] = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]
+    return found
 
 
 def _fits(table: str, where: str, marker: str, place: Place, ledger: Ledger) -> None:

@@ -10,9 +10,9 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.body import ElasticBody
-from lambda_core.shaft.outside import OutsideFile
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.machine import GROUND, PLACES, MountedBearing
+from lambda_core.system.reduced_file import ReducedFile
 
 _WHERE = "housing.reduced"
 _LOOSE = 1e-9  # of the largest eigenvalue: below, the housing moves without force
@@ -31,7 +31,7 @@ def elastic_housing(
         The housing has a node at each of their places; it holds them in their locked degrees of freedom. Without any
         the file alone is looked at.
     """
-    file = OutsideFile(_WHERE, path, ledger)
+    file = ReducedFile(_WHERE, path, ledger)
     body = file.read()
     if body is None or not bearings:
         return None, None

@@ -1,4 +1,4 @@
-"""A file from outside and what is wrong with it, said with the option that names it, the file and the matrix."""
+"""Read a reduced model and name option, file and matrix in every error."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from lambda_core.system.ledger import Ledger
 
 
 @dataclass(frozen=True)
-class OutsideFile:
+class ReducedFile:
     """A reduced model that an option of the case names."""
 
     where: str  # the option

@@ -16,12 +16,11 @@ from lambda_core.domain.gear_forces import GearForces
 from lambda_core.domain.units import parse, show
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import ElasticBody
-from lambda_core.shaft.body_material import body_material
-from lambda_core.shaft.places import Places
-from lambda_core.shaft.structure import carried
 from lambda_core.system.bearing import TimeFunction
 from lambda_core.system.ledger import Ledger
+from lambda_core.system.locations import Places, carried
 from lambda_core.system.machine import GROUND, SHAFT, MountedBearing, Place, RigidBody, ShaftSpring
+from lambda_core.system.resolve_materials import body_material
 from lambda_core.system.time_functions import added, initial, peak, scaled, time_function
 
 COMPONENTS = ("force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z")

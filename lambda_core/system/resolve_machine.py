@@ -27,26 +27,26 @@ from lambda_core.domain.units import show
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import Disc, ElasticBody, shaft_body, with_discs
 from lambda_core.elastic.sections import BodyMaterial, RoundSection
-from lambda_core.shaft.beside import (
+from lambda_core.system.bearing import BearingModel
+from lambda_core.system.checking import check
+from lambda_core.system.dependent_errors import independent, is_shape_known
+from lambda_core.system.elastic_housing import elastic_housing
+from lambda_core.system.fitting import fitting_warnings
+from lambda_core.system.interpolation import say_overshoot
+from lambda_core.system.ledger import Ledger
+from lambda_core.system.locations import Places, places
+from lambda_core.system.machine import GROUND, SHAFT, Machine, MountedBearing, Unbalance
+from lambda_core.system.machine_solver import changing, refuse_settings, with_settings
+from lambda_core.system.mounting import mounted, refuse_motion
+from lambda_core.system.reduced_shaft import reduced_shaft
+from lambda_core.system.resolve_materials import body_material
+from lambda_core.system.rigid_bodies import (
     all_loads,
     connections,
     refuse_far_beyond,
     refuse_idle_dampers,
     rigid_bodies,
 )
-from lambda_core.shaft.body_material import body_material
-from lambda_core.shaft.elastic_housing import elastic_housing
-from lambda_core.shaft.fitting import fitting_warnings
-from lambda_core.shaft.follow_ups import independent, is_shape_known
-from lambda_core.shaft.places import Places, places
-from lambda_core.shaft.reduced_shaft import reduced_shaft
-from lambda_core.shaft.seating import mounted, refuse_motion
-from lambda_core.shaft.settings import changing, refuse_settings, with_settings
-from lambda_core.system.bearing import BearingModel
-from lambda_core.system.checking import check
-from lambda_core.system.interpolation import say_overshoot
-from lambda_core.system.ledger import Ledger
-from lambda_core.system.machine import GROUND, SHAFT, Machine, MountedBearing, Unbalance
 from lambda_core.system.time_functions import initial, planned_speed, time_function
 from lambda_core.system.time_laws import refuse_laws
 

@@ -8,11 +8,11 @@ from lambda_core.case.shaft import ShaftBearing
 from lambda_core.domain.elements import POSE
 from lambda_core.domain.ratings import dynamic_rating, fatigue_load_limit, static_rating
 from lambda_core.domain.units import parse
-from lambda_core.shaft.beside import refuse_far
 from lambda_core.system.bearing import BearingModel, TimeFunction
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.machine import GROUND, LOCKED, MountedBearing, Seating
 from lambda_core.system.resolve_clearance import picked
+from lambda_core.system.rigid_bodies import refuse_far
 from lambda_core.system.time_functions import added, initial, time_function
 
 _SIGN = {"+x": 1, "-x": -1, None: 0}

@@ -8,7 +8,6 @@ from typing import Any
 
 from lambda_core.case.shaft import ShaftCase
 from lambda_core.domain.elements import POSE
-from lambda_core.shaft.beside import COMPONENTS
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.machine import Machine, MountedBearing
 from lambda_core.system.resolve_solver import (
@@ -20,6 +19,7 @@ from lambda_core.system.resolve_solver import (
     settings,
     surface_of_its_own,
 )
+from lambda_core.system.rigid_bodies import COMPONENTS
 from lambda_core.system.time_functions import highest_frequency, peak, time_function
 
 

@@ -10,8 +10,8 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import ElasticBody
-from lambda_core.shaft.outside import OutsideFile
 from lambda_core.system.ledger import Ledger
+from lambda_core.system.reduced_file import ReducedFile
 
 _WHERE = "shaft.reduced"
 _MOTIONS = ("along x", "along y", "along z", "about x", "about y", "about z")
@@ -22,7 +22,7 @@ _ALIKE = 1e-6  # relative difference of what has to be equal
 
 def reduced_shaft(path: Path, ledger: Ledger) -> ElasticBody | None:
     """Return the model of a shaft from a file; None after a problem, each with what to do about it."""
-    file = OutsideFile(_WHERE, path, ledger)
+    file = ReducedFile(_WHERE, path, ledger)
     body = file.read()
     if body is None:
         return None
@@ -51,7 +51,7 @@ def _rigid_motions(body: ElasticBody) -> FloatArray:
     return found
 
 
-def _check_stiffness(body: ElasticBody, rigid: FloatArray, file: OutsideFile) -> None:
+def _check_stiffness(body: ElasticBody, rigid: FloatArray, file: ReducedFile) -> None:
     k = body.stiffness
     for name, motion in zip(_MOTIONS, rigid.T, strict=True):
         alone = float(np.diag(k) @ motion**2)
@@ -91,7 +91,7 @@ def _turned(matrix: FloatArray) -> FloatArray:
     return found
 
 
-def _check_mass(body: ElasticBody, rigid: FloatArray, file: OutsideFile) -> None:
+def _check_mass(body: ElasticBody, rigid: FloatArray, file: ReducedFile) -> None:
     whole = rigid.T @ body.mass @ rigid
     masses = np.diag(whole)[:3]
     if masses.min() <= 0.0 or np.ptp(masses) > _ALIKE * masses.max():
