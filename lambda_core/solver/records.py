@@ -156,6 +156,7 @@ SYSTEM = record(
     ("surfaces", i8),  # 0: every raceway is nominal
     ("friction_on", i8),  # 0: normal forces only (static equilibrium)
     ("guides_on", i8),  # 0: no cage forces, nominal raceways (quasi-static equilibrium)
+    ("drag_azimuths", i8),  # evenly spaced, over which drag is averaged (quasi-static equilibrium); 1: at the ball's
 )
 FREE, LOCKED, PRESCRIBED = range(3)
 BODY = record(

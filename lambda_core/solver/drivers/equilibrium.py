@@ -3,7 +3,8 @@
 A five-degree-of-freedom inner ring, every ball at its azimuth with centrifugal force, gyroscopic
 moment and the ball's motion from the equilibrium of its own friction, on the same kernels as
 the dynamics, which it starts. The cage is left out: a ball that the inner ring does not touch takes
-the mean orbital speed of the others.
+the mean orbital speed of the others. Each ball has the mean drag of one revolution: in the bearing no ball stays in the
+oil bath, and the cage carries it through.
 """
 
 from __future__ import annotations
@@ -42,6 +43,8 @@ _FRESH_STARTS, _FRESH_ITERATIONS = 3, 300  # with friction, where the first atte
 # Last step without friction, over the states' scales, below which only balls that carry nothing still creep along their
 # grooves, nanometres an iteration: friction, which holds them, can start from there.
 _CREEP = 1e-4
+# Where drag is averaged over a revolution; balls dip into a bath of usual level over about 70 degrees.
+_DRAG_AZIMUTHS = 36
 _LOAD, _ANGLE = CONTACT_CHANNELS.index("load"), CONTACT_CHANNELS.index("contact_angle")
 
 
@@ -172,7 +175,7 @@ def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *
     pseudo-time, which waits for all balls, stays what it was.
     """
     system = context.bundle.system[0]
-    system["friction_on"], system["guides_on"] = int(friction), 0
+    system["friction_on"], system["guides_on"], system["drag_azimuths"] = int(friction), 0, _DRAG_AZIMUTHS
     attempts = [MAX_ITERATIONS[friction], *([_FRESH_ITERATIONS] * _FRESH_STARTS if friction else [])]
     spent = 0.0
     for most in attempts:
@@ -181,7 +184,7 @@ def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *
         if status in (Status.OK, Status.REFUSED):
             break
     report["iterations"] = spent
-    system["friction_on"], system["guides_on"] = 1, 1
+    system["friction_on"], system["guides_on"], system["drag_azimuths"] = 1, 1, 1
     if status == Status.REFUSED:
         raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(context)}")
     if status != Status.OK:

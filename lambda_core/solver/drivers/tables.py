@@ -95,7 +95,7 @@ def build_tables(model: BearingModel, frame: ContactFrame, oils: Oils, terms: ND
     s["balls"], s["gravity"] = model.geometry.balls, model.gravity
     s["roll_floor"], s["slip_floor"] = ROLL_FLOOR, SLIP_FLOOR
     s["surfaces"] = int(raceways["surface_on"].any() or np.ptp(raceways["waves"], axis=1).any())
-    s["friction_on"], s["guides_on"] = 1, 1
+    s["friction_on"], s["guides_on"], s["drag_azimuths"] = 1, 1, 1
     slots = _keep_states(model, raceways)
     bodies = np.concatenate([_bodies(model), wave_bodies(model)])
     return Tables(system, bodies, rows, raceways, waves, lands, between, slots, parameters.all())

@@ -86,18 +86,28 @@ def raceway_forces(t, ball, j, row, bundle, losses, want):
 
 @helper
 def drag_force(ball, row, bundle, on_ball):
-    """Add fluid drag and churning of one ball; returns the power lost [W], or -1 on a fault."""
-    scratch, oil = bundle.scratch[0], row.oil
+    """Add fluid drag and churning of one ball; returns the power lost [W], or -1 on a fault.
+
+    In motion the drag is that at the ball's azimuth, in the quasi-static equilibrium its mean over one revolution,
+    from azimuths that are the same for all balls, so that equal balls have equal drag.
+    """
+    scratch, oil, count = bundle.scratch[0], row.oil, bundle.system[0].drag_azimuths
     out = scratch.out[:]
     w = math.sqrt(ball.spin[0] ** 2 + ball.spin[1] ** 2 + ball.spin[2] ** 2)
     nu = oil.viscosity / oil.density
-    out[:2] = np.nan
     law, par = drag_law(bundle.laws.drag, row.drag_law), part(bundle.par, row.drag)
-    status = law(ball.velocity[2], w, ball.azimuth, nu, oil.density, par, out)
-    force, moment = out[0], out[1]
-    if status != 1 or not abs(force) + abs(moment) < np.inf:
-        report(scratch.fault, FLUID_DRAG, status, -1, ball.velocity[2], w, ball.azimuth, nu)
-        return -1.0
+    force, moment = 0.0, 0.0
+    for k in range(count):
+        azimuth = ball.azimuth if count == 1 else -math.pi + 2.0 * math.pi * k / count
+        out[:2] = np.nan
+        status = law(ball.velocity[2], w, azimuth, nu, oil.density, par, out)
+        if status != 1 or not abs(out[0]) + abs(out[1]) < np.inf:
+            report(scratch.fault, FLUID_DRAG, status, -1, ball.velocity[2], w, azimuth, nu)
+            return -1.0
+        force += out[0]
+        moment += out[1]
+    force /= count
+    moment /= count
     moment /= math.sqrt(w * w + _SPIN_FLOOR * _SPIN_FLOOR)
     on_ball.force[2] -= force
     on_ball.moment[0] -= moment * ball.spin[0]

@@ -1,0 +1,41 @@
+"""Drag of the oil bath in the quasi-static equilibrium: the mean of one revolution on every ball."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lambda_core import api
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
+
+from .test_physics_angular_contact import BALLS, CASE
+
+
+def fast_thrust(*changes: str) -> Equilibrium:
+    """Return the 218 under 4.45 kN of thrust at 10 000 1/min in an oil bath, without weight."""
+    model = api.check(CASE, ["operation.speed=10000 rpm", "loads.axial=4450 N", "gravity.z=0 m/s2", *changes])
+    return solve(model)
+
+
+def test_the_ball_in_the_oil_bath_carries_as_much_as_the_others() -> None:
+    """Under pure thrust nothing tells the balls apart, and the ring stays in the middle."""
+    found = fast_thrust()
+    loads = found.contacts[:, 0, 0]
+    assert np.ptp(loads) < 1e-6 * loads.mean()
+    assert float(np.hypot(*found.displacement[1:3])) < 1e-9
+    balls = found.state[: L.NB * BALLS].reshape(BALLS, L.NB)
+    orbits = balls[:, L.BVT] / balls[:, L.BR]
+    assert np.ptp(orbits) < 1e-6 * orbits.mean()
+
+
+def test_drag_slows_the_balls_of_a_quasi_static_solution() -> None:
+    """The mean of the drag over a revolution acts: more oil, slower balls."""
+    free, usual, full = (
+        fast_thrust(*change).orbit for change in (["models.fluid_drag=none"], [], ["lubricant.oil_level=60 mm"])
+    )
+    assert full < usual < free
+
+
+def test_in_motion_drag_is_that_at_the_azimuth_of_the_ball() -> None:
+    """The mean is for solutions without time: after the equilibrium the tables ask for drag at each ball again."""
+    assert fast_thrust().context.bundle.system[0]["drag_azimuths"] == 1
