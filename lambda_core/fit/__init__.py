@@ -1,0 +1,1 @@
+"""Fit parameters to measurements, and tell how well a result is known."""

@@ -1,0 +1,164 @@
+"""Uncertainty of a fit: covariance, separable directions, prediction, leave-one-out errors.
+
+All are linearised at the solution. `jacobian` is that of the predicted values over their errors, shape (n, p).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+
+HUBER = 1.345  # standard deviations up to which a residual counts in full: 95 % efficiency for normal errors
+# E[psi^2]/E[psi']^2 for normal errors: what the robust loss costs (Huber and Ronchetti 2009, section 4.5).
+NORMAL_FACTOR = 1.0526
+_NAMED = 0.3  # least component of a direction whose parameter is named
+_LARGEST_LEVERAGE = 0.999
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A combination of parameters, in units of their spreads before the fit.
+
+    Attributes
+    ----------
+    weights : dict of str to float
+        Components of the unit vector; small ones are left out.
+    spread : float
+        Standard deviation along it after the fit over that before it.
+    """
+
+    weights: dict[str, float]
+    spread: float
+
+    @property
+    def is_determined(self) -> bool:
+        """Tell whether the data say more about the combination than was known before."""
+        return self.spread < 1.0
+
+    def text(self) -> str:
+        """Return the combination as a sum."""
+        terms = [f"{'-' if weight < 0.0 else '+'} {abs(weight):.2f} {name}" for name, weight in self.weights.items()]
+        return " ".join(terms).removeprefix("+ ")
+
+
+def huber_weights(standardised: FloatArray, limit: float = HUBER) -> FloatArray:
+    """Return the weights psi(z)/z of residuals in units of their error (Huber 1964)."""
+    weights: FloatArray = np.minimum(1.0, limit / np.maximum(np.abs(standardised), 1e-300))
+    return weights
+
+
+def robust_factor(standardised: FloatArray, count: int, limit: float = HUBER) -> float:
+    """Return the factor on (J^T J)^-1 of Huber's estimator.
+
+    Parameters
+    ----------
+    standardised : float64[:], shape (n,)
+        Residuals in units of their errors.
+    count : int
+        Number of fitted parameters.
+
+    References
+    ----------
+    Huber and Ronchetti 2009, Robust Statistics, 2nd ed., eq. 7.81 with the small-sample factor K of section 7.6.
+    """
+    n = standardised.size
+    inside = float(np.mean(np.abs(standardised) < limit))
+    if n <= count or inside == 0.0:
+        return float("nan")
+    psi = np.clip(standardised, -limit, limit)
+    small = 1.0 + count / n * (1.0 - inside) / inside
+    return small**2 * float(np.sum(psi**2)) / (n - count) / inside**2
+
+
+def covariance(jacobian: FloatArray, factor: float) -> FloatArray:
+    """Return the covariance of the parameters; infinite along directions without information.
+
+    Parameters
+    ----------
+    factor : float
+        On (J^T J)^-1.
+    """
+    _, singular, vectors = np.linalg.svd(jacobian, full_matrices=False)
+    floor = singular.max(initial=0.0) * jacobian.shape[0] * np.finfo(float).eps
+    inverse = 1.0 / np.maximum(singular, max(floor, 1e-150))
+    half = vectors.T * inverse
+    found: FloatArray = factor * half @ half.T
+    return found
+
+
+def correlations(matrix: FloatArray) -> FloatArray:
+    """Return the correlations that belong to a covariance."""
+    deviation = np.sqrt(np.diag(matrix))
+    found: FloatArray = np.clip(matrix / np.outer(deviation, deviation), -1.0, 1.0)
+    return found
+
+
+def directions(jacobian: FloatArray, names: Sequence[str], spread: FloatArray, factor: float) -> list[Direction]:
+    """Return the principal combinations of the parameters, the best determined first.
+
+    Parameters
+    ----------
+    spread : float64[:], shape (p,)
+        Standard deviations before the fit: a combination counts as determined when the data leave less.
+
+    References
+    ----------
+    Singular value analysis of the scaled Jacobian: Belsley, Kuh and Welsch 1980, Regression Diagnostics, chapter 3.
+    """
+    _, singular, vectors = np.linalg.svd(jacobian * spread, full_matrices=True)
+    sizes = np.zeros(len(names))
+    sizes[: singular.size] = singular
+    found = []
+    for size, vector in zip(sizes, vectors, strict=True):
+        first = vector[np.argmax(np.abs(vector))]
+        parts = {name: float(part * np.sign(first)) for name, part in zip(names, vector, strict=True)}
+        order = sorted(parts, key=lambda name: -abs(parts[name]))
+        weights = {name: parts[name] for name in order if abs(parts[name]) >= _NAMED}
+        found.append(Direction(weights, float(np.sqrt(factor) / size) if size > 0.0 else float("inf")))
+    return found
+
+
+def separable(jacobian: FloatArray, spread: FloatArray, factor: float) -> list[int]:
+    """Return the parameters that the data can determine together, in their order.
+
+    References
+    ----------
+    Subset selection by QR with column pivoting in the leading singular directions: Golub and Van Loan 2013, Matrix
+    Computations, 4th ed., section 5.5.7.
+    """
+    from scipy.linalg import qr
+
+    _, singular, vectors = np.linalg.svd(jacobian * spread, full_matrices=False)
+    rank = int(np.sum(singular > np.sqrt(factor)))
+    if rank == 0:
+        return []
+    _, _, order = qr(vectors[:rank], pivoting=True, mode="economic")
+    return sorted(int(column) for column in order[:rank])
+
+
+def prediction_variance(gradients: FloatArray, matrix: FloatArray) -> FloatArray:
+    """Return the variance of predicted values, shape (m,), from their gradients, shape (m, p)."""
+    found: FloatArray = np.einsum("ij,jk,ik->i", gradients, matrix, gradients)
+    return found
+
+
+def leverages(jacobian: FloatArray, weights: FloatArray) -> FloatArray:
+    """Return how much each point pulls the fit towards itself, 0 to 1 (diagonal of the hat matrix)."""
+    basis, _ = np.linalg.qr(jacobian * np.sqrt(weights)[:, None])
+    found: FloatArray = np.minimum(np.sum(basis**2, axis=1), _LARGEST_LEVERAGE)
+    return found
+
+
+def left_out_residuals(residuals: FloatArray, leverage: FloatArray) -> FloatArray:
+    """Return the residual that each point would have were it left out of the fit, linearised.
+
+    References
+    ----------
+    Cook and Weisberg 1982, Residuals and Influence in Regression, eq. 2.2.3.
+    """
+    found: FloatArray = residuals / (1.0 - leverage)
+    return found
