@@ -13,28 +13,15 @@ from lambda_core.domain.channels import LOSSES, SHORTED
 from lambda_core.domain.elements import CAGE, INNER, OUTER
 from lambda_core.domain.errors import SolverError
 from lambda_core.shaft.lumps import lump, unbalance_of_lumps
+from lambda_core.shaft.machine_assembly import machine_assembly, member_numbers
 from lambda_core.shaft.shaft_equilibrium import ShaftState, solve_shaft
 from lambda_core.shaft.whole_markers import MarkerMotion, motions
 from lambda_core.shaft.whole_samples import WholeSamples
-from lambda_core.shaft.whole_start import load_terms, start_state, state_sizes
-from lambda_core.shaft.whole_tables import (
-    LUMP_SIGNS,
-    LUMP_STATES,
-    SIGNS,
-    STATES,
-    Part,
-    all_free,
-    beside_bodies,
-    led_bodies,
-    lump_bodies,
-    make_parts,
-    whole_bundle,
-)  # fmt: skip
+from lambda_core.shaft.whole_start import start_state
+from lambda_core.shaft.whole_tables import RING_SIGNS, RING_STATES, Part, all_free, make_parts
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
-from lambda_core.solver.arrays.factors import make_factors
 from lambda_core.solver.arrays.integrator_memory import Handle, make_memory
-from lambda_core.solver.arrays.jacobian_blocks import make_blocks
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.compiled_laws import Announce
 from lambda_core.solver.drivers.engine import (
@@ -49,8 +36,9 @@ from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
 from lambda_core.solver.drivers.modes import ring_modes
 from lambda_core.solver.drivers.observation import Scratch, channels_of
 from lambda_core.solver.drivers.ring_values import losses_of_raceways
+from lambda_core.solver.drivers.solver_context import context_of
 from lambda_core.solver.drivers.surface_steps import longest_step
-from lambda_core.solver.drivers.tables import running
+from lambda_core.solver.drivers.tables import SIGNS, STATES, running
 from lambda_core.solver.integrator.tableau import STAGES
 from lambda_core.system.machine import Machine
 
@@ -85,19 +73,18 @@ class WholeEngine:
         self.start: ShaftState = solve_shaft(model, announce)
         self._core, self.shaft = core(announce), lump(model)
         self.equilibria: list[Equilibrium] = [ring.equilibrium() for ring in self.start.rings]
-        self.parts = make_parts(model, self.shaft, [all_free(found.context) for found in self.equilibria])
-        bundle = whole_bundle(model, self.shaft, self.parts)
-        terms, table = load_terms(model, self.shaft, self.parts)
+        alone = [all_free(found.context) for found in self.equilibria]
+        assembly = machine_assembly(model, self.shaft, [(one.kernels, one.frame, one.oils) for one in alone])
+        self.parts = make_parts(model, assembly, alone)
+        context = context_of(assembly)
+        self._numbers = member_numbers(model, self.shaft)
         self._markers = MarkerMotion(model, self.shaft)
-        self._bundle = bundle._replace(terms=terms, table=table)
-        self._blocks = make_blocks(self._bundle)
-        self._factors = make_factors(self._blocks.reach, self._bundle.active.size, self._blocks.cross.shape[0])
+        self._bundle, self._blocks, self._factors = context.bundle, context.blocks, context.factors
         self._dense = self._factors.condensed
-        start = start_state(model, self.shaft, self.parts, self._bundle.active, self.start, self.equilibria)
-        scales = state_sizes(model, self.shaft, self.parts, self._bundle)
+        start = start_state(model, self.shaft, self.parts, context, self.start, self.equilibria)
         tolerance = min(part.bearing.model.solver.tolerance for part in self.parts)
         stages = STAGES if model.solver.resolve else 0
-        self._memory = make_memory(start, scales, tolerance, self._bundle, _CAPACITY, stages=stages)
+        self._memory = make_memory(start, context.scale, tolerance, self._bundle, _CAPACITY, stages=stages)
         self.sample_interval = min(
             usual_interval(part.bearing.model, found.orbit)
             for part, found in zip(self.parts, self.equilibria, strict=True)
@@ -181,8 +168,8 @@ class WholeEngine:
         self._memory.count["samples_waiting"] = 0
         flat = self._bodies(states, times)
         found = [self._observe(part, times, states, flat) for part in self.parts]
-        lumps = flat.view(R.BODY_STATE)[:, lump_bodies(self.shaft)]
-        twist, beside = self._twist(flat), motions(flat.view(R.BODY_STATE)[:, beside_bodies(self.model, self.shaft)])
+        lumps = flat.view(R.BODY_STATE)[:, self._numbers.lumps]
+        twist, beside = self._twist(flat), motions(flat.view(R.BODY_STATE)[:, self._numbers.bodies])
         whole = {
             "time": times,
             "shaft_position": lumps["position"].copy(),
@@ -204,10 +191,10 @@ class WholeEngine:
     def _twist(self, flat: FloatArray) -> FloatArray:
         """Return how far the lumps have turned beyond the coupling, shape (n, lumps) [rad]."""
         angles, azimuths = flat.view(R.BODY_STATE)["angle"], unbalance_of_lumps(self.model, self.shaft)[1]
-        found: FloatArray = angles[:, lump_bodies(self.shaft)] - azimuths
+        found: FloatArray = angles[:, self._numbers.lumps] - azimuths
         if not self.model.twists:
             return np.zeros_like(found)
-        lead = angles[:, led_bodies(self.model, self.shaft)] - np.append(azimuths, 0.0)[[self.shaft.driven]]
+        lead = angles[:, self._numbers.led] - np.append(azimuths, 0.0)[[self.shaft.driven]]
         return np.asarray(found - lead)
 
     def _bodies(self, states: FloatArray, times: FloatArray) -> FloatArray:
@@ -216,11 +203,11 @@ class WholeEngine:
         if self._changes:
             return np.array([self._shared(float(t), y) for t, y in zip(times, states, strict=True)])
         flat = np.zeros((len(states), bundle.shared.size))
-        flat.view(R.BODY_STATE)["spin"][:, lump_bodies(self.shaft)] = self.model.speed
+        flat.view(R.BODY_STATE)["spin"][:, self._numbers.lumps] = self.model.speed
         for part in self.parts:  # where it is free its state comes over it
-            flat[:, L.NS * part.bodies[OUTER] + STATES] = SIGNS * part.bearing.seating.shift
-        for number, rigid in zip(beside_bodies(self.model, self.shaft), self.model.bodies, strict=True):
-            flat[:, L.NS * number + LUMP_STATES] = LUMP_SIGNS * rigid.shift
+            flat[:, L.NS * part.bodies[OUTER] + RING_STATES] = RING_SIGNS * part.bearing.seating.shift
+        for number, rigid in zip(self._numbers.bodies, self.model.bodies, strict=True):
+            flat[:, L.NS * number + STATES] = SIGNS * rigid.shift
         tail = L.NB * int(bundle.system["balls"][0])
         flat[:, bundle.active] = states[:, tail : tail + bundle.active.size]
         return flat

@@ -12,14 +12,15 @@ import pytest
 from lambda_core import api
 from lambda_core.domain.errors import SolverError
 from lambda_core.elastic.whirl import natural_frequencies
+from lambda_core.shaft.machine_assembly import member_numbers
 from lambda_core.shaft.shaft_equilibrium import SharedKernels, solve_shaft
 from lambda_core.shaft.shaft_report import BodyMoved
 from lambda_core.shaft.structure import static_rows, stretch
 from lambda_core.shaft.vibration import criticals, damped, masses, modes_at, supported
 from lambda_core.shaft.whole_engine import WholeEngine
-from lambda_core.shaft.whole_tables import LUMP_STATES, beside_bodies
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
+from lambda_core.solver.drivers.tables import STATES
 from lambda_core.system.machine import Machine
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
@@ -143,7 +144,7 @@ def test_a_housing_in_motion(model: Machine) -> None:
     """It begins in equilibrium, energy is balanced to 1e-3 with what mounts and seats take, columns are right."""
     engine = WholeEngine(model)
     bundle, y = engine._bundle, engine._memory.y
-    number = int(beside_bodies(model, engine.shaft)[0])
+    number = int(member_numbers(model, engine.shaft).bodies[0])
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))
     assert core().evaluate(0.0, y, bundle, dydt, rates, 1) == 1
     force = bundle.body_wrenches["force"][number] + [0.0, 0.0, -9.80665 * model.bodies[0].mass]
@@ -166,7 +167,7 @@ def check_columns(engine: WholeEngine, number: int) -> None:
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))
     assert core().evaluate(0.0, y, bundle, dydt, rates, 1) == 1
     assert core().jacobian(0.0, y, bundle, engine._blocks) == 1
-    slots = L.NS * number + np.array([*LUMP_STATES, L.SVX, L.SVY, L.SVZ, L.SWY, L.SWZ])
+    slots = L.NS * number + np.array([*STATES, L.SVX, L.SVY, L.SVZ, L.SWY, L.SWZ])
     own = [int(np.flatnonzero(bundle.active == slot)[0]) for slot in slots]
     for column, slot in zip(own, slots, strict=True):
         step = 1e-9 if slot % L.NS < L.SVX else 1e-4

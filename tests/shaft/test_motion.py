@@ -19,12 +19,14 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.elastic.whirl import natural_frequencies
 from lambda_core.results.reader import Result
 from lambda_core.shaft.lumps import LumpedShaft, lump
+from lambda_core.shaft.machine_assembly import member_numbers
 from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.shaft.whole_file import WholeFile
-from lambda_core.shaft.whole_tables import LUMP_STATES, SIGNS, STATES, lump_bodies
+from lambda_core.shaft.whole_tables import RING_SIGNS, RING_STATES
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
+from lambda_core.solver.drivers.tables import STATES
 from lambda_core.system.machine import PLACES, Machine
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
@@ -105,7 +107,7 @@ def test_the_motion_begins_in_equilibrium(engine: WholeEngine) -> None:
     _, forces = evaluated(engine, engine._memory.y.copy())
     loads = engine._bundle.inputs["force"]["value"]
     weight = engine._bundle.bodies["mass"] * 9.80665
-    for body in lump_bodies(engine.shaft):
+    for body in member_numbers(engine.model, engine.shaft).lumps:
         left = forces[body, :3] + loads[body] - [0.0, 0.0, weight[body]]
         assert np.abs(left).max() < 6.0  # of 700 N: rings 2 N, unbalance 50 g mm at 314 rad/s 4.9 N over all lumps
 
@@ -134,14 +136,14 @@ def check_slopes(engine: WholeEngine) -> None:
     """What the columns of a twist leave out is of the order of the tilts, 2e-4 of it."""
     bundle, y = engine._bundle, engine._memory.y.copy()
     base = L.NB * int(bundle.system["balls"][0])
-    middle = next(b for b in lump_bodies(engine.shaft) if not bundle.bodies["mass"][b] < 1.0)
+    middle = next(b for b in member_numbers(engine.model, engine.shaft).lumps if not bundle.bodies["mass"][b] < 1.0)
     bundle.system["friction_on"], bundle.system["guides_on"] = 0, 0
     evaluated(engine, y)
     bundle.system["friction_on"], bundle.system["guides_on"] = 0, 0
     assert core().jacobian(0.0, y, bundle, engine._blocks) == 1
     bundle.system["friction_on"], bundle.system["guides_on"] = 1, 1
     ours, steps = engine._blocks.d, np.array([1e-8, 1e-8, 1e-8, 1e-7, 1e-7, 1e-7])
-    for state, step in zip(LUMP_STATES, steps, strict=True):
+    for state, step in zip(STATES, steps, strict=True):
         column = int(np.flatnonzero(bundle.active == L.NS * middle + state)[0])
         up, down = y.copy(), y.copy()
         up[base + column] += step
@@ -308,6 +310,6 @@ def test_what_changes_over_time() -> None:
 def test_signs_of_the_tied_states() -> None:
     """Turning about y moves a_z towards -, about z a_y towards + (docs/frames.md)."""
     body = np.zeros(1, R.BODY_STATE)
-    body.view(np.float64)[STATES] = SIGNS * [1.0, 2.0, 3.0, 0.1, 0.2]
+    body.view(np.float64)[RING_STATES] = RING_SIGNS * [1.0, 2.0, 3.0, 0.1, 0.2]
     assert body["position"][0].tolist() == [1.0, 2.0, 3.0]
     assert (-body["tilt"][0, 1], body["tilt"][0, 0]) == (0.1, 0.2)

@@ -12,6 +12,7 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.laws.state import ROLE
+from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.tables import Tables
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.raceways import raceways, raceways_of_a_ball
@@ -20,25 +21,27 @@ from lambda_core.system.state_channels import state_channels, states_of
 _STEP = 1e-6  # of a state's scale, for the slopes of its rates
 
 
-def state_arrays(model: BearingModel, tables: Tables) -> dict[str, Any]:
+def state_arrays(assembly: Assembly, tables: Tables) -> dict[str, Any]:
     """Return the arrays of layout.Bundle that hold the states of contacts, every state at its start."""
+    models = [bearing.model for bearing in assembly.bearings]
+    counts = [model.geometry.ball_count for model in models for _ in raceways(model.geometry)]
     starts = []
-    for raceway in tables.raceways:
+    for raceway, balls in zip(tables.raceways, counts, strict=True):
         end, count = int(raceway["parameters"][ROLE][1]), int(raceway["states"])
-        starts.append(np.tile(tables.par[end - count : end], model.geometry.ball_count))
+        starts.append(np.tile(tables.par[end - count : end], balls))
     start = np.concatenate(starts)
     most = int(tables.raceways["states"].max())
     return {
         "states": start,
         "state_rates": np.zeros(start.size),
-        "state_steps": _STEP * state_tail(model),
+        "state_steps": _STEP * np.concatenate([state_tail(model) for model in models]),
         "state_slopes": np.zeros((start.size, most)),
         "state_pivots": np.zeros(most, dtype=np.int64),
     }
 
 
 def state_tail(model: BearingModel) -> FloatArray:
-    """Return the scales of all states of contacts."""
+    """Return the scales of all states of contacts of a bearing."""
     rows = [
         np.tile([state.scale for state in states_of(model, raceway.element)], model.geometry.ball_count)
         for raceway in raceways(model.geometry)

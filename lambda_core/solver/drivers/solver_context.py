@@ -1,4 +1,4 @@
-"""The one vessel between a resolved model and its results: the arrays and pointers that compiled code works on."""
+"""Hold the arrays and pointers that compiled code works on, between a resolved model and its results."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import BODIES
+from lambda_core.domain.elements import BODIES, OUTER
 from lambda_core.laws.context import Oil
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
@@ -17,43 +17,48 @@ from lambda_core.solver.arrays.factors import make_factors
 from lambda_core.solver.arrays.integrator_memory import Handle, Memory
 from lambda_core.solver.arrays.jacobian_blocks import make_blocks
 from lambda_core.solver.core import core
+from lambda_core.solver.drivers.assembly import AssembledBearing, Assembly, assembly_of
 from lambda_core.solver.drivers.compiled_laws import Kernels
 from lambda_core.solver.drivers.contact_grid import cell_blocks, unit_grid
 from lambda_core.solver.drivers.contact_memory import state_arrays, state_tail
 from lambda_core.solver.drivers.law_inputs import Oils
-from lambda_core.solver.drivers.tables import build_tables
-from lambda_core.solver.drivers.time_tables import build_times
-from lambda_core.solver.drivers.wave_tables import waves_of
+from lambda_core.solver.drivers.tables import build
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.law_context import ContactFrame
 from lambda_core.system.raceways import raceways
 
 
-def state_scales(model: BearingModel, active: NDArray[np.int64]) -> FloatArray:
+def state_scales(assembly: Assembly, active: NDArray[np.int64]) -> FloatArray:
     """Return the absolute scales that the tolerance multiplies, shape (size,).
 
     Positions 50 um, velocities 0.1 m/s, ball spins 7 rad/s; angles and angular speeds of the big bodies and
-    azimuths are the same lengths and velocities at the pitch radius; states of contacts have their own.
+    azimuths are the same lengths and velocities at the pitch radius; states of contacts have their own. Members that
+    are no outer ring or cage have the mean over the bearings.
     """
-    arm = 0.5 * model.geometry.pitch_diameter
     length, speed, spin = 50e-6, 0.1, 7.0
-    ball = [length, length, length / arm, speed, speed, speed, spin, spin, spin]
-    body = [length] * 3 + [length / arm] * 3 + [speed] * 3 + [speed / arm] * 3
-    shared = np.array(body * (len(BODIES) + len(waves_of(model))))
-    return np.concatenate([np.tile(ball, model.geometry.balls), shared[active], state_tail(model)])
+    spans, count = assembly.spans(), len(assembly.bearings)
+    shared = np.zeros((len(assembly.members) + sum(len(span.bodies) - len(BODIES) for span in spans), L.NS))
+    arms = [0.5 * bearing.model.geometry.pitch_diameter for bearing in assembly.bearings]
+    bodies = [[length] * 3 + [length / arm] * 3 + [speed] * 3 + [speed / arm] * 3 for arm in arms]
+    for body in bodies:
+        shared += np.array(body) / count
+    balls = []
+    for span, arm, body in zip(spans, arms, bodies, strict=True):
+        shared[list(span.bodies[OUTER:])] = body
+        ball = [length, length, length / arm, speed, speed, speed, spin, spin, spin]
+        balls.append(np.tile(ball, span.balls))
+    tails = [state_tail(bearing.model) for bearing in assembly.bearings]
+    return np.concatenate([*balls, shared.ravel()[active], *tails])
 
 
 @dataclass
 class SolverContext:
-    """Everything compiled code needs for one model at one contact frame.
+    """Everything compiled code needs for one assembly at the contact frames of its bearings.
 
     Equilibrium, motion, stiffness and other integrators all take it, and work in its memory one after another.
     """
 
-    model: BearingModel
-    kernels: Kernels
-    oils: Oils
-    frame: ContactFrame
+    assembly: Assembly
     bundle: L.Bundle
     scale: FloatArray
     blocks: Any = field(init=False)
@@ -62,6 +67,32 @@ class SolverContext:
     def __post_init__(self) -> None:
         self.blocks = make_blocks(self.bundle)
         self.factors = make_factors(self.blocks.reach, self.bundle.active.size, self.blocks.cross.shape[0])
+
+    @property
+    def bearing(self) -> AssembledBearing:
+        """The bearing of an assembly that has one."""
+        (found,) = self.assembly.bearings
+        return found
+
+    @property
+    def model(self) -> BearingModel:
+        """Of the only bearing."""
+        return self.bearing.model
+
+    @property
+    def kernels(self) -> Kernels:
+        """Compiled laws of the only bearing."""
+        return self.bearing.kernels
+
+    @property
+    def frame(self) -> ContactFrame:
+        """At which radii and films of the only bearing are frozen."""
+        return self.bearing.frame
+
+    @property
+    def oils(self) -> Oils:
+        """Of the only bearing, as the rheology of each raceway has it."""
+        return self.bearing.oils
 
     def handle(self, memory: Memory) -> Handle:
         """Return what leads to all of it and to the integrator's memory, which compiled code takes as one argument.
@@ -101,27 +132,23 @@ class SolverContext:
 
 
 def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> SolverContext:
-    """Build the bundle for given frozen contact angles and mean loads."""
-    terms, table, active = build_times(model)
-    grid = unit_grid(model.depth.strips, model.depth.rows)
-    tables, compiled = build_tables(model, frame, oils, terms), core()
+    """Return the context of a bearing that is alone, for given frozen contact angles and mean loads."""
+    return context_of(assembly_of(model, kernels, frame, oils))
+
+
+def context_of(assembly: Assembly) -> SolverContext:
+    """Return the context of an assembly: its tables, and room to work in."""
+    tables, compiled, depth = build(assembly), core(), assembly.bearings[0].model.depth
+    grid = unit_grid(depth.strips, depth.rows)
     bodies, balls = tables.bodies.size, int(tables.system[0]["balls"])
     inputs, now, rates = np.zeros(bodies, R.INPUTS), np.zeros(bodies, R.BODY_STATE), np.zeros(bodies, R.BODY_STATE)
     bundle = L.Bundle(
         **tables._asdict(),
-        tied=np.zeros(0, dtype=np.int64),
-        tie_stiffness=np.zeros((0, 0)),
-        tie_damping=np.zeros((0, 0)),
-        tie_rest=np.zeros(0),
-        tie_moves=np.zeros(0),
-        tie_rates=np.zeros(0),
-        laws=kernels.pointers(),
+        tie_moves=np.zeros(tables.tied.size),
+        tie_rates=np.zeros(tables.tie_damping.shape[1]),
         wrench=compiled.wrench_pointer,
         tangent=compiled.tangent_pointer,
         grid=grid,
-        terms=terms,
-        table=table,
-        active=active,
         inputs=inputs,
         signals=inputs.view(R.SIGNAL),
         cells=cell_blocks(grid.shape[1]),
@@ -134,8 +161,8 @@ def assemble(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: O
         body_wrenches=np.zeros(bodies, R.WRENCH),
         contact_wrenches=np.zeros(bodies, R.WRENCH),
         ball_wrenches=np.zeros(balls, R.WRENCH),
-        resting=np.zeros(1, dtype=np.int64),
-        bearing_powers=np.zeros(1, R.RUNNING),
-        **state_arrays(model, tables),
+        resting=np.zeros(len(assembly.bearings), dtype=np.int64),
+        bearing_powers=np.zeros(len(assembly.bearings), R.RUNNING),
+        **state_arrays(assembly, tables),
     )
-    return SolverContext(model, kernels, oils, frame, bundle, state_scales(model, active))
+    return SolverContext(assembly, bundle, state_scales(assembly, tables.active))

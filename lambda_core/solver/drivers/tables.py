@@ -1,4 +1,8 @@
-"""The tables of bodies, rows of balls, raceways and lands that compiled code works on."""
+"""Write an assembly down as the tables that compiled code works on: bodies, rows of balls, raceways, lands and so on.
+
+Every bearing appends its entries at their final place. Bodies are the members, then the waves of elastic parts, bearing
+by bearing.
+"""
 
 from __future__ import annotations
 
@@ -9,17 +13,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import BODIES, CAGE, DOFS, INNER, OUTER
+from lambda_core.domain.elements import CAGE, DOFS, INNER, OUTER
+from lambda_core.domain.errors import SolverError
 from lambda_core.domain.hertz import ball_raceway_radii
 from lambda_core.laws.context import Oil
 from lambda_core.laws.par import number_in
 from lambda_core.laws.state import names_behind
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
-from lambda_core.solver.drivers.law_inputs import RACEWAYS, Oils, guides, links, oil_of, times
+from lambda_core.solver.drivers.assembly import AssembledBearing, Assembly, BearingSpan
+from lambda_core.solver.drivers.law_inputs import RACEWAYS, guides, oil_of, times
+from lambda_core.solver.drivers.time_tables import build_times
 from lambda_core.solver.drivers.wave_tables import give_waves, wave_bodies, wave_rows
 from lambda_core.system.bearing import BearingModel
-from lambda_core.system.law_context import ContactFrame, build_context, effective_modulus, prepare
+from lambda_core.system.law_context import build_context, effective_modulus, prepare
 from lambda_core.system.raceways import raceways as raceways_of
 from lambda_core.system.raceways import raceways_of_a_ball, row_places
 from lambda_core.system.state_channels import states_of
@@ -29,11 +36,18 @@ from lambda_core.system.state_channels import states_of
 ROLL_FLOOR = 1e-3  # [m/s]
 # Slip below which the direction of shear fades out; small against creep at any running speed.
 SLIP_FLOOR = 1e-6  # [m/s]
+# State that each direction of a member moves, and its sign: turning about +y moves a_z towards -.
+STATES = np.array([L.SX, L.SY, L.SZ, L.STHETA, L.SAZ, L.SAY])
+SIGNS = np.array([1.0, 1.0, 1.0, 1.0, -1.0, 1.0])
 _MODES = {"free": R.FREE, "locked": R.LOCKED, "prescribed": R.PRESCRIBED}
+# State and rate of each degree of freedom, in the order of DOFS.
+_POSITIONS = (L.SX, L.SY, L.SZ, L.SAZ, L.SAY, L.STHETA)
+_RATES = (L.SVX, L.SVY, L.SVZ, L.SWY, L.SWZ, L.SSIGMA)
+_SPIN = len(DOFS) - 1
 
 
 class Tables(NamedTuple):
-    """What a model and its laws are made of; see layout.Bundle."""
+    """What an assembly and its laws are made of; see layout.Bundle."""
 
     system: Any
     bodies: Any
@@ -44,25 +58,61 @@ class Tables(NamedTuple):
     links: Any
     slots: Any
     par: FloatArray
+    tied: NDArray[np.int64]
+    tie_stiffness: FloatArray
+    tie_damping: FloatArray
+    tie_rest: FloatArray
+    terms: NDArray[np.void]
+    table: FloatArray
+    active: NDArray[np.int64]
+    laws: L.Laws
 
 
 class _Parameters:
     """Parameters of laws one after another."""
 
-    def __init__(self, model: BearingModel, frame: ContactFrame, oils: Oils) -> None:
-        self._model, self._frame, self._oils = model, frame, oils
+    def __init__(self) -> None:
         self._parts: list[FloatArray] = []
+        self._size = 0
 
-    def add(self, element: str, role: str) -> tuple[int, int]:
+    def add(self, bearing: AssembledBearing, element: str, role: str) -> tuple[int, int]:
         """Append the parameters of a law; returns where they begin and end."""
-        context = build_context(self._model, element, self._frame, oil_of(self._oils, element))
-        begin = sum(part.size for part in self._parts)
-        self._parts.append(prepare(self._model.laws[element][role], context))
-        return begin, begin + self._parts[-1].size
+        context = build_context(bearing.model, element, bearing.frame, oil_of(bearing.oils, element))
+        begin = self._size
+        self._parts.append(prepare(bearing.model.laws[element][role], context))
+        self._size += self._parts[-1].size
+        return begin, self._size
+
+    def last(self) -> FloatArray:
+        """Return what was added last."""
+        return self._parts[-1]
 
     def all(self) -> FloatArray:
         """Return the parameters of all laws."""
         return np.concatenate(self._parts)
+
+
+class _Part(NamedTuple):
+    """What a bearing adds to the tables."""
+
+    raceways: Any
+    rows: Any
+    lands: Any
+    links: Any
+    waves: Any
+    slots: Any
+
+
+class _Offsets(NamedTuple):
+    """How many sets of laws and slots the bearings before have."""
+
+    raceways: int = 0
+    guides: int = 0
+    drag: int = 0
+    links: int = 0
+    times: int = 0
+    slots: int = 0
+    waves: int = 0
 
 
 def running(powers: FloatArray) -> Any:
@@ -75,43 +125,117 @@ def ball_mass(model: BearingModel) -> float:
     return model.ball_material.density * math.pi * model.geometry.ball_diameter**3 / 6.0
 
 
-def build_tables(model: BearingModel, frame: ContactFrame, oils: Oils, terms: NDArray[np.void]) -> Tables:
-    """Return the tables of one bearing: three bodies and those of elastic ones, its rows of balls and its raceways.
+def build(assembly: Assembly) -> Tables:
+    """Return the tables of an assembly.
 
-    Into `terms`, records.TERM, goes where the laws among them have their parameters.
+    Raises
+    ------
+    SolverError
+        When its bearings divide their contacts into different cells, of which compiled code has one grid.
     """
-    parameters = _Parameters(model, frame, oils)
-    raceways = _raceways(model, frame, oils, parameters)
-    waves = wave_rows(model)
-    rows, lands = _rows(model, oils[0], parameters), _lands(model, oils[0], parameters)
+    _refuse_other_grids(assembly)
+    parameters, parts, laws = _Parameters(), [], []
+    terms, table = build_times(assembly)
+    offsets = _Offsets()
+    for i, (bearing, span) in enumerate(zip(assembly.bearings, assembly.spans(), strict=True)):
+        parts.append(_part(assembly, i, span, offsets, parameters))
+        for k, element in enumerate(times(bearing.model)):
+            own = (terms["kind"] == R.LAW) & (terms["law"] == offsets.times + k)
+            terms["parameters"][own] = parameters.add(bearing, element, "time_function")
+        laws.append(bearing.kernels.pointers())
+        counts = [*map(len, laws[-1]), parts[-1].slots.size, parts[-1].waves.size]
+        offsets = _Offsets(*(before + own for before, own in zip(offsets, counts, strict=True)))
+    raceways, rows, lands, links, waves, slots = (np.concatenate(of_kind) for of_kind in zip(*parts, strict=True))
+    bodies = _bodies(assembly)
+    tied, stiffness, damping, rest = _ties(assembly)
+    return Tables(
+        _system(assembly, raceways), bodies, rows, raceways, waves, lands, links, slots, parameters.all(), tied,
+        stiffness, damping, rest, terms, table, _active(bodies),
+        L.Laws(*(np.ascontiguousarray(np.concatenate(of_role)) for of_role in zip(*laws, strict=True))),
+    )  # fmt: skip
+
+
+def _refuse_other_grids(assembly: Assembly) -> None:
+    """Refuse bearings whose contacts are divided otherwise than those of the first."""
+    first = assembly.bearings[0]
+    for other in assembly.bearings[1:]:
+        one, two = first.model.depth, other.model.depth
+        if (one.strips, one.rows) != (two.strips, two.rows):
+            raise SolverError(
+                f"{first.name} divides a contact into {one.strips} x {one.rows} cells, {other.name} into "
+                f"{two.strips} x {two.rows}: give all bearings of a machine the same depth.strips and depth.rows"
+            )
+
+
+def _part(assembly: Assembly, i: int, span: BearingSpan, offsets: _Offsets, parameters: _Parameters) -> _Part:
+    """Return the entries of bearing `i`, parameters of its laws in the order in which these are added."""
+    bearing = assembly.bearings[i]
+    raceways = _raceways(bearing, span, offsets, parameters)
+    waves = wave_rows(bearing.model, span.bodies)
+    rows = _rows(bearing, i, span, offsets, parameters)
+    lands = _lands(bearing, i, span, offsets, parameters)
     for table, body in ((raceways, "body"), (rows, "cage"), (lands, "cage")):
-        give_waves(table, body, waves)
-    rows["drag"] = parameters.add("fluid_drag", "fluid_drag")
-    between = _links(model, parameters)
-    for i, element in enumerate(times(model)):
-        terms["parameters"][(terms["kind"] == R.LAW) & (terms["law"] == i)] = parameters.add(element, "time_function")
+        give_waves(table, body, waves, offsets.waves)
+    rows["drag"] = parameters.add(bearing, "fluid_drag", "fluid_drag")
+    links = _links(assembly, i, offsets, parameters)
+    slots = _keep_states(bearing.model, raceways, span, offsets.slots)
+    return _Part(raceways, rows, lands, links, waves, slots)
+
+
+def _system(assembly: Assembly, raceways: Any) -> Any:
     system = np.zeros(1, R.SYSTEM)
     s = system[0]
-    s["balls"], s["gravity"] = model.geometry.balls, model.gravity
+    s["balls"] = sum(bearing.model.geometry.balls for bearing in assembly.bearings)
+    s["gravity"] = assembly.gravity
     s["roll_floor"], s["slip_floor"] = ROLL_FLOOR, SLIP_FLOOR
     s["surfaces"] = int(raceways["surface_on"].any() or np.ptp(raceways["waves"], axis=1).any())
     s["friction_on"], s["guides_on"], s["drag_azimuths"] = 1, 1, 1
-    slots = _keep_states(model, raceways)
-    bodies = np.concatenate([_bodies(model), wave_bodies(model)])
-    return Tables(system, bodies, rows, raceways, waves, lands, between, slots, parameters.all())
+    return system
 
 
-def _bodies(model: BearingModel) -> Any:
-    bodies = np.zeros(3, R.BODY)
-    for record, body in zip(bodies, (model.inner_ring, model.outer_ring, model.cage_body), strict=True):
+def _bodies(assembly: Assembly) -> Any:
+    bodies = np.zeros(len(assembly.members), R.BODY)
+    for record, member in zip(bodies, assembly.members, strict=True):
+        body = member.body
         for name in ("mass", "transverse_inertia", "polar_inertia", "unbalance"):
             record[name] = getattr(body, name)
         dofs = [body.dofs[name] for name in DOFS]
         record["mode"] = [_MODES[dof.mode] for dof in dofs]
         record["stiffness"], record["damping"] = [dof.stiffness for dof in dofs], [dof.damping for dof in dofs]
-        record["moves"] = 1
-    bodies[CAGE]["moves"], bodies[CAGE]["is_cage"] = int(model.depth.cage), 1
-    return bodies
+        record["moves"], record["bearing"] = 1, -1
+    found = [bodies]
+    for i, bearing in enumerate(assembly.bearings):
+        cage, waves = bodies[bearing.members[CAGE]], wave_bodies(bearing.model)
+        cage["moves"], cage["is_cage"] = int(bearing.model.depth.cage), 1
+        bodies["bearing"][list(bearing.members)] = waves["bearing"] = i
+        found.append(waves)
+    return np.concatenate(found)
+
+
+def _active(bodies: Any) -> NDArray[np.int64]:
+    """Return the free entries of the shared state, with the angles of spins that are prescribed."""
+    found: list[int] = []
+    for b, body in enumerate(bodies):
+        if not body["moves"]:
+            continue
+        for mode, position, rate in zip(body["mode"], _POSITIONS, _RATES, strict=True):
+            if mode == R.FREE:
+                found += [L.NS * b + position, L.NS * b + rate]
+        if body["mode"][_SPIN] == R.PRESCRIBED:
+            found.append(L.NS * b + L.STHETA)
+    return np.array(sorted(found), dtype=np.int64)
+
+
+def _ties(assembly: Assembly) -> tuple[NDArray[np.int64], FloatArray, FloatArray, FloatArray]:
+    """Return the entries of the shared state that are tied, stiffness and damping between them, and their rest."""
+    ties = assembly.ties
+    used = np.flatnonzero(np.abs(ties.stiffness).sum(axis=1) + np.abs(ties.damping).sum(axis=1))
+    tied, signs = L.NS * ties.member + STATES[ties.direction], SIGNS[ties.direction]
+    around = np.outer(signs, signs)
+    stiffness, damping = ((matrix * around)[np.ix_(used, used)] for matrix in (ties.stiffness, ties.damping))
+    if not damping.any():
+        damping = np.zeros((0, 0))
+    return tied[used], np.ascontiguousarray(stiffness), np.ascontiguousarray(damping), (ties.rest * signs)[used]
 
 
 def _oil(record: Any, oil: Oil) -> None:
@@ -121,7 +245,8 @@ def _oil(record: Any, oil: Oil) -> None:
     record["alpha_p"], record["beta"] = oil.alpha_p, oil.beta
 
 
-def _raceways(model: BearingModel, frame: ContactFrame, oils: Oils, parameters: _Parameters) -> Any:
+def _raceways(bearing: AssembledBearing, span: BearingSpan, offsets: _Offsets, parameters: _Parameters) -> Any:
+    model, frame = bearing.model, bearing.frame
     g, radius = model.geometry, 0.5 * model.geometry.ball_diameter
     grooves = raceways_of(g)
     raceways = np.zeros(len(grooves), R.RACEWAY)
@@ -131,7 +256,8 @@ def _raceways(model: BearingModel, frame: ContactFrame, oils: Oils, parameters: 
             g.ball_diameter, g.pitch_diameter, groove.groove_radius, frame.angles[ring], inner=ring == INNER
         )
         material = (model.inner_material, model.outer_material)[ring]
-        record["number"], record["body"], record["laws"] = i, (INNER, OUTER)[ring], RACEWAYS.index(element)
+        record["number"], record["body"] = span.first_raceway + i, span.bodies[(INNER, OUTER)[ring]]
+        record["laws"] = offsets.raceways + RACEWAYS.index(element)  # a set for each ring, however many raceways
         record["side"] = (-1.0, 1.0)[ring]
         record["groove_circle"], record["groove_radius"] = groove.groove_circle, groove.groove_radius
         record["axial_offset"], record["ball_radius"] = groove.axial_offset, radius
@@ -140,19 +266,25 @@ def _raceways(model: BearingModel, frame: ContactFrame, oils: Oils, parameters: 
         record["radius_deformed"] = 2.0 * groove.groove_radius * radius / (groove.groove_radius + radius)
         record["roughness"] = model.roughness
         record["surface_on"] = int(model.laws[element]["surface"].model.name != "none")
-        _oil(record["oil"], oils[ring])
-        for role in R.RACEWAY_ROLES:
-            record["parameters"][role] = parameters.add(element, role)
-        begin, end = record["parameters"]["damping"]
+        _oil(record["oil"], bearing.oils[ring])
         damping = model.laws[element]["damping"].model
-        record["reach"] = number_in(damping, parameters.all()[begin:end], "reach", 0.0)
+        for role in R.RACEWAY_ROLES:
+            record["parameters"][role] = parameters.add(bearing, element, role)
+            if role == "damping":
+                record["reach"] = number_in(damping, parameters.last(), "reach", 0.0)
     return raceways
 
 
-def _keep_states(model: BearingModel, raceways: Any) -> Any:
-    """Give the states of contacts their places; returns where laws read them: behind their own parameters."""
+def _keep_states(model: BearingModel, raceways: Any, span: BearingSpan, before: int) -> Any:
+    """Give the states of contacts their places; returns where laws read them: behind their own parameters.
+
+    Parameters
+    ----------
+    before : int
+        Slots of the bearings before.
+    """
     slots: list[tuple[int, int]] = []
-    count, each = 0, model.geometry.ball_count
+    count, each = span.first_state, model.geometry.ball_count
     for record, groove in zip(raceways, raceways_of(model.geometry), strict=True):
         kept = [state.name for state in states_of(model, groove.element)]
         begin = len(slots)
@@ -160,50 +292,64 @@ def _keep_states(model: BearingModel, raceways: Any) -> Any:
             names, end = names_behind(model.laws[groove.element][role].model), int(record["parameters"][role][1])
             slots += [(kept.index(name), end - len(names) + i) for i, name in enumerate(names)]
         # compiled code counts the balls of all rows
-        record["states"], record["slots"] = len(kept), (begin, len(slots))
-        record["first_state"] = count - groove.row * each * len(kept)
+        record["states"], record["slots"] = len(kept), (before + begin, before + len(slots))
+        record["first_state"] = count - (span.first_ball + groove.row * each) * len(kept)
         count += len(kept) * each
     return np.array(slots, R.SLOT)
 
 
-def _rows(model: BearingModel, oil: Oil, parameters: _Parameters) -> Any:
+def _rows(bearing: AssembledBearing, number: int, span: BearingSpan, offsets: _Offsets, parameters: _Parameters) -> Any:
+    model = bearing.model
     g, radius, mass = model.geometry, 0.5 * model.geometry.ball_diameter, ball_mass(model)
-    rows, pocket = np.zeros(g.rows, R.ROW), parameters.add(guides(model)[0], "cage_contact")
+    rows, pocket = np.zeros(g.rows, R.ROW), parameters.add(bearing, guides(model)[0], "cage_contact")
     each = len(raceways_of_a_ball(g))
     for i, (record, place) in enumerate(zip(rows, row_places(g), strict=True)):
-        record["number"], record["first_ball"], record["balls"] = i, i * g.ball_count, g.ball_count
-        record["first_raceway"], record["raceways"] = i * each, each
-        record["cage"], record["caged"] = CAGE, int(model.depth.cage)
+        record["number"], record["bearing"] = span.first_row + i, number
+        record["first_ball"], record["balls"] = span.first_ball + i * g.ball_count, g.ball_count
+        record["first_raceway"], record["raceways"] = span.first_raceway + i * each, each
+        record["cage"], record["caged"] = span.bodies[CAGE], int(model.depth.cage)
         record["ball_radius"], record["ball_mass"], record["ball_inertia"] = radius, mass, 0.4 * mass * radius**2
         record["pocket_circle"], record["pocket_offset"] = 0.5 * g.pitch_diameter, place
         record["pocket_phase"] = i * math.pi / g.ball_count  # the rows' balls stand in turn
         record["drag_on"] = int(model.laws["fluid_drag"]["fluid_drag"].model.name != "none")
-        _oil(record["oil"], oil)
+        record["guide_law"], record["drag_law"] = offsets.guides, offsets.drag
+        _oil(record["oil"], bearing.oils[0])
         record["pocket"] = pocket
     return rows
 
 
-def _lands(model: BearingModel, oil: Oil, parameters: _Parameters) -> Any:
+def _lands(
+    bearing: AssembledBearing, number: int, span: BearingSpan, offsets: _Offsets, parameters: _Parameters
+) -> Any:
     """Return two stations per ring that guides the cage."""
-    stations = []
-    for number, element in enumerate(guides(model)[1:]):
-        span = parameters.add(element, "cage_contact")
+    model, stations = bearing.model, []
+    for ring, element in enumerate(guides(model)[1:]):
+        place = parameters.add(bearing, element, "cage_contact")
         if not model.depth.cage or model.laws[element]["cage_contact"].model.name == "none":
             continue
         for side in (-1, 1):
             offset = side * (0.5 * model.cage.width)
-            ring, facing = (INNER, OUTER)[number], (-1.0, 1.0)[number]
-            stations.append((CAGE, ring, 0, number, 1 + number, offset, oil.viscosity, span, facing, (0, 0)))
+            body, facing = span.bodies[(INNER, OUTER)[ring]], (-1.0, 1.0)[ring]
+            law, viscosity = offsets.guides + 1 + ring, bearing.oils[0].viscosity
+            pair = land_number(number, ring)
+            stations.append(
+                (span.bodies[CAGE], body, span.first_row, pair, law, offset, viscosity, place, facing, (0, 0))
+            )
     return np.array(stations, R.LAND)
 
 
-def _links(model: BearingModel, parameters: _Parameters) -> Any:
-    """Return the force elements between bodies."""
-    found = np.zeros(len(model.links), R.LINK)
-    for i, (record, element, link) in enumerate(zip(found, links(model), model.links.values(), strict=True)):
-        record["number"] = record["law"] = i
-        record["first"] = -1 if link.first is None else list(BODIES).index(link.first)
-        record["second"] = list(BODIES).index(link.second)
+def land_number(bearing: int, ring: int) -> int:
+    """Return the number that stands for both stations of a land."""
+    return 2 * bearing + ring
+
+
+def _links(assembly: Assembly, number: int, offsets: _Offsets, parameters: _Parameters) -> Any:
+    """Return the force elements between members whose laws are those of a bearing."""
+    own = [(i, link) for i, link in enumerate(assembly.links) if link.bearing == number]
+    found = np.zeros(len(own), R.LINK)
+    for k, (record, (i, link)) in enumerate(zip(found, own, strict=True)):
+        record["number"], record["law"] = i, offsets.links + k
+        record["first"], record["second"] = link.first, link.second
         record["first_place"], record["second_place"] = link.first_place, link.second_place
-        record["parameters"] = parameters.add(element, "force_element")
+        record["parameters"] = parameters.add(assembly.bearings[number], link.element, "force_element")
     return found

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.elements import DOFS
+from lambda_core.domain.elements import BODIES, CAGE, DOFS
 from lambda_core.solver import records as R
-from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.law_inputs import times
-from lambda_core.solver.drivers.wave_tables import wave_states, weightless
+from lambda_core.solver.drivers.wave_tables import AMPLITUDES, waves_of
 from lambda_core.system.bearing import BearingModel, LawTerm, TableTerm, TimeFunction
 from lambda_core.system.interpolation import curve
 
@@ -25,7 +25,6 @@ _VALUES = {
     "law": ("amplitude",),
 }
 MOTION, FORCE, MOMENT, PER_BODY = 0, 6, 9, 12  # places of the signals of a body, in the order of records.INPUTS
-_CAGE = 2
 
 
 def add_terms(
@@ -48,28 +47,33 @@ def add_terms(
         rows.append(row)
 
 
-def build_times(model: BearingModel) -> tuple[NDArray[np.void], FloatArray, NDArray[np.int64]]:
-    """Return flattened loads and motions (terms, table) and the indices of the free shared states."""
+def build_times(assembly: Assembly) -> tuple[NDArray[np.void], FloatArray]:
+    """Return loads and motions of all members as terms, records.TERM, and their table."""
     rows: list[NDArray[np.void]] = []
     table: list[float] = []
-    active: list[int] = []
-    laws = times(model)
-    for b, body in enumerate((model.inner_ring, model.outer_ring, model.cage_body)):
-        if b == _CAGE and not model.depth.cage:
+    laws = [element for bearing in assembly.bearings for element in times(bearing.model)]
+    left_out = {bearing.members[CAGE] for bearing in assembly.bearings if not bearing.model.depth.cage}
+    for b, member in enumerate(assembly.members):
+        if b in left_out:
             continue
+        body = member.body
         for d, name in enumerate(DOFS):
-            dof = body.dofs[name]
-            if dof.mode == "prescribed":
-                add_terms(PER_BODY * b + MOTION + d, dof.motion, rows, table, laws)
-            if dof.mode == "free":
-                # Turning about y moves a_z, turning about z moves a_y.
-                position = {3: L.SAZ, 4: L.SAY}.get(d, d)
-                active += [L.NS * b + position, L.NS * b + 6 + d]
-            elif d == 5 and dof.mode == "prescribed":
-                active.append(L.NS * b + L.STHETA)
+            if body.dofs[name].mode == "prescribed":
+                add_terms(PER_BODY * b + MOTION + d, body.dofs[name].motion, rows, table, laws)
         for axis in range(3):
             add_terms(PER_BODY * b + FORCE + axis, body.force[axis], rows, table, laws)
             add_terms(PER_BODY * b + MOMENT + axis, body.moment[axis], rows, table, laws)
-    active += wave_states(model)
-    terms = np.concatenate([np.zeros(0, R.TERM), *rows, weightless(model, PER_BODY, FORCE)])
-    return terms, np.array(table or [0.0]), np.array(sorted(active), dtype=np.int64)
+    for bearing, span in zip(assembly.bearings, assembly.spans(), strict=True):
+        rows += [_weightless(bearing.model, span.bodies[len(BODIES) :], assembly.gravity)]
+    return np.concatenate([np.zeros(0, R.TERM), *rows]), np.array(table or [0.0])
+
+
+def _weightless(model: BearingModel, bodies: Sequence[int], gravity: Sequence[float]) -> NDArray[np.void]:
+    """Return loads, records.TERM, that hold up the bodies of waves: gravity bends no ring."""
+    masses = [waves.ring.mass(order) for _, order, waves in waves_of(model)]
+    rows = np.zeros((len(masses), len(AMPLITUDES)), R.TERM)
+    rows["kind"] = R.CONSTANT
+    for row, body, mass in zip(rows, bodies, masses, strict=True):
+        for term, axis in zip(row, AMPLITUDES, strict=True):
+            term["signal"], term["value"] = PER_BODY * body + FORCE + axis, -mass * gravity[axis]
+    return rows.ravel()

@@ -6,10 +6,10 @@ of cosine and sine, on supports as stiff and damped as the wave, and no weight.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import BODIES, BodyName
@@ -18,8 +18,7 @@ from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.system.bearing import BearingModel
 
-_AMPLITUDES = (L.SY, L.SZ)
-_RATES = (L.SVY, L.SVZ)
+AMPLITUDES = (L.SY, L.SZ)
 _CAGE = list(BODIES).index("cage")
 
 
@@ -29,12 +28,18 @@ def waves_of(model: BearingModel) -> list[tuple[int, int, RingWaves]]:
     return [(bodies.index(body), n, waves) for body, waves in model.elastic.items() for n in waves.counts]
 
 
-def wave_rows(model: BearingModel) -> Any:
-    """Return the table of waves, records.WAVE."""
+def wave_rows(model: BearingModel, bodies: Sequence[int]) -> Any:
+    """Return the table of waves, records.WAVE.
+
+    Parameters
+    ----------
+    bodies : sequence of int
+        Numbers of inner ring, outer ring, cage, and of every wave.
+    """
     found = waves_of(model)
     rows = np.zeros(len(found), R.WAVE)
-    for i, (row, (ring, order, waves)) in enumerate(zip(rows, found, strict=True)):
-        row["ring"], row["body"], row["order"], row["coupling"] = ring, len(BODIES) + i, order, waves.coupling(order)
+    for row, body, (ring, order, waves) in zip(rows, bodies[len(BODIES) :], found, strict=True):
+        row["ring"], row["body"], row["order"], row["coupling"] = bodies[ring], body, order, waves.coupling(order)
     return rows
 
 
@@ -46,35 +51,23 @@ def wave_bodies(model: BearingModel) -> Any:
         row["is_cage"] = ring == _CAGE
         row["mass"], row["transverse_inertia"], row["polar_inertia"] = waves.ring.mass(order), 1.0, 1.0
         row["mode"], row["moves"] = R.LOCKED, 1
-        for axis in _AMPLITUDES:
+        for axis in AMPLITUDES:
             row["mode"][axis] = R.FREE
             row["stiffness"][axis], row["damping"][axis] = waves.ring.stiffness(order), waves.damping(order)
     return rows
 
 
-def give_waves(table: Any, body: str, waves: Any) -> None:
-    """Write into every row of a table where the waves of its elastic body stand, which is named in a field."""
+def give_waves(table: Any, body: str, waves: Any, before: int) -> None:
+    """Write into every row of a table where the waves of its elastic body stand, which is named in a field.
+
+    Parameters
+    ----------
+    before : int
+        Waves of the bearings before.
+    """
     for row in table:
         own = np.flatnonzero(waves["ring"] == row[body])
-        row["waves"] = (own[0], own[-1] + 1) if own.size else (0, 0)
-
-
-def wave_states(model: BearingModel) -> list[int]:
-    """Return the free entries of the shared state that belong to waves."""
-    first = len(BODIES)
-    return [L.NS * (first + i) + entry for i in range(len(waves_of(model))) for entry in (*_AMPLITUDES, *_RATES)]
-
-
-def weightless(model: BearingModel, per_body: int, force: int) -> NDArray[np.void]:
-    """Return loads, records.TERM, that hold up the bodies of waves: gravity bends no ring."""
-    masses = [waves.ring.mass(order) for _, order, waves in waves_of(model)]
-    rows = np.zeros((len(masses), len(_AMPLITUDES)), R.TERM)
-    rows["kind"] = R.CONSTANT
-    for i, mass in enumerate(masses):
-        for k, axis in enumerate(_AMPLITUDES):
-            rows[i, k]["signal"] = per_body * (len(BODIES) + i) + force + axis
-            rows[i, k]["value"] = -mass * model.gravity[axis]
-    return rows.ravel()
+        row["waves"] = (before + own[0], before + own[-1] + 1) if own.size else (0, 0)
 
 
 def waves_at(bundle: L.Bundle, model: BearingModel, free: FloatArray) -> dict[BodyName, FloatArray]:

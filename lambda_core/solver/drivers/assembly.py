@@ -1,0 +1,189 @@
+"""Describe what the compiled solver integrates: bodies, bearings between them, and what ties bodies together.
+
+A single bearing and a machine both become an :class:`Assembly`; :func:`lambda_core.solver.drivers.tables.build` writes
+it down as the tables of compiled code.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.elements import BODIES, CAGE, INNER, OUTER
+from lambda_core.solver.drivers.compiled_laws import Kernels
+from lambda_core.solver.drivers.law_inputs import Oils, links
+from lambda_core.solver.drivers.wave_tables import waves_of
+from lambda_core.system.bearing import BearingModel, Body
+from lambda_core.system.law_context import ContactFrame
+from lambda_core.system.raceways import raceways
+from lambda_core.system.state_channels import states_of
+
+GROUND = -1  # number of the ground among the bodies that a link connects
+DIRECTIONS = 6  # of a member: x, y, z, turns about x, y, z
+
+
+@dataclass(frozen=True)
+class Member:
+    """A rigid body with its degrees of freedom, loads and supports.
+
+    Attributes
+    ----------
+    name : str
+    body : Body
+        Displacements of a member that carries a ring are those of the ring: each bearing has its origin at its place.
+    """
+
+    name: str
+    body: Body
+
+
+@dataclass(frozen=True)
+class AssembledBearing:
+    """A bearing: its model, the laws as they are compiled and frozen, and the members that carry its parts.
+
+    Attributes
+    ----------
+    name : str
+        "" for a bearing that is alone.
+    model : BearingModel
+        Geometry, materials, laws, elastic parts; its bodies, loads and gravity do not count.
+    kernels : Kernels
+    frame : ContactFrame
+        At which radii and films are frozen.
+    oils : tuple of 2 Oil
+        As the rheology of each raceway has it.
+    members : tuple of 3 ints
+        That carry inner ring, outer ring and cage.
+    """
+
+    name: str
+    model: BearingModel
+    kernels: Kernels
+    frame: ContactFrame
+    oils: Oils
+    members: tuple[int, int, int] = (INNER, OUTER, CAGE)
+
+
+@dataclass(frozen=True)
+class AssembledLink:
+    """A force element between two points on two members, or on a member and the ground.
+
+    Attributes
+    ----------
+    bearing : int
+        Among whose laws its own stands.
+    element : str
+        Its name there.
+    first, second : int
+        Members; the first may be GROUND.
+    first_place, second_place : tuple of 3 floats
+        Of the points, in the frames of the members [m].
+    """
+
+    bearing: int
+    element: str
+    first: int
+    first_place: tuple[float, float, float]
+    second: int
+    second_place: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Ties:
+    """Elastic structures between members: shafts, housings, seats, springs, dampers.
+
+    Attributes
+    ----------
+    member, direction : int64[:], shape (n,)
+        Of each row, with the direction among x, y, z and the turns about x, y, z.
+    stiffness, damping : float64[:, :], shape (n, n)
+        [N/m, N, N m], [N s/m, N s, N m s].
+    rest : float64[:], shape (n,)
+        Where no tie is stretched [m, rad].
+    """
+
+    member: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    direction: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    stiffness: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
+    damping: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
+    rest: FloatArray = field(default_factory=lambda: np.zeros(0))
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """Everything that the compiled solver integrates.
+
+    Attributes
+    ----------
+    members : tuple of Member
+        In the order of the tables. Input power and mean position are those of the first, relative speed that of the
+        first two.
+    bearings : tuple of AssembledBearing
+    gravity : tuple of 3 floats
+        [m/s2].
+    links : tuple of AssembledLink
+    ties : Ties
+    """
+
+    members: tuple[Member, ...]
+    bearings: tuple[AssembledBearing, ...]
+    gravity: tuple[float, float, float]
+    links: tuple[AssembledLink, ...] = ()
+    ties: Ties = field(default_factory=Ties)
+
+    def spans(self) -> tuple[BearingSpan, ...]:
+        """Return where each bearing stands in tables and states."""
+        found: list[BearingSpan] = []
+        balls = rows = grooves = states = 0
+        body = len(self.members)
+        for bearing in self.bearings:
+            model, g = bearing.model, bearing.model.geometry
+            every, waves = raceways(g), len(waves_of(model))
+            kept = g.ball_count * sum(len(states_of(model, groove.element)) for groove in every)
+            bodies = (*bearing.members, *range(body, body + waves))
+            found.append(BearingSpan(bodies, balls, g.balls, rows, grooves, states, kept))
+            balls, rows, grooves, states = balls + g.balls, rows + g.rows, grooves + len(every), states + kept
+            body += waves
+        return tuple(found)
+
+
+@dataclass(frozen=True)
+class BearingSpan:
+    """Where a bearing stands in tables and states.
+
+    Attributes
+    ----------
+    bodies : tuple of ints
+        Members that carry inner ring, outer ring and cage; then the waves of elastic ones.
+    first_ball, balls, first_row, first_raceway : int
+    first_state, states : int
+        Among what contacts keep.
+    """
+
+    bodies: tuple[int, ...]
+    first_ball: int
+    balls: int
+    first_row: int
+    first_raceway: int
+    first_state: int
+    states: int
+
+
+def assembly_of(model: BearingModel, kernels: Kernels, frame: ContactFrame, oils: Oils) -> Assembly:
+    """Return a bearing that is alone: its rings and cage on supports of their own, and its force elements."""
+    bodies = (model.inner_ring, model.outer_ring, model.cage_body)
+    numbers = list(BODIES)
+    return Assembly(
+        tuple(Member(name, body) for name, body in zip(numbers, bodies, strict=True)),
+        (AssembledBearing("", model, kernels, frame, oils),),
+        model.gravity,
+        tuple(
+            AssembledLink(
+                0, element, GROUND if link.first is None else numbers.index(link.first), link.first_place,
+                numbers.index(link.second), link.second_place,
+            )
+            for element, link in zip(links(model), model.links.values(), strict=True)
+        ),
+    )  # fmt: skip
