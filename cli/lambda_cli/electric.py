@@ -86,7 +86,7 @@ def film(
     from lambda_core import api
 
     with talk(progress, quiet) as speaker:
-        found = api.film_from_outside(
+        found = api.film_from_capacitance(
             case, measured, changes or (), frequency=frequency, uncertainty=uncertainty, announce=speaker.say
         )
     typer.echo(found.model_dump_json(indent=2) if as_json else units.system.sentence(found.text()))

@@ -247,7 +247,7 @@ def map_of(folder: Path) -> RiskMap:
     SolverError
         When no point has a solution.
     """
-    from lambda_core.electric.electrified import of_model
+    from lambda_core.electric.circuit_bearing import of_model
     from lambda_core.electric.outcome import assumptions, source_words
     from lambda_core.electric.risk_map import RiskMap, RiskPoint
 

@@ -1,4 +1,4 @@
-"""Places in the arrays that the compiled march works on, by name."""
+"""Places in the arrays that the compiled integrator works on, by name."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ class Tables(NamedTuple):
     rolled: Any
 
 
-class Whole(NamedTuple):
-    """The whole network over one part of an interval, arrays of shape (n, n)."""
+class FullNetwork(NamedTuple):
+    """The full network over one part of an interval, arrays of shape (n, n)."""
 
     capacitance: Any  # [F]
     conductance: Any  # [S]
@@ -58,7 +58,7 @@ class Whole(NamedTuple):
 
 
 class Nodes(NamedTuple):
-    """Nodes and modes of the whole network, arrays of shape (n,)."""
+    """Nodes and modes of the full network, arrays of shape (n,)."""
 
     charge: Any  # [C]
     potential: Any  # [V]
@@ -126,7 +126,7 @@ class Arcs(NamedTuple):
     state: Any  # Channels
     rows: Any  # what they did, (2, N_EVENT)
     stand: Any  # voltages that the films of the ball stand [V]
-    members: Any  # nodes of the whole network that take part
+    members: Any  # nodes of the full network that take part
     place: Any  # of each node among them, -1: it keeps its charge
     watched: Any  # 1 where what other films stand is known, (1,)
 
@@ -136,11 +136,11 @@ class Source(NamedTuple):
 
     time: Any  # [s]
     volt: Any  # [V]
-    place: Any  # number of the segment that the march is on, (1,)
+    place: Any  # number of the segment that the integration is on, (1,)
     winding: Any  # capacitance to the rotor [F]
 
 
-class Books(NamedTuple):
+class Accumulators(NamedTuple):
     """What is written down."""
 
     total: Any  # T_*
@@ -160,7 +160,7 @@ class Channels(NamedTuple):
     least: Any  # current below which it dies [A]
 
 
-# What is added up over a march, `total[...]`.
+# What is added up over an integration, `total[...]`.
 T_SOURCE, T_OHMIC, T_ARC, T_MOTION = range(4)  # work of the source, heat, heat of arcs, work of moving surfaces [J]
 T_LEAK, T_ARC_CHARGE = 4, 5  # charge from all nodes to ground: through conductances, through arcs [C]
 T_STORED_0, T_STORED, T_CHARGE_0, T_CHARGE = range(6, 10)  # energy [J] and charge of all nodes [C], start and end
@@ -186,5 +186,5 @@ N_EVENT = 11
 # One row per moment of the record, `trace[...]`.
 N_TRACE = 4  # time [s], source [V], inner against outer ring [V], current of arcs [A]
 
-# Status of the march; from NO_VOLTAGE on a law is to blame.
+# Status of the integration; from NO_VOLTAGE on a law is to blame.
 OK, EVENTS_FULL, NOT_POSITIVE, ENDLESS, NO_VOLTAGE, NO_ARC, ARC_STARVED = range(1, 8)

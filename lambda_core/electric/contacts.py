@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
-from lambda_core.electric.march import Films
+from lambda_core.electric.circuit_integrator import Films
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -12,7 +12,7 @@ from pydantic import Field
 from lambda_core.results.record import Record
 
 if TYPE_CHECKING:
-    from lambda_core.electric.circuit_run import Simulation
+    from lambda_core.electric.simulation import Simulation
     from lambda_core.results.reader import Result
     from lambda_core.solver.drivers.equilibrium import Equilibrium
 
@@ -95,9 +95,9 @@ def static_numbers(found: Equilibrium, kernels: Any) -> CurrentNumbers:
     SolverError
         When there is no equilibrium at another position, or the circuit cannot be solved.
     """
-    from lambda_core.electric.circuit_run import simulate
+    from lambda_core.electric.circuit_bearing import of_model
     from lambda_core.electric.contacts import contacts_of_equilibria
-    from lambda_core.electric.electrified import of_model
+    from lambda_core.electric.simulation import simulate
     from lambda_core.solver.drivers.equilibrium import solve
 
     model = found.context.model
@@ -116,6 +116,6 @@ def run_numbers(result: Result) -> CurrentNumbers:
     SolverError
         When the circuit cannot be solved.
     """
-    from lambda_core.electric.subject import electric_of_run
+    from lambda_core.electric.case_or_run import electric_of_run
 
     return numbers_of(electric_of_run(result))

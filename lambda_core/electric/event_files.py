@@ -15,7 +15,7 @@ from lambda_core.electric.circuit import bearing_capacitance
 from lambda_core.results.circuit_rows import DISCHARGES
 
 if TYPE_CHECKING:
-    from lambda_core.electric.circuit_run import Simulation
+    from lambda_core.electric.simulation import Simulation
 
 _UNITS = {channel.name: channel.unit for channel in DISCHARGES}
 
@@ -57,7 +57,7 @@ def _write_csv(simulation: Simulation, path: Path) -> None:
 
 
 def _write_hdf5(simulation: Simulation, path: Path) -> None:
-    march, films = simulation.march, simulation.films
+    films, (low, high) = simulation.films, simulation.solution.extremes.T
     with h5py.File(path, "w") as file:
         file.attrs["title"], file.attrs["case"] = "bearing currents", simulation.case
         file["outcome_json"] = simulation.outcome.model_dump_json()
@@ -72,8 +72,8 @@ def _write_hdf5(simulation: Simulation, path: Path) -> None:
                 "F",
                 "balls in parallel, films of a ball in series",
             ),
-            "least_voltage": (np.append(march.extremes[:, 0], np.nan), "V", "until the next sample, inner less outer"),
-            "largest_voltage": (np.append(march.extremes[:, 1], np.nan), "V", "until the next sample"),
+            "least_voltage": (np.append(low, np.nan), "V", "until the next sample, inner less outer"),
+            "largest_voltage": (np.append(high, np.nan), "V", "until the next sample"),
         }
         for name, (values, unit, meaning) in series.items():
             file[name] = values

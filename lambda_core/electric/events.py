@@ -14,8 +14,8 @@ from lambda_core.domain.channels import RINGS
 from lambda_core.electric import columns as L
 
 if TYPE_CHECKING:
+    from lambda_core.electric.circuit_integrator import CircuitSolution
     from lambda_core.electric.contacts import Contacts
-    from lambda_core.electric.march import March
 
 IntArray = NDArray[np.int64]
 
@@ -86,9 +86,9 @@ class Events:
         ]
 
 
-def events_of(march: March, contacts: Contacts) -> Events:
-    """Return the discharges of a march with the state of the contacts that it went through."""
-    table = march.events
+def events_of(solution: CircuitSolution, contacts: Contacts) -> Events:
+    """Return the discharges of an integration with the state of the contacts that it went through."""
+    table = solution.events
     ball, ring = table[:, L.E_BALL].astype(np.int64), table[:, L.E_RACEWAY].astype(np.int64)
     low = table[:, L.E_SAMPLE].astype(np.int64)
     begin, end = contacts.time[low], contacts.time[low + 1]

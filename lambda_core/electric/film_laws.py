@@ -1,4 +1,4 @@
-"""The laws of a film that breaks down, compiled and with their parameters, as the march calls them."""
+"""The laws of a film that breaks down, compiled and with their parameters, as the integration calls them."""
 
 from __future__ import annotations
 

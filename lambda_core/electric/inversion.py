@@ -15,7 +15,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError, UsageError
 from lambda_core.electric.circuit import circuit_of
-from lambda_core.electric.electrified import of_model
+from lambda_core.electric.circuit_bearing import of_model
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.solver.records import CONTACT_CHANNELS
 

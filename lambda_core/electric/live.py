@@ -11,13 +11,13 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.section_roles import FILMS
 from lambda_core.electric.circuit import bearing_capacitance, circuit_of
-from lambda_core.electric.circuit_run import marched, strength_of
+from lambda_core.electric.circuit_bearing import of_model
+from lambda_core.electric.circuit_integrator import UNCHARGED, Network
 from lambda_core.electric.contacts import CHANNELS, Contacts, contacts_of_samples, films, turned
-from lambda_core.electric.electrified import of_model
 from lambda_core.electric.events import events_of
 from lambda_core.electric.film_laws import film_laws
-from lambda_core.electric.march import UNCHARGED, Network
-from lambda_core.electric.sources import corners, one_period, reach
+from lambda_core.electric.simulation import integrated_until, strength_of
+from lambda_core.electric.voltage_sources import corners, one_period, reach
 from lambda_core.laws.kernels import sources_key
 from lambda_core.results.circuit_rows import CIRCUIT, DISCHARGES, CircuitRows
 
@@ -31,7 +31,7 @@ _NOTHING = CircuitRows({c.name: np.zeros(0) for c in CIRCUIT}, {c.name: np.zeros
 
 
 class Live:
-    """The circuit of one run, marched behind its samples.
+    """The circuit of one run, integrated behind its samples.
 
     It depends on the samples alone, not on how they are handed over: a run that goes on from a checkpoint hands over
     what it has written, and finds the circuit as it was, bit for bit. It stays behind the newest sample by as much as
@@ -57,17 +57,17 @@ class Live:
             seed=self._options.seed,
             announce=announce,
         )
-        self._waiting: Contacts | None = None  # from the last sample that was marched to
+        self._waiting: Contacts | None = None  # from the last sample that was integrated to
         self._known: FloatArray = np.zeros((2, 0))  # times and angles of the rotor from the start, for the source
         self._rolled: FloatArray | None = None
         self._range, self._broken = np.array([np.inf, -np.inf]), 0
 
     def keys(self) -> dict[str, str]:
         """Return names and hashes of the code that the circuit runs through."""
-        from lambda_core.electric.compiled import edges
+        from lambda_core.electric.compiled import switching
 
         found = {f"{film}/{law.law.role}/{law.law.name}": law.kernel.key for law in self._laws for film in FILMS}
-        return {**found, "electric": sources_key(Path(edges.__file__).parent)}
+        return {**found, "electric": sources_key(Path(switching.__file__).parent)}
 
     @property
     def voltage(self) -> tuple[float, float] | None:
@@ -93,7 +93,7 @@ class Live:
         new = contacts_of_samples(samples, self._roughness, "")
         self._waiting = waiting = new.after(self._waiting)
         self._known = np.concatenate([self._known, [new.time, new.inner_angle - new.outer_angle]], axis=1)
-        last = marched(waiting.time, reach(self._options.source))
+        last = integrated_until(waiting.time, reach(self._options.source))
         if last < 1:
             return _NOTHING
         part = waiting.part(slice(0, last + 1))
@@ -106,14 +106,14 @@ class Live:
 
         source = corners(options, float(part.time[0]), float(waiting.time[-1]), angles, origin=origin)
         rest = one_period(options, origin, angles) if self._rolled is None else UNCHARGED
-        march = self._network.advance(parts, source, rest=rest)
-        events = events_of(march, part)
+        solution = self._network.advance(parts, source, rest=rest)
+        events = events_of(solution, part)
         self._rolled, self._waiting = parts.rolled[-1], waiting.part(slice(last, None))
         self._broken += events.time.size
-        low, high = march.extremes.T
+        low, high = solution.extremes.T
         least, largest = self._range
         self._range = np.array([np.fmin.reduce(low, initial=least), np.fmax.reduce(high, initial=largest)])
-        circuit = (part.time[1:], bearing_capacitance(parts)[1:], *march.extremes.T)
+        circuit = (part.time[1:], bearing_capacitance(parts)[1:], *solution.extremes.T)
         return CircuitRows(
             {channel.name: values for channel, values in zip(CIRCUIT, circuit, strict=True)},
             {channel.name: np.asarray(getattr(events, channel.name), dtype=np.float64) for channel in DISCHARGES},

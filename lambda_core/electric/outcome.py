@@ -16,13 +16,16 @@ from lambda_core.electric.circuit import bearing_capacitance, impedance, voltage
 from lambda_core.electric.current_limits import LIMITS, Limit
 from lambda_core.electric.events import discharges_of, sector_shares
 from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.text import line
 from lambda_core.system.resolve_electric import assumed
 
 if TYPE_CHECKING:
-    from lambda_core.electric.circuit_run import Simulation
-    from lambda_core.electric.electrified import Electrified
+    from collections.abc import Sequence
+
+    from lambda_core.electric.circuit_bearing import CircuitBearing
+    from lambda_core.electric.circuit_integrator import Circuit
     from lambda_core.electric.events import Events
-    from lambda_core.electric.march import Circuit
+    from lambda_core.electric.simulation import Simulation
 
 
 _CERAMIC = re.compile(r"ceramic|si3n4|silicon.?nitride|zro2|zirconia", re.IGNORECASE)
@@ -79,8 +82,6 @@ class Outcome(Record):
 
     def text(self) -> str:
         """Return the lines for people."""
-        from lambda_core.electric.circuit_lines import outcome_text
-
         return outcome_text(self)
 
 
@@ -95,7 +96,7 @@ def outcome_of(simulation: Simulation) -> Outcome:
     area = 1e6 * float(contacts.area.sum(axis=1).mean())  # [mm2]
     meter = impedance(films, circuit, np.array(_FREQUENCIES)).mean(axis=0)
     names = [f"{frequency:g} Hz" for frequency in _FREQUENCIES]
-    total, length = simulation.march.total, simulation.duration
+    total, length = simulation.solution.total, simulation.duration
     some = bool(through.any())
     return Outcome(
         case=simulation.case,
@@ -147,7 +148,7 @@ def rotor_capacitance(circuit: Circuit, capacitance: float) -> float:
 
 def voltage_range(simulation: Simulation) -> list[float]:
     """Return the smallest and the largest bearing voltage [V]: between discharges, and at which they began."""
-    low, high = simulation.march.extremes.T
+    low, high = simulation.solution.extremes.T
     began = simulation.events.bearing_voltage
     every = np.concatenate([low, high, began])
     return [float(np.fmin.reduce(every)), float(np.fmax.reduce(every))]
@@ -172,7 +173,7 @@ def energy_residual(total: FloatArray) -> float:
 
 def charge_residual(simulation: Simulation) -> float:
     """Return charge brought by the source - leaked - through arcs - kept, over the charge that the source moved."""
-    total, (times, volts) = simulation.march.total, simulation.source
+    total, (times, volts) = simulation.solution.total, simulation.source
     begin, end = np.interp((total[L.T_BEGAN], total[L.T_TIME]), times, volts)
     winding = simulation.circuit.winding
     rest = winding * (end - begin) - total[L.T_LEAK] - total[L.T_ARC_CHARGE]
@@ -196,7 +197,7 @@ def source_words(options: Electric) -> str:
     return f"measured series, {len(source.rows)} rows"
 
 
-def assumptions(bearing: Electrified, events: Events | None = None) -> list[str]:
+def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[str]:
     """Return what the options leave to defaults that no measurement of this machine stands behind.
 
     Parameters
@@ -249,3 +250,66 @@ def _quantiles(values: FloatArray) -> list[float]:
 def _histogram(values: FloatArray, unit: str) -> Histogram:
     counts, edges = np.histogram(values, bins=_BINS)
     return Histogram(unit=unit, edges=edges.tolist(), counts=counts.tolist())
+
+
+def outcome_text(found: Outcome) -> str:
+    """Return what one bearing in its circuit says, a line per subject."""
+    least, middle, most = found.bearing_capacitance_pF
+    low, high = found.bearing_voltage_V
+    lines = [
+        line("source", found.source),
+        line("films", found.films, f"{found.simulated_s:.4g} s", f"{found.speed_rpm:.5g} 1/min"),
+        line(
+            "capacitance",
+            f"bearing {least:.1f} .. {middle:.1f} .. {most:.1f} pF",
+            f"unloaded balls {100 * found.unloaded_share:.1f} %",
+            f"rings {found.rings_capacitance_pF:.1f} pF",
+        ),
+        line("impedance", *(f"{name} {value:.3g} kOhm" for name, value in found.impedance_kOhm.items())),
+        line("bearing voltage", f"{low:.1f} .. {high:.1f} V", f"BVR {100 * found.bearing_voltage_ratio:.2f} %"),
+        line(
+            "discharges",
+            f"{found.discharges_per_s:.4g} 1/s through the bearing",
+            f"{found.partial_discharges / found.simulated_s:.4g} 1/s through one film",
+            f"metal {100 * found.shorted_share:.2g} %",
+        ),
+        line("  voltage", _three(found.breakdown_voltage_V, "V")),
+        line("  peak current", _three(found.peak_current_A, "A")),
+        line("  energy", _three(found.energy_nJ, "nJ"), f"{found.arc_power_mW:.3g} mW in arcs"),
+        line(
+            "density",
+            f"J_b {_one(found.current_density_A_per_mm2)} A/mm2",
+            f"S_b {_one(found.power_density_VA_per_mm2)} VA/mm2",
+            f"Hertzian area {found.hertz_area_mm2:.3g} mm2",
+        ),
+        line("worst sectors", _worst("inner", found.sector_share_inner), _worst("outer", found.sector_share_outer)),
+        line("balance", f"energy {found.energy_residual:.1e}", f"charge {found.charge_residual:.1e}"),
+        line("wall time", f"{found.wall_per_simulated_second:.2g} s per simulated second"),
+        *(line("limits" if i == 0 else "", _limit(limit)) for i, limit in enumerate(found.limits)),
+        *(line("assumed" if i == 0 else "", text) for i, text in enumerate(found.assumptions)),
+    ]
+    return "\n".join(lines)
+
+
+def _limit(limit: Limit) -> str:
+    mark = "" if limit.read_in_the_original else "; not read in the original"
+    return f"{limit.quantity}: {limit.value} ({limit.source}{mark})"
+
+
+def _three(values: Sequence[float] | None, unit: str) -> str:
+    if values is None:
+        return "-"
+    return f"{values[0]:.3g} / {values[1]:.3g} / {values[2]:.3g} {unit} (10/50/90 %)"
+
+
+def _one(value: float | None) -> str:
+    return "-" if value is None else f"{value:.3g}"
+
+
+def _worst(ring: str, shares: Sequence[float]) -> str:
+    most = max(shares)
+    if most == 0.0:
+        return f"{ring} -"
+    width = 360.0 / len(shares)
+    at = shares.index(most) * width
+    return f"{ring} {100 * most:.0f} % at {at:.0f}..{at + width:.0f} deg"

@@ -14,6 +14,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
 from lambda_core.electric.current_numbers import CurrentNumbers
 from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.text import line
 from lambda_core.views.chart import Axis, Panel, Series, ViewData
 from lambda_core.views.chart import Field as Mesh
 
@@ -79,8 +80,6 @@ class RiskMap(Record):
 
     def text(self) -> str:
         """Return the rates of discharges as a table for people."""
-        from lambda_core.electric.circuit_lines import map_text
-
         return map_text(self)
 
     def write(self, path: Path) -> Path:
@@ -153,3 +152,33 @@ class RiskMap(Record):
 def _is_even_in_log(values: Sequence[float]) -> bool:
     ratio = np.diff(np.log(values))
     return len(values) > 2 and bool(np.ptp(ratio) < 1e-6 * np.abs(ratio).max())
+
+
+def map_text(found: RiskMap) -> str:
+    """Return the discharges per second over speed and temperature, a row per speed."""
+    columns = found.temperatures_degC
+    cells = [_rate(point) for point in found.points]
+    rows = [f"{'1/min':>9}" + "".join(f"{f'{value:.4g} degC':>10}" for value in columns)]
+    for k, speed in enumerate(found.speeds_rpm):
+        row = cells[k * len(columns) : (k + 1) * len(columns)]
+        rows.append(f"{speed:9.5g}" + "".join(f"{cell:>10}" for cell in row))
+    return "\n".join(
+        [
+            line("source", found.source),
+            line("map", f"{len(found.points)} points", f"{found.span} each", f"{found.wall_s:.3g} s in all"),
+            "",
+            "discharges through the bearing per second (metal: asperities short it; -: no equilibrium)",
+            *rows,
+            "",
+            *(line("assumed" if i == 0 else "", text) for i, text in enumerate(found.assumptions)),
+        ]
+    )
+
+
+def _rate(point: RiskPoint) -> str:
+    value = point.discharges_per_s
+    if value is None:
+        return "-"
+    if point.quiet_because == "metal":
+        return "metal"
+    return f"{value:.3g}" if value < 1000.0 else f"{1e-3 * value:.3g}k"

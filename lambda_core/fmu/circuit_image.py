@@ -1,7 +1,7 @@
 """The circuit of a bearing in its library: films, the network around them, and the discharges through them.
 
-A step of the host is a stretch of the march that a run takes: the contacts at both ends, the source a straight line
-between. The host is the source; that of the case is left out.
+A step of the host is a stretch of the integration that a run takes: the contacts at both ends, the source a straight
+line between. The host is the source; that of the case is left out.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
 from lambda_core.electric import columns as L
 from lambda_core.electric.circuit import circuit_of
-from lambda_core.electric.circuit_run import strength_of
-from lambda_core.electric.electrified import of_model
+from lambda_core.electric.circuit_bearing import of_model
+from lambda_core.electric.circuit_integrator import Network, compiled
 from lambda_core.electric.film_laws import film_laws
-from lambda_core.electric.march import Network, compiled
+from lambda_core.electric.simulation import strength_of
 from lambda_core.laws.jit.machine_code import Pointer
 from lambda_core.laws.jit.portable import Entry
 
@@ -37,7 +37,7 @@ _ROOM = 1024  # contacts that may break down within one step of the host
 NUMBERS = (
     "given", "rate", "since", "last", "voltage", "lowest", "highest", "current", "arc_current", "peak",
 )  # fmt: skip
-# Arguments of the march that are no arrays: where they stand among `words` and `sizes`, behind which `machine` stands.
+# Arguments of the integrator that are no arrays: places among `words` and `sizes`, behind which `machine` stands.
 _WORDS = ("first", "insulated", "seed", "substeps")
 _SIZES = ("roughness", "least", "machine")
 
@@ -49,7 +49,7 @@ class Circuit:
     Attributes
     ----------
     arguments : dict of str to arrays
-        Of the compiled march, by the names of its arguments, in its order; None: among `words` and `sizes`.
+        Of the compiled integrator, by the names of its arguments, in its order; None: among `words` and `sizes`.
     numbers, sizes : float64[:]
     words : int64[:]
     rate : float64[:, :, :], shape (2, Z, 2)
@@ -68,22 +68,22 @@ class Circuit:
     def sections(self) -> Iterator[tuple[str, Any, Any]]:
         """Yield what belongs into the image."""
         from lambda_core.electric.compiled.array_types import array1, array3, iarray1
-        from lambda_core.electric.compiled.edges import march_sig
+        from lambda_core.electric.compiled.switching import integrate_sig
 
         yield from (("circuit_numbers", array1, self.numbers), ("circuit_sizes", array1, self.sizes))
         yield from (("circuit_words", iarray1, self.words), ("circuit_rate", array3, self.rate))
-        for (name, value), kind in zip(self.arguments.items(), march_sig.args, strict=True):
+        for (name, value), kind in zip(self.arguments.items(), integrate_sig.args, strict=True):
             if value is not None:
                 yield f"circuit_{name}", kind, value
 
     def entry(self, image: Image) -> Entry:
-        """Return the function of the library that marches on."""
-        from lambda_core.electric.compiled.edges import march_sig
+        """Return the function of the library that integrates further."""
+        from lambda_core.electric.compiled.switching import integrate_sig
 
         at = {name: image.place(self.words, k) for k, name in enumerate(_WORDS)}
         at |= {name: image.place(self.sizes, k) for k, name in enumerate(_SIZES)}
         places = (at[n] if v is None else image.sections[f"circuit_{n}"] for n, v in self.arguments.items())
-        return Entry("lb_march", Pointer(compiled(None), march_sig), tuple(places))
+        return Entry("lb_integrate_circuit", Pointer(compiled(None), integrate_sig), tuple(places))
 
     def place(self, image: Image, name: str) -> int:
         """Return the place of one of :data:`NUMBERS`."""
@@ -121,10 +121,10 @@ def circuit(model: BearingModel, contacts: int, announce: Announce = None) -> Ci
         "extremes": np.zeros((1, 2)), "events": np.zeros((_ROOM, L.N_EVENT)),
         "trace": np.zeros((0, L.N_TRACE)), "window": np.array([np.inf, -np.inf]),
     }  # fmt: skip
-    from lambda_core.electric.compiled.edges import march
+    from lambda_core.electric.compiled.switching import integrate
 
     return Circuit(
-        arguments={name: arguments.get(name) for name in inspect.signature(march).parameters},
+        arguments={name: arguments.get(name) for name in inspect.signature(integrate).parameters},
         numbers=np.zeros(len(NUMBERS)),
         sizes=np.array([bearing.roughness, options.breakdown.least_voltage, *around.constants()]),
         words=np.array([1, int(around.insulated), options.seed, network.substeps], dtype=np.int64),

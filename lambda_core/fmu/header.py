@@ -9,7 +9,7 @@ import numpy as np
 
 from lambda_core.domain.channels import RINGS, SHORTED
 from lambda_core.domain.loading import CARRYING
-from lambda_core.electric import columns as columns_of_march
+from lambda_core.electric import columns as circuit_columns
 from lambda_core.electric.contacts import VACUUM_PERMITTIVITY
 from lambda_core.fmu.circuit_image import NUMBERS
 from lambda_core.fmu.frozen import Frozen
@@ -203,15 +203,15 @@ def _circuit_numbers(frozen: Frozen) -> dict[str, object]:
     return {
         "CIRCUIT": 1,
         **places,
-        **{f"CIRCUIT_{name}": getattr(columns_of_march, name) for name in columns},
+        **{f"CIRCUIT_{name}": getattr(circuit_columns, name) for name in columns},
         "CIRCUIT_FIRST": image.place(found.words),
         "CIRCUIT_INSULATED": image.place(found.words, 1),
         "CIRCUIT_PATCHES": image.place(found.rate),
         "CIRCUIT_CHARGE": image.place(nodes.charge),
         "CIRCUIT_POTENTIAL": image.place(nodes.potential),
         "CIRCUIT_WINDING": image.place(found.sizes, 2),
-        "CIRCUIT_FULL": columns_of_march.EVENTS_FULL,
-        "CIRCUIT_OK": columns_of_march.OK,
+        "CIRCUIT_FULL": circuit_columns.EVENTS_FULL,
+        "CIRCUIT_OK": circuit_columns.OK,
         "ROUGH": int(film.roughness != "smooth"),
         "CONDUCTIVITY": repr(film.conductivity),
         "METAL": repr(film.metal_resistance),

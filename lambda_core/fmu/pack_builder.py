@@ -71,8 +71,8 @@ def build_pack(folder: Path, announce: Callable[[str], None]) -> None:
 def _functions(announce: Callable[[str], None]) -> tuple[dict[str, Any], list[Any]]:
     """Compile units and laws; return what the manifest says of each by name, and their pointers in this order."""
     from lambda_core.discovery.manager import registry
-    from lambda_core.electric.compiled import edges
-    from lambda_core.electric.march import compiled
+    from lambda_core.electric.circuit_integrator import compiled
+    from lambda_core.electric.compiled import switching
     from lambda_core.laws.jit.machine_code import Pointer
     from lambda_core.laws.kernels import compile_kernel
     from lambda_core.solver import entry
@@ -93,8 +93,8 @@ def _functions(announce: Callable[[str], None]) -> tuple[dict[str, Any], list[An
     for name, (_, signature) in entry.UNITS.items():
         said[name] = {"place": len(pointers), "kinds": _written(signature)}
         pointers.append(entry.call_and_pointer(name)[1])
-    said["march"] = {"place": len(pointers), "kinds": _written(edges.march_sig)}
-    pointers.append(Pointer(compiled(None), edges.march_sig))
+    said["circuit"] = {"place": len(pointers), "kinds": _written(switching.integrate_sig)}
+    pointers.append(Pointer(compiled(None), switching.integrate_sig))
     return said, pointers
 
 

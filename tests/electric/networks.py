@@ -11,8 +11,8 @@ import numpy as np
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.electric import columns as L
+from lambda_core.electric.circuit_integrator import Circuit, CircuitSolution, Films, Strength
 from lambda_core.electric.film_laws import FilmLaw, film_laws
-from lambda_core.electric.march import Circuit, Films, March, Strength
 from lambda_core.laws.probe import trial_context
 from lambda_core.system.bearing import ChosenLaw
 
@@ -72,7 +72,7 @@ def switching(
     return times, np.append(levels[0], np.column_stack([before, after]).ravel())
 
 
-def residuals(found: March, circuit: Circuit, source: tuple[FloatArray, FloatArray]) -> tuple[float, float]:
+def residuals(found: CircuitSolution, circuit: Circuit, source: tuple[FloatArray, FloatArray]) -> tuple[float, float]:
     """Return what energy and charge do not add up to, relative to what flowed."""
     t = found.total
     stored = t[L.T_STORED] - t[L.T_STORED_0]

@@ -1,4 +1,4 @@
-"""Breakdown voltages: closed form, random numbers, and what a march draws."""
+"""Breakdown voltages: closed form, random numbers, and what an integration draws."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from lambda_plugins.normal_tail import upper_quantile
 from scipy.special import ndtri
 
 from lambda_core.electric import columns as L
-from lambda_core.electric.march import Circuit, march
+from lambda_core.electric.circuit_integrator import Circuit, integrate
 
 CIRCUIT = Circuit(50e-12, 1000e-12)
 
@@ -46,7 +46,7 @@ def test_drawn_voltages_follow_the_law() -> None:
     """
     films = steady(100e-12, 100e-12, balls=2, film=0.5e-6)
     source = np.array([0.0, 2e-3]), np.array([0.0, 800.0])
-    events = [march(films, CIRCUIT, ROUGH, source, seed=seed).events[0] for seed in range(300)]
+    events = [integrate(films, CIRCUIT, ROUGH, source, seed=seed).events[0] for seed in range(300)]
     drawn = np.sort([abs(event[L.E_CONTACT_VOLTAGE]) for event in events])
     law = breakdown_probability(drawn, 0.5e-6, 0.1e-6, 30e6, 4 * AREA / 1e-10)
     apart = np.abs(law - (np.arange(drawn.size) + 0.5) / drawn.size)
@@ -57,7 +57,7 @@ def test_drawn_voltages_follow_the_law() -> None:
 def test_deterministic_field() -> None:
     """A smooth film breaks down at E_b h exactly; both contacts of a ball, one after the other."""
     source = np.array([0.0, 1e-4, 2e-4]), np.array([0.0, 0.0, 800.0])
-    found = march(steady(100e-12, 200e-12, film=0.4e-6), CIRCUIT, SMOOTH, source).events
+    found = integrate(steady(100e-12, 200e-12, film=0.4e-6), CIRCUIT, SMOOTH, source).events
     assert abs(found[0, L.E_CONTACT_VOLTAGE]) == pytest.approx(12.0, rel=1e-12)
     assert abs(found[0, L.E_BEARING_VOLTAGE]) == pytest.approx(18.0, rel=1e-9)
     assert found[:2, L.E_RACEWAY].tolist() == [0.0, 1.0]  # the smaller capacitance takes the larger voltage
@@ -69,7 +69,7 @@ def test_strong_film_holds() -> None:
     films = steady(100e-12, 200e-12, film=0.4e-6)
     films.film[:, :, 1] = films.thinnest[:, :, 1] = 4e-6
     source = np.array([0.0, 1e-4, 2e-4, 2e-3]), np.array([0.0, 0.0, 500.0, 500.0])
-    found = march(films, CIRCUIT, SMOOTH, source, window=(0.0, 1.0))
+    found = integrate(films, CIRCUIT, SMOOTH, source, window=(0.0, 1.0))
     assert set(found.events[:, L.E_RACEWAY]) == {0.0}
     assert found.trace[-1, 2] > 15.0
 
@@ -79,8 +79,8 @@ def test_particles_lower_the_threshold() -> None:
     source = np.array([0.0, 1e-4, 2e-4, 2e-3]), np.array([0.0, 0.0, 400.0, 400.0])
     clean = steady(100e-12, 100e-12, film=0.5e-6)
     law = strength("particles", roughness=1e-9, breaks={"particle_density": "40000 1/mm3"})  # 54 in each film
-    assert march(clean, CIRCUIT, strength(roughness=1e-9), source).events.shape[0] == 0
-    first = march(clean, CIRCUIT, law, source).events[0]
+    assert integrate(clean, CIRCUIT, strength(roughness=1e-9), source).events.shape[0] == 0
+    first = integrate(clean, CIRCUIT, law, source).events[0]
     assert abs(first[L.E_CONTACT_VOLTAGE]) == pytest.approx(6.0, rel=1e-12)
 
 
@@ -89,7 +89,7 @@ def test_no_film_between_touching_and_parting() -> None:
     films = steady(100e-12, 100e-12, film=0.6e-6)
     films.film[1:] = films.thinnest[1:] = 0.0
     source = np.array([0.0, 1e-4, 2e-4, 2e-3]), np.array([0.0, 0.0, 300.0, 300.0])
-    assert march(films, CIRCUIT, SMOOTH, source).events.shape[0] == 0
+    assert integrate(films, CIRCUIT, SMOOTH, source).events.shape[0] == 0
 
 
 def test_other_films_break_down_while_an_edge_feeds_an_arc() -> None:
@@ -102,12 +102,12 @@ def test_other_films_break_down_while_an_edge_feeds_an_arc() -> None:
     films.film[:, 1] = films.thinnest[:, 1] = 1.0 / 30.0 * 1e-6
     source = np.array([0.0, 1e-4, 1e-4 + 50e-9, 1.0]), np.array([0.0, 0.0, 200.0, 200.0])
     circuit = Circuit(50e-12, 800e-12)
-    found = march(films, circuit, SMOOTH, source, window=(0.0, 1.0))
+    found = integrate(films, circuit, SMOOTH, source, window=(0.0, 1.0))
     assert set(found.events[:, L.E_BALL]) == {0.0, 1.0}
     assert np.abs(found.events[:, L.E_BEARING_VOLTAGE]).max() < 2.5
     assert np.abs(found.trace[:, 2]).max() < 4.1  # 0.2 A of the edge through two arcs of 10 Ohm
     assert max(map(abs, residuals(found, circuit, source))) < 1e-6
     films.film[:, 1] = films.thinnest[:, 1] = 5e-6
-    alone = march(films, circuit, SMOOTH, source, window=(0.0, 1.0))
+    alone = integrate(films, circuit, SMOOTH, source, window=(0.0, 1.0))
     assert set(alone.events[:, L.E_BALL]) == {0.0}
     assert np.abs(alone.trace[:, 2]).max() > 9.0

@@ -65,5 +65,5 @@ def test_starved_bearing_is_recognised(tmp_path: Path, capsys: pytest.CaptureFix
 def test_mistakes_are_named(text: str, words: str, tmp_path: Path) -> None:
     (tmp_path / "m.csv").write_text(text)
     with pytest.raises(UsageError) as caught:
-        api.film_from_outside("6208-axial-1300", tmp_path / "m.csv")
+        api.film_from_capacitance("6208-axial-1300", tmp_path / "m.csv")
     assert words in str(caught.value)

@@ -38,7 +38,7 @@ def test_what_was_written_is_what_is_found_afterwards(run: Result) -> None:
         assert values[written["time"] >= begin].tobytes() == again.tobytes(), name
     circuit = run.circuit()
     inside = circuit["time"] > begin
-    assert circuit["bearing_voltage_least"][inside].tobytes() == found.march.extremes[:, 0].tobytes()
+    assert circuit["bearing_voltage_least"][inside].tobytes() == found.solution.extremes[:, 0].tobytes()
     assert circuit["bearing_capacitance"].min() > 80e-12
 
 

@@ -15,9 +15,9 @@ from lambda_core.case.electric import Electric, Sine
 from lambda_core.domain.errors import SolverError
 from lambda_core.electric import columns as L
 from lambda_core.electric.circuit import bearing_capacitance, circuit_of, impedance, voltage_ratio
+from lambda_core.electric.circuit_integrator import Circuit, Network, integrate
 from lambda_core.electric.contacts import ball_capacitance, contacts_of_equilibria, equilibria, films
-from lambda_core.electric.march import Circuit, Network, march
-from lambda_core.electric.sources import corners
+from lambda_core.electric.voltage_sources import corners
 
 
 @pytest.mark.parametrize(("link", "peak"), [(800.0, 16.0), (400.0, 8.0)])
@@ -25,7 +25,7 @@ def test_voltage_divider_at_every_edge(link: float, peak: float) -> None:
     """C_wr 50, C_rf 800, two bearings of 200 pF: BVR 0.04 exactly (Muetze and Binder 2007, definition of BVR)."""
     circuit = Circuit(winding=50e-12, rotor=1000e-12)
     source = switching(2e-3, link)
-    found = march(steady(400e-12, 400e-12), circuit, SMOOTH, source, window=(0.0, 1.0))
+    found = integrate(steady(400e-12, 400e-12), circuit, SMOOTH, source, window=(0.0, 1.0))
     assert voltage_ratio(circuit, 200e-12) == pytest.approx(0.04, rel=1e-12)
     assert found.trace.shape[0] > 200
     np.testing.assert_allclose(found.trace[:, 2], 0.04 * found.trace[:, 1], rtol=1e-9)
@@ -40,7 +40,7 @@ def test_discharge_of_the_rotor() -> None:
     circuit = Circuit(winding=50e-12, rotor=1200e-12)
     arcs = strength("field", resistance="5 Ohm", least_current="0.1 uA")
     source = (np.array([0.0, 1.0]), np.array([500.0, 500.0]) * (1.0 + 1e-9))
-    found = march(steady(1e-20, 1e-20, film=10.0 / 30e6), circuit, arcs, source, window=(0.0, 1.0))
+    found = integrate(steady(1e-20, 1e-20, film=10.0 / 30e6), circuit, arcs, source, window=(0.0, 1.0))
     energy, charge, peak = (found.events[:, c] for c in (L.E_ENERGY, L.E_CHARGE, L.E_PEAK))
     assert energy.sum() == pytest.approx(0.25e-6, rel=1e-6)
     assert charge.max() == pytest.approx(25e-9, rel=1e-6)
@@ -58,7 +58,7 @@ def test_isolated_rotor_keeps_its_charge() -> None:
     circuit = Circuit(winding=1e-21, rotor=0.0)  # brings the charge, and is too small to be seen
     charge = 2e-9
     source = (np.array([0.0, 1.0]), np.full(2, charge / circuit.winding))
-    found = march(films, circuit, SMOOTH, source, window=(0.0, 1.0))
+    found = integrate(films, circuit, SMOOTH, source, window=(0.0, 1.0))
     first, last = found.trace[0, 2], found.trace[-1, 2]
     assert first == pytest.approx(charge / 200e-12, rel=0.3)  # half an interval after the start
     assert last == pytest.approx(charge / 100e-12, rel=1e-9)
@@ -75,7 +75,7 @@ def test_whole_step_doubles_the_voltage() -> None:
     })  # fmt: skip
     films = dataclasses.replace(films, capacitance=films.capacitance * np.array([1.0, 1.0, 0.5, 0.5])[:, None, None])
     source = (np.array([0.0, 1.0]), np.full(2, 2e-9 / 1e-21))
-    found = march(films, Circuit(1e-21, 0.0), SMOOTH, source, window=(0.0, 1.0))
+    found = integrate(films, Circuit(1e-21, 0.0), SMOOTH, source, window=(0.0, 1.0))
     assert found.trace[-1, 2] / found.trace[0, 2] == pytest.approx(2.0, rel=1e-9)
     assert found.total[L.T_MOTION] == pytest.approx(0.5 * found.trace[0, 2] * 2e-9, rel=1e-9)
 
@@ -92,7 +92,7 @@ def test_leak_makes_a_high_pass() -> None:
     circuit = Circuit(winding=50e-12, rotor=1000e-12, brush=1.0 / resistance)
     source = corners(Sine(amplitude="100 V", frequency=f"{frequency!r} Hz", points=points), 0.0, stop, np.zeros_like)
     begin = (periods - 1) / frequency
-    found = march(steady(400e-12, 400e-12, stop=stop), circuit, SMOOTH, source, window=(begin, stop))
+    found = integrate(steady(400e-12, 400e-12, stop=stop), circuit, SMOOTH, source, window=(begin, stop))
     time, _, bearing, _ = np.unique(found.trace, axis=0).T
     at = np.isclose(time * frequency * points, np.round(time * frequency * points), rtol=0.0, atol=1e-6)
     time, bearing = time[at][-points:], bearing[at][-points:]
@@ -117,7 +117,7 @@ def test_balance_without_arcs(circuit: Circuit, metal: bool) -> None:
     if metal:
         films.conductance[10:15, 3, 0] = 1.0
     source = switching(0.02)
-    found = march(films, circuit, SMOOTH, source)
+    found = integrate(films, circuit, SMOOTH, source)
     assert found.events.shape[0] == 0
     assert max(map(abs, residuals(found, circuit, source))) < 1e-9
 
@@ -130,7 +130,7 @@ def test_balance_with_arcs(circuit: Circuit, fall: float) -> None:
     films.conductance[10:15, 3, 0] = 1.0
     films.film[10:15, 3, 0] = 0.0
     source = switching(0.02)
-    found = march(films, circuit, strength(discharge="arc-voltage", voltage=f"{fall} V"), source, seed=5)
+    found = integrate(films, circuit, strength(discharge="arc-voltage", voltage=f"{fall} V"), source, seed=5)
     assert found.events.shape[0] > 100
     assert max(map(abs, residuals(found, circuit, source))) < 1e-8
 
@@ -138,7 +138,7 @@ def test_balance_with_arcs(circuit: Circuit, fall: float) -> None:
 def test_brush_keeps_the_bearing_quiet() -> None:
     """10 Ohm on the shaft: only while edges last does C_wr dV/dt drive a voltage, R C_wr dV/dt at most."""
     source = switching(2e-3)
-    found = march(steady(400e-12, 400e-12), Circuit(50e-12, 1000e-12, brush=0.1), SMOOTH, source, window=(0.0, 1.0))
+    found = integrate(steady(400e-12, 400e-12), Circuit(50e-12, 1000e-12, brush=0.1), SMOOTH, source, window=(0.0, 1.0))
     steepest = 800.0 / 3.0 / 50e-9
     assert 0.9 < np.abs(found.trace[2:, 2]).max() / (10.0 * 50e-12 * steepest) <= 1.0
 
@@ -146,7 +146,7 @@ def test_brush_keeps_the_bearing_quiet() -> None:
 def test_insulation_takes_the_voltage() -> None:
     """A coating in series: the bearing keeps C_c/(C_c + C_b) of the rotor's voltage."""
     circuit = Circuit(50e-12, 1000e-12, coating=50e-12, bridge=1e-15)
-    found = march(steady(400e-12, 400e-12), circuit, SMOOTH, switching(2e-3), window=(0.0, 1.0))
+    found = integrate(steady(400e-12, 400e-12), circuit, SMOOTH, switching(2e-3), window=(0.0, 1.0))
     expected = voltage_ratio(circuit, 200e-12) * found.trace[:, 1]
     np.testing.assert_allclose(found.trace[:, 2], expected, rtol=1e-6)
     rotor = 50e-12 / (50e-12 + 1000e-12 + 40e-12)
@@ -168,7 +168,7 @@ def test_same_seed_same_events() -> None:
     """Bit for bit; another seed draws others."""
     circuit, source = CIRCUITS[0], switching(0.02)
     films = turning(film=0.55e-6)
-    first, again, other = (march(films, circuit, ROUGH, source, seed=s).events for s in (1, 1, 2))
+    first, again, other = (integrate(films, circuit, ROUGH, source, seed=s).events for s in (1, 1, 2))
     assert first.tobytes() == again.tobytes()
     assert first.tobytes() != other.tobytes()
 
@@ -177,7 +177,7 @@ def test_stretches_make_no_difference() -> None:
     """However the samples are cut, events, extremes and the end are the same bits."""
     source, films = switching(0.021), turning(film=0.55e-6)
     for circuit in CIRCUITS[1:4:2]:
-        whole = march(films, circuit, ROUGH, source, seed=1)
+        whole = integrate(films, circuit, ROUGH, source, seed=1)
         for cuts in ([0, 1, 2, 40], [0, 13, 40], [0, *range(5, 41, 5)]):
             network = Network(circuit, ROUGH, 9, seed=1)
             parts = [network.advance(films.part(slice(a, b + 1)), source) for a, b in pairwise(cuts)]
@@ -194,16 +194,16 @@ def test_laws_that_refuse_are_named() -> None:
     law = strength("field", least_current="2 A")
     source = np.array([0.0, 1e-4, 2e-4]), np.array([0.0, 0.0, 800.0])
     with pytest.raises(SolverError, match=r"discharge/resistance.*least current needs more voltage"):
-        march(steady(100e-12, 200e-12, film=0.4e-6), Circuit(50e-12, 1000e-12), law, source)
+        integrate(steady(100e-12, 200e-12, film=0.4e-6), Circuit(50e-12, 1000e-12), law, source)
 
 
 def test_twin_bearing() -> None:
     """Another bearing like this one is its capacitance once more, also while it changes."""
     films, source = turning(leak=0.0), switching(0.02)
-    twin = march(films, Circuit(50e-12, 800e-12, 5e-12, twins=1.0), SMOOTH, source)
+    twin = integrate(films, Circuit(50e-12, 800e-12, 5e-12, twins=1.0), SMOOTH, source)
     each = films.capacitance[:, :, 0] * films.capacitance[:, :, 1] / films.capacitance.sum(axis=2)
     assert np.ptp(each.sum(axis=1)) < 1e-3 * each.sum(axis=1).mean()  # nine balls pass, their sum hardly changes
-    fixed = march(films, Circuit(50e-12, 805e-12 + each.sum(axis=1).mean(), 5e-12), SMOOTH, source)
+    fixed = integrate(films, Circuit(50e-12, 805e-12 + each.sum(axis=1).mean(), 5e-12), SMOOTH, source)
     np.testing.assert_allclose(twin.extremes, fixed.extremes, rtol=1e-3)
     assert max(map(abs, residuals(twin, Circuit(50e-12, 800e-12), source))) < 1e-9
 
@@ -219,7 +219,7 @@ def test_cage_between_balls() -> None:
     measured = impedance(films, circuit, np.array([1e5]))[0, 0]
     assert 1e12 / (2.0 * math.pi * 1e5 * abs(measured)) == pytest.approx(whole, rel=1e-12)
     step = np.array([0.0, 1e-4, 1.001e-4, 1.0]), np.array([0.0, 0.0, 1.0, 1.0])
-    found = march(films, circuit, SMOOTH, step, window=(0.0, 1.0))
+    found = integrate(films, circuit, SMOOTH, step, window=(0.0, 1.0))
     assert found.trace[-1, 2] == pytest.approx(1e6 / (1e6 + 1e-3 + whole), rel=1e-12)
     # A ramp of 1 V into a capacitance takes half of what its charge carries.
     assert found.total[L.T_SOURCE] == pytest.approx(0.5e-12 * whole, rel=1e-3)
@@ -228,7 +228,7 @@ def test_cage_between_balls() -> None:
 def test_cage_balances_with_arcs() -> None:
     circuit = Circuit(50e-12, 1000e-12, 5e-12, pocket=6e-12, cage_outer=10e-12)
     films, source = turning(stop=0.005, samples=11, film=0.55e-6), switching(0.005)
-    found = march(films, circuit, ROUGH, source, seed=5)
+    found = integrate(films, circuit, ROUGH, source, seed=5)
     assert found.events.shape[0] > 20
     assert max(map(abs, residuals(found, circuit, source))) < 1e-6
 

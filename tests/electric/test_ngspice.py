@@ -10,12 +10,12 @@ from electric.networks import SMOOTH, switching
 from electric.ngspice import CIRCUIT, RECORDED, RISE, STOP, nine_balls, run
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.electric.march import march
+from lambda_core.electric.circuit_integrator import integrate
 
 
 def own(time: FloatArray) -> FloatArray:
     """Return the voltage between the rings at times by the network of this program [V]."""
-    found = march(nine_balls(), CIRCUIT, SMOOTH, switching(STOP, rise=RISE), window=(0.0, 1.0)).trace
+    found = integrate(nine_balls(), CIRCUIT, SMOOTH, switching(STOP, rise=RISE), window=(0.0, 1.0)).trace
     return np.interp(time, found[:, 0], found[:, 2])
 
 

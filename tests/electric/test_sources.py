@@ -14,7 +14,7 @@ from lambda_core.case.case_writer import standalone_toml
 from lambda_core.case.electric import Inverter, Series, Sine, Step
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError
-from lambda_core.electric.sources import corners
+from lambda_core.electric.voltage_sources import corners
 
 
 def case_with(electric: dict[str, object], folder: Path | None = None) -> Case:

@@ -14,8 +14,8 @@ from electric.networks import ROUGH, SMOOTH, residuals, steady, switching, turni
 from lambda_core import api
 from lambda_core.case.electric import Inverter, Series, Sine, Step
 from lambda_core.electric import columns as L
-from lambda_core.electric.march import Circuit, march
-from lambda_core.electric.sources import corners, one_period
+from lambda_core.electric.circuit_integrator import Circuit, integrate
+from lambda_core.electric.voltage_sources import corners, one_period
 
 STOP = 6e-3
 
@@ -31,7 +31,7 @@ def test_begins_in_the_steady_state(leak: float, brush: float) -> None:
     inverter = Inverter()
     source, rest = (f(inverter, 0.0, *t, at_rest) for f, t in ((corners, (STOP,)), (one_period, ())))
     films = steady(100e-12, 80e-12, leak=leak, stop=STOP)
-    found = march(films, Circuit(50e-12, 800e-12, brush=brush), SMOOTH, source, window=(0.0, 1.0), rest=rest)
+    found = integrate(films, Circuit(50e-12, 800e-12, brush=brush), SMOOTH, source, window=(0.0, 1.0), rest=rest)
     time, volts = found.trace[:, 0], found.trace[:, 2]
     first, late = (volts[(time > 1e-4 * (k + 0.001)) & (time < 1e-4 * (k + 0.999))] for k in (0, 40))
     assert first.size == 12
@@ -45,7 +45,7 @@ def test_grounded_rotor_has_no_voltage_at_the_start() -> None:
     films = steady(400e-12, 400e-12, stop=STOP)
     circuit = Circuit(50e-12, 800e-12, brush=1.0)
     edge = 50e-12 * 2.0 * 800.0 / 3.0 / 50e-9  # C_wr dV/dt of two phases at once through 1 Ohm [V]
-    kept = march(films, circuit, SMOOTH, source, rest=rest).extremes
+    kept = integrate(films, circuit, SMOOTH, source, rest=rest).extremes
     assert np.abs(kept).max() < 1.01 * edge
     found = api.electric("6208-axial-1300", ["electric.duration=5 ms", "electric.grounding.brush=1 Ohm"])
     assert max(map(abs, found.outcome.bearing_voltage_V)) < 1.01 * edge
@@ -57,7 +57,7 @@ def test_offset_of_a_measured_series_leaks_away() -> None:
     series = Series(points=points)
     source, rest = corners(series, 0.0, STOP, at_rest), one_period(series, 0.0, at_rest)
     films = steady(400e-12, 400e-12, leak=1e-12, stop=STOP)
-    found = march(films, Circuit(50e-12, 800e-12), SMOOTH, source, rest=rest)
+    found = integrate(films, Circuit(50e-12, 800e-12), SMOOTH, source, rest=rest)
     ratio = 50.0 / (50.0 + 800.0 + 200.0)
     assert found.extremes[:, 1].max() == pytest.approx(50.0 * ratio, rel=0.02)
     assert found.extremes[:, 0].min() == pytest.approx(-50.0 * ratio, rel=0.02)
@@ -77,12 +77,12 @@ def test_films_that_do_not_stand_the_start() -> None:
     """What breaks down because of the start alone is no event, and its voltage no largest one; all still adds up."""
     source, rest = switching(0.021), switching(1e-4)
     films, circuit = turning(film=0.5e-6), Circuit(50e-12, 1000e-12, 5e-12)
-    found = march(films, circuit, ROUGH, source, seed=1, rest=rest)
+    found = integrate(films, circuit, ROUGH, source, seed=1, rest=rest)
     assert found.events[0, 0] > 0.0
     begun = found.total[L.T_BEGAN]
     assert 0.0 < begun < 1e-6
     assert max(map(abs, residuals(found, circuit, source))) < 1e-6
-    quiet = march(turning(), circuit, SMOOTH, source, rest=rest)
+    quiet = integrate(turning(), circuit, SMOOTH, source, rest=rest)
     assert quiet.total[L.T_BEGAN] == 0.0
 
 

@@ -11,11 +11,11 @@ import pytest
 
 from lambda_core import api
 from lambda_core.electric.circuit import circuit_of
-from lambda_core.electric.circuit_run import strength_of
+from lambda_core.electric.circuit_bearing import of_model
+from lambda_core.electric.circuit_integrator import Network
 from lambda_core.electric.contacts import CHANNELS, contacts_of_samples, films
-from lambda_core.electric.electrified import of_model
 from lambda_core.electric.film_laws import film_laws
-from lambda_core.electric.march import Network
+from lambda_core.electric.simulation import strength_of
 
 CASE = "6208-axial-1300"
 CHANGES = ("solver.duration=0.2 s", "electric.seed=3", "electric.grounding.insulation=2 nF")
@@ -37,7 +37,7 @@ def slopes(k: int) -> float:
 
 
 def of_the_program(steps: int) -> tuple[list[list[float]], Any]:
-    """Return voltages and largest currents step by step, and the events, of a march through the same samples."""
+    """Return voltages and largest currents step by step, and the events, of an integration through the same samples."""
     stepping = api.iterate(CASE, CHANGES, exact=True)
     bearing = of_model(stepping.model)
     laws = film_laws(bearing.laws, bearing.contexts)
@@ -51,12 +51,12 @@ def of_the_program(steps: int) -> tuple[list[list[float]], Any]:
         pair = {name: np.stack([before[name], now[name]]) for name in CHANNELS}
         parts = films(contacts_of_samples(pair, bearing.roughness, ""), bearing.options, rolled)
         after = volts + slopes(k) * (now["time"] - before["time"])
-        march = network.advance(parts, (parts.time, np.array([volts, after])))
-        peak = float(march.events[:, 8].max(initial=0.0))
+        solution = network.advance(parts, (parts.time, np.array([volts, after])))
+        peak = float(solution.events[:, 8].max(initial=0.0))
         potential = network.held()["nodes"].potential
-        found.append([float(potential[0] - potential[1]), *march.extremes[0].tolist(), peak])
+        found.append([float(potential[0] - potential[1]), *solution.extremes[0].tolist(), peak])
         before, rolled, volts = now, parts.rolled[-1], after
-        events.append(march.events)
+        events.append(solution.events)
     return found, np.concatenate(events)
 
 

@@ -15,7 +15,7 @@ import pytest
 
 from lambda_core import api
 from lambda_core.domain.roles import ROLES
-from lambda_core.electric.electrified import of_model
+from lambda_core.electric.circuit_bearing import of_model
 from lambda_core.electric.film_laws import film_laws
 from lambda_core.fmu.image import Image
 from lambda_core.laws.jit.emission import Target, exact

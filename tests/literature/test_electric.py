@@ -13,9 +13,9 @@ from lambda_core import api
 from lambda_core.batch.job import with_temperatures
 from lambda_core.case.case_io import apply_overrides, parse_case
 from lambda_core.case.electric import Electric
-from lambda_core.electric.circuit_run import simulate
+from lambda_core.electric.circuit_bearing import of_model
 from lambda_core.electric.contacts import contacts_of_equilibria, equilibria, films
-from lambda_core.electric.electrified import of_model
+from lambda_core.electric.simulation import simulate
 
 if TYPE_CHECKING:
     from lambda_core.system.bearing import BearingModel

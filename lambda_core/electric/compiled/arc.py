@@ -17,13 +17,13 @@ _AS_WEAK = 2.0  # times the least current
 
 
 @helper
-def is_joined(node, whole):
+def is_joined(node, full):
     """Tell whether metal joins a ball to a ring, so that charge flows through it in the time of a discharge."""
-    return whole.conductance[node, node] * SHORT > whole.capacitance[node, node]
+    return full.conductance[node, node] * SHORT > full.capacitance[node, node]
 
 
 @helper
-def _choose(n, shared, ball, everyone, whole, members, place):
+def _choose(n, shared, ball, everyone, full, members, place):
     """Write which nodes take part, the ball behind the rings; return how many."""
     for ring in range(shared):
         members[ring] = ring
@@ -31,7 +31,7 @@ def _choose(n, shared, ball, everyone, whole, members, place):
     m = shared + 1
     for other in range(shared, n):
         place[other] = -1
-        if other != shared + ball and (everyone == 1 or is_joined(other, whole)):
+        if other != shared + ball and (everyone == 1 or is_joined(other, full)):
             place[other] = m
             members[m] = other
             m += 1
@@ -40,10 +40,10 @@ def _choose(n, shared, ball, everyone, whole, members, place):
 
 
 @shared_helper
-def take_part(n, shared, ball, everyone, whole, nodes, part, own, members, place):
+def take_part(n, shared, ball, everyone, full, nodes, part, own, members, place):
     """Write the network of the nodes that take part in a discharge; return how many there are."""
-    m = _choose(n, shared, ball, everyone, whole, members, place)
-    c, g = whole.capacitance, whole.conductance
+    m = _choose(n, shared, ball, everyone, full, members, place)
+    c, g = full.capacitance, full.conductance
     for i in range(m):
         p = members[i]
         own.charge[i], own.potential[i] = nodes.charge[p], nodes.potential[p]
@@ -54,14 +54,14 @@ def take_part(n, shared, ball, everyone, whole, nodes, part, own, members, place
             continue
         for i in range(shared):
             for k in range(shared):
-                part.capacitance[i, k] -= whole.share[i, other] * c[other, k]
-            own.charge[i] -= whole.share[i, other] * nodes.charge[other]
+                part.capacitance[i, k] -= full.share[i, other] * c[other, k]
+            own.charge[i] -= full.share[i, other] * nodes.charge[other]
             part.conductance[i, i] += g[i, other]  # such films do not leak in the time of a discharge
     return m
 
 
 @shared_helper
-def give_back(n, m, shared, whole, nodes, part, own, members, place):
+def give_back(n, m, shared, full, nodes, part, own, members, place):
     """Write the charges of all nodes after a discharge."""
     charges(m, part.capacitance, own.potential, own.charge)
     for i in range(m):
@@ -69,7 +69,7 @@ def give_back(n, m, shared, whole, nodes, part, own, members, place):
     for other in range(shared, n):
         if place[other] == -1:
             for i in range(shared):
-                nodes.charge[i] += whole.share[i, other] * nodes.charge[other]
+                nodes.charge[i] += full.share[i, other] * nodes.charge[other]
 
 
 @helper

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numba
 
 from lambda_core.domain.roles import ROLES
-from lambda_core.electric.columns import Channels, CircuitConstants, Held, Nodes, Part, PartNodes, Tables, Whole
+from lambda_core.electric.columns import Channels, CircuitConstants, FullNetwork, Held, Nodes, Part, PartNodes, Tables
 from lambda_core.laws.jit import inlined
 from lambda_core.laws.jit.machine_code import OPTIONS, role_signature
 
@@ -18,7 +18,7 @@ i8, f8 = numba.types.int64, numba.types.float64
 machine_t = numba.types.NamedUniTuple(f8, len(CircuitConstants._fields), CircuitConstants)
 held_t = numba.types.NamedUniTuple(array2, len(Held._fields), Held)
 tables_t = numba.types.NamedUniTuple(array3, len(Tables._fields), Tables)
-whole_t = numba.types.NamedUniTuple(array2, len(Whole._fields), Whole)
+full_network_t = numba.types.NamedUniTuple(array2, len(FullNetwork._fields), FullNetwork)
 nodes_t = numba.types.NamedUniTuple(array1, len(Nodes._fields), Nodes)
 part_t = numba.types.NamedUniTuple(array2, len(Part._fields), Part)
 part_nodes_t = numba.types.NamedUniTuple(array1, len(PartNodes._fields), PartNodes)

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from lambda_core.electric import columns as L
 from lambda_core.electric.compiled.arc import conduct, give_back, open_channel, quench, take_part
+from lambda_core.electric.compiled.arc_interval import NEVER, OTHER, burn
 from lambda_core.electric.compiled.array_types import helper
-from lambda_core.electric.compiled.burning import NEVER, OTHER, burn
 from lambda_core.electric.compiled.matrices import across_bearing
 from lambda_core.electric.compiled.modes import amplitudes, charges, factorise, modes
 
@@ -28,8 +28,8 @@ def _cut(now, arcs):
 
 
 @helper
-def discharge(n, shared, ball, ring, elapsed, everyone, whole, nodes, part, own, held, films, arcs, source, books):
-    """Follow a discharge that begins now in one contact; return a status of the march.
+def discharge(n, shared, ball, ring, elapsed, everyone, full, nodes, part, own, held, films, arcs, source, sums):
+    """Follow a discharge that begins now in one contact; return a status of the integration.
 
     Parameters
     ----------
@@ -44,12 +44,12 @@ def discharge(n, shared, ball, ring, elapsed, everyone, whole, nodes, part, own,
     arcs : Arcs
         With the voltages that the films of the ball stand; what the arcs did is left in its rows: the peak current is
         0 for a film that held.
-    books : Books
+    sums : Accumulators
         With the time, which is moved on.
     """
-    total = books.total
+    total = sums.total
     now = total[L.T_TIME]
-    m = take_part(n, shared, ball, everyone, whole, nodes, part, own, arcs.members, arcs.place)
+    m = take_part(n, shared, ball, everyone, full, nodes, part, own, arcs.members, arcs.place)
     if factorise(m, part.capacitance, part.factor) == 0:
         return L.NOT_POSITIVE
     opened = abs(across_bearing(shared, own.potential))
@@ -68,7 +68,7 @@ def discharge(n, shared, ball, ring, elapsed, everyone, whole, nodes, part, own,
         charges(m, part.capacitance, own.potential, own.charge)
         amplitudes(m, part.shape, own.charge, own.amplitude)
         now, ring = burn(
-            now, m, n, shared, ball, elapsed, opened, whole, nodes, part, own, held, films, arcs, source, books
+            now, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held, films, arcs, source, sums
         )
         if ring == NEVER:
             return L.ENDLESS
@@ -77,6 +77,6 @@ def discharge(n, shared, ball, ring, elapsed, everyone, whole, nodes, part, own,
             break
     else:
         return L.ENDLESS
-    give_back(n, m, shared, whole, nodes, part, own, arcs.members, arcs.place)
+    give_back(n, m, shared, full, nodes, part, own, arcs.members, arcs.place)
     total[L.T_TIME] = now
     return L.OK

@@ -52,12 +52,12 @@ def _to_cage(node, shared, machine):
 @helper
 def _cage(n, shared, machine, c):
     """Add a cage that conducts and touches nothing: its node, without charge, is eliminated (star to mesh)."""
-    whole = machine.cage_inner + machine.cage_outer + (n - shared) * machine.pocket
+    full = machine.cage_inner + machine.cage_outer + (n - shared) * machine.pocket
     for i in range(n):
         own = _to_cage(i, shared, machine)
         c[i, i] += own
         for k in range(n):
-            c[i, k] -= own * _to_cage(k, shared, machine) / whole
+            c[i, k] -= own * _to_cage(k, shared, machine) / full
 
 
 @helper

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from lambda_core.electric.compiled.array_types import helper, shared_helper
-from lambda_core.electric.compiled.chance import uniform
 from lambda_core.electric.compiled.matrices import across
+from lambda_core.electric.compiled.random_keys import uniform
 
 NO_PATCH = -(2**62)
 

@@ -1,4 +1,4 @@
-/* The circuit: contacts as electric parts as electric/contacts.py has them, and the march from one end of a step to the
+/* The circuit: contacts as electric parts as electric/contacts.py has them, and the integration from one end of a step to the
    other. Order and grouping of the arithmetic are those of Python: a run has the same bits. */
 #include "image.h"
 
@@ -114,7 +114,7 @@ int lb_conduct(lb_bearing *b) {
     double reached = fmax(begin, TOTAL(TIME)), there = reached < end ? source(b, reached) : AT(SOURCE_V, 1);
     TOTAL(BEGAN) = TOTAL(TIME), AT(CHARGE, 0) += NUMBER(WINDING) * (there - NUMBER(LAST));
   }
-  int64_t status = lb_march(b->image);
+  int64_t status = lb_integrate_circuit(b->image);
   if (status != LB_CIRCUIT_OK) return failed(b, status);
   WORD(b, LB_CIRCUIT_FIRST) = 0, NUMBER(LAST) = AT(SOURCE_V, 1);
   tell(b, end - begin, before);

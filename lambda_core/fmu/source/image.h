@@ -25,7 +25,7 @@ extern void *const lb_functions[];
 extern int64_t lb_advance(unsigned char *image, double until, int64_t work);
 extern int64_t lb_observe(unsigned char *image);
 extern int64_t lb_static(unsigned char *image, int64_t iterations);
-extern int64_t lb_march(unsigned char *image);
+extern int64_t lb_integrate_circuit(unsigned char *image);
 extern int64_t lb_jacobian(unsigned char *image, double time);
 
 #define REAL(b, place) (*(double *)((b)->image + (place)))

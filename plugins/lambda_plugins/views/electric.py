@@ -10,7 +10,7 @@ from pydantic import Field
 from lambda_core.plugins import Axis, NotApplicable, Options, Panel, Series, View, ViewData
 
 if TYPE_CHECKING:
-    from lambda_core.electric.circuit_run import Simulation
+    from lambda_core.electric.simulation import Simulation
 
 _SHOWN = 3e-4  # of the bearing voltage, edge by edge [s]
 _FREQUENCIES = np.geomspace(1e2, 1e7, 51)
@@ -24,7 +24,7 @@ class Seed(Options):
 
 def _simulation(run: Any, *overrides: str, window: bool = False) -> Simulation:
     """Compute the circuit of a run whose case has one."""
-    from lambda_core.electric.subject import case_of_run, electric_of_run, settled_from
+    from lambda_core.electric.case_or_run import case_of_run, electric_of_run, settled_from
 
     if case_of_run(run).electric is None:
         raise NotApplicable("the case has no section electric: --set electric.seed=1 puts the defaults in")
@@ -34,7 +34,7 @@ def _simulation(run: Any, *overrides: str, window: bool = False) -> Simulation:
 
 def _in_a_machine(run: Any) -> bool:
     """Tell whether the case of a run has a circuit."""
-    from lambda_core.electric.subject import case_of_run
+    from lambda_core.electric.case_or_run import case_of_run
 
     return case_of_run(run).electric is not None
 
@@ -46,7 +46,7 @@ def _source(run: Any, found: Simulation) -> str:
 def voltage(run: Any, options: Seed) -> ViewData:
     """Voltage between the rings edge by edge, and its range over the whole span with every discharge."""
     found = _simulation(run, f"electric.seed={options.seed}", window=True)
-    trace, events = found.march.trace, found.events
+    trace, events = found.solution.trace, found.events
     begin = found.films.time[0]
     close = Panel(
         "edge by edge",
@@ -55,7 +55,7 @@ def voltage(run: Any, options: Seed) -> ViewData:
         (Series("inner against outer ring", 1e6 * (trace[:, 0] - begin), trace[:, 2], "line", "total"),),
     )
     middle = 1e3 * 0.5 * (found.films.time[1:] + found.films.time[:-1])
-    low, high = found.march.extremes.T
+    low, high = found.solution.extremes.T
     step = max(1, events.time.size // 3000)
     whole = Panel(
         "whole span",

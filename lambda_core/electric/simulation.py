@@ -13,13 +13,13 @@ from lambda_core.case.electric import Electric
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
 from lambda_core.electric.circuit import circuit_of
+from lambda_core.electric.circuit_integrator import UNCHARGED, Circuit, CircuitSolution, Films, Network, Strength
 from lambda_core.electric.contacts import Contacts, films
 from lambda_core.electric.film_laws import FilmLaw, film_laws
-from lambda_core.electric.march import UNCHARGED, Circuit, Films, March, Network, Strength
-from lambda_core.electric.sources import corners, one_period, reach
+from lambda_core.electric.voltage_sources import corners, one_period, reach
 
 if TYPE_CHECKING:
-    from lambda_core.electric.electrified import Electrified
+    from lambda_core.electric.circuit_bearing import CircuitBearing
     from lambda_core.electric.events import Events
     from lambda_core.electric.outcome import Outcome
 
@@ -30,26 +30,26 @@ class Simulation:
 
     Attributes
     ----------
-    bearing : Electrified
+    bearing : CircuitBearing
         The bearing and the section of its case.
     contacts, films, circuit
         What the bearing and its circuit are.
     source : tuple of float64[:]
         Corners of the common-mode voltage: times [s], volts.
-    march : March
+    solution : CircuitSolution
         What came out.
     speed : float
         Of the inner ring against the outer, mean [rad/s].
     wall : float
-        Wall time of the march [s].
+        Wall time of the integration [s].
     """
 
-    bearing: Electrified
+    bearing: CircuitBearing
     contacts: Contacts
     films: Films
     circuit: Circuit
     source: tuple[FloatArray, FloatArray]
-    march: March
+    solution: CircuitSolution
     speed: float
     wall: float
 
@@ -73,7 +73,7 @@ class Simulation:
         """Films that broke down, one entry each."""
         from lambda_core.electric.events import events_of
 
-        return events_of(self.march, self.contacts)
+        return events_of(self.solution, self.contacts)
 
     @cached_property
     def outcome(self) -> Outcome:
@@ -90,22 +90,22 @@ def strength_of(laws: tuple[FilmLaw, FilmLaw], options: Electric, roughness: flo
 
 def simulate(
     contacts: Contacts,
-    bearing: Electrified,
+    bearing: CircuitBearing,
     *,
     settled: float | None = None,
     window: tuple[float, float] | None = None,
     announce: Any = None,
 ) -> Simulation:
-    """March the circuit through the contacts.
+    """Integrate the circuit through the contacts.
 
     Parameters
     ----------
-    bearing : Electrified
+    bearing : CircuitBearing
         Its circuit, and what laws may know of it.
     settled : float, optional
-        Time from which on is counted [s]; the circuit is marched from the first sample on all the same, so that it is
-        the one that a run computes with the motion. The samples are those of a run then, and the march ends as
-        far before the last as the source needs. Default: everything is counted.
+        Time from which on is counted [s]; the circuit is integrated from the first sample on all the same, so that
+        it is the one that a run computes with the motion. The samples are those of a run then, and the integration
+        ends as far before the last as the source needs. Default: everything is counted.
     window : tuple of float, optional
         Times between which every corner of the voltages is recorded [s]; default: none.
 
@@ -119,7 +119,7 @@ def simulate(
     options = bearing.options
     last, first = contacts.time.size, 0
     if settled is not None:
-        last = marched(contacts.time, reach(options.source)) + 1
+        last = integrated_until(contacts.time, reach(options.source)) + 1
         first = int(np.searchsorted(contacts.time, settled))
         if last - first < 2:
             raise UsageError(f"{contacts.origin}: too short: fewer than two samples are left from {settled:.4g} s on")
@@ -149,6 +149,6 @@ def simulate(
     return Simulation(bearing, contacts, electric, circuit, source, found, speed, wall * length / (length + spent))
 
 
-def marched(time: FloatArray, margin: float) -> int:
-    """Return the number of the last sample that a run's circuit is marched to: `margin` [s] before the newest one."""
+def integrated_until(time: FloatArray, margin: float) -> int:
+    """Return the last sample that a run's circuit is integrated to: `margin` [s] before the newest."""
     return int(np.searchsorted(time, time[-1] - margin, side="right")) - 1

@@ -40,47 +40,47 @@ def _stored(n, winding, volt, q, v):
 
 
 @helper
-def is_recorded(books, now):
+def is_recorded(sums, now):
     """Tell whether a moment is inside the window of the record."""
-    return books.window[0] <= now <= books.window[1]
+    return sums.window[0] <= now <= sums.window[1]
 
 
 @shared_helper
-def record(books, now, volt, bearing, current):
+def record(sums, now, volt, bearing, current):
     """Write one row of the record while it is inside its window and there is room."""
-    row = int(books.total[L.T_TRACE])
-    if row < books.trace.shape[0] and is_recorded(books, now):
-        trace = books.trace[row]
+    row = int(sums.total[L.T_TRACE])
+    if row < sums.trace.shape[0] and is_recorded(sums, now):
+        trace = sums.trace[row]
         trace[0], trace[1], trace[2], trace[3] = now, volt, bearing, current
-        books.total[L.T_TRACE] += 1.0
+        sums.total[L.T_TRACE] += 1.0
 
 
 @shared_helper
-def open_books(n, shared, winding, volt, q, v, books):
+def begin_sums(n, shared, winding, volt, q, v, sums):
     """Begin to count, once the films stand the voltages that they have.
 
     The start is that of films which never break down. One that does not stand it breaks down at once, at a voltage
     that would not have come about: neither this discharge nor the voltage before it is one of the operation.
     """
-    total = books.total
+    total = sums.total
     total[L.T_SETTLING], total[L.T_BEGAN], total[L.T_TRACE] = 0.0, total[L.T_TIME], 0.0
     for k in (L.T_SOURCE, L.T_OHMIC, L.T_ARC, L.T_MOTION, L.T_LEAK, L.T_ARC_CHARGE):
         total[k] = 0.0
     total[L.T_STORED_0] = _stored(n, winding, volt, q, v)
     total[L.T_CHARGE_0] = _sum(n, q)
-    record(books, total[L.T_TIME], volt, across_bearing(shared, v), 0.0)
+    record(sums, total[L.T_TIME], volt, across_bearing(shared, v), 0.0)
 
 
 @helper
-def close_books(n, winding, volt, q, v, total):
+def end_sums(n, winding, volt, q, v, total):
     """Write what is stored at the end of a stretch."""
     total[L.T_STORED], total[L.T_CHARGE] = _stored(n, winding, volt, q, v), _sum(n, q)
 
 
 @shared_helper
-def store(books, rows, ball, sample):
+def store(sums, rows, ball, sample):
     """Append what a discharge did, the contact that broke down first before the other; 0 when the table is full."""
-    total, events = books.total, books.events
+    total, events = sums.total, sums.events
     both = rows[0, L.E_PEAK] > 0.0 and rows[1, L.E_PEAK] > 0.0
     turned = both and rows[1, L.E_TIME] < rows[0, L.E_TIME]
     for place in range(2):

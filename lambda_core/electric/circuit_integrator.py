@@ -86,7 +86,7 @@ class Circuit:
         return bool(np.isfinite(self.bridge))
 
     def constants(self) -> L.CircuitConstants:
-        """Return what the compiled march reads."""
+        """Return what the compiled integrator reads."""
         bridge = self.bridge if self.insulated else 0.0
         return L.CircuitConstants(
             self.winding,
@@ -121,8 +121,8 @@ class Strength:
 
 
 @dataclass(frozen=True)
-class March:
-    """What came out of a march.
+class CircuitSolution:
+    """Result of an integration.
 
     Attributes
     ----------
@@ -144,7 +144,7 @@ class March:
 
 Corners = tuple[FloatArray, FloatArray]  # times [s], volts
 UNCHARGED: Corners = (np.zeros(0), np.zeros(0))
-_STRETCH = 64  # samples that are marched through at once
+_STRETCH = 64  # samples that are integrated at once
 _FIRST_ROOM = 4096  # events that there is room for at first
 _TRACE_ROOM = 20000
 _SUMS = slice(L.T_SOURCE, L.T_ARC_CHARGE + 1)
@@ -152,7 +152,7 @@ _loaded: list[Any] = []
 
 
 class Network:
-    """The network of one bearing between two moments: it can be marched on, stretch by stretch, as samples come.
+    """Network of one bearing: integrated stretch by stretch, as samples come.
 
     Between corners of the source and changes of the capacitances the network is solved exactly by its modes. Charges
     are conserved where capacitances change (d(Cv)/dt, not C dv/dt). However the samples are cut into stretches, what
@@ -181,7 +181,7 @@ class Network:
         substeps: int = 2,
         announce: Any = None,
     ) -> None:
-        self._run = march_code(announce)
+        self._run = integrator_code(announce)
         self._circuit, self._strength, self._seed, self._substeps = circuit, strength, seed, substeps
         size = balls + 2
         self._nodes = L.Nodes(*np.zeros((len(L.Nodes._fields), size)))
@@ -200,7 +200,7 @@ class Network:
             np.zeros((2, size), dtype=np.int64),  # members
         )
         self._place = np.zeros(2, dtype=np.int64)  # on the source, and whether a discharge watches other films
-        self._whole = L.Whole(*np.zeros((len(L.Whole._fields), size, size)))
+        self._full = L.FullNetwork(*np.zeros((len(L.FullNetwork._fields), size, size)))
         self._room = _FIRST_ROOM
         self._began = False
 
@@ -210,13 +210,13 @@ class Network:
         return self._substeps
 
     def held(self) -> dict[str, Any]:
-        """Return what the compiled march works on from stretch to stretch, and its laws, by its arguments' names."""
+        """Return workspace, state and laws of the compiled integrator by argument name."""
         names = ["part", "own", "held", "state", "known", "drawn", "break_out", "arc_out", "rows", "stand", "members"]
         breaks, arcs = self._strength.breakdown, self._strength.discharge
         return {
             "break_law": breaks.kernel.pointer, "break_par": breaks.par,
             "arc_law": arcs.kernel.pointer, "arc_par": arcs.par,
-            "whole": self._whole, "nodes": self._nodes, "place": self._place, "total": self._total,
+            "full": self._full, "nodes": self._nodes, "place": self._place, "total": self._total,
             **dict(zip(names, self._workspace, strict=True)),
         }  # fmt: skip
 
@@ -231,8 +231,8 @@ class Network:
         source: Corners,
         window: tuple[float, float] = (np.inf, -np.inf),
         rest: Corners = UNCHARGED,
-    ) -> March:
-        """March through the times of the films, from discharge to discharge.
+    ) -> CircuitSolution:
+        """Integrate through the times of the films, from discharge to discharge.
 
         Parameters
         ----------
@@ -264,12 +264,12 @@ class Network:
         total[L.T_EVENTS], total[L.T_TRACE] = events.shape[0], trace.shape[0]
         if before[L.T_TIME] > 0.0 or before[L.T_SEGMENTS] > 0.0:
             total[L.T_STORED_0], total[L.T_CHARGE_0] = before[L.T_STORED], before[L.T_CHARGE]
-        return March(events, extremes, trace, total)
+        return CircuitSolution(events, extremes, trace, total)
 
     def _stretch(
         self, films: Films, source: Corners, window: FloatArray, rest: Corners, first: int
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """March through few samples, again where there was too little room; return events, extremes, record."""
+        """Integrate through few samples, again where there was too little room; return events, extremes, record."""
         before, charge, potential = self._total.copy(), self._nodes.charge.copy(), self._nodes.potential.copy()
         while True:
             events, extremes = np.empty((self._room, L.N_EVENT)), np.empty((films.time.size - 1, 2))
@@ -277,7 +277,7 @@ class Network:
             self._total[:], self._nodes.charge[:], self._nodes.potential[:] = before, charge, potential
             self._total[L.T_EVENTS] = self._total[L.T_TRACE] = 0.0
             self._place[0] = np.searchsorted(source[0][1:-1], self.time if self._began else films.time[0], side="right")
-            status = self._march(films, rest, source, extremes, events, trace, window)
+            status = self._integrate(films, rest, source, extremes, events, trace, window)
             if status != L.EVENTS_FULL:
                 break
             self._room *= 8
@@ -289,11 +289,11 @@ class Network:
         events[:, L.E_SAMPLE] += first
         return events, extremes, trace[: int(self._total[L.T_TRACE])].copy()
 
-    def _march(
+    def _integrate(
         self, films: Films, rest: Corners, source: Corners, extremes: FloatArray, events: FloatArray,
         trace: FloatArray, window: FloatArray,
     ) -> int:  # fmt: skip
-        """Call the compiled march; return its status."""
+        """Call the compiled integrator; return its status."""
         strength, circuit = self._strength, self._circuit
         corners = (np.ascontiguousarray(a, dtype=np.float64) for a in (*rest, *source, films.time))
         tables = L.Tables(*(np.ascontiguousarray(getattr(films, name), dtype=np.float64) for name in L.Tables._fields))
@@ -301,13 +301,13 @@ class Network:
         status = self._run(
             int(not self._began), *corners, tables, circuit.constants(), strength.roughness, strength.least_voltage,
             breaks.kernel.pointer, breaks.par, arcs.kernel.pointer, arcs.par,
-            int(circuit.insulated), self._seed, self._substeps, self._whole, self._nodes, *self._workspace, self._place,
+            int(circuit.insulated), self._seed, self._substeps, self._full, self._nodes, *self._workspace, self._place,
             extremes, events, trace, window, self._total,
         )  # fmt: skip
         return int(status)
 
     def _fault(self, status: int) -> str:
-        """Say why the march ended."""
+        """Say why the integration ended."""
         if status == L.NOT_POSITIVE:
             return "the electric network has a node without capacitance"
         if status == L.ENDLESS:
@@ -319,7 +319,7 @@ class Network:
         return f"{law.label} refuses a contact at t = {self.time:.6g} s: {law.errors.get(code, f'status {code}')}"
 
 
-def march(
+def integrate(
     films: Films,
     circuit: Circuit,
     strength: Strength,
@@ -330,27 +330,29 @@ def march(
     window: tuple[float, float] = (np.inf, -np.inf),
     rest: Corners = UNCHARGED,
     announce: Any = None,
-) -> March:
-    """March a network through the times of the films; see :class:`Network`."""
+) -> CircuitSolution:
+    """Integrate a network through the times of the films; see :class:`Network`."""
     network = Network(circuit, strength, films.film.shape[1], seed=seed, substeps=substeps, announce=announce)
     return network.advance(films, source, window, rest)
 
 
-def march_code(announce: Any) -> Any:
-    """Return the compiled march for calls from Python, out of the pack of the installation where it has one."""
+def integrator_code(announce: Any) -> Any:
+    """Return the compiled integrator for calls from Python, out of the pack of the installation where it has one."""
     packed = pack()
-    return packed.unit("march") if packed else compiled(announce)
+    return packed.unit("circuit") if packed else compiled(announce)
 
 
 def compiled(announce: Any) -> Any:
-    """Return the compiled march, loaded once per process; it is compiled where the disk does not have it."""
+    """Return the compiled integrator, loaded once per process; it is compiled where the disk does not have it."""
     if not _loaded:
         from lambda_core.laws.jit.unstable import know_pointers
 
         know_pointers()
 
-        from lambda_core.electric.compiled import edges as code
+        from lambda_core.electric.compiled import switching as code
         from lambda_core.laws.kernels import compile_host
 
-        _loaded.append(compile_host(code.march, code.march_sig, (Path(code.__file__).parent,), announce).dispatcher)
+        _loaded.append(
+            compile_host(code.integrate, code.integrate_sig, (Path(code.__file__).parent,), announce).dispatcher
+        )
     return _loaded[0]

@@ -26,7 +26,7 @@ _SIDES = (("film_inner", "inner"), ("film_outer", "outer"))
 
 
 @dataclasses.dataclass(frozen=True)
-class Electrified:
+class CircuitBearing:
     """A bearing with its circuit.
 
     Attributes
@@ -69,14 +69,14 @@ def electric_model(options: Electric | None, name: str) -> ElectricModel:
     return found
 
 
-def of_model(model: BearingModel) -> Electrified:
+def of_model(model: BearingModel) -> CircuitBearing:
     """Return a resolved model with its circuit; a case without the section gets the defaults."""
     chosen = model.electric or electric_model(None, model.name)
     materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
     return _electrified(model.name, chosen, model.geometry, materials, model.oil, model.roughness)
 
 
-def of_run(result: Result, options: Electric | None) -> Electrified:
+def of_run(result: Result, options: Electric | None) -> CircuitBearing:
     """Return the bearing of a run with a circuit.
 
     Raises
@@ -96,7 +96,7 @@ def of_run(result: Result, options: Electric | None) -> Electrified:
 
 def _electrified(
     case: str, chosen: ElectricModel, geometry: Geometry, materials: Mapping[str, Material], oil: Oil, roughness: float
-) -> Electrified:
+) -> CircuitBearing:
     plain: dict[str, Any] = {
         name: float(value) for name, value in dataclasses.asdict(geometry).items() if not isinstance(value, str)
     }
@@ -123,4 +123,4 @@ def _electrified(
     options, film = chosen.options, chosen.options.film
     if film.ball_permittivity is None and _SILICON_NITRIDE.search(materials["ball"].name):
         options = options.model_copy(update={"film": film.model_copy(update={"ball_permittivity": _PERMITTIVITY})})
-    return Electrified(case, options, chosen.laws, plain, (inner, outer), roughness)
+    return CircuitBearing(case, options, chosen.laws, plain, (inner, outer), roughness)

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 
 from lambda_core.electric import columns as L
+from lambda_core.electric.compiled.accumulators import begin_sums, dot, end_sums, energy, record, store
 from lambda_core.electric.compiled.array_types import (
     array1,
     array2,
     channels_t,
     f8,
+    full_network_t,
     held_t,
     helper,
     i8,
@@ -21,53 +23,51 @@ from lambda_core.electric.compiled.array_types import (
     part_nodes_t,
     part_t,
     tables_t,
-    whole_t,
 )
-from lambda_core.electric.compiled.books import close_books, dot, energy, open_books, record, store
 from lambda_core.electric.compiled.discharge import discharge
+from lambda_core.electric.compiled.initial_charge import periodic
 from lambda_core.electric.compiled.intervals import hold, longest
 from lambda_core.electric.compiled.matrices import across_bearing, assemble, leaks, shares
 from lambda_core.electric.compiled.modes import amplitudes, charges, factorise, heat, modes, propagate, voltages
 from lambda_core.electric.compiled.patches import first_breakdown, stood_by
-from lambda_core.electric.compiled.rest import periodic
-from lambda_core.electric.compiled.source import slope_at, source_work, voltage_at
+from lambda_core.electric.compiled.source_segment import slope_at, source_work, voltage_at
 
-march_sig = i8(
+integrate_sig = i8(
     i8, array1, array1, array1, array1, array1, tables_t, machine_t, f8, f8,
     law_of("breakdown"), array2, law_of("discharge"), array2, i8, i8, i8,
-    whole_t, nodes_t, part_t, part_nodes_t, held_t, channels_t, iarray2, array2, array1, array1, array2, array1,
+    full_network_t, nodes_t, part_t, part_nodes_t, held_t, channels_t, iarray2, array2, array1, array1, array2, array1,
     iarray2, iarray1, array2, array2, array2, array1, array1,
 )  # fmt: skip
 
 
 @helper
-def _prepare(n, shared, insulated, machine, whole, nodes, held):
-    """Find the modes of the whole network; return 0 when a node has no capacitance."""
-    assemble(insulated, machine, held.capacitance, held.conductance, whole.capacitance, whole.conductance)
-    if factorise(n, whole.capacitance, whole.factor) == 0:
+def _prepare(n, shared, insulated, machine, full, nodes, held):
+    """Find the modes of the full network; return 0 when a node has no capacitance."""
+    assemble(insulated, machine, held.capacitance, held.conductance, full.capacitance, full.conductance)
+    if factorise(n, full.capacitance, full.factor) == 0:
         return 0
-    modes(n, whole.factor, whole.conductance, whole.turned, whole.shape, nodes.decay)
-    shares(n, shared, whole.capacitance, whole.share)
-    leaks(n, whole.conductance, whole.shape, nodes.ahead, nodes.leak)
+    modes(n, full.factor, full.conductance, full.turned, full.shape, nodes.decay)
+    shares(n, shared, full.capacitance, full.share)
+    leaks(n, full.conductance, full.shape, nodes.ahead, nodes.leak)
     return 1
 
 
 @helper
-def _enter(n, machine, rest_t, rest_v, whole, nodes, source, total):
+def _enter(n, machine, rest_t, rest_v, full, nodes, source, total):
     """Bring the network into an interval: with the charges of a long operation at first, then with those that it has.
 
     Where capacitances change, charges stay and surfaces do work.
     """
     if total[L.T_SEGMENTS] == 0.0 and rest_t.size > 1:
         periodic(
-            n, nodes.decay, whole.shape, machine.winding, rest_t, rest_v, nodes.amplitude, nodes.drive, nodes.after,
+            n, nodes.decay, full.shape, machine.winding, rest_t, rest_v, nodes.amplitude, nodes.drive, nodes.after,
             nodes.area, nodes.mean,
         )  # fmt: skip
-        voltages(n, whole.shape, nodes.amplitude, nodes.potential)
+        voltages(n, full.shape, nodes.amplitude, nodes.potential)
         return
     before, held_at = energy(n, nodes.charge, nodes.potential), nodes.potential[L.ROTOR]
-    amplitudes(n, whole.shape, nodes.charge, nodes.amplitude)
-    voltages(n, whole.shape, nodes.amplitude, nodes.potential)
+    amplitudes(n, full.shape, nodes.charge, nodes.amplitude)
+    voltages(n, full.shape, nodes.amplitude, nodes.potential)
     if total[L.T_SEGMENTS] > 0.0:
         volt = voltage_at(total[L.T_TIME], source)
         total[L.T_MOTION] += energy(n, nodes.charge, nodes.potential) - before
@@ -75,35 +75,35 @@ def _enter(n, machine, rest_t, rest_v, whole, nodes, source, total):
 
 
 @helper
-def _accept(n, shared, volt, slope, dt, whole, nodes, source, books, i):
+def _accept(n, shared, volt, slope, dt, full, nodes, source, sums, i):
     """Take a step whose end is known, and write down what it did."""
-    total, winding = books.total, source.winding
+    total, winding = sums.total, source.winding
     total[L.T_OHMIC] += heat(n, nodes.decay, nodes.amplitude, nodes.drive, dt, nodes.after)
     before, after = nodes.potential[L.ROTOR], nodes.ahead[L.ROTOR]
-    total[L.T_SOURCE] += source_work(n, winding, volt, slope, dt, before, after, whole.shape, nodes.area)
+    total[L.T_SOURCE] += source_work(n, winding, volt, slope, dt, before, after, full.shape, nodes.area)
     total[L.T_LEAK] += dot(n, nodes.leak, nodes.area)
     for a in range(n):
         nodes.amplitude[a], nodes.potential[a] = nodes.after[a], nodes.ahead[a]
     total[L.T_TIME] += dt
     bearing = across_bearing(shared, nodes.potential)
     if total[L.T_SETTLING] == 0.0:
-        books.extremes[i, 0] = min(books.extremes[i, 0], bearing)
-        books.extremes[i, 1] = max(books.extremes[i, 1], bearing)
-    record(books, total[L.T_TIME], volt + slope * dt, bearing, 0.0)
+        sums.extremes[i, 0] = min(sums.extremes[i, 0], bearing)
+        sums.extremes[i, 1] = max(sums.extremes[i, 1], bearing)
+    record(sums, total[L.T_TIME], volt + slope * dt, bearing, 0.0)
 
 
 @helper
-def _move(n, dt, whole, nodes):
+def _move(n, dt, full, nodes):
     """Write where the network is after dt."""
     propagate(n, nodes.decay, nodes.amplitude, nodes.drive, dt, nodes.after, nodes.area)
-    voltages(n, whole.shape, nodes.after, nodes.ahead)
+    voltages(n, full.shape, nodes.after, nodes.ahead)
 
 
 @helper
 def _segment(
-    i, n, shared, begin, stop, step, settles, everyone, whole, nodes, part, own, held, films, arcs, source, books
+    i, n, shared, begin, stop, step, settles, everyone, full, nodes, part, own, held, films, arcs, source, sums
 ):
-    """March to the next corner of the source, change of the contacts or breakdown, and through the discharge there.
+    """Integrate to the next corner of the source, change of the contacts or breakdown, and through the discharge there.
 
     Parameters
     ----------
@@ -114,43 +114,43 @@ def _segment(
     settles : int
         1 where films may break down at once before the operation begins.
     """
-    total = books.total
+    total = sums.total
     now = total[L.T_TIME]
     total[L.T_SEGMENTS] += 1.0
     slope, end = slope_at(now, source)
     volt = voltage_at(now, source)
     dt = min(min(stop, end) - now, step)
     for a in range(n):
-        nodes.drive[a] = whole.shape[a, L.ROTOR] * source.winding * slope
-    _move(n, dt, whole, nodes)
+        nodes.drive[a] = full.shape[a, L.ROTOR] * source.winding * slope
+    _move(n, dt, full, nodes)
     elapsed = now + dt - begin
     best, ball, ring = first_breakdown(shared, nodes.potential, nodes.ahead, held, elapsed, films)
     if best < 0.0:
         total[L.T_STATUS] = -best - 1.0
         return L.NO_VOLTAGE
     if total[L.T_SETTLING] == 1.0 and (best != 0.0 or settles == 0):
-        charges(n, whole.capacitance, nodes.potential, nodes.charge)
-        open_books(n, shared, source.winding, volt, nodes.charge, nodes.potential, books)
+        charges(n, full.capacitance, nodes.potential, nodes.charge)
+        begin_sums(n, shared, source.winding, volt, nodes.charge, nodes.potential, sums)
     if best <= 1.0:
         dt *= best
-        _move(n, dt, whole, nodes)
-    _accept(n, shared, volt, slope, dt, whole, nodes, source, books, i)
+        _move(n, dt, full, nodes)
+    _accept(n, shared, volt, slope, dt, full, nodes, source, sums, i)
     if best > 1.0:
         return L.OK
-    charges(n, whole.capacitance, nodes.potential, nodes.charge)
+    charges(n, full.capacitance, nodes.potential, nodes.charge)
     refused = stood_by(ball, elapsed, held, films, arcs.stand)
     if refused < 0.0:
         total[L.T_STATUS] = -refused - 1.0
         return L.NO_VOLTAGE
     status = discharge(
-        n, shared, ball, ring, elapsed, everyone, whole, nodes, part, own, held, films, arcs, source, books
+        n, shared, ball, ring, elapsed, everyone, full, nodes, part, own, held, films, arcs, source, sums
     )
     if status != L.OK:
         return status
-    if total[L.T_SETTLING] == 0.0 and store(books, arcs.rows, ball, float(i)) == 0:
+    if total[L.T_SETTLING] == 0.0 and store(sums, arcs.rows, ball, float(i)) == 0:
         return L.EVENTS_FULL
-    amplitudes(n, whole.shape, nodes.charge, nodes.amplitude)
-    voltages(n, whole.shape, nodes.amplitude, nodes.potential)
+    amplitudes(n, full.shape, nodes.charge, nodes.amplitude)
+    voltages(n, full.shape, nodes.amplitude, nodes.potential)
     return L.OK
 
 
@@ -165,20 +165,20 @@ def _begin(first, n, nodes, source, total, t):
     nodes.charge[L.ROTOR] = source.winding * voltage_at(t[0], source)
 
 
-def march(
+def integrate(
     first, rest_t, rest_v, source_t, source_v, t, tables, machine, roughness, least,
     break_law, break_par, arc_law, arc_par, insulated, seed, substeps,
-    whole, nodes, part, own, held, state, known, drawn, break_out, arc_out, rows, stand,
+    full, nodes, part, own, held, state, known, drawn, break_out, arc_out, rows, stand,
     members, place, extremes, events, trace, window, total,
 ):  # fmt: skip
-    """March the network of one bearing through a stretch of time; an entry point.
+    """Integrate the network of one bearing through a stretch of time; an entry point.
 
     Parameters
     ----------
     first : int
-        1 where the march begins, 0 where it goes on from what `nodes` and `total` hold.
+        1 where the integration begins, 0 where it goes on from what `nodes` and `total` hold.
     rest_t, rest_v : float64[:]
-        Corners of one period of the source, for the charges that the march begins with; empty: it begins uncharged.
+        Corners of one period of the source, for the charges at the start; empty: uncharged.
     source_t, source_v : float64[:], shape (k,)
         Corners of the common-mode voltage [s], [V].
     t : float64[:], shape (n,)
@@ -195,7 +195,7 @@ def march(
         Whether the outer ring is a node; key of the random numbers; intervals of constant capacitance per sample.
     nodes : Nodes
         Charges and potentials are kept between stretches.
-    whole, part, own, held, state, known, drawn, break_out, arc_out, rows, stand, members, place
+    full, part, own, held, state, known, drawn, break_out, arc_out, rows, stand, members, place
         Workspace.
     extremes : float64[:, :], shape (n - 1, 2)
         Smallest and largest bearing voltage between samples [V].
@@ -214,7 +214,7 @@ def march(
     films = L.Standing(break_law, break_par, break_out, roughness, least, seed, known, drawn)
     arcs = L.Arcs(arc_law, arc_par, arc_out, state, rows, stand, members[0], members[1], place[1:])
     source = L.Source(source_t, source_v, place[:1], machine.winding)
-    books = L.Books(total, extremes, events, trace, window)
+    sums = L.Accumulators(total, extremes, events, trace, window)
     _begin(first, n, nodes, source, total, t)
     for i in range(t.size - 1):
         extremes[i, 0], extremes[i, 1] = math.inf, -math.inf
@@ -225,18 +225,18 @@ def march(
             if stop <= total[L.T_TIME]:
                 continue  # a discharge went on beyond this part
             hold(i, k, substeps, t, tables, held, known)
-            if _prepare(n, shared, insulated, machine, whole, nodes, held) == 0:
+            if _prepare(n, shared, insulated, machine, full, nodes, held) == 0:
                 return L.NOT_POSITIVE
-            _enter(n, machine, rest_t, rest_v, whole, nodes, source, total)
+            _enter(n, machine, rest_t, rest_v, full, nodes, source, total)
             step = longest(held)
             while total[L.T_TIME] < stop:
                 status = _segment(
-                    i, n, shared, begin, stop, step, settles, everyone, whole, nodes, part, own, held, films, arcs,
-                    source, books,
+                    i, n, shared, begin, stop, step, settles, everyone, full, nodes, part, own, held, films, arcs,
+                    source, sums,
                 )  # fmt: skip
                 if status != L.OK:
                     return status
-            charges(n, whole.capacitance, nodes.potential, nodes.charge)
+            charges(n, full.capacitance, nodes.potential, nodes.charge)
     volt = voltage_at(total[L.T_TIME], source)
-    close_books(n, machine.winding, volt, nodes.charge, nodes.potential, total)
+    end_sums(n, machine.winding, volt, nodes.charge, nodes.potential, total)
     return L.OK

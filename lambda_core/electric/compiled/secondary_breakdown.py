@@ -23,7 +23,7 @@ def watch(ball, elapsed, held, films, limit):
 
 
 @shared_helper
-def past_breakdown(n, shared, whole, nodes, limit, v, place):
+def past_breakdown(n, shared, full, nodes, limit, v, place):
     """Return how far the film of another ball is past its breakdown, relative: >= 0 past it.
 
     Parameters
@@ -38,9 +38,9 @@ def past_breakdown(n, shared, whole, nodes, limit, v, place):
         if place[other] >= 0:
             potential = v[place[other]]
         else:
-            potential = nodes.charge[other] / whole.capacitance[other, other]
+            potential = nodes.charge[other] / full.capacitance[other, other]
             for i in range(shared):
-                potential -= whole.share[i, other] * v[i]
+                potential -= full.share[i, other] * v[i]
         for ring in range(2):
             stands = limit[ring, other - shared]
             if stands > 0.0:
@@ -50,27 +50,27 @@ def past_breakdown(n, shared, whole, nodes, limit, v, place):
 
 
 @helper
-def breakdown_ahead(m, n, shared, dt, whole, nodes, part, own, place):
+def breakdown_ahead(m, n, shared, dt, full, nodes, part, own, place):
     """Return how far the film of another ball is past its breakdown after dt."""
     propagate(m, own.decay, own.amplitude, own.drive, dt, own.after, own.area)
     voltages(m, part.shape, own.after, own.ahead)
-    return past_breakdown(n, shared, whole, nodes, part.limit, own.ahead, place)
+    return past_breakdown(n, shared, full, nodes, part.limit, own.ahead, place)
 
 
 @shared_helper
-def first_moment(m, n, shared, low, high, high_past, whole, nodes, part, own, place):
+def first_moment(m, n, shared, low, high, high_past, full, nodes, part, own, place):
     """Return when between two times the film of another ball breaks down [s], on the far side.
 
     False position after the Illinois rule; `high_past` is how far it is past its breakdown at the later time.
     """
-    low_past, side = breakdown_ahead(m, n, shared, low, whole, nodes, part, own, place), 0
+    low_past, side = breakdown_ahead(m, n, shared, low, full, nodes, part, own, place), 0
     if low_past >= 0.0:
         return low
     for _ in range(_ROOT):
         if high - low <= _PLACE * high or high_past < _PLACE:
             break
         at = (low * high_past - high * low_past) / (high_past - low_past)
-        found = breakdown_ahead(m, n, shared, at, whole, nodes, part, own, place)
+        found = breakdown_ahead(m, n, shared, at, full, nodes, part, own, place)
         if found >= 0.0:
             high, high_past = at, found
             low_past *= 0.5 if side == 1 else 1.0

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from lambda_core.case.case import Case
-    from lambda_core.electric.circuit_run import Simulation
     from lambda_core.electric.inversion import FilmOutcome
+    from lambda_core.electric.simulation import Simulation
     from lambda_core.system.bearing import BearingModel
 
 
@@ -49,7 +49,7 @@ def electric(
     UsageError, CaseError, SolverError
         With a sentence about the source, the case, or about why there is no solution.
     """
-    from lambda_core.electric.subject import electric_of_model, electric_of_run, is_result
+    from lambda_core.electric.case_or_run import electric_of_model, electric_of_run, is_result
 
     if is_result(source):
         return electric_of_run(Result(str(source)), overrides, announce, window=window)
@@ -102,7 +102,7 @@ def write_discharges(simulation: Simulation, path: str | Path, *, overwrite: boo
     return write(simulation, Path(path))
 
 
-def film_from_outside(
+def film_from_capacitance(
     source: str | Path | Mapping[str, Any] | Case | BearingModel,
     measured: str | Path,
     overrides: Iterable[str] = (),

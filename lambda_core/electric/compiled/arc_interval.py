@@ -9,13 +9,13 @@ from __future__ import annotations
 import math
 
 from lambda_core.electric import columns as L
+from lambda_core.electric.compiled.accumulators import dot, is_recorded, record
 from lambda_core.electric.compiled.arc import channel_current, is_joined
 from lambda_core.electric.compiled.array_types import helper
-from lambda_core.electric.compiled.books import dot, is_recorded, record
-from lambda_core.electric.compiled.bystanders import breakdown_ahead, first_moment, watch
 from lambda_core.electric.compiled.matrices import across_bearing
 from lambda_core.electric.compiled.modes import amplitudes, decay_functions, products, propagate, voltages
-from lambda_core.electric.compiled.source import slope_at, source_work, voltage_at
+from lambda_core.electric.compiled.secondary_breakdown import breakdown_ahead, first_moment, watch
+from lambda_core.electric.compiled.source_segment import slope_at, source_work, voltage_at
 
 NOTHING, OTHER, NEVER = -1, -2, -3  # in place of a ring: no change; the film of another ball; no end
 # First step over the fastest mode's time, after an arc opens or dies and after a corner of the source.
@@ -105,25 +105,25 @@ def _decay_to(m, own, dt):
 
 
 @helper
-def _others(low, at, m, n, shared, ball, elapsed, opened, whole, nodes, part, own, held, films, arcs):
+def _others(low, at, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held, films, arcs):
     """Return when between two times the film of another ball breaks down [s], -1: none does.
 
     Where the bearing has no more voltage than the discharge began at, nothing can have happened.
     """
-    past = breakdown_ahead(m, n, shared, at, whole, nodes, part, own, arcs.place)
+    past = breakdown_ahead(m, n, shared, at, full, nodes, part, own, arcs.place)
     if abs(across_bearing(shared, own.ahead)) <= opened:
         return -1.0
     if arcs.watched[0] == 0:
         arcs.watched[0] = 1
         watch(ball, elapsed, held, films, part.limit)
-        past = breakdown_ahead(m, n, shared, at, whole, nodes, part, own, arcs.place)
-    return -1.0 if past < 0.0 else first_moment(m, n, shared, low, at, past, whole, nodes, part, own, arcs.place)
+        past = breakdown_ahead(m, n, shared, at, full, nodes, part, own, arcs.place)
+    return -1.0 if past < 0.0 else first_moment(m, n, shared, low, at, past, full, nodes, part, own, arcs.place)
 
 
 @helper
 def _until_change(
-    first, limit, now, volt, slope, spent, m, n, shared, ball, elapsed, opened, whole, nodes, part, own, held, films,
-    arcs, books,
+    first, limit, now, volt, slope, spent, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held, films,
+    arcs, sums,
 ):  # fmt: skip
     """Return the part of `limit` until something changes [s], and what (NOTHING: nothing does).
 
@@ -147,15 +147,15 @@ def _until_change(
         past, ring = _worst(m, part, own.after, arcs)
         at, ring = _moment(m, part, own, arcs, low, high, past, ring) if past >= 0.0 else (high, NOTHING)
         if low > spent:
-            sooner = _others(low, at, m, n, shared, ball, elapsed, opened, whole, nodes, part, own, held, films, arcs)
+            sooner = _others(low, at, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held, films, arcs)
             if sooner >= 0.0:
                 return sooner, OTHER
         if ring != NOTHING or at == limit:
             return at, ring
         current = _peak(m, part, own.after, arcs)
-        if is_recorded(books, now + high):
+        if is_recorded(sums, now + high):
             voltages(m, part.shape, own.after, own.ahead)
-            record(books, now + high, volt + slope * high, across_bearing(shared, own.ahead), current)
+            record(sums, now + high, volt + slope * high, across_bearing(shared, own.ahead), current)
         low = high
         if 2.0 * high >= limit:
             high = limit
@@ -169,7 +169,7 @@ def _until_change(
 
 
 @helper
-def _book(m, shared, dt, part, own, arcs, total):
+def _accumulate(m, shared, dt, part, own, arcs, total):
     """Add up heat, arc energies and charges over dt, at whose end the amplitudes are `own.after`."""
     state, rows = arcs.state, arcs.rows
     products(m, own.decay, own.amplitude, own.drive, dt, own.after, own.area, own.middle, part.product)
@@ -205,8 +205,8 @@ def _channels(m, shared, part):
 
 
 @helper
-def burn(now, m, n, shared, ball, elapsed, opened, whole, nodes, part, own, held, films, arcs, source, books):
-    """March with the same channels open until something changes.
+def burn(now, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held, films, arcs, source, sums):
+    """Integrate with the same channels open until something changes.
 
     Parameters
     ----------
@@ -230,7 +230,7 @@ def burn(now, m, n, shared, ball, elapsed, opened, whole, nodes, part, own, held
     _channels(m, shared, part)
     # Where metal bridges the other film, the rotor's charge flows: such an arc is no partial one.
     node = shared + ball
-    alone = arcs.state.burns[0] + arcs.state.burns[1] == 1.0 and not is_joined(node, whole)
+    alone = arcs.state.burns[0] + arcs.state.burns[1] == 1.0 and not is_joined(node, full)
     spent = now + _SPENT / fastest if alone else math.inf
     first, arcs.watched[0] = _FIRST / fastest, 0
     _peak(m, part, own.amplitude, arcs)
@@ -241,20 +241,20 @@ def burn(now, m, n, shared, ball, elapsed, opened, whole, nodes, part, own, held
         for a in range(m):
             own.drive[a] += part.shape[a, L.ROTOR] * source.winding * slope
         dt, ring = _until_change(
-            first, end - now, now, volt, slope, spent - now, m, n, shared, ball, elapsed, opened, whole, nodes, part,
-            own, held, films, arcs, books,
+            first, end - now, now, volt, slope, spent - now, m, n, shared, ball, elapsed, opened, full, nodes, part,
+            own, held, films, arcs, sums,
         )  # fmt: skip
         propagate(m, own.decay, own.amplitude, own.drive, dt, own.after, own.area)
-        _book(m, shared, dt, part, own, arcs, books.total)
+        _accumulate(m, shared, dt, part, own, arcs, sums.total)
         for a in range(m):
             own.amplitude[a] = own.after[a]
         voltages(m, part.shape, own.amplitude, own.potential)
-        books.total[L.T_SOURCE] += source_work(
+        sums.total[L.T_SOURCE] += source_work(
             m, source.winding, volt, slope, dt, before, own.potential[L.ROTOR], part.shape, own.area
         )
         now += dt
         current = _peak(m, part, own.amplitude, arcs)
-        record(books, now, volt + slope * dt, across_bearing(shared, own.potential), current)
+        record(sums, now, volt + slope * dt, across_bearing(shared, own.potential), current)
         if ring != NOTHING:
             return now, ring
         first = _CORNER / fastest

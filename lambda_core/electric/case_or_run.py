@@ -14,10 +14,10 @@ import numpy as np
 from lambda_core.case.case import Case
 from lambda_core.case.case_io import apply_overrides, parse_case
 from lambda_core.domain.errors import UsageError
-from lambda_core.electric.circuit_run import Simulation, simulate
+from lambda_core.electric.circuit_bearing import of_model, of_run
 from lambda_core.electric.contacts import contacts_of_equilibria, contacts_of_run, equilibria
-from lambda_core.electric.electrified import of_model, of_run
-from lambda_core.electric.sources import reach
+from lambda_core.electric.simulation import Simulation, simulate
+from lambda_core.electric.voltage_sources import reach
 from lambda_core.results.convergence import window as averaged
 from lambda_core.system.bearing import Solver
 
