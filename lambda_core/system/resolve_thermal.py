@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 from lambda_core.case.case import Case
-from lambda_core.case.thermal import Thermal
+from lambda_core.case.thermal import Thermal, ThermalNode
 from lambda_core.domain.errors import unknown_name
 from lambda_core.domain.units import show
 from lambda_core.system.ledger import Ledger
@@ -34,6 +35,50 @@ OUTSIDE: dict[str, tuple[Pair, ...]] = {
 _PARTS = ("inner_ring", "outer_ring", "balls", "shaft", "housing")
 # No weather is colder (-89 degC), and beyond a furnace no bearing stands: what lies outside is a slip of the unit.
 _SURROUNDINGS = (173.15, 773.15)  # [K]
+
+
+@dataclass(frozen=True)
+class NodeSet:
+    """Nodes of a network, what joins them, and what the case says of them.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Of all nodes.
+    pairs : tuple of Pair
+        What a conductance joins.
+    held : mapping of str to float
+        Temperatures of the nodes that are held [K].
+    given : mapping of str to ThermalNode
+        Nodes of the case.
+    links : mapping of Pair to float
+        Conductances of the case; they take the place of computed ones [W/K].
+    start : float
+        Temperature at the start of a transient [K].
+    """
+
+    names: tuple[str, ...]
+    pairs: tuple[Pair, ...]
+    held: Mapping[str, float]
+    given: Mapping[str, ThermalNode]
+    links: Mapping[Pair, float]
+    start: float
+
+    def isolated(self) -> list[str]:
+        """Return the nodes from which no way leads to a held temperature, in order."""
+        return isolated(self.names, self.pairs, self.held)
+
+
+def nodes_alone(thermal: Thermal) -> NodeSet:
+    """Return the nodes of a bearing alone."""
+    return NodeSet(
+        names=node_names(thermal),
+        pairs=joined(thermal),
+        held=held_temperatures(thermal),
+        given=thermal.nodes,
+        links={(link.between[0], link.between[1]): link.conductance for link in thermal.links.values()},
+        start=thermal.start or thermal.ambient,
+    )
 
 
 def node_names(thermal: Thermal) -> tuple[str, ...]:

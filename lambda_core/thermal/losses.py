@@ -60,6 +60,14 @@ class Point:
         values[torque] *= values[: len(LOSSES)].sum() / self.power
         return Point(self.inlet, self.clearance, values)
 
+    def towards(self, other: Point, share: float) -> Point:
+        """Return the point at a share of the way to another one."""
+        return Point(
+            self.inlet + share * (other.inlet - self.inlet),
+            self.clearance + share * (other.clearance - self.clearance),
+            self.values + share * (other.values - self.values),
+        )
+
     @property
     def losses(self) -> dict[str, float]:
         """Power by mechanism [W]."""

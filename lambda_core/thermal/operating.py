@@ -12,7 +12,7 @@ from lambda_core.results.convergence import window
 from lambda_core.results.reader import Result
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.resolve_thermal import network_assumptions
-from lambda_core.thermal.feedback import Loop, Steady
+from lambda_core.thermal.feedback import BearingLoop, Steady
 from lambda_core.thermal.losses import Announce
 
 _ZERO_CELSIUS = 273.15
@@ -43,7 +43,7 @@ def at_own_temperatures(
     """
     if model.thermal is None:
         return model
-    loop = Loop(model, model.thermal, announce)
+    loop = BearingLoop(model, model.thermal, announce)
     found = loop.steady()
     sentence = _sentence(loop, found)
     if announce is not None:
@@ -51,12 +51,12 @@ def at_own_temperatures(
     return resolve(_with_temperatures(parse_case(model.case_toml, model.name), loop, found, sentence))
 
 
-def _with_temperatures(case: Case, loop: Loop, found: Steady, sentence: str) -> Case:
-    at = dict(zip(loop.bearing.names, found.temperatures.tolist(), strict=True))
+def _with_temperatures(case: Case, loop: BearingLoop, found: Steady, sentence: str) -> Case:
+    at = loop.nodes.named(found.temperatures)
     parts = {part: _degrees(at[part]) for part in _PARTS if part in at}
     return case.with_(
         assumptions=[*case.assumptions, *network_assumptions(case.thermal), sentence],
-        lubricant={"temperature": _degrees(found.point.inlet)},
+        lubricant={"temperature": _degrees(found.points[0].inlet)},
         bearing={"temperatures": parts},
         operation={"temperatures": None},
     )
@@ -66,15 +66,15 @@ def _degrees(temperature: float) -> str:
     return f"{temperature - _ZERO_CELSIUS:.4f} degC"
 
 
-def _sentence(loop: Loop, found: Steady) -> str:
-    at = dict(zip(loop.bearing.names, found.temperatures.tolist(), strict=True))
+def _sentence(loop: BearingLoop, found: Steady) -> str:
+    at = loop.nodes.named(found.temperatures)
     shown = ", ".join(
         f"{name.replace('_', ' ')} {at[name] - _ZERO_CELSIUS:.1f}" for name in (*_PARTS, "oil") if name in at
     )
     return f"temperatures found by the thermal network ({loop.thermal.conductances}): {shown} degC"
 
 
-def of_run(result: Result, model: BearingModel, announce: Announce = None) -> tuple[Loop, Steady]:
+def of_run(result: Result, model: BearingModel, announce: Announce = None) -> tuple[BearingLoop, Steady]:
     """Return the steady temperatures that the averaged losses of a run would give, cage and all.
 
     Conductances are those of the quasi-static point at the temperatures that the run was made with; the gain of the
@@ -87,12 +87,13 @@ def of_run(result: Result, model: BearingModel, announce: Announce = None) -> tu
     model : BearingModel
         Its case, resolved.
     """
-    loop = Loop(model, parse_case(result.case_toml, str(result.path)).thermal, announce)
+    loop = BearingLoop(model, parse_case(result.case_toml, str(result.path)).thermal, announce)
     chosen = window(model.solver, result.revolutions(), result.integrals()[-1]).interval
     time = chosen.change("time")
     point = loop.losses.at(model.oil.temperature, model.geometry.clearance)
     losses = {name: chosen.change(f"loss.{name}") / time for name in point.losses}
     measured = point.with_losses(losses)
-    temperatures, network = loop.answer(measured, loop.first_guess())
-    gain = loop.gain(*loop.slopes(point, np.asarray(temperatures)))
-    return loop, Steady(temperatures, measured, network, gain, 1)
+    temperatures, network = loop.answer((measured,), loop.first_guess())
+    seen = np.array([point.inlet, point.clearance])
+    gain = loop.gain(*loop.slopes(seen, (point,), temperatures))
+    return loop, Steady(temperatures, (measured,), network, gain, 1)

@@ -14,7 +14,7 @@ from lambda_core.results.summary import merged_cage
 from lambda_core.system.describe import headline
 from lambda_core.system.resolve_clearance import CLEARANCE_HOLDS
 from lambda_core.system.resolve_thermal import network_assumptions
-from lambda_core.thermal.feedback import Gain, Loop, Steady, runaway_sentence
+from lambda_core.thermal.feedback import BearingLoop, Gain, Steady, runaway_sentence
 from lambda_core.thermal.losses import Point
 from lambda_core.thermal.transient import Course, rise_time
 
@@ -132,7 +132,7 @@ class TemperaturesOverTime(Record):
         return course_text(self)
 
 
-def _assumptions(loop: Loop) -> tuple[list[str], list[str]]:
+def _assumptions(loop: BearingLoop) -> tuple[list[str], list[str]]:
     """Return the assumptions of the network and those of the case."""
     found = network_assumptions(loop.thermal)
     if loop.model.mounting is not None and not loop.model.mounting.shaft:
@@ -142,27 +142,27 @@ def _assumptions(loop: Loop) -> tuple[list[str], list[str]]:
     return found, [text for text in loop.model.assumptions if text not in found and not text.startswith(passed)]
 
 
-def _headline(loop: Loop, point: Point) -> str:
+def _headline(loop: BearingLoop, point: Point) -> str:
     """Return the lines that say what the bearing is, at the temperatures found."""
     return "\n".join(headline(loop.losses.there(point.inlet, point.clearance)))
 
 
-def steady_of(loop: Loop, found: Steady, losses_from: str = "quasi-static point") -> SteadyTemperatures:
+def steady_of(loop: BearingLoop, found: Steady, losses_from: str = "quasi-static point") -> SteadyTemperatures:
     """Put steady temperatures into the units of the interface."""
     model, network = loop.model, found.network
     of_network, of_case = _assumptions(loop)
-    names, flows = loop.bearing.names, network.flows(found.temperatures)
+    names, flows = loop.nodes.names, network.flows(found.temperatures)
     heat = float(network.heat.sum())
     pairs = [(i, j) for i in range(len(names)) for j in range(len(names)) if flows[i, j] > 0.0]
     return SteadyTemperatures(
         case=model.name,
         title=model.title,
-        headline=_headline(loop, found.point),
+        headline=_headline(loop, found.points[0]),
         losses_from=losses_from,
         conductances=loop.thermal.conductances,
         temperatures_degC=dict(zip(names, (found.temperatures - _ZERO_CELSIUS).tolist(), strict=True)),
         heat_W=dict(zip(names, network.heat.tolist(), strict=True)),
-        losses_W=_by_mechanism(found.point.losses),
+        losses_W=_by_mechanism(found.points[0].losses),
         flows=[
             HeatFlow(
                 source=names[i],
@@ -186,7 +186,7 @@ def _by_mechanism(losses: dict[str, float]) -> dict[str, float | None]:
 
 
 def _state(found: Steady) -> State:
-    point = found.point
+    point = found.points[0]
     return State(
         friction_torque_Nmm=finite(1e3 * point["torque"]),
         power_loss_W=point.power,
@@ -199,14 +199,15 @@ def _state(found: Steady) -> State:
     )
 
 
-def course_of(loop: Loop, course: Course) -> TemperaturesOverTime:
+def course_of(loop: BearingLoop, course: Course) -> TemperaturesOverTime:
     """Put temperatures over time into the units of the interface."""
-    model, names = loop.model, loop.bearing.names
+    model, names = loop.model, loop.nodes.names
+    points = [point for (point,) in course.points]
     of_network, of_case = _assumptions(loop)
     celsius = course.temperatures - _ZERO_CELSIUS
     reason = ""
     if course.beyond_limit:
-        hottest = names[int(np.argmax(np.where(np.isnan(loop.bearing.held), celsius[-1], -math.inf)))]
+        hottest = names[int(np.argmax(np.where(np.isnan(loop.nodes.held), celsius[-1], -math.inf)))]
         what = f"{hottest.replace('_', ' ')} passed thermal.limit = {loop.thermal.limit - _ZERO_CELSIUS:g} degC"
         feeding = course.gain is not None and course.gain.loop >= 1.0
         cause = f"{runaway_sentence(course.gain)}; " if feeding and course.gain else ""
@@ -214,19 +215,19 @@ def course_of(loop: Loop, course: Course) -> TemperaturesOverTime:
     return TemperaturesOverTime(
         case=model.name,
         title=model.title,
-        headline=_headline(loop, course.points[-1]),
+        headline=_headline(loop, points[-1]),
         conductances=loop.thermal.conductances,
         ended="limit" if course.beyond_limit else "finished",
         reason=reason,
         time_s=course.time.tolist(),
         temperatures_degC={name: celsius[:, i].tolist() for i, name in enumerate(names)},
-        friction_torque_Nmm=[finite(1e3 * point["torque"]) for point in course.points],
-        power_loss_W=[point.power for point in course.points],
-        clearance_um=[1e6 * point.clearance for point in course.points],
-        viscosity_mm2_per_s=[1e6 * point["viscosity"] for point in course.points],
-        film_um=[finite(1e6 * point["film"]) for point in course.points],
+        friction_torque_Nmm=[finite(1e3 * point["torque"]) for point in points],
+        power_loss_W=[point.power for point in points],
+        clearance_um=[1e6 * point.clearance for point in points],
+        viscosity_mm2_per_s=[1e6 * point["viscosity"] for point in points],
+        film_um=[finite(1e6 * point["film"]) for point in points],
         rise_63_s={name: finite(rise_time(course, i, 1.0 - math.exp(-1.0))) for i, name in enumerate(names)},
-        smallest_clearance_um=1e6 * min(point.clearance for point in course.points),
+        smallest_clearance_um=1e6 * min(point.clearance for point in points),
         heat_in_J=course.put_in,
         heat_out_J=course.taken_out,
         heat_stored_J=course.stored,

@@ -91,3 +91,29 @@ def long_fin(diameter: float, coefficient: float, conductivity: float) -> float:
     A fin of infinite length on each side, sqrt(h P k A) with P = pi d, A = pi d^2/4 (Harper and Brown 1922).
     """
     return 2.0 * math.sqrt(coefficient * math.pi * diameter * conductivity * math.pi * diameter**2 / 4.0)
+
+
+def housing_coefficient(height: float, housing: float, air: float, air_speed: float, emissivity: float) -> float:
+    """Return the coefficient of a housing of a height [m]: the larger convection, and radiation [W/(m2 K)].
+
+    Parameters
+    ----------
+    height : float
+        [m].
+    housing, air : float
+        Temperatures [K].
+    air_speed : float
+        [m/s].
+    emissivity : float
+        Of the housing's surface.
+    """
+    convection = natural_convection(height, housing, air)
+    if air_speed > 0.0:
+        convection = max(convection, forced_convection(height, air_speed))
+    return convection + radiation(emissivity, housing, air)
+
+
+def shaft_coefficient(diameter: float, speed: float, surface: float, air: float) -> float:
+    """Return the coefficient of a shaft, turning [rad/s] or in still air, whichever is larger [W/(m2 K)]."""
+    still = natural_convection(diameter, surface, air)
+    return max(rotating_shaft(diameter, speed), still)

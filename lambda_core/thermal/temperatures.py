@@ -52,7 +52,7 @@ def thermal(
     SolverError
         When there are no steady temperatures: a runaway is named with the gain that caused it.
     """
-    from lambda_core.thermal.feedback import Loop
+    from lambda_core.thermal.feedback import BearingLoop
     from lambda_core.thermal.operating import of_run
     from lambda_core.thermal.report import steady_of
 
@@ -66,7 +66,7 @@ def thermal(
         loop, found = of_run(run, resolve(parse_case(run.case_toml, str(run.path))), announce)
         return steady_of(loop, found, f"averages of {run.path}")
     model = model_of(source, overrides)
-    loop = Loop(model, _section(model), announce)
+    loop = BearingLoop(model, _section(model), announce)
     return steady_of(loop, loop.steady())
 
 
@@ -103,14 +103,14 @@ def warm_up(
     SolverError
         When a point on the way has no equilibrium, with the time reached.
     """
-    from lambda_core.thermal.feedback import Loop
+    from lambda_core.thermal.feedback import BearingLoop
     from lambda_core.thermal.report import course_of
     from lambda_core.thermal.transient import warm_up as integrate
 
     if not duration > 0.0:
         raise UsageError(f"a warm-up takes more than 0 s, not {duration:g} s")
     model = model_of(source, overrides)
-    loop = Loop(model, _section(model), announce)
+    loop = BearingLoop(model, _section(model), announce)
     return course_of(loop, integrate(loop, duration))
 
 

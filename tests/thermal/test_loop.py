@@ -12,14 +12,14 @@ from warm_bearings import preloaded
 from lambda_core import api
 from lambda_core.case.case import merged
 from lambda_core.domain.errors import CaseError, SolverError
-from lambda_core.thermal.feedback import Loop, Runaway
+from lambda_core.thermal.feedback import BearingLoop, Runaway
 from lambda_core.thermal.losses import LossMap
 
 
-def loop_of(case: dict[str, Any]) -> Loop:
+def loop_of(case: dict[str, Any]) -> BearingLoop:
     from lambda_core.case.case_io import validate_case
 
-    return Loop(api.check(case), validate_case(case).thermal)
+    return BearingLoop(api.check(case), validate_case(case).thermal)
 
 
 def test_steady_temperatures_close_the_loop(ordinary: dict[str, Any]) -> None:

@@ -73,21 +73,24 @@ class _Constant:
     def start(self) -> np.ndarray:
         return np.full(5, AMBIENT)
 
-    def capacities(self, density: float) -> np.ndarray:
+    def capacities(self, points: tuple[Point, ...]) -> np.ndarray:
         return np.where(np.isnan(self.held), self._capacity, np.inf)
 
-    def network(self, point: Point, temperatures: np.ndarray) -> Network:
+    def network(self, points: tuple[Point, ...], temperatures: np.ndarray) -> Network:
         return self._network
 
 
 def constant_loop(network: Network, capacity: float) -> SimpleNamespace:
     values = np.ones(len(LOSSES) + 9)
     return SimpleNamespace(
-        bearing=_Constant(network, capacity),
-        losses=SimpleNamespace(at=lambda inlet, clearance: Point(inlet, clearance, values), count=1),
+        nodes=_Constant(network, capacity),
+        losses=SimpleNamespace(
+            at=lambda inlet, clearance: Point(inlet, clearance, values),
+        ),
+        count=1,
         thermal=SimpleNamespace(limit=1e4),
         seen=lambda temperatures: np.array([AMBIENT, 0.0]),
-        model=SimpleNamespace(name="chain"),
+        name="chain",
     )
 
 
