@@ -36,6 +36,13 @@ def test_drag_slows_the_balls_of_a_quasi_static_solution() -> None:
     assert full < usual < free
 
 
+def test_the_friction_of_a_quasi_static_solution_does_not_depend_on_where_the_balls_stand() -> None:
+    """Under pure thrust half a pitch of the balls changes nothing, neither do the losses of the drag."""
+    model = api.check(CASE, ["operation.speed=3000 rpm", "gravity.z=0 m/s2"])
+    losses = [float(solve(model, phase=phase).losses.sum()) for phase in (0.0, 0.5)]
+    assert losses[0] == losses[1] or abs(losses[0] / losses[1] - 1.0) < 1e-5
+
+
 def test_in_motion_drag_is_that_at_the_azimuth_of_the_ball() -> None:
     """The mean is for solutions without time: after the equilibrium the tables ask for drag at each ball again."""
     assert fast_thrust().context.bundle.system[0]["drag_azimuths"] == 1

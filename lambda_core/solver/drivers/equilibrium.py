@@ -270,13 +270,13 @@ def contact_channels(compiled: Core, context: SolverContext, state: FloatArray) 
     z = g.balls
     contacts, rates = np.zeros((1, z, len(raceways_of_a_ball(g)), 16)), np.zeros((1, powers))
     system = bundle.system[0]
-    system["guides_on"] = 0
+    system["guides_on"], system["drag_azimuths"] = 0, _DRAG_AZIMUTHS
     ok = compiled.observe(
         np.zeros(1), state.reshape(1, -1), bundle, compiled.evaluate_pointer, SHORTED, contacts, np.zeros((1, z, 3)),
         np.zeros((1, 2, 3)), np.zeros((1, powers + 2)), np.zeros((1, bundle.shared.size)), rates,
         np.zeros(context.size),
     )  # fmt: skip
-    system["guides_on"] = 1
+    system["guides_on"], system["drag_azimuths"] = 1, 1
     if ok != 1:
         raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(context)}")
     return contacts[0], losses_by_ring(g, rates[0, : -L.BESIDE_LOSSES]).copy()
