@@ -128,7 +128,20 @@ EXCHANGES: tuple[Exchange, ...] = (
             ),
         ),
     ),
-    Exchange("fluid_drag", (Law("skf-catalogue"), Law("schaeffler-catalogue"), Law("sphere-drag"), Law("none"))),
+    Exchange(
+        "fluid_drag",
+        (
+            Law("skf-catalogue"),
+            Law("schaeffler-catalogue"),
+            Law("sphere-drag"),
+            Law(
+                "cavity-mixture",
+                ("parameters.fluid_drag.oil_share=0.05",),
+                note="oil in 5 % of the cavity, as a jet leaves it",
+            ),
+            Law("none"),
+        ),
+    ),
     Exchange(
         "permittivity",
         (Law("bode"), Law("constant")),

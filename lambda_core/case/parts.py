@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Tag, field_validator, model_validator
 
 from lambda_core.case.option import Section, option
+from lambda_core.domain.lubrication import Lubrication
 from lambda_core.domain.units import (
     Angle,
     Density,
@@ -217,6 +218,11 @@ class Lubricant(Section):
     name: str = option(description='catalogue name, for example "FVA3A"; with properties: any name', min_length=1)
     properties: InlineLubricant | None = option(None, "the oil's properties, in place of the catalogue's")
     temperature: Temperature = option(description="temperature of the oil bath and of the contact inlets")
+    lubrication: Lubrication | None = option(
+        None,
+        'how the oil gets to the balls: "oil bath", "oil jet", "under-race" (through the inner ring), "oil-air" or '
+        '"grease"; absent: grease for a grease, else oil bath. Without a bath balls run in a mixture of oil and air',
+    )
     oil_level: Length = option(
         "0 mm",
         "height of the oil above the lowest point of the pitch circle; 0 is the centre of the lowest ball",

@@ -73,3 +73,5 @@ class Context:
     cage_width: float = float("nan")  # [m]
     starvation: float = 1.0  # share of the flooded film that the case prescribes
     oil_level: float = float("nan")  # height of the oil above the lowest point of the pitch circle [m]
+    lubrication: str = "oil bath"  # "oil bath", "oil jet", "under-race", "oil-air", "grease"
+    oil_flow: float = float("nan")  # through the bearing [m3/s]

@@ -183,4 +183,5 @@ def trial_context(element: str, oil: Oil = _OIL) -> Context:
         land_diameter=52.0e-3 if inner else 68.0e-3,
         cage_width=12.0e-3,
         oil_level=0.5 * ball_diameter,
+        oil_flow=1e-5,
     )

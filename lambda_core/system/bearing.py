@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from lambda_core.case.thermal import Thermal
     from lambda_core.domain.elements import BodyName
     from lambda_core.domain.fits import Mounting
+    from lambda_core.domain.lubrication import Lubrication
     from lambda_core.elastic.ring import RingWaves
     from lambda_core.laws.context import Material, Oil
     from lambda_core.laws.law import Law
@@ -311,6 +312,8 @@ class BearingModel:
     cage_material: Material
     oil: Oil  # viscosity, density, alpha_p, beta are NaN here: the physics layer derives them
     oil_level: float  # above the lowest point of the pitch circle [m]
+    lubrication: Lubrication
+    oil_flow: float  # through the bearing [m3/s]
     roughness: float  # composite rms roughness sigma of ball and raceway [m]
     starvation: float  # factor on the film, 1 is fully flooded
     gravity: tuple[float, float, float]  # [m/s2]

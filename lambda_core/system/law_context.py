@@ -51,6 +51,8 @@ def build_context(model: BearingModel, element: str, frame: ContactFrame, oil: O
         pocket_clearance=model.cage.pocket_clearance,
         cage_width=model.cage.width,
         oil_level=model.oil_level,
+        lubrication=model.lubrication,
+        oil_flow=model.oil_flow,
         starvation=model.starvation,
     )
     if element in ("ball_inner", "ball_outer"):

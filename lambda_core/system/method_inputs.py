@@ -131,8 +131,8 @@ def method_inputs(
         static_rating=known.get("bearing.static_rating"),
         fatigue_limit=known.get("bearing.fatigue_limit"),
         contamination=contamination,
-        lubrication="grease" if "lubricant.nlgi" in known else "oil bath",
-        oil_level=model.oil_level,
+        lubrication=model.lubrication,
+        oil_level=0.0 if model.lubrication == "oil jet" else model.oil_level,  # SKF: of a jet, half the lowest ball
         drag_volume_factor=getattr(drag_parameters, "v_m", None),
         drag_edition=getattr(drag_parameters, "edition", "2018"),
         permittivity=permittivity,

@@ -52,7 +52,7 @@ from lambda_core.system.resolve_electric import resolve_electric
 from lambda_core.system.resolve_geometry import resolve_geometry, with_clearance
 from lambda_core.system.resolve_laws import LawResolver, ModelSource
 from lambda_core.system.resolve_links import resolve_links
-from lambda_core.system.resolve_materials import resolve_lubricant, resolve_material, resolve_oil_level
+from lambda_core.system.resolve_materials import lubrication_of, resolve_lubricant, resolve_material, resolve_oil_level
 from lambda_core.system.resolve_rows import hold_tilts
 from lambda_core.system.resolve_solver import resolve_solver
 from lambda_core.system.resolve_states import check_states
@@ -125,6 +125,7 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
         geometry = with_clearance(geometry, clearance_in_operation(case, geometry, mounting, ledger))
     check_clearance(geometry, ledger)
     _possible(case, ledger)
+    lubrication = lubrication_of(case.lubricant, lubricant)
     oil_level = resolve_oil_level(case.lubricant, lubricant, geometry.ball_diameter, ledger)
     cage, cage_estimate = resolve_cage(case.bodies.cage, cage_row, geometry, materials["cage"], ledger)
     inertias = _inertias(case, geometry, materials, cage_estimate, ledger)
@@ -145,6 +146,8 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
         cage_material=materials["cage"],
         oil=oil,
         oil_level=oil_level,
+        lubrication=lubrication,
+        oil_flow=case.thermal.oil_flow,
         roughness=case.surface.roughness,
         starvation=case.lubricant.starvation,
         gravity=(case.gravity.x, case.gravity.y, case.gravity.z),

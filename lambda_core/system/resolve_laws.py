@@ -15,6 +15,7 @@ from lambda_core.catalogue.protocol import LubricantRow
 from lambda_core.domain.elements import ELEMENTS
 from lambda_core.domain.errors import LambdaError, unknown_name
 from lambda_core.domain.installed import OWN
+from lambda_core.domain.lubrication import MIXTURES
 from lambda_core.domain.plugin_errors import describe
 from lambda_core.domain.roles import CAGE, DEFAULT_MODELS, MOTION_ROLES
 from lambda_core.laws.law import Law
@@ -28,6 +29,8 @@ NONE = "none"
 _WEAK = ("grade C)", "grade D)")  # how the origin of an estimate ends
 BALL_BALL = "ball-ball"  # takes the place of the pockets when there is no cage
 CONSTANT = "constant"  # permittivity law that needs no data
+CAVITY_DRAG = "cavity-mixture"  # default law of drag where the balls run in a mixture of oil and air
+SHARE_OF_OIL = "oil_share"  # its parameter that otherwise follows from the flow of oil
 PRESCRIBED = "film_factor"  # parameter of the supply laws that take lubricant.starvation
 # Element -> default model where the role's own default does not fit it.
 LANDS = {"cage_inner": "inner ring", "cage_outer": "outer ring"}
@@ -124,6 +127,13 @@ class LawResolver:
         except (Exception, SystemExit) as error:  # a check of the plugin's own
             self.ledger.problem(where, f"{chosen.label}: its parameters cannot be read: {describe(error)}")
             return None
+        if getattr(parameters, SHARE_OF_OIL, 0.0) is None and not self.case.thermal.oil_flow > 0.0:
+            self.ledger.problem(
+                "thermal.oil_flow",
+                f"{role} {chosen.name} needs the flow of oil through the bearing, or its share of the cavity: "
+                f"parameters.{role}.{SHARE_OF_OIL}",
+            )
+            return None
         origins = {}
         for key in type(parameters).model_fields:
             if key in case_texts:
@@ -178,6 +188,8 @@ class LawResolver:
 
     def _default(self, role: str) -> str:
         """Return the built-in default; for a law of the oil, the one that the oil has data for."""
+        if role == "fluid_drag" and self.case.lubricant.lubrication in MIXTURES:
+            return CAVITY_DRAG
         name = DEFAULT_MODELS[role]
         if name == "auto":
             return self._automatic(role)

@@ -9,6 +9,7 @@ from lambda_core.case.case import Case
 from lambda_core.case.parts import InlineMaterial, Lubricant
 from lambda_core.catalogue.protocol import Catalogue, LubricantRow, Value
 from lambda_core.domain.fits import Solid
+from lambda_core.domain.lubrication import Lubrication
 from lambda_core.domain.units import show
 from lambda_core.elastic.sections import BodyMaterial
 from lambda_core.laws.context import Material, Oil
@@ -115,12 +116,34 @@ def _tell_grease(row: LubricantRow, lubricant: Lubricant, ledger: Ledger) -> Non
     )
 
 
+def lubrication_of(lubricant: Lubricant, row: LubricantRow | None) -> Lubrication:
+    """Return how the oil gets to the balls: as the case says, or a bath for an oil."""
+    usual: Lubrication = "grease" if row is not None and is_grease(row) else "oil bath"
+    return lubricant.lubrication or usual
+
+
+def _check_lubrication(lubricant: Lubricant, row: LubricantRow | None, ledger: Ledger) -> None:
+    """Record how the oil gets to the balls; note where it does not go with the lubricant."""
+    if lubricant.lubrication is None:
+        return
+    ledger.given("lubricant.lubrication", lubricant.lubrication)
+    if row is not None and is_grease(row) and lubricant.lubrication != "grease":
+        ledger.problem("lubricant.lubrication", f'{row.name} is a grease: leave the line out, or write "grease"')
+    elif row is not None and not is_grease(row) and lubricant.lubrication == "grease":
+        ledger.problem("lubricant.lubrication", f"{row.name} is an oil, not a grease: name a grease or choose another")
+
+
 def resolve_oil_level(lubricant: Lubricant, row: LubricantRow | None, ball_diameter: float, ledger: Ledger) -> float:
-    """Return the level of the oil above the lowest point of the pitch circle [m]; below every ball for a grease."""
-    given = "oil_level" in lubricant.model_fields_set
+    """Return the level of the oil above the lowest point of the pitch circle [m]; below every ball without a bath."""
+    given, lubrication = "oil_level" in lubricant.model_fields_set, lubrication_of(lubricant, row)
+    _check_lubrication(lubricant, row, ledger)
     if row is not None and is_grease(row):
         if given:
             ledger.problem("lubricant.oil_level", f"{row.name} is a grease: it stands at no level; leave the line out")
+        return -ball_diameter
+    if lubrication != "oil bath":
+        if given:
+            ledger.problem("lubricant.oil_level", f'"{lubrication}" has no bath: leave the line out')
         return -ball_diameter
     if given:
         ledger.given("lubricant.oil_level", lubricant.oil_level, "length")

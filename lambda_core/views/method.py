@@ -14,13 +14,13 @@ from typing import Literal
 import numpy as np
 
 from lambda_core.domain.errors import LambdaError, unknown_name
+from lambda_core.domain.lubrication import Lubrication
 from lambda_core.domain.plugin_errors import PluginError, blamed, went_on_without
 from lambda_core.laws.context import Material, Oil
 
 METHOD_API = 1
 
 Group = Literal["friction", "capacitance", "life", "rating", "kinematics", "stiffness", "load"]
-Lubrication = Literal["oil bath", "oil jet", "oil-air", "grease"]
 
 # The unit in which every method states a quantity of a group, so that rows can stand side by side.
 GROUP_UNITS: dict[str, tuple[str, ...]] = {
@@ -88,7 +88,7 @@ class MethodInputs:
     static_rating: float | None = None  # C_0 [N]
     fatigue_limit: float | None = None  # C_u [N]
     contamination: float | None = None  # e_C of ISO 281, 0..1
-    lubrication: Lubrication = "oil bath"  # "oil bath", "oil jet", "oil-air", "grease"
+    lubrication: Lubrication = "oil bath"  # "oil bath", "oil jet", "under-race", "oil-air", "grease"
     oil_level: float | None = None  # above the lowest point of the pitch circle [m]
     drag_volume_factor: float | None = None  # V_M of SKF, read from its chart at H/d_m
     drag_edition: Literal["2008", "2018"] = "2018"  # edition of SKF's drag formula, to which V_M belongs

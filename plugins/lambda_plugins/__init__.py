@@ -99,6 +99,7 @@ _LAWS: dict[str, dict[str, str]] = {
         "skf-catalogue": "fluid_drag:skf_catalogue",
         "schaeffler-catalogue": "fluid_drag:schaeffler_catalogue",
         "sphere-drag": "sphere_drag:sphere_drag",
+        "cavity-mixture": "cavity_drag:cavity_mixture",
         "none": "fluid_drag:none",
     },
     "permittivity": {"bode": "bode:bode_permittivity", "constant": "bode:constant"},

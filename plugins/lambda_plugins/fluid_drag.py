@@ -8,6 +8,7 @@ moment. Reactions go to the housing.
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import Annotated, Any, Literal, NamedTuple
 
@@ -124,8 +125,15 @@ class SkfShare(NamedTuple):
 
 
 def prepare_skf(parameters: Skf, context: Context) -> SkfShare:
-    """Return a ball's share."""
-    square, viscous = skf_torque(parameters, context)
+    """Return a ball's share.
+
+    Of an oil jet SKF takes twice the torque of a bath to the middle of the lowest ball; it is spread over all balls.
+    """
+    jets, standing = 1.0, context
+    if context.lubrication == "oil jet":
+        jets, standing = 2.0, dataclasses.replace(context, lubrication="oil bath", oil_level=0.0)
+        context = dataclasses.replace(standing, oil_level=math.nan)
+    square, viscous = (jets * part for part in skf_torque(parameters, standing))
     drag, churn = power_factors(parameters, context)
     orbit, spin = kinematic_speeds(context, _RPM)
     bath = oil_geometry(context)
@@ -153,7 +161,7 @@ def power_factors(parameters: SharedLoss, context: Context) -> tuple[float, floa
     role_api=2,
     reference="SKF, Rolling bearings, catalogue 17000 EN (2018), chapter Friction; edition of 2008: Syla et al. 2026, "
     "Lubricants 14, 154, eq. 40",
-    validity="oil bath, horizontal shaft; V_M from SKF's chart, read within 15 %",
+    validity="oil bath, horizontal shaft; V_M from SKF's chart, read within 15 %; oil jet: twice that of a usual bath",
     prepare=prepare_skf,
 )
 def skf_catalogue(

@@ -17,7 +17,7 @@ class SphereDrag(Parameters):
     entrainment: float = parameter(
         0.0,
         "speed of the oil around the ball over the ball's orbital speed",
-        source="assumption: the bath is at rest; in a narrow, flooded bearing the oil turns with the cage",
+        source="assumption: the oil is at rest; in a narrow, flooded bearing the oil turns with the cage",
         status="assumed",
         published_range=(0.0, 1.0),
         ge=0.0,
@@ -35,6 +35,30 @@ class Stream(NamedTuple):
 def prepare(parameters: SphereDrag, context: Context) -> Stream:
     """Return the oil bath and how it turns."""
     return Stream(oil_geometry(context), parameters.entrainment)
+
+
+def drag_of_sphere(share: float, v: float, R: float, nu: float, rho: float) -> float:
+    """Return the drag [N] of a sphere of radius R at the speed v, `share` of it in the fluid; finite at rest.
+
+    Clift, Grace and Weber 1978, eq. 5-8: the formula is that of :func:`sphere_drag`.
+    """
+    Re = 2.0 * R * abs(v) / nu
+    # C_D Re, finite at rest: Stokes' part and the bluff body's part
+    inertial = 0.42 * Re / (1.0 + 42500.0 * (Re + 1e-9) ** -1.16)
+    force: float = share * 0.25 * math.pi * rho * nu * R * v * (24.0 * (1.0 + 0.15 * Re**0.687) + inertial)
+    return force
+
+
+def churning_of_sphere(share: float, omega: float, R: float, nu: float, rho: float) -> float:
+    """Return the moment [N m] against the spin of a sphere, `share` of it in the fluid.
+
+    Kirchhoff 1876 and Sawatzki 1970: the formula is that of :func:`sphere_drag`.
+    """
+    Re = abs(omega) * R * R / nu
+    boundary_layer = 32.1 + 6.45 * math.sqrt(Re)
+    # C_M Re: the larger of both laws with a smooth corner at Re = 8
+    joined: float = (_KIRCHHOFF**16 + boundary_layer**16) ** 0.0625
+    return share * 0.5 * rho * nu * R**3 * omega * joined
 
 
 @law(
@@ -59,14 +83,6 @@ def sphere_drag(
     """
     wet = immersion(azimuth, par.bath)
     R = par.bath.ball_radius
-    v = (1.0 - par.entrainment) * v_orbit
-    Re = 2.0 * R * abs(v) / nu
-    # C_D Re, finite at rest: Stokes' part and the bluff body's part
-    inertial = 0.42 * Re / (1.0 + 42500.0 * (Re + 1e-9) ** -1.16)
-    out[0] = wet * 0.25 * math.pi * rho * nu * R * v * (24.0 * (1.0 + 0.15 * Re**0.687) + inertial)
-    Re = abs(omega_spin) * R * R / nu
-    boundary_layer = 32.1 + 6.45 * math.sqrt(Re)
-    # C_M Re: the larger of both laws with a smooth corner at Re = 8
-    joined = (_KIRCHHOFF**16 + boundary_layer**16) ** 0.0625
-    out[1] = wet * 0.5 * rho * nu * R**3 * omega_spin * joined
+    out[0] = drag_of_sphere(wet, (1.0 - par.entrainment) * v_orbit, R, nu, rho)
+    out[1] = churning_of_sphere(wet, omega_spin, R, nu, rho)
     return OK

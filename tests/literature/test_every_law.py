@@ -75,6 +75,7 @@ CHECKED: dict[str, tuple[str, str]] = {
     "fluid_drag/skf-catalogue": (LOSSES, "test_skf_drag_of_the_6319"),
     "fluid_drag/schaeffler-catalogue": (LOSSES, "test_schaeffler_idle_torque_of_the_6319"),
     "fluid_drag/sphere-drag": (LOSSES, "test_standard_drag_curve"),
+    "fluid_drag/cavity-mixture": (LOSSES, "test_standard_drag_curve_in_a_mixture"),
     "fluid_drag/none": NOTHING,
     "force_element/bushing": (CLOSED, "test_bushing_is_hooke_and_newton_along_each_axis"),
     "time_function/chirp": (CLOSED, "test_zeros_of_a_chirp"),

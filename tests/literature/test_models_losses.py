@@ -92,6 +92,18 @@ def test_standard_drag_curve(Re: float, C_D: float) -> None:
     Published(C_D, "standard drag curve", "Clift and Gauvin's correlation: -4 to +6 %; reading", rel=0.12).check(found)
 
 
+@pytest.mark.parametrize(("Re", "C_D"), DRAG)
+def test_standard_drag_curve_in_a_mixture(Re: float, C_D: float) -> None:
+    """Oil in 2 % of the cavity, the rest air: the curve holds with density and viscosity of the mixture."""
+    context, nu, share, air, R = flooded_6319(), 1e-5, 0.02, 1.2, 15e-3
+    density = share * RHO + (1.0 - share) * air
+    v = Re * (share * RHO * nu + (1.0 - share) * 1.8e-5) / density / (2.0 * R)
+    given = {"v_orbit": v, "omega_spin": 0.0, "azimuth": 0.3, "nu": nu, "rho": RHO}
+    force = float(evaluate("fluid_drag/cavity-mixture", {"oil_share": share}, context, **given)[0])
+    found = force / (0.5 * density * v * v * math.pi * R * R)
+    Published(C_D, "standard drag curve", "Clift and Gauvin's correlation: -4 to +6 %; reading", rel=0.12).check(found)
+
+
 # Dennis, Singh and Ingham 1980, J. Fluid Mech. 101, 257: M = (rho omega^2 R^5/2) C_M, computed.
 SPIN = [(20.0, 3.05), (100.0, 0.966), (1000.0, 0.236)]
 

@@ -20,7 +20,7 @@ from lambda_core.testing import assert_symmetric, evaluate
 
 CONTEXT = dataclasses.replace(trial_context("fluid_drag"), oil_level=0.0)
 NU, RHO = 40e-6, 860.0
-LAWS = ["skf-catalogue", "schaeffler-catalogue", "sphere-drag"]
+LAWS = ["skf-catalogue", "schaeffler-catalogue", "sphere-drag"]  # of a bath
 
 
 def losses(name: str, context: Context, speed: float, turn: float = 0.0, **parameters: Any) -> Any:

@@ -86,8 +86,8 @@ def evaluate(inputs: MethodInputs) -> MethodTable:
         raise NotApplicable("the Schaeffler model needs the static load rating C_0 of the bearing")
     factors = series_factors(inputs.series)
     wet = inputs.lubrication == "oil bath"
-    if inputs.lubrication == "oil jet":
-        raise NotApplicable("the Schaeffler table has no factor f_0 for oil jet lubrication")
+    if inputs.lubrication in ("oil jet", "under-race"):
+        raise NotApplicable(f"the Schaeffler table has no factor f_0 for {inputs.lubrication} lubrication")
     f0 = factors.f0_bath if wet else factors.f0_grease
     idle = 0.0
     if inputs.relative_speed > 0.0:

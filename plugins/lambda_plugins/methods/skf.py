@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from lambda_core.domain.errors import unknown_name
-from lambda_core.views.method import Lubrication, Method, MethodInputs, MethodRow, MethodTable, NotApplicable
+from lambda_core.domain.lubrication import Lubrication
+from lambda_core.views.method import Method, MethodInputs, MethodRow, MethodTable, NotApplicable
 from lambda_plugins.methods import skf_angular
 from lambda_plugins.methods.skf_chart import UNCERTAINTY, drag_loss_factor
 from lambda_plugins.methods.skf_drag import K_Z, drag_torque, drag_torque_2008
@@ -219,6 +220,8 @@ def full_film_coefficient(base_type: str) -> float:
 
 def evaluate(inputs: MethodInputs) -> MethodTable:
     """Answer a case with the SKF model."""
+    if inputs.lubrication not in _STARVATION:
+        raise NotApplicable(f"SKF's model knows no {inputs.lubrication} lubrication")
     seals, about_seals = _seals(inputs)
     assumptions = [f"lubrication: {inputs.lubrication}", about_seals]
     height = 0.0

@@ -1,0 +1,9 @@
+"""How the oil gets to the balls, in the words of bearing catalogues."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+Lubrication = Literal["oil bath", "oil jet", "under-race", "oil-air", "grease"]
+# Where no oil stands among the balls: they run in a mixture of oil and air.
+MIXTURES: tuple[Lubrication, ...] = ("oil jet", "under-race", "oil-air")
