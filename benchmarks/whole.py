@@ -17,7 +17,7 @@ from lambda_core.system.checking import check
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
 
-CHANGES = ("discs.wheel.unbalance=50 g mm",)  # of the case that `init --shaft` writes
+CHANGES = ("discs.wheel.unbalance=50 g mm",)  # of the case that `init --template geared-shaft` writes
 MOST = 1.3  # times the sum
 _PIECES = 100  # short ones: of each a repeat is found that nothing else on the machine held up
 _MILLISECONDS, _MILLISECONDS_QUICK = 200, 40
@@ -73,7 +73,7 @@ def measure(effort: Effort) -> Section:
             "bearings evaluated", "ms", "us per bearing evaluated",
         ),
         tuple(rows),
-        ("The shaft of `init --shaft` with 50 g mm at its wheel; alone under the loads of the whole's equilibrium.",),
+        ("The template geared-shaft with 50 g mm at its wheel; alone under the loads of the whole's equilibrium.",),
     )  # fmt: skip
     ratio = seconds[WHOLE] / sum(value for name, value in seconds.items() if name != WHOLE)
     return Section("whole", (table,), (Target("a whole over the sum of its bearings", "-", ratio, MOST),))

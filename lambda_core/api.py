@@ -22,6 +22,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
         study_status,
         study_table,
     )
+    from lambda_core.case.case_io import is_machine
     from lambda_core.discovery.manager import use_plugin
     from lambda_core.discovery.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins, watchers
     from lambda_core.domain.errors import CaseError, LambdaError, UsageError
@@ -34,10 +35,10 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.run.speed_curve import stribeck, stribeck_picture
     from lambda_core.shaft.export import stiffness_target, write_stiffness
+    from lambda_core.shaft.machine_answers import describe_machine, machine_pictures, modes
+    from lambda_core.shaft.machine_text import machine_warnings
     from lambda_core.shaft.ross import ross_rotor
-    from lambda_core.shaft.shaft_calls import describe_shaft, init_shaft, is_shaft_file, shaft, shaft_pictures
-    from lambda_core.shaft.shaft_text import shaft_warnings
-    from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, machines, save, schema
+    from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, save, schema, templates
     from lambda_core.system.checking import check, describe, problems, resolve
     from lambda_core.system.law_trials import law_problems
     from lambda_core.system.resolve_machine import check_shaft
@@ -64,9 +65,10 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.results.side_by_side import SideBySide
     from lambda_core.results.summary import Summary
     from lambda_core.run.duty_cycle import DutyCycle
-    from lambda_core.run.estimate import Estimate
+    from lambda_core.run.estimate import Estimate, MachineEstimate
     from lambda_core.run.progress import Progress
-    from lambda_core.shaft.shaft_report import BearingOnShaft, ShaftReport
+    from lambda_core.shaft.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
+    from lambda_core.shaft.machine_modes import MachineModes
     from lambda_core.shaft.whole_summary import WholeSummary
     from lambda_core.system.bearing import BearingModel, Geometry
     from lambda_core.system.describe import ValueReport, value_reports

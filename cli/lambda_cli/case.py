@@ -31,18 +31,15 @@ def init(
             "--bearing", metavar="DESIGNATION", help='Start from a bearing of the catalogue: "SKF 6208-2RS1/C3".'
         ),
     ] = None,
-    machine: Annotated[
+    template: Annotated[
         str | None,
         typer.Option(
-            "--machine",
-            metavar="MACHINE",
-            help="Start from what is usual in an electric-motor, gearbox-shaft, spindle, pump, wheel or thin-housing; "
-            "with --bearing for a bearing of yours.",
+            "--template",
+            metavar="NAME",
+            help="Start from a machine: geared-shaft (a shaft in two bearings); or one bearing with what is usual in "
+            "an electric-motor, gearbox-shaft, spindle, pump, wheel or thin-housing, with --bearing for one of yours.",
         ),
     ] = None,
-    shaft: Annotated[
-        bool, typer.Option("--shaft", help="A shaft in two bearings with a gear, not one bearing.")
-    ] = False,
     out: Annotated[
         Path | None, typer.Option("--out", metavar="FILE", help="File to write; default: NAME.toml.")
     ] = None,
@@ -53,12 +50,7 @@ def init(
 
     from lambda_core import api
 
-    if shaft:
-        if start or bearing or machine:
-            raise api.UsageError("--shaft starts from nothing else: leave out --from, --bearing and --machine")
-        target = api.init_shaft(name, out, overwrite=force)
-    else:
-        target = api.init_case(name, start, out, overwrite=force, bearing=bearing, machine=machine)
+    target = api.init_case(name, start, out, overwrite=force, bearing=bearing, template=template)
     remember(target)
     typer.echo(f"wrote {target}; next: lambda-bearing check {target}", err=True)
 
@@ -73,8 +65,8 @@ def check(
 
     remember(case)
     try:
-        if api.is_shaft_file(case):
-            _check_shaft(case, changes or [], as_json=as_json)
+        if api.is_machine(case):
+            _check_machine(case, changes or [], units, as_json=as_json)
             return
         model = api.check(case, changes or ())
         if faults := api.law_problems(model):
@@ -92,8 +84,8 @@ def check(
     typer.echo("\n".join(wrapped(units.system.sentence(report.text()).splitlines(), columns())))
 
 
-def _check_shaft(case: str, changes: list[str], *, as_json: bool) -> None:
-    """Say what a shaft in bearings is."""
+def _check_machine(case: str, changes: list[str], units: Units, *, as_json: bool) -> None:
+    """Say what a machine is."""
     from lambda_core import api
 
     model = api.check_shaft(case, changes)
@@ -103,21 +95,18 @@ def _check_shaft(case: str, changes: list[str], *, as_json: bool) -> None:
     if as_json:
         bearings = {bearing.name: bearing.model.title for bearing in model.bearings}
         found = {"version": 1, "valid": True, "case": model.name, "bearings": bearings}
-        told = {"warnings": api.shaft_warnings(model), "assumptions": list(model.assumptions)}
+        told = {"warnings": api.machine_warnings(model), "assumptions": list(model.assumptions)}
         typer.echo(json.dumps({**found, **told}, indent=2))
     else:
-        typer.echo("\n".join(wrapped(api.describe_shaft(model).splitlines(), columns())))
+        typer.echo("\n".join(wrapped(units.system.sentence(api.describe_machine(model)).splitlines(), columns())))
 
 
-def schema(
-    out: FileOption = None,
-    shaft: Annotated[bool, typer.Option("--shaft", help="That of the files of shafts in bearings.")] = False,
-) -> None:
+def schema(out: FileOption = None) -> None:
     """Print the JSON schema of case files, for editors."""
     from lambda_core import api
     from lambda_core.domain.files import check_target
 
-    text = json.dumps(api.schema(shaft=shaft), indent=2)
+    text = json.dumps(api.schema(), indent=2)
     if out is None:
         typer.echo(text)
     else:

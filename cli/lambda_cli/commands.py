@@ -51,10 +51,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "run": ("lambda_cli.run:run", "Run a case and write its result."),
     "resume": ("lambda_cli.resume:resume", "Go on with an interrupted run."),
     "quasistatic": ("lambda_cli.quasistatic:quasistatic", "Equilibrium of a case without running it."),
-    "shaft": (
-        "lambda_cli.shaft:shaft",
-        "A shaft in several bearings: reactions, deflection, lives, critical speeds; its motion.",
-    ),
+    "modes": ("lambda_cli.quasistatic:modes", "Critical speeds and natural frequencies of a machine."),
     "stribeck": ("lambda_cli.stribeck:stribeck", "Friction torque over speed, compared with SKF's model."),
     "thermal": ("lambda_cli.thermal:thermal", "Temperatures of a bearing by its own losses."),
     "electric-map": ("lambda_cli.electric:risk_map", "Discharges over speed and temperature."),

@@ -1,24 +1,92 @@
-"""The command quasistatic: the equilibrium of a case, without time."""
+"""The commands quasistatic and modes: a case at its operating point, without time."""
 
 from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from lambda_cli.options import CaseArgument, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
+from lambda_core.domain.files import check_folder
+
+if TYPE_CHECKING:
+    from lambda_core.views.chart import ViewData
+
+DrawOption = Annotated[
+    Path | None, typer.Option("--draw", metavar="DIR", help="Also write pictures (svg and png) into this folder.")
+]
 
 
 def quasistatic(
     case: CaseArgument,
     changes: SetOption = None,
+    draw: DrawOption = None,
     as_json: JsonOption = False,
     units: UnitsOption = Units.SI,
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Solve loads, contact angles, films and friction of a case at t = 0, without time and cage."""
+    """Solve loads, contact angles, films and friction of a case at t = 0, without time and cage.
+
+    Of a machine: elastic shaft, bearings, housing, preload, thermal clearance and gear forces, with reactions,
+    deflection, lives and friction of every bearing. --draw is for machines: shaft, deflection and bending moment.
+    """
     from lambda_core import api
 
+    source, several = case, api.is_machine(case)
+    if draw is not None:
+        if not several:
+            raise api.UsageError("--draw goes with a machine; pictures of one bearing: lambda-bearing run, then view")
+        check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
-        found = api.quasistatic(case, changes or (), announce=speaker.say)
+        model = api.check_shaft(source, changes or ()) if several else None
+        found = api.quasistatic(model or source, () if model else changes or (), announce=speaker.say)
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
+    if draw is not None and model is not None:
+        _draw(api.machine_pictures(model, equilibrium=found), draw, case, units)  # type: ignore[arg-type]
+
+
+def modes(
+    case: CaseArgument,
+    changes: SetOption = None,
+    draw: DrawOption = None,
+    stiffness: Annotated[
+        Path | None,
+        typer.Option("--stiffness", metavar="FILE", help="Also write 6 x 6 stiffness and damping: .json or .csv."),
+    ] = None,
+    as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Compute critical speeds, natural frequencies and the stiffness of every bearing of a machine.
+
+    At the quasi-static equilibrium: bearings as stiff as at the operating point, damped by their films and contacts.
+    --draw writes the Campbell diagram: natural frequencies over speed.
+    """
+    from lambda_core import api
+
+    if draw is not None:
+        check_folder(draw, made=True)
+    if stiffness is not None:
+        api.stiffness_target(stiffness)
+    with talk(progress, quiet) as speaker:
+        model = api.check_shaft(case, changes or ()) if api.is_machine(case) else None
+        found = api.modes(model or case, announce=speaker.say)
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
+    if stiffness is not None:
+        typer.echo(str(api.write_stiffness(found, stiffness)), err=True)
+    if draw is not None and model is not None:
+        _draw(api.machine_pictures(model, modes=found), draw, case, units)
+
+
+def _draw(views: list[ViewData], folder: Path, case: str, units: Units) -> None:
+    """Write pictures in the units that were asked for."""
+    from lambda_core import api
+    from lambda_core.views.other_units import in_units
+
+    for view in views:
+        for path in api.draw(in_units(view, units.system), folder, api.view_stem([case])):
+            typer.echo(str(path), err=True)

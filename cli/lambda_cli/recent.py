@@ -19,4 +19,4 @@ def recent(as_json: JsonOption = False) -> None:
     elif found:
         typer.echo("\n".join(found))
     else:
-        typer.echo("no case yet; begin with: lambda-bearing init NAME --machine electric-motor", err=True)
+        typer.echo("no case yet; begin with: lambda-bearing init NAME --template electric-motor", err=True)

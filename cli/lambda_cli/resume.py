@@ -7,10 +7,10 @@ from typing import Annotated
 
 import typer
 
+from lambda_cli.machine_run import finish as finish_shaft
+from lambda_cli.machine_run import seconds, tell
 from lambda_cli.options import JsonOption, Units, UnitsOption
 from lambda_cli.run import DurationOption, WallOption, finish, limits
-from lambda_cli.shaft import finish as finish_shaft
-from lambda_cli.shaft import seconds, tell
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 
 

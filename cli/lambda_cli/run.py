@@ -49,6 +49,14 @@ def run(
     from lambda_core import api
 
     remember(case)
+    if api.is_machine(case):
+        from lambda_cli.machine_run import run_machine
+
+        run_machine(
+            case, changes or [], out, force=force, duration=duration, max_wall=max_wall, as_json=as_json, quiet=quiet,
+            progress=progress,
+        )  # fmt: skip
+        return
     model = api.check(case, [*(changes or ()), *limits(duration, max_wall)])
     with talk(progress, quiet) as speaker:
         for line in api.describe(model).headline:

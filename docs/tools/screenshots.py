@@ -386,7 +386,8 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         os.environ["LAMBDA_BEARING_DATA"] = str(Path(folder) / "data")
-        subprocess.run([sys.executable, "-m", "lambda_cli", "init", "box", "--shaft"], check=True, capture_output=True)
+        start = ["init", "box", "--template", "geared-shaft"]
+        subprocess.run([sys.executable, "-m", "lambda_cli", *start], check=True, capture_output=True)
         for case in (_6319, "6208-axial-2000", _6208):
             command = [sys.executable, "-m", "lambda_cli", "run", case, "--quiet"]
             subprocess.run(command, check=True, capture_output=True)

@@ -33,7 +33,7 @@ class CaseApp(App[None]):
         """Work on a case file, a copy of a built-in case, what is usual in a machine, an empty model or shaft."""
         try:
             if source.startswith(MACHINE):
-                draft = api.draft(machine=source.removeprefix(MACHINE))
+                draft = api.draft(template=source.removeprefix(MACHINE))
             elif source == SHAFT:
                 draft = api.draft(shaft=True)
             else:

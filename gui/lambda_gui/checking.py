@@ -107,7 +107,7 @@ class ShaftChecker(Checker):
                 if value.path.startswith("bearing.") else value
                 for value in value_reports(bearing.model) if number == 0 or value.path.startswith("bearing.")
             ]  # fmt: skip
-        return Check((), None, shaft, tuple(values), tuple(api.shaft_warnings(shaft)))
+        return Check((), None, shaft, tuple(values), tuple(api.machine_warnings(shaft)))
 
 
 def _with_needed(tables: Mapping[str, Any], root: type[BaseModel]) -> dict[str, Any]:

@@ -29,7 +29,7 @@ class Derived(Static):
     def __init__(self) -> None:
         super().__init__(id="derived")
         self._check: Check | None = None
-        self._estimate: Any = None  # an Estimate; of a shaft its ShaftReport
+        self._estimate: Any = None  # an Estimate; of a machine its MachineEstimate
         self._say = ""
         self.is_current = False  # whether the numbers are those of the case as it stands
 

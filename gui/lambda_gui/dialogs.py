@@ -131,7 +131,7 @@ class OpenCase(ModalScreen[str | None]):
         self._offers += [(str(file), file.name, f"in {self._folder.name or self._folder}") for file in here]
         known = {file.resolve() for file in here}
         self._offers += [(str(f), f.name, f"recent, in {_short(f.parent)}") for f in recent_cases() if f not in known]
-        self._offers += [(f"{MACHINE}{name}", name, text) for name, text in api.machines().items()]
+        self._offers += [(f"{MACHINE}{name}", name, text) for name, text in api.templates().items()]
         self._offers += [(name, name, text) for name, text in api.builtin_cases().items()]
         self._filter("")
 

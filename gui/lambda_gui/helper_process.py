@@ -27,10 +27,10 @@ def estimate(say: Say, tables: dict[str, Any], folder: str | None) -> Any:
 
 
 def shaft(say: Say, tables: dict[str, Any], folder: str | None) -> Any:
-    """Solve the equilibrium of a shaft in its bearings."""
+    """Solve the equilibrium and the modes of a machine."""
     from lambda_core import api
 
-    return api.shaft(api.check_shaft(tables, folder=Path(folder) if folder else None), announce=say)
+    return api.estimate(api.check_shaft(tables, folder=Path(folder) if folder else None), announce=say)
 
 
 def summary(say: Say, path: str) -> Any:

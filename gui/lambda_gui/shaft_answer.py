@@ -15,7 +15,7 @@ from lambda_gui.derived import Derived, grouped
 from lambda_gui.shown_units import fact_in_units
 
 if TYPE_CHECKING:
-    from lambda_core.api import BearingOnShaft, ShaftReport
+    from lambda_core.api import BearingEquilibrium, MachineEquilibrium, MachineEstimate, MachineModes
     from lambda_core.domain.unit_systems import UnitSystem
 
 _LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
@@ -33,7 +33,7 @@ def _number(value: float | None, digits: int = 3) -> str:
 
 
 # Head, unit, what stands there, and how soon it is left out where there is little room
-_COLUMNS: tuple[tuple[str, str, Callable[[BearingOnShaft], str], int], ...] = (
+_COLUMNS: tuple[tuple[str, str, Callable[[BearingEquilibrium], str], int], ...] = (
     ("radial", "N", lambda b: grouped(b.radial_load_N), 0),
     ("axial", "N", lambda b: grouped(b.axial_load_N) if abs(b.axial_load_N) > 0.5 else "0", 1),
     ("p", "GPa", lambda b: f"{b.max_pressure_GPa:.2f}", 3),
@@ -51,8 +51,8 @@ class ShaftAnswer(Derived):
     """Numbers of the equilibrium; grey while they are solved anew."""
 
     @property
-    def report(self) -> ShaftReport | None:
-        """The equilibrium that is shown."""
+    def answer(self) -> MachineEstimate | None:
+        """The equilibrium and the modes that are shown."""
         return self._estimate  # type: ignore[no-any-return]
 
     def draw(self) -> None:
@@ -72,16 +72,20 @@ class ShaftAnswer(Derived):
             return []
         found = list(self._check.warnings)
         if self._estimate is not None and self.is_current:
-            found += [f"{bearing.name}: {text}" for bearing in self._estimate.bearings for text in bearing.warnings]
+            found += [
+                f"{bearing.name}: {text}"
+                for bearing in self._estimate.equilibrium.bearings
+                for text in bearing.warnings
+            ]
         return list(dict.fromkeys(found))
 
-    def _told(self, report: ShaftReport, units: UnitSystem) -> Text:
+    def _told(self, answer: MachineEstimate, units: UnitSystem) -> Text:
         width, room = max(20, self.size.width), max(3, self.size.height)
         style = "" if self.is_current else "dim"
         state = "" if self.is_current else f"stale: {self._say or 'solving'}"
         warned = self.warnings()
-        lines = _table(report, units, width, style)
-        lines += [Text(line, style=style) for line in _of_the_shaft(report, units)]
+        lines = _table(answer.equilibrium, units, width, style)
+        lines += [Text(line, style=style) for line in _of_the_shaft(answer.equilibrium, answer.modes, units)]
         head = [Text(state, style="italic", no_wrap=True, overflow="ellipsis")] if state else []
         if warned:
             words = units.sentence(warned[0]) if len(warned) == 1 else f"{len(warned)} warnings: F8"
@@ -93,7 +97,7 @@ class ShaftAnswer(Derived):
         return Text("\n").join([*head, *lines][:room])
 
 
-def _table(report: ShaftReport, units: UnitSystem, width: int, style: str) -> list[Text]:
+def _table(report: MachineEquilibrium, units: UnitSystem, width: int, style: str) -> list[Text]:
     """Return one line per bearing under two lines of heads, with as many columns as there is room for."""
     names = [bearing.name for bearing in report.bearings]
     first = min(max(map(len, names)), 12)
@@ -116,13 +120,13 @@ def _table(report: ShaftReport, units: UnitSystem, width: int, style: str) -> li
     return lines
 
 
-def _of_the_shaft(report: ShaftReport, units: UnitSystem) -> list[str]:
+def _of_the_shaft(report: MachineEquilibrium, modes: MachineModes, units: UnitSystem) -> list[str]:
     """Return the text about the complete shaft."""
     bends = ((math.hypot(y, z), x) for (_, y, z), x in zip(report.deflection_um, report.positions_mm, strict=True))
     bend, place = max(bends)
     told = [f"bends {bend:.3g} um at {place:.4g} mm"]
-    if report.critical_speeds:
-        first = report.critical_speeds[0].speed_rpm
+    if modes.critical_speeds:
+        first = modes.critical_speeds[0].speed_rpm
         times = f", {first / abs(report.speed_rpm):.2g} x" if report.speed_rpm else ""
         told.append(f"critical {grouped(float(f'{first:.4g}'))} 1/min{times}")
     if report.system_life_h is not None:

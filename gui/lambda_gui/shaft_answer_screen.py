@@ -15,7 +15,7 @@ from lambda_core.views.other_units import in_units
 from lambda_gui.charts import notes_text, shape_of, widget_for
 
 if TYPE_CHECKING:
-    from lambda_core.api import Machine, ShaftReport
+    from lambda_core.api import Machine, MachineEstimate
     from lambda_core.domain.unit_systems import UnitSystem
 
 
@@ -24,8 +24,8 @@ class ShaftAnswerScreen(Screen[None]):
 
     Parameters
     ----------
-    model, report
-        The shaft and its equilibrium.
+    model, answer
+        The machine, and its equilibrium and modes.
     """
 
     BINDINGS: ClassVar[list[BindingType]] = [
@@ -41,9 +41,9 @@ class ShaftAnswerScreen(Screen[None]):
     ShaftAnswerScreen .row { width: 1fr; }
     """
 
-    def __init__(self, model: Machine, report: ShaftReport) -> None:
+    def __init__(self, model: Machine, answer: MachineEstimate) -> None:
         super().__init__()
-        self._model, self._report = model, report
+        self._model, self._answer = model, answer
 
     def compose(self) -> ComposeResult:
         """Lay out the numbers, and a plot for each panel."""
@@ -51,9 +51,11 @@ class ShaftAnswerScreen(Screen[None]):
 
         units: UnitSystem = self.app.units  # type: ignore[attr-defined]
         width, height = self.app.size
+        found, modes = self._answer.equilibrium, self._answer.modes
         with VerticalScroll():
-            yield Static(Text(units.sentence(self._report.text(width - 4))))
-            for view in api.shaft_pictures(self._model, self._report):
+            yield Static(Text(found.text(width - 4, units)))
+            yield Static(Text("\n" + modes.text(width - 4, units)))
+            for view in api.machine_pictures(self._model, found, modes):
                 data = in_units(view, units)
                 panels = [panel for panel in data.panels if panel.arrows is None]  # the shaft itself stands elsewhere
                 side, high = shape_of(panels, 2, width, height)

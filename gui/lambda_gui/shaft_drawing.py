@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from rich.text import Text
 
 if TYPE_CHECKING:
-    from lambda_core.api import Machine, MountedBearing, ShaftReport
+    from lambda_core.api import Machine, MachineEquilibrium, MountedBearing
 
 _DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))  # of a braille sign: four down, two across
 _HALF = 1.4  # a half section is drawn where a whole one would be that much smaller
@@ -104,13 +104,13 @@ class _Scale:
 
 
 def drawn_shaft(
-    model: Machine, report: ShaftReport | None, width: int, height: int, colours: Mapping[str, str]
+    model: Machine, report: MachineEquilibrium | None, width: int, height: int, colours: Mapping[str, str]
 ) -> Text:
     """Draw sections, bearings, bodies, gears, discs and loads to scale, names around them, and the bend below.
 
     Parameters
     ----------
-    report : ShaftReport, optional
+    report : MachineEquilibrium, optional
         Of this shaft; without one the bend is left out.
     width, height : int
         Room in characters; a character is taken as twice as high as wide.
@@ -220,7 +220,12 @@ def _label(canvas: Canvas, line: int, middle: float, label: str, colour: str, *,
 
 
 def _names_below(
-    canvas: Canvas, model: Machine, report: ShaftReport | None, scale: _Scale, line: int, colours: Mapping[str, str]
+    canvas: Canvas,
+    model: Machine,
+    report: MachineEquilibrium | None,
+    scale: _Scale,
+    line: int,
+    colours: Mapping[str, str],
 ) -> None:
     """Name bearings with what holds them along x and the way in which they push the shaft, and springs."""
     forces = {bearing.name: bearing.force_N for bearing in report.bearings} if report is not None else {}
@@ -253,7 +258,7 @@ def _way(x: float, y: float, z: float) -> str:
 
 
 def _bend(
-    canvas: Canvas, report: ShaftReport, scale: _Scale, first: int, lines: int, colours: Mapping[str, str]
+    canvas: Canvas, report: MachineEquilibrium, scale: _Scale, first: int, lines: int, colours: Mapping[str, str]
 ) -> None:
     """Draw the deflection, vertical and horizontal, under the shaft, with its largest value."""
     places = [1e-3 * place for place in report.positions_mm]

@@ -67,19 +67,19 @@ class ShaftScreen(BuilderScreen):
         """Show what the shaft does."""
         super().show_estimate(estimate, say)
         if self.is_here and estimate is not None:
-            self.query_one(ShaftSketch).show_report(estimate)
+            self.query_one(ShaftSketch).show_report(estimate.equilibrium)
 
     def action_answer(self) -> None:
         """Show everything that the equilibrium says."""
         from lambda_gui.shaft_answer_screen import ShaftAnswerScreen
 
         answer = self.query_one(ShaftAnswer)
-        if self.check.shaft is None or answer.report is None or not answer.is_current:
+        if self.check.shaft is None or answer.answer is None or not answer.is_current:
             count = len(self.check.problems)
             text = f"{count} mistake{'s' * (count != 1)} to mend first: F8" if count else "still solving"
             self.notify(text, severity="warning", timeout=4)
             return
-        self.app.push_screen(ShaftAnswerScreen(self.check.shaft, answer.report))
+        self.app.push_screen(ShaftAnswerScreen(self.check.shaft, answer.answer))
 
     def action_one_bearing(self) -> None:
         """Say what a shaft has not."""

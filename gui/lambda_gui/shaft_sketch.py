@@ -10,7 +10,7 @@ from lambda_gui.shaft_drawing import drawn_shaft
 from lambda_gui.sketch import Sketch
 
 if TYPE_CHECKING:
-    from lambda_core.api import Machine, ShaftReport
+    from lambda_core.api import Machine, MachineEquilibrium
     from lambda_gui.checking import Check
     from lambda_gui.nodes import Node
 
@@ -21,7 +21,7 @@ class ShaftSketch(Sketch):
     def __init__(self) -> None:
         super().__init__()
         self._shaft: Machine | None = None
-        self._report: ShaftReport | None = None
+        self._report: MachineEquilibrium | None = None
 
     def show_check(self, check: Check) -> None:
         """Take a shaft without mistakes; what it did before has nothing to say about it."""
@@ -29,7 +29,7 @@ class ShaftSketch(Sketch):
             self._shaft, self._report = check.shaft, None
             self.draw()
 
-    def show_report(self, report: ShaftReport) -> None:
+    def show_report(self, report: MachineEquilibrium) -> None:
         """Take the equilibrium of the shaft."""
         self._report = report
         self.draw()

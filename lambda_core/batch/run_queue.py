@@ -31,7 +31,7 @@ _FORGOTTEN_AFTER = 86400.0  # [s] age at which the files of a run that nobody to
 _WORK: dict[RunKind, tuple[list[str], list[str]]] = {
     "run": (["run", "case.toml", "--out"], ["resume"]),
     "study": (["study", "run", "study.toml", "--out"], ["study", "resume"]),
-    "shaft": (["shaft", "case.toml", "--run", "--out"], ["resume"]),
+    "shaft": (["run", "case.toml", "--out"], ["resume"]),
 }
 _COMPLETE: dict[RunKind, str] = {"run": "converged", "study": "every point has a result", "shaft": "converged"}
 _SHORT: dict[RunKind, str] = {"run": "not converged", "study": "not every point has a result", "shaft": "not converged"}

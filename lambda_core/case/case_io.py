@@ -13,7 +13,7 @@ from pydantic import BaseModel, ValidationError
 from lambda_core.case.builtin import builtin_cases, builtin_text, is_builtin
 from lambda_core.case.case import Case, merged
 from lambda_core.case.salvage import invalid_case
-from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
+from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, nearest
 from lambda_core.domain.files import read_text
 from lambda_core.domain.handed_laws import named
 from lambda_core.domain.option_tree import field_at
@@ -95,7 +95,8 @@ def shaft_tables(source: str | Path) -> dict[str, Any]:
     """
     path = Path(source)
     if not path.is_file():
-        raise UsageError(f'"{source}" is not a file; lambda-bearing init NAME --shaft writes one to start from')
+        how = "lambda-bearing init NAME --template geared-shaft writes one to start from"
+        raise UsageError(f'"{source}" is not a file; {how}')
     return toml_tables(case_text(path), path.name)
 
 
@@ -104,7 +105,7 @@ def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | 
     if isinstance(data.get("parameters"), list) and "bearing" not in data:
         raise CaseError(source, [Problem("", f"is a study, not a case: lambda-bearing study run {source}")])
     if is_shaft(data):
-        raise CaseError(source, [Problem("", f"is a shaft, not one bearing: lambda-bearing shaft {source}")])
+        raise CaseError(source, [Problem("", "is a machine of several bearings; this question is about one bearing")])
     if _is_deep(data):
         raise CaseError(source, [Problem("", "is nested too deeply")])
     data = {key: named(value) if key in _LAWS_IN else value for key, value in data.items()}
@@ -112,6 +113,24 @@ def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | 
         return Case.model_validate(data, context={"folder": folder})
     except ValidationError as error:
         raise invalid_case(source, error, data, folder) from None
+
+
+def is_machine(source: Any) -> bool:
+    """Tell whether a source is a machine of several bearings, not one bearing; False where nothing can be read.
+
+    Parameters
+    ----------
+    source : str, Path, mapping, case or resolved model
+        Whatever a function takes as a case.
+    """
+    if isinstance(source, Mapping):
+        return is_shaft(source)
+    if not isinstance(source, str | Path):
+        return hasattr(source, "bearings")  # a case or a model; that of one bearing has `bearing`, or is one
+    try:
+        return is_shaft(shaft_tables(source))
+    except LambdaError:
+        return False
 
 
 def is_shaft(data: Mapping[str, Any]) -> bool:
@@ -193,9 +212,3 @@ def _value(path: str, text: str, root: type[BaseModel]) -> Any:
     info = field_at(root, path)
     wants_text = info is not None and "str" in str(info.annotation)
     return text if wants_text and isinstance(parsed, int | float) and not isinstance(parsed, bool) else parsed
-
-
-def case_json_schema() -> dict[str, Any]:
-    """Return the JSON schema of a case file, for editors."""
-    schema = Case.model_json_schema(mode="validation")
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "lambda-bearing case", **schema}

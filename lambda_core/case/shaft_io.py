@@ -52,9 +52,3 @@ def _names(data: Mapping[str, Any]) -> list[Problem]:
             elif name in TAKEN.get(table, ()):
                 found.append(Problem(f"{table}.{name}", f'"{name}" is there already: choose another name'))
     return found
-
-
-def shaft_json_schema() -> dict[str, Any]:
-    """Return the JSON schema of the file of a shaft, for editors."""
-    schema = ShaftCase.model_json_schema(mode="validation")
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "lambda-bearing shaft", **schema}

@@ -13,9 +13,13 @@ from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import Record
 from lambda_core.run.engineering import rating_of
+from lambda_core.shaft.machine_equilibrium import MachineEquilibrium, equilibrium_of
+from lambda_core.shaft.machine_modes import MachineModes, modes_of
+from lambda_core.shaft.shaft_equilibrium import solve_shaft
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.system.bearing import BearingModel
+from lambda_core.system.machine import Machine
 from lambda_core.system.time_functions import initial
 from lambda_core.views.method import Method
 
@@ -33,6 +37,25 @@ class Estimate(Record):
     rating: Rating = Field(description="life, safety and catalogue friction")
     simulated_s: float | None = Field(description="shortest simulated time of the run")
     run_s: float | None = Field(description="wall time of the run, from a trial of 1/20 cage turn on this machine")
+
+
+class MachineEstimate(Record):
+    """Numbers for a machine that is being set up."""
+
+    equilibrium: MachineEquilibrium
+    modes: MachineModes
+
+
+def machine_estimate(model: Machine, announce: Callable[[str], None] | None = None) -> MachineEstimate:
+    """Solve the equilibrium of a machine once and say what follows from it.
+
+    Raises
+    ------
+    SolverError
+        When there is no equilibrium.
+    """
+    state = solve_shaft(model, announce)
+    return MachineEstimate(equilibrium=equilibrium_of(model, state), modes=modes_of(model, state))
 
 
 def estimate(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from lambda_core.case.case_io import is_machine
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.run.answers import result
 from lambda_core.system.checking import resolve
@@ -14,24 +15,29 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.results.reader import Result
     from lambda_core.run.crosscheck import CrossCheck
-    from lambda_core.run.estimate import Estimate
+    from lambda_core.run.estimate import Estimate, MachineEstimate
     from lambda_core.run.progress import Progress
     from lambda_core.run.stepping import Stepping
     from lambda_core.run.warmup import Warmup
+    from lambda_core.shaft.machine_equilibrium import MachineEquilibrium
     from lambda_core.system.bearing import BearingModel
+    from lambda_core.system.machine import Machine
 
 
 @one_blas_thread()
 def quasistatic(
-    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine,
     overrides: Iterable[str] = (),
     *,
     announce: Callable[[str], None] | None = None,
-) -> QuasiStatic:
+) -> QuasiStatic | MachineEquilibrium:
     """Solve the quasi-static equilibrium of a case at t = 0: loads, angles, films, friction; no time, no cage.
+
+    Of a machine it is that of its elastic shaft in its bearings, with housing, preload and gear forces.
 
     Parameters
     ----------
@@ -42,27 +48,33 @@ def quasistatic(
 
     Returns
     -------
-    QuasiStatic
-        Numbers in the units of their names.
+    QuasiStatic or MachineEquilibrium
+        Of one bearing, or of a machine of several; numbers in the units of their names.
 
     Raises
     ------
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
+    if is_machine(source):
+        from lambda_core.shaft.machine_answers import machine_equilibrium
+
+        return machine_equilibrium(source, overrides, announce=announce)  # type: ignore[arg-type]
     from lambda_core.results.quasistatic import quasistatic_of
     from lambda_core.run.suspects import naming_laws
     from lambda_core.solver.drivers.equilibrium import solve
 
-    model = ready_model(source, overrides, announce, is_static=True)
+    model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
     with naming_laws(model):
         return quasistatic_of(solve(model, announce=announce))
 
 
 @one_blas_thread()
 def estimate(
-    source: str | Path | Mapping[str, Any] | Case | BearingModel, *, announce: Callable[[str], None] | None = None
-) -> Estimate:
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine,
+    *,
+    announce: Callable[[str], None] | None = None,
+) -> Estimate | MachineEstimate:
     """Estimate a case before it is run: equilibrium, rating life, wall time.
 
     Parameters
@@ -74,8 +86,8 @@ def estimate(
 
     Returns
     -------
-    Estimate
-        Numbers that there are none of are None.
+    Estimate or MachineEstimate
+        Of one bearing, or of a machine of several. Numbers that there are none of are None.
 
     Raises
     ------
@@ -85,7 +97,12 @@ def estimate(
     from lambda_core.discovery.manager import registry
     from lambda_core.run.estimate import estimate as ask
 
-    return ask(ready_model(source, announce=announce), registry().methods, announce)
+    if is_machine(source):
+        from lambda_core.run.estimate import machine_estimate
+        from lambda_core.shaft.machine_answers import machine_of
+
+        return machine_estimate(machine_of(source), announce)  # type: ignore[arg-type]
+    return ask(ready_model(source, announce=announce), registry().methods, announce)  # type: ignore[arg-type]
 
 
 @one_blas_thread()

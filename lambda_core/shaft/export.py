@@ -9,13 +9,13 @@ from pathlib import Path
 
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_folder, check_target
-from lambda_core.shaft.shaft_report import AXES, ShaftReport
+from lambda_core.shaft.machine_modes import AXES, MachineModes
 
 _MATRICES = ("stiffness", "housed_stiffness", "damping", "housed_damping")
 FORMAT = "lambda-bearing bearing stiffness 2"
 
 
-def stiffness_text(report: ShaftReport, kind: str) -> str:
+def stiffness_text(found: MachineModes, kind: str) -> str:
     """Return the matrices as text.
 
     Parameters
@@ -26,8 +26,8 @@ def stiffness_text(report: ShaftReport, kind: str) -> str:
     if kind == "json":
         data = {
             "format": FORMAT,
-            "case": report.case,
-            "speed_rpm": report.speed_rpm,
+            "case": found.case,
+            "speed_rpm": found.speed_rpm,
             "axes": list(AXES),
             "units": "stiffness N/m, N/rad, N m/m, N m/rad; damping N s/m, N s/rad, N m s/m, N m s/rad; inner ring "
             "against outer ring, x along the shaft, z up; damping of vibrations with the shaft's speed",
@@ -37,27 +37,27 @@ def stiffness_text(report: ShaftReport, kind: str) -> str:
                     "stiffness": b.stiffness, "housed_stiffness": b.housed_stiffness,
                     "damping": b.damping, "housed_damping": b.housed_damping,
                 }
-                for b in report.bearings
+                for b in found.bearings
             ],
         }  # fmt: skip
         return json.dumps(data, indent=2) + "\n"
     stream = io.StringIO()
     rows = csv.writer(stream, lineterminator="\n")
     rows.writerow(["bearing", "position_mm", "row", "column", *_MATRICES])
-    for b in report.bearings:
+    for b in found.bearings:
         for i, first in enumerate(AXES):
             for j, second in enumerate(AXES):
                 rows.writerow([b.name, b.position_mm, first, second, *(getattr(b, m)[i][j] for m in _MATRICES)])
     return stream.getvalue()
 
 
-def write_stiffness(report: ShaftReport, path: str | Path) -> Path:
+def write_stiffness(found: MachineModes, path: str | Path) -> Path:
     """Write the 6 x 6 stiffness and damping of every bearing at its operating point to a file.
 
     Parameters
     ----------
-    report : ShaftReport
-        From :func:`shaft`.
+    found : MachineModes
+        From :func:`modes`.
     path : path-like
         Its name ends in .json or .csv.
 
@@ -73,7 +73,7 @@ def write_stiffness(report: ShaftReport, path: str | Path) -> Path:
     """
     target, kind = stiffness_target(path)
     try:
-        target.write_text(stiffness_text(report, kind), encoding="utf-8")
+        target.write_text(stiffness_text(found, kind), encoding="utf-8")
     except OSError as error:
         raise UsageError(f'cannot write "{target}": {error.strerror}') from None
     return target

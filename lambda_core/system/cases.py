@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from lambda_core.catalogue.protocol import Catalogue
 
 
+GEARED_SHAFT = "geared-shaft"  # template of a shaft in two bearings
+
+
 def case(source: str | Path, overrides: Iterable[str] = ()) -> Case:
     """Read a case from a TOML file or by the name of a built-in one.
 
@@ -82,7 +85,7 @@ def init_case(
     overwrite: bool = False,
     *,
     bearing: str | None = None,
-    machine: str | None = None,
+    template: str | None = None,
 ) -> Path:
     """Write a commented case called `name` that starts from another, or from a bearing of the catalogue.
 
@@ -98,9 +101,9 @@ def init_case(
         Replace a file that stands there.
     bearing : str, optional
         Instead of `start`: a bearing of the catalogue, "6319", "SKF 6208" or "SKF 6208-2RS1/C3".
-    machine : str, optional
-        Instead of `start`: a machine with what is usual there, ``electric-motor``, ``gearbox-shaft``, ``spindle``,
-        ``pump``, ``wheel`` or ``thin-housing``; with its own bearing where none is given.
+    template : str, optional
+        Instead of `start`: one of :func:`templates`. ``geared-shaft`` is a shaft in two bearings; the others are one
+        bearing with what is usual in such a machine, with `bearing` for another one.
 
     Returns
     -------
@@ -110,8 +113,8 @@ def init_case(
     Raises
     ------
     UsageError
-        When the file exists, cannot be written, there is no such case to start from, or both a case and a
-        bearing are given.
+        When the file exists, cannot be written, there is no such case or template to start from, or both a case and
+        a bearing are given.
     CatalogueError
         When the bearing is unknown, or several makers have one of that name.
     CaseError
@@ -120,34 +123,48 @@ def init_case(
     from lambda_core.case.case_writer import new_case, write_new
 
     target = Path(path) if path is not None else Path(f"{name}.toml")
-    if bearing is None and machine is None:
+    if bearing is None and template is None:
         return new_case(name, start or "6319-cp10-1500", target, overwrite)
     if start is not None:
-        other = "a bearing" if machine is None else "a machine"
+        other = "a bearing" if template is None else "a template"
         raise UsageError(f"a new case starts from a case or from {other}, not from both")
+    text = _template_text(name, template, bearing)
+    if template == GEARED_SHAFT:
+        import tomllib
+
+        from lambda_core.case.case_writer import save_text
+        from lambda_core.case.shaft_io import validate_shaft
+        from lambda_core.domain.files import check_new
+
+        validate_shaft(tomllib.loads(text), f'new machine "{name}"')
+        save_text(text, check_new(target, overwrite))
+        return target
     from lambda_core.case.case_io import parse_case
 
-    text = _machine_text(name, machine, bearing)
     return write_new(parse_case(text, f"case {name}"), text, target, overwrite)
 
 
-def _machine_text(name: str, machine: str | None, bearing: str | None) -> str:
-    """Return the commented case of a bearing in a machine, or in any."""
+def _template_text(name: str, template: str | None, bearing: str | None) -> str:
+    """Return the commented case of a template, or of a bearing in any machine."""
     from contextlib import closing
 
     from lambda_core.catalogue.designation import designated
     from lambda_core.system.fresh_case import fresh_case
-    from lambda_core.system.machine_templates import GENERAL, MACHINES
+    from lambda_core.system.machine_templates import GENERAL, MACHINES, geared_shaft
 
-    if machine is not None and machine not in MACHINES:
-        raise UsageError(unknown_name("machine", machine, MACHINES))
-    kind = GENERAL if machine is None else MACHINES[machine]
+    if template == GEARED_SHAFT:
+        if bearing is not None:
+            raise UsageError(f"{GEARED_SHAFT} has two bearings: leave out --bearing and change them in its file")
+        return geared_shaft(name)
+    if template is not None and template not in MACHINES:
+        raise UsageError(unknown_name("template", template, [*MACHINES, GEARED_SHAFT]))
+    kind = GENERAL if template is None else MACHINES[template]
     with closing(catalogue()) as opened:
         return fresh_case(name, *designated(opened, bearing or kind.bearing), kind)
 
 
-def machines() -> dict[str, str]:
-    """Return the machines that a case can start from, each with a few words.
+def templates() -> dict[str, str]:
+    """Return the machines that a new case can start from, each with a few words.
 
     Returns
     -------
@@ -156,37 +173,37 @@ def machines() -> dict[str, str]:
     """
     from lambda_core.system.machine_templates import MACHINES
 
-    return {name: f"{machine.words}: {machine.bearing} {machine.clearance}" for name, machine in MACHINES.items()}
+    found = {name: f"{kind.words}: {kind.bearing} {kind.clearance}" for name, kind in MACHINES.items()}
+    return {**found, GEARED_SHAFT: "shaft in two bearings with a helical gear: SKF 6208, SKF 6206"}
 
 
-def schema(*, shaft: bool = False) -> dict[str, Any]:
-    """Return the JSON schema of a case file.
-
-    Parameters
-    ----------
-    shaft : bool
-        That of the file of a shaft in several bearings.
+def schema() -> dict[str, Any]:
+    """Return the JSON schema of case files: of one bearing, or of a machine of several.
 
     Returns
     -------
     dict
         JSON Schema, draft 2020-12.
     """
-    from lambda_core.case.case_io import case_json_schema
-    from lambda_core.case.shaft_io import shaft_json_schema
+    from pydantic.json_schema import models_json_schema
 
-    return shaft_json_schema() if shaft else case_json_schema()
+    from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
+
+    kinds, parts = models_json_schema([(Case, "validation"), (ShaftCase, "validation")], title="lambda-bearing case")
+    head = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
+    return {**head, "anyOf": list(kinds.values()), **parts}
 
 
-def draft(source: str | Path | None = None, *, machine: str | None = None, shaft: bool = False) -> Draft:
+def draft(source: str | Path | None = None, *, template: str | None = None, shaft: bool = False) -> Draft:
     """Open a case for editing: a file, a copy of a built-in case, what is usual in a machine, or nothing yet.
 
     Parameters
     ----------
     source : str or Path, optional
         File or built-in name; None for an empty draft.
-    machine : str, optional
-        Instead of `source`: one of :func:`machines`.
+    template : str, optional
+        Instead of `source`: one of :func:`templates`.
     shaft : bool
         An empty draft is that of a shaft in several bearings; what a file holds decides for itself.
 
@@ -204,8 +221,8 @@ def draft(source: str | Path | None = None, *, machine: str | None = None, shaft
     """
     from lambda_core.case.draft import draft_of, new_draft, open_draft
 
-    if machine is not None:
-        return draft_of(_machine_text(machine, machine, None), None)
+    if template is not None:
+        return draft_of(_template_text(template, template, None), None)
     return new_draft(shaft=shaft) if source is None else open_draft(source)
 
 

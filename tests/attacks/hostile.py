@@ -72,7 +72,7 @@ class Leaf:
 def leaves() -> tuple[Leaf, ...]:
     """Return every option that the schema of cases knows, every kind of time function, every parameter of a law."""
     schema = api.schema()
-    return (*_walk(schema, schema["$defs"], (), (), 0), *_of_laws())
+    return (*_walk(schema["$defs"]["Case"], schema["$defs"], (), (), 0), *_of_laws())
 
 
 def _walk(

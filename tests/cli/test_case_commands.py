@@ -164,8 +164,8 @@ def test_set_changes_the_case(call: Call) -> None:
         (("init", "x", "--bearing", "6208"), 3, "several makers, choose one: KOYO, NSK, SKF"),
         (("init", "x", "--bearing", "XX 6208"), 3, '"XX" is not a maker of 6208'),
         (("init", "x", "--bearing", "SKF 6208", "--from", "6319-cp10-1500"), 2, "not from both"),
-        (("init", "x", "--machine", "pump", "--from", "6319-cp10-1500"), 2, "from a machine, not from both"),
-        (("init", "x", "--machine", "pmp"), 2, '"pmp" is not a known machine; nearest: pump'),
+        (("init", "x", "--template", "pump", "--from", "6319-cp10-1500"), 2, "from a template, not from both"),
+        (("init", "x", "--template", "pmp"), 2, '"pmp" is not a known template; nearest: pump'),
         (("check", "6319-cp10-1500", "--set", "bearing.designation=6391"), 3, 'bearing.designation    "6391" is not'),
         (("check", "6319-cp10-1500", "--set", "bearing.maker=XX"), 3, 'bearing.maker          "XX" is not a maker'),
     ],
@@ -200,11 +200,11 @@ def test_init_writes_a_commented_case_that_checks(call: Call, tmp_path: Path, mo
 def test_init_starts_from_a_machine(call: Call, machine: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every start is a case without an error or a warning, with a bearing of its own or of ours."""
     monkeypatch.chdir(tmp_path)
-    assert call("init", "one", "--machine", machine)[0] == 0
+    assert call("init", "one", "--template", machine)[0] == 0
     model = api.check("one.toml")
     assert operating_warnings(model) == []
     assert model.geometry.clearance > 0.0
-    assert call("init", "two", "--machine", machine, "--bearing", "SKF 6206-2Z/C4")[0] == 0
+    assert call("init", "two", "--template", machine, "--bearing", "SKF 6206-2Z/C4")[0] == 0
     text = Path("two.toml").read_text()
     assert 'designation = "6206-2Z/C4"' in text
     assert '# clearance = "C4"' in text
@@ -235,8 +235,11 @@ def test_schema_describes_case_files(call: Call, tmp_path: Path) -> None:
     code, out, _ = call("schema")
     schema = json.loads(out)
     assert code == 0
-    assert schema["properties"].keys() >= {"bearing", "loads", "operation", "bodies", "models", "solver"}
-    assert not schema["additionalProperties"]
+    single, several = (schema["$defs"][kind["$ref"].rpartition("/")[2]] for kind in schema["anyOf"])
+    assert single["properties"].keys() >= {"bearing", "loads", "operation", "bodies", "models", "solver"}
+    assert several["properties"].keys() >= {"bearings", "loads", "operation", "bodies", "models", "solver", "gears"}
+    assert not single["additionalProperties"]
+    assert not several["additionalProperties"]
     target = tmp_path / "case.schema.json"
     assert call("schema", "--out", str(target))[:2] == (0, "")
     assert json.loads(target.read_text()) == schema

@@ -15,7 +15,7 @@ from lambda_core.system.operating_limits import operating_warnings
 
 def test_from_init_to_a_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    assert main(["init", "drive", "--machine", "thin-housing"]) == 0
+    assert main(["init", "drive", "--template", "thin-housing"]) == 0
     assert main(["run", "drive.toml", "--duration", "4 ms", "--out", "drive.h5", "--quiet"]) == 5
     found = Result("drive.h5").summary()
     assert [bent.part for bent in found.bent] == ["outer ring", "cage"]

@@ -10,7 +10,7 @@ from lambda_cli.main import main
 
 MOST_COMMANDS, MOST_SECONDS = 5, 180.0
 COMMANDS = (
-    ["init", "motor", "--machine", "electric-motor", "--bearing", "SKF 6308 C3"],
+    ["init", "motor", "--template", "electric-motor", "--bearing", "SKF 6308 C3"],
     ["check", "motor.toml"],
     [
         "run", "motor.toml", "--set", "loads.radial=2.5 kN", "--set", "loads.axial=0.5 kN",
@@ -41,9 +41,9 @@ def test_the_case_is_remembered(
     monkeypatch.chdir(tmp_path)
     assert main(["recent"]) == 0
     said = capsys.readouterr()
-    assert (said.out, "init NAME --machine" in said.err) == ("", True)
+    assert (said.out, "init NAME --template" in said.err) == ("", True)
     for name in ("pump", "fan"):
-        assert main(["init", name, "--machine", "pump"]) == 0
+        assert main(["init", name, "--template", "pump"]) == 0
     assert main(["check", "pump.toml"]) == 0
     capsys.readouterr()
     assert main(["recent"]) == 0

@@ -142,13 +142,13 @@ def test_mistakes(changes: dict[str, object], said: str) -> None:
 
 
 def test_numbers_of_a_thin_housing(tmp_path: Path) -> None:
-    """The case that `init --machine thin-housing` writes: waves of its 6208's outer ring by ring theory and by hand.
+    """The case that `init --template thin-housing` writes: waves of its 6208's outer ring by ring theory and by hand.
 
     c_n = sum of Q cos(alpha) cos(n psi)/k_n with k_n = pi E I (n^2 - 1)^2/R^3 + 300 N/um, the case's housing stiffness
     (Timoshenko, Vibration Problems in Engineering, art. 74, on a Winkler bedding); E = 210 GPa of 100Cr6. The friction
     of the balls is not in the sum: 1e-3 of the largest.
     """
-    api.init_case("drive", path=tmp_path / "drive.toml", machine="thin-housing")
+    api.init_case("drive", path=tmp_path / "drive.toml", template="thin-housing")
     model = api.check(tmp_path / "drive.toml")
     found = api.quasistatic(model)
     (ring,) = (one for one in found.ring_shapes if one.ring == "outer")

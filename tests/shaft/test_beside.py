@@ -13,8 +13,8 @@ from lambda_core import api
 from lambda_core.domain.errors import SolverError
 from lambda_core.elastic.whirl import natural_frequencies
 from lambda_core.shaft.machine_assembly import member_numbers
+from lambda_core.shaft.machine_equilibrium import BodyMoved
 from lambda_core.shaft.shaft_equilibrium import SharedKernels, solve_shaft
-from lambda_core.shaft.shaft_report import BodyMoved
 from lambda_core.shaft.structure import static_rows, stretch
 from lambda_core.shaft.vibration import criticals, damped, masses, modes_at, supported
 from lambda_core.shaft.whole_engine import WholeEngine
@@ -251,7 +251,7 @@ def test_names_have_paths() -> None:
 
 def test_markers_in_the_report(model: Machine) -> None:
     """A marker on the shaft moves as the shaft there, one on a body as the body carries it."""
-    from lambda_core.shaft.shaft_report import _at
+    from lambda_core.shaft.machine_equilibrium import _at
 
     case = tables()
     case["markers"] |= {"seat": {"x": "21 mm"}, "floor": {"body": "ground", "x": "0 mm", "z": "-200 mm"}}
@@ -263,4 +263,4 @@ def test_markers_in_the_report(model: Machine) -> None:
     foot, arm = places["foot-rb"], np.subtract(places["foot-rb"].point, marked.bodies[0].centre)
     expected = state.bodies[0, :3] + np.cross(state.bodies[0, 3:], arm)
     assert _at(marked, state, foot)[:3] == pytest.approx(expected)
-    assert api.ShaftReport.model_fields["markers"].annotation == dict[str, BodyMoved]
+    assert api.MachineEquilibrium.model_fields["markers"].annotation == dict[str, BodyMoved]

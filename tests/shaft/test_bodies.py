@@ -50,7 +50,7 @@ def test_a_spring_takes_its_part() -> None:
     added = supported(model, state) - supported(without, state)
     assert np.diag(added)[np.flatnonzero(np.diag(added))] == pytest.approx([10e6, 20e6, 1e3], rel=1e-6)
     assert damped(model, state, np.zeros((2, 6, 6))).sum() == pytest.approx(500.0, rel=1e-12)
-    assert api.ShaftReport.model_fields["springs"].description
+    assert api.MachineEquilibrium.model_fields["springs"].description
 
 
 def test_a_damper_in_motion() -> None:

@@ -36,8 +36,8 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a run of a tenth of a millisecond."""
     found = tmp_path_factory.mktemp("escapes")
     (found / "box.toml").write_text(geared_shaft("box") + MORE)
-    arguments = ["--run", "--quiet", "--out", str(found / "run"), "--duration", "0.1 ms"]
-    assert main(["shaft", str(found / "box.toml"), *arguments]) == 5
+    arguments = ["--quiet", "--out", str(found / "run"), "--duration", "0.1 ms"]
+    assert main(["run", str(found / "box.toml"), *arguments]) == 5
     return found / "run"
 
 
@@ -77,7 +77,7 @@ def test_no_text_of_a_shaft_s_result_drives_the_terminal(
         shutil.copytree(made, run)
         with h5py.File(run / name, "r+") as file:
             spoil(file, *text)
-        for command in (["shaft"], ["show"], ["show", "--json"], ["resume", "--quiet", "--duration", "0.01 ms"]):
+        for command in (["show"], ["show", "--json"], ["resume", "--quiet", "--duration", "0.01 ms"]):
             assert main([*command, str(run)]) in (0, 2, 3, 5), (text, command)
             said = "".join(capsys.readouterr())
             driven += [(text, command) for sign in set(ESCAPE) & set("\x1b\x07\x9b\u202e") if sign in said]

@@ -89,7 +89,7 @@ def test_it_is_said_everywhere(tmp_path: Path, capsys: pytest.CaptureFixture[str
     changed = tables(bearings={"left": {"designation": "SKF 6319", "position": "25 mm"}})
     case = tmp_path / "box.toml"
     case.write_text(tables_toml(changed))
-    (sentence,) = api.shaft_warnings(check_shaft(case))
+    (sentence,) = api.machine_warnings(check_shaft(case))
     assert main(["check", str(case), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["warnings"] == [sentence]
     assert main(["check", str(case)]) == 0
@@ -123,7 +123,7 @@ def test_laws_are_tried_out(
 
 def test_far_beyond_limits() -> None:
     """A 6208 and a 6206 under a meshing force of 106 kN: each limit by its name."""
-    found = api.shaft(check_shaft(tables(gears={"wheel": {"power": "2000 kW"}})))
+    found = api.quasistatic(check_shaft(tables(gears={"wheel": {"power": "2000 kW"}})))
     for bearing, static in zip(found.bearings, (19.0, 11.2), strict=True):
         told = " ".join(bearing.warnings)
         load = np.hypot(*bearing.force_N[1:])

@@ -21,8 +21,8 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a run of a millisecond."""
     found = tmp_path_factory.mktemp("folder")
     (found / "box.toml").write_text(geared_shaft("box"))
-    arguments = ["--run", "--quiet", "--out", str(found / "run"), "--duration", "1 ms"]
-    assert main(["shaft", str(found / "box.toml"), *arguments]) == 5
+    arguments = ["--quiet", "--out", str(found / "run"), "--duration", "1 ms"]
+    assert main(["run", str(found / "box.toml"), *arguments]) == 5
     return found / "run"
 
 
@@ -95,8 +95,8 @@ def test_a_bearing_on_a_shaft_names_no_option_of_one_bearing(made: Path, monkeyp
 
 def again(run: Path) -> int:
     """Run the case of a folder once more into it."""
-    arguments = ["--run", "--quiet", "--force", "--out", str(run), "--duration", "0.1 ms"]
-    return main(["shaft", str(run.parent / "box.toml"), *arguments])
+    arguments = ["--quiet", "--force", "--out", str(run), "--duration", "0.1 ms"]
+    return main(["run", str(run.parent / "box.toml"), *arguments])
 
 
 @pytest.mark.full

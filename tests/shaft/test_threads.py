@@ -24,9 +24,9 @@ TIMED = """
 import sys, time
 from lambda_core import api
 model = api.check_shaft(sys.argv[1])
-api.shaft(model)
+api.quasistatic(model)
 clock, processor = time.perf_counter(), time.process_time()
-api.shaft(model)
+api.quasistatic(model)
 print(time.process_time() - processor, time.perf_counter() - clock)
 """
 
@@ -67,7 +67,7 @@ def seen(monkeypatch: pytest.MonkeyPatch) -> set[int]:
 @pytest.mark.parametrize(
     "call",
     [
-        lambda shaft, out: api.shaft(shaft),
+        lambda shaft, out: api.quasistatic(shaft),
         lambda shaft, out: api.shaft_run(shaft, out=out, duration=1e-4),
         lambda shaft, out: api.quasistatic(CASE),
         lambda shaft, out: api.run(CASE, ["solver.duration=0.1 ms"], out=out),

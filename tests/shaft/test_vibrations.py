@@ -87,7 +87,7 @@ def test_modes_in_motion_are_those_of_the_rotor() -> None:
     assert engine.advance(2e-4).ok
     whole = np.array([frequency for frequency, damping in engine.modes()])
     assert np.all(np.diff(whole) > 0.0)
-    rotor = [mode.frequency_Hz for mode in api.shaft(tables).modes[:5]]
+    rotor = [mode.frequency_Hz for mode in api.modes(tables).modes[:5]]
     near = [int(np.argmin(np.abs(whole / frequency - 1.0))) for frequency in rotor]
     assert len(set(near)) == 5
     assert whole[near] == pytest.approx(rotor, rel=0.08)

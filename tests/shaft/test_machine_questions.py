@@ -1,16 +1,19 @@
-"""A shaft from its file to numbers, pictures and stiffness: init, check, shaft; every mistake at once."""
+"""A machine from its file to numbers, pictures and stiffness: init, check, quasistatic, modes; all mistakes at once."""
 
 from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from lambda_cli.main import main
 
 from lambda_core import api
+from lambda_core.domain.unit_systems import unit_system
 
 WRONG = """
 name = "wrong"
@@ -44,7 +47,7 @@ speed = "3000 rpm"
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with the case that init writes."""
     found = tmp_path_factory.mktemp("shaft")
-    assert main(["init", "box", "--shaft", "--out", str(found / "box.toml")]) == 0
+    assert main(["init", "box", "--template", "geared-shaft", "--out", str(found / "box.toml")]) == 0
     return found
 
 
@@ -52,8 +55,10 @@ def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) 
     """One solution: JSON, pictures and both exports say the same; equilibrium about the left end to 1e-6."""
     case, stiffness = str(folder / "box.toml"), folder / "k.json"
     capsys.readouterr()
-    arguments = ["--json", "--quiet", "--draw", str(folder / "pictures"), "--stiffness", str(stiffness)]
-    assert main(["shaft", case, *arguments]) == 0
+    arguments = ["--json", "--quiet", "--draw", str(folder / "pictures")]
+    assert main(["modes", case, *arguments, "--stiffness", str(stiffness)]) == 0
+    modes = json.loads(capsys.readouterr().out)
+    assert main(["quasistatic", case, *arguments]) == 0
     found = json.loads(capsys.readouterr().out)
     left, right = found["bearings"]
     wheel = api.check_shaft(case).gears["wheel"]
@@ -67,35 +72,37 @@ def test_from_init_to_numbers(folder: Path, capsys: pytest.CaptureFixture[str]) 
     ends = [moment for moment, place in zip(found["bending_moment_Nm"], found["cut_positions_mm"], strict=True)
             if place in (found["positions_mm"][0], found["positions_mm"][-1])]  # fmt: skip
     assert np.abs(ends).max() < 1e-6
-    assert [speed["speed_rpm"] for speed in found["critical_speeds"]] == sorted(
-        speed["speed_rpm"] for speed in found["critical_speeds"]
+    assert [speed["speed_rpm"] for speed in modes["critical_speeds"]] == sorted(
+        speed["speed_rpm"] for speed in modes["critical_speeds"]
     )
     written = json.loads(stiffness.read_text())
     assert written["bearings"][0]["stiffness"] == left["stiffness"]
     assert np.array(left["stiffness"]).shape == (6, 6)
     names = sorted(path.name for path in (folder / "pictures").iterdir())
     assert names == ["box-shaft.png", "box-shaft.svg", "box-whirl.png", "box-whirl.svg"]
-    report = api.ShaftReport.model_validate(found)
-    rows = list(csv.reader(api.write_stiffness(report, folder / "k.csv").read_text().splitlines()))
+    report = api.MachineEquilibrium.model_validate(found)
+    whirl = api.MachineModes.model_validate(modes)
+    rows = list(csv.reader(api.write_stiffness(whirl, folder / "k.csv").read_text().splitlines()))
     assert len(rows) == 1 + 2 * 36
     assert float(rows[1][4]) == left["stiffness"][0][0]
     assert "Q_max N" in report.text(80)
     with pytest.raises(api.UsageError, match=r"\.json or \.csv"):
-        api.write_stiffness(report, folder / "k.txt")
-    check_text(report)
-
-
-def check_text(report: api.ShaftReport) -> None:
-    """The table for people has every direction of every vector: rows of y and z stand below that of x."""
-    lines = report.text(80).splitlines()
-    vectors = {
+        api.write_stiffness(whirl, folder / "k.txt")
+    equilibrium = {
         "force on shaft x N": lambda one: one.force_N,
         "displacement x um": lambda one: one.displacement_um,
         "stiffness x N/um": lambda one: [1e-6 * one.stiffness[row][row] for row in range(3)],
-        "damping x N s/m": lambda one: [one.damping[row][row] for row in range(3)],
         "moment about y N m": lambda one: one.moment_Nm,
         "misalignment y mrad": lambda one: one.misalignment_mrad,
     }
+    check_text(report, equilibrium)
+    check_text(whirl, {"damping x N s/m": lambda one: [one.damping[row][row] for row in range(3)]})
+    assert "radial load lbf" in report.text(80, unit_system("us"))
+
+
+def check_text(report: Any, vectors: dict[str, Callable[[Any], list[float]]]) -> None:
+    """The table for people has every direction of every vector: rows of y and z stand below that of x."""
+    lines = report.text(80).splitlines()
     for head, vector in vectors.items():
         first = next(number for number, line in enumerate(lines) if line.startswith(head))
         expected = zip(*(vector(one) for one in report.bearings), strict=True)
@@ -109,7 +116,7 @@ def test_a_stiffness_that_cannot_be_written_is_said_before_solving(
     folder: Path, target: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     capsys.readouterr()
-    assert main(["shaft", str(folder / "box.toml"), "--quiet", "--stiffness", target]) == 2
+    assert main(["modes", str(folder / "box.toml"), "--quiet", "--stiffness", target]) == 2
     said = capsys.readouterr()
     assert said.out == ""
     assert target in said.err
@@ -159,16 +166,17 @@ def test_a_bearing_has_the_cage_of_its_own_case(folder: Path, capsys: pytest.Cap
     assert any(line.split()[0] == "bearings.left.cage.x" for line in lines[1:]), lines
 
 
-def test_a_shaft_is_not_one_bearing(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Each command names the one that is meant."""
-    assert main(["quasistatic", str(folder / "box.toml")]) == 3
-    assert "lambda-bearing shaft" in capsys.readouterr().err
+def test_a_machine_is_not_one_bearing(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Questions about the other kind are refused with what to do."""
     (folder / "one.toml").write_text('name = "one"\n[bearing]\ndesignation = "SKF 6206"\n')
-    assert main(["shaft", str(folder / "one.toml")]) == 3
-    assert "lambda-bearing quasistatic" in capsys.readouterr().err
-    assert main(["init", "other", "--shaft", "--bearing", "SKF 6208"]) == 2
-    assert main(["init", "box", "--shaft", "--out", str(folder / "box.toml")]) == 2
-    assert main(["shaft", str(folder / "none.toml")]) == 2
+    assert main(["modes", str(folder / "one.toml")]) == 2
+    assert "--template geared-shaft" in capsys.readouterr().err
+    assert main(["quasistatic", "6208-axial-1300", "--draw", str(folder / "none")]) == 2
+    assert "goes with a machine" in capsys.readouterr().err
+    assert main(["init", "other", "--template", "geared-shaft", "--bearing", "SKF 6208"]) == 2
+    assert "two bearings" in capsys.readouterr().err
+    assert main(["init", "box", "--template", "geared-shaft", "--out", str(folder / "box.toml")]) == 2
+    assert main(["quasistatic", str(folder / "none.toml")]) == 2
 
 
 def test_check_says_what_the_shaft_is(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -176,4 +184,4 @@ def test_check_says_what_the_shaft_is(folder: Path, capsys: pytest.CaptureFixtur
     assert main(["check", str(folder / "box.toml"), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["bearings"] == {"left": "6208 (SKF)", "right": "6206 (SKF)"}
-    assert "gear wheel" in api.describe_shaft(api.check_shaft(folder / "box.toml"))
+    assert "gear wheel" in api.describe_machine(api.check_shaft(folder / "box.toml"))

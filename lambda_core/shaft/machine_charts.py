@@ -1,30 +1,25 @@
-"""A shaft in its bearings as data to draw: the shaft itself, how it bends, and how it whirls."""
+"""Draw a machine at its operating point: deflection, bending moment, natural frequencies."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.shaft.shaft_report import ShaftReport
+from lambda_core.shaft.machine_equilibrium import MachineEquilibrium
+from lambda_core.shaft.machine_modes import MachineModes
 from lambda_core.system.machine import Machine
 from lambda_core.views.chart import Arrows, Axis, Mark, Panel, Series, ViewData
 
 _ROLES = {"bending": "inner", "axial": "reference", "torsion": "cage", "body": "outer"}
 
 
-def pictures(model: Machine, report: ShaftReport) -> list[ViewData]:
-    """Return what there is to see: shaft and deflection, whirl over speed where the shaft turns."""
-    found = [_bent(model, report)]
-    return [*found, _campbell(report)] if len(report.campbell) > 1 else found
-
-
-def _source(report: ShaftReport) -> str:
-    return f"{report.case}   {report.speed_rpm:.5g} 1/min   " + ", ".join(
-        f"{bearing.name} {bearing.title.split(' (')[0]}" for bearing in report.bearings
+def _source(found: MachineEquilibrium | MachineModes) -> str:
+    return f"{found.case}   {found.speed_rpm:.5g} 1/min   " + ", ".join(
+        f"{bearing.name} {bearing.title.split(' (')[0]}" for bearing in found.bearings
     )
 
 
-def _bent(model: Machine, report: ShaftReport) -> ViewData:
+def deflection_picture(model: Machine, report: MachineEquilibrium) -> ViewData:
     """Return the shaft, its deflection and its bending moment over one axis."""
     length = 1e3 * model.outline[-1][1]
     along = Axis("position", "mm", low=0.0, high=length)
@@ -52,7 +47,7 @@ def _bent(model: Machine, report: ShaftReport) -> ViewData:
     return ViewData("shaft", "A shaft in its bearings", _source(report), panels, 1, notes)
 
 
-def _drawing(model: Machine, report: ShaftReport) -> Panel:
+def _drawing(model: Machine, report: MachineEquilibrium) -> Panel:
     """Return the shaft from the side with its bearings, discs, and the reactions as arrows."""
     series = [_loop("shaft", [_box(1e3 * a, 1e3 * b, -500.0 * d, 500.0 * d) for a, b, d, _ in model.outline], "total")]
     bores = [_box(1e3 * a, 1e3 * b, -500.0 * bore, 500.0 * bore) for a, b, _, bore in model.outline if bore > 0.0]
@@ -92,7 +87,7 @@ def _loop(name: str, boxes: list[list[tuple[float, float]]], role: str) -> Serie
     return Series(name, points[:, 0], points[:, 1], "line", role)
 
 
-def _campbell(report: ShaftReport) -> ViewData:
+def campbell_picture(report: MachineModes) -> ViewData:
     """Return natural frequencies of bending over speed, with the line of one per revolution."""
     speeds = np.array([row.speed_rpm for row in report.campbell])
     series, seen = [], set()

@@ -1,4 +1,4 @@
-"""The equilibrium of a shaft in the words of the machine interface."""
+"""Report the quasi-static equilibrium of a machine."""
 
 from __future__ import annotations
 
@@ -9,8 +9,10 @@ import numpy as np
 from pydantic import Field
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.life import system_life
 from lambda_core.domain.loading import Ring
+from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import internal_forces
 from lambda_core.results.averages import finite
@@ -18,30 +20,17 @@ from lambda_core.results.limits import warnings
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import LOADED_BALLS, MAX_LOAD, Contact
+from lambda_core.shaft.bearing_life import bearing_life
+from lambda_core.shaft.machine_modes import AXES, six
 from lambda_core.shaft.shaft_equilibrium import ShaftState
-from lambda_core.shaft.shaft_lives import bearing_life
 from lambda_core.shaft.structure import point_on, static_rows, stretch
-from lambda_core.shaft.vibration import (
-    Mode,
-    bearing_damping,
-    criticals,
-    damped,
-    housed_damping,
-    housed_stiffness,
-    modes_at,
-    supported,
-)
 from lambda_core.solver.drivers.equilibrium import Equilibrium
 from lambda_core.system.machine import Machine, MountedBearing, Place
 from lambda_core.system.operating_limits import load_warnings, operating_warnings
 
-_CAMPBELL = 9  # speeds
-_SHOWN = 8  # modes
-AXES = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
 
-
-class BearingOnShaft(Record):
-    """One bearing at the operating point."""
+class BearingEquilibrium(Record):
+    """One bearing of a machine at its operating point."""
 
     name: str
     title: str
@@ -71,39 +60,8 @@ class BearingOnShaft(Record):
     stiffness: list[list[float]] = Field(
         description="6 x 6, inner ring against outer ring, order of `axes` [N/m, N/rad, N m/rad]; no row turns about x"
     )
-    housed_stiffness: list[list[float]] = Field(description="the same with the housing in series")
-    damping: list[list[float]] = Field(
-        description="6 x 6, likewise, of vibrations with the shaft's speed [N s/m, N s/rad, N m s/rad]; zeros at rest"
-    )
-    housed_damping: list[list[float]] = Field(description="the same with the housing in series")
     contacts: list[Contact] = Field(description="of every ball with each ring")
     warnings: list[str] = Field(description="what is beyond a limit: ratings, pressure, shoulders, tilt, speed, oil")
-
-
-class ModeAtSpeed(Record):
-    """A natural frequency of the turning shaft."""
-
-    frequency_Hz: float
-    direction: float = Field(description="+1 whirls with the shaft, -1 against it, between: elliptic or in a line")
-    kind: str = Field(description="motion of the shaft: bending, axial, torsion; body: motion of other bodies only")
-    bodies_share: float = Field(description="share of the kinetic energy in the other bodies")
-    damping_ratio: float = Field(description="share of critical damping, by the bearings; 0 where it is left out")
-
-
-class CampbellRow(Record):
-    """Natural frequencies at one speed."""
-
-    speed_rpm: float
-    modes: list[ModeAtSpeed]
-
-
-class CriticalSpeed(Record):
-    """A speed at which the shaft whirls as fast as it turns."""
-
-    speed_rpm: float
-    direction: float
-    kind: str = Field(description="how the shaft moves most: bending, axial, torsion")
-    bodies_share: float = Field(description="share of the kinetic energy in the other bodies")
 
 
 class BodyMoved(Record):
@@ -113,14 +71,14 @@ class BodyMoved(Record):
     tilt_mrad: list[float] = Field(description="about x, y and z")
 
 
-class ShaftReport(Record):
-    """Equilibrium of a shaft in its bearings, lives, and critical speeds at its stiffness."""
+class MachineEquilibrium(Record):
+    """Quasi-static equilibrium of a machine: loads, deflection, lives and friction of its bearings."""
 
     interface: int = INTERFACE
     case: str = Field(description="name of the case")
     speed_rpm: float = Field(description="of the shaft")
     axes: tuple[str, ...] = Field(default=AXES, description="order of rows and columns of the stiffness matrices")
-    bearings: list[BearingOnShaft] = Field(description="from left to right")
+    bearings: list[BearingEquilibrium] = Field(description="from left to right")
     gears: dict[str, list[float]] = Field(description="tangential, radial and axial force [N]")
     springs: dict[str, list[float]] = Field(
         default={}, description="force of each spring on the body of its place: x, y, z [N]"
@@ -138,39 +96,43 @@ class ShaftReport(Record):
     shear_N: list[list[float]] = Field(description="along y and z")
     bending_moment_Nm: list[list[float]] = Field(description="about y and z, of the right side on the left")
     torque_Nm: list[float] = Field(description="about x, of the right side on the left")
-    critical_speeds: list[CriticalSpeed] = Field(
-        description="at which the shaft moves across its axis, bearings as stiff as at the operating point"
-    )
-    modes: list[ModeAtSpeed] = Field(description="natural frequencies at this speed, damped by the bearings")
-    campbell: list[CampbellRow] = Field(description="natural frequencies over speed, undamped")
     iterations: int = Field(description="of Newton's method")
     residual: float = Field(description="largest unbalanced force over the loads")
     warnings: list[str] = Field(default=[], description="what cannot stand on the shaft as it is drawn")
     assumptions: list[str] = Field(description="values that nobody gave, and simplifications")
 
-    def text(self, width: int | None = None) -> str:
-        """Return the lines for people, none longer than `width` where one is given."""
-        from lambda_core.shaft.shaft_text import report_text
+    def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
+        """Return the lines for people in some units, none longer than `width` where one is given."""
+        from lambda_core.shaft.machine_text import equilibrium_text
 
-        return report_text(self, width)
+        return equilibrium_text(self, width, units)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data, ready for JSON."""
+        return self.model_dump(mode="json")
+
+    def bearing(self, name: str) -> BearingEquilibrium:
+        """Return one bearing by its name; UsageError with the nearest name where there is none."""
+        found = {bearing.name: bearing for bearing in self.bearings}
+        if name not in found:
+            raise UsageError(unknown_name("bearing", name, found))
+        return found[name]
+
+    def __repr__(self) -> str:
+        """Return case, speed and the loads of the bearings."""
+        loads = ", ".join(f"{one.name} {one.radial_load_N:.4g} N" for one in self.bearings)
+        return f"<MachineEquilibrium {self.case}, {self.speed_rpm:.5g} 1/min, radial loads {loads}>"
 
 
-def report_of(model: Machine, state: ShaftState) -> ShaftReport:
+def equilibrium_of(model: Machine, state: ShaftState) -> MachineEquilibrium:
     """Put the equilibrium into the units of the interface; every bearing is solved once more with its friction."""
-    equilibria = [ring.equilibrium() for ring in state.rings]
-    dampings = bearing_damping(model, equilibria)
-    matrices = zip(housed_stiffness(model, state), dampings, housed_damping(model, state, dampings), strict=True)
-    bearings = [
-        _bearing(model, state, i, found, each) for i, (found, each) in enumerate(zip(equilibria, matrices, strict=True))
-    ]
+    bearings = [_bearing(model, state, i, ring.equilibrium()) for i, ring in enumerate(state.rings)]
     moved = state.displacement[: NODE * model.body.positions.size].reshape(-1, NODE)
     cuts, forces = internal_forces(model.body, state.displacement, model.gravity)
-    stiffness = supported(model, state)
-    critical = criticals(model, stiffness)[:_SHOWN]
     lives = [b.reference_rating_life_h for b in bearings if b.reference_rating_life_h is not None]
     torques = [b.friction_torque_Nmm for b in bearings]
     rpm, rows = 30.0 / math.pi * model.speed, static_rows(model)
-    return ShaftReport(
+    return MachineEquilibrium(
         case=model.name,
         speed_rpm=rpm,
         bearings=bearings,
@@ -189,27 +151,10 @@ def report_of(model: Machine, state: ShaftState) -> ShaftReport:
         shear_N=_listed(forces[:, 1:3]),
         bending_moment_Nm=_listed(forces[:, 4:]),
         torque_Nm=_listed(forces[:, 3]),
-        critical_speeds=[
-            CriticalSpeed(
-                speed_rpm=30.0 / math.pi * mode.frequency,
-                direction=mode.direction,
-                kind=mode.kind,
-                bodies_share=mode.beside,
-            )
-            for mode in critical
-        ],
-        modes=_modes(modes_at(model, stiffness, model.speed, damped(model, state, dampings))),
-        campbell=[
-            CampbellRow(speed_rpm=30.0 / math.pi * spin, modes=_modes(modes_at(model, stiffness, spin)))
-            for spin in np.linspace(0.0, _fastest(model, critical), _CAMPBELL).tolist()
-        ],
         iterations=state.iterations,
         residual=state.residual,
         warnings=list(model.warnings),
-        assumptions=[
-            *model.assumptions,
-            "critical speeds, natural frequencies over speed: undamped, bearings as stiff as at this operating point",
-        ],
+        assumptions=list(model.assumptions),
     )
 
 
@@ -223,43 +168,18 @@ def _at(model: Machine, state: ShaftState, place: Place) -> FloatArray:
     return np.asarray(moves @ state.motions[own])
 
 
-def _fastest(model: Machine, critical: list[Mode]) -> float:
-    """Return the end of the speeds at which the whirl is shown: beyond the first critical ones [rad/s]."""
-    return max(2.0 * abs(model.speed), *(1.2 * mode.frequency for mode in critical[:2]), 1.0)
-
-
 def _listed(values: FloatArray) -> Any:
     return values.tolist()
 
 
-def _modes(found: list[Mode]) -> list[ModeAtSpeed]:
-    return [
-        ModeAtSpeed(
-            frequency_Hz=mode.frequency / (2.0 * math.pi), direction=mode.direction, kind=mode.kind,
-            bodies_share=mode.beside, damping_ratio=mode.damping,
-        )
-        for mode in found[:_SHOWN]
-    ]  # fmt: skip
-
-
-def six(matrix: FloatArray) -> list[list[float]]:
-    """Return a matrix over POSE with the row and column of turning about x, which are zero."""
-    rows: list[list[float]] = np.insert(np.insert(matrix, 3, 0.0, axis=0), 3, 0.0, axis=1).tolist()
-    return rows
-
-
-def _bearing(
-    model: Machine, state: ShaftState, index: int, found: Equilibrium,
-    matrices: tuple[FloatArray, FloatArray, FloatArray],
-) -> BearingOnShaft:  # fmt: skip
-    """Return what there is to say of one bearing: housed stiffness, damping and housed damping are given."""
+def _bearing(model: Machine, state: ShaftState, index: int, found: Equilibrium) -> BearingEquilibrium:
+    """Return what there is to say of one bearing."""
     bearing, reaction = model.bearings[index], state.reactions[index]
-    housed, damping, damping_in_housing = matrices
     alone = quasistatic_of(found)
     radial, axial = float(np.hypot(*reaction[1:3])), float(-reaction[0])
     life = bearing_life(bearing, found, radial, abs(axial), model.contamination)
     pose = state.pose(model, index)
-    return BearingOnShaft(
+    return BearingEquilibrium(
         name=bearing.name,
         title=bearing.model.title,
         position_mm=1e3 * bearing.position,
@@ -286,9 +206,6 @@ def _bearing(
         power_loss_W=finite(float(found.losses.sum())) if found.converged else None,
         film_um=alone.film_um,
         stiffness=six(state.stiffness[index]),
-        housed_stiffness=six(housed),
-        damping=_listed(damping),
-        housed_damping=_listed(damping_in_housing),
         contacts=alone.contacts,
         warnings=_warnings(bearing, found, alone, (radial, abs(axial)), float(np.hypot(*pose[3:]))),
     )

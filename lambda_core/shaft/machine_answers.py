@@ -1,0 +1,122 @@
+"""Answer questions about a machine at its operating point: equilibrium, modes, pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING
+
+from lambda_core.domain.blas_threads import one_blas_thread
+from lambda_core.domain.errors import UsageError
+
+if TYPE_CHECKING:
+    from lambda_core.shaft.machine_equilibrium import MachineEquilibrium
+    from lambda_core.shaft.machine_modes import MachineModes
+    from lambda_core.system.machine import Machine
+    from lambda_core.system.resolve_machine import Source
+    from lambda_core.views.chart import ViewData
+
+
+@one_blas_thread()
+def machine_equilibrium(
+    source: Source | Machine, overrides: Iterable[str] = (), *, announce: Callable[[str], None] | None = None
+) -> MachineEquilibrium:
+    """Solve a machine; :func:`lambda_core.api.quasistatic` for a machine of several bearings."""
+    from lambda_core.shaft.machine_equilibrium import equilibrium_of
+    from lambda_core.shaft.shaft_equilibrium import solve_shaft
+
+    model = machine_of(source, overrides)
+    return equilibrium_of(model, solve_shaft(model, announce))
+
+
+@one_blas_thread()
+def modes(
+    source: Source | Machine, overrides: Iterable[str] = (), *, announce: Callable[[str], None] | None = None
+) -> MachineModes:
+    """Compute critical speeds, natural frequencies and bearing matrices of a machine at its operating point.
+
+    Parameters
+    ----------
+    source : str, Path, mapping, ShaftCase or Machine
+        File, plain tables as they stand in one, a case, or what :func:`check_shaft` returned.
+    overrides : iterable of str
+        Changes ``path=value``.
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+
+    Returns
+    -------
+    MachineModes
+        Bearings as stiff as at the operating point; damped by them at the speed of the case.
+
+    Raises
+    ------
+    UsageError
+        For the case of one bearing, which has no shaft that could whirl.
+    CaseError, SolverError
+        With a sentence about the case, or about why there is no equilibrium.
+    """
+    from lambda_core.case.case_io import is_machine
+    from lambda_core.shaft.machine_modes import modes_of
+    from lambda_core.shaft.shaft_equilibrium import solve_shaft
+
+    if not is_machine(source):
+        raise UsageError(
+            "modes are those of a shaft in its bearings, and this case has one bearing without a shaft: "
+            "lambda-bearing init NAME --template geared-shaft writes a machine to start from"
+        )
+    model = machine_of(source, overrides)
+    return modes_of(model, solve_shaft(model, announce))
+
+
+def machine_of(source: Source | Machine, overrides: Iterable[str] = ()) -> Machine:
+    """Return the resolved machine of whatever a function of this package takes as one."""
+    from lambda_core.system.machine import Machine
+    from lambda_core.system.resolve_machine import check_shaft
+
+    if not isinstance(source, Machine):
+        return check_shaft(source, overrides)
+    if list(overrides):
+        raise UsageError("a resolved machine takes no overrides: change the case and resolve it")
+    return source
+
+
+def machine_pictures(
+    model: Machine, equilibrium: MachineEquilibrium | None = None, modes: MachineModes | None = None
+) -> list[ViewData]:
+    """Return what there is to see of a machine: deflection and bending moment, natural frequencies over speed.
+
+    Parameters
+    ----------
+    model : Machine
+        From :func:`check_shaft`.
+    equilibrium : MachineEquilibrium, optional
+        From :func:`quasistatic`.
+    modes : MachineModes, optional
+        From :func:`modes`.
+
+    Returns
+    -------
+    list of ViewData
+        For :func:`draw`; one for each of what is given.
+    """
+    from lambda_core.shaft.machine_charts import campbell_picture, deflection_picture
+
+    found = [] if equilibrium is None else [deflection_picture(model, equilibrium)]
+    return found if modes is None or len(modes.campbell) < 2 else [*found, campbell_picture(modes)]
+
+
+def describe_machine(model: Machine) -> str:
+    """Return what a resolved machine is, in lines for people: bearings, loads, mass, assumptions.
+
+    Parameters
+    ----------
+    model : Machine
+        From :func:`check_shaft`.
+
+    Returns
+    -------
+    str
+    """
+    from lambda_core.shaft.machine_text import model_text
+
+    return model_text(model)
