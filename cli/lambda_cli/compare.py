@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import CaseArgument, JsonOption, SetOption, Units, UnitsOption
+from lambda_cli.options import BearingOption, CaseArgument, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 
 SIDE_BY_SIDE = "Results stand side by side with: lambda-bearing show A.h5 B.h5, or view A.h5 B.h5"
@@ -16,6 +16,7 @@ SIDE_BY_SIDE = "Results stand side by side with: lambda-bearing show A.h5 B.h5, 
 def compare(
     case: CaseArgument,
     changes: SetOption = None,
+    bearing: BearingOption = None,
     method: Annotated[
         list[str] | None, typer.Option("--method", metavar="NAME", help="Only this method; may be repeated.")
     ] = None,
@@ -41,6 +42,12 @@ def compare(
         raise api.UsageError(f"{case} is a result, compare takes a case. {SIDE_BY_SIDE}")
     with talk(progress, quiet) as speaker:
         found = api.compare(
-            case, changes or (), methods=method or (), result=result, contamination=contamination, announce=speaker.say
+            case,
+            changes or (),
+            bearing=bearing,
+            methods=method or (),
+            result=result,
+            contamination=contamination,
+            announce=speaker.say,
         )
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import CaseArgument, JsonOption, SetOption
+from lambda_cli.options import BearingOption, CaseArgument, JsonOption, SetOption
 from lambda_cli.run import DurationOption, limits
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 
@@ -14,6 +14,7 @@ from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 def cross_check(
     case: CaseArgument,
     changes: SetOption = None,
+    bearing: BearingOption = None,
     free_cage: Annotated[
         bool, typer.Option("--free-cage", help="Leave the cage free and compare mean powers, not trajectories.")
     ] = False,
@@ -33,7 +34,11 @@ def cross_check(
 
     with talk(progress, quiet) as speaker:
         found = api.cross_check(
-            case, [*(changes or ()), *limits(duration, None)], free_cage=free_cage, announce=speaker.say
+            case,
+            [*(changes or ()), *limits(duration, None)],
+            free_cage=free_cage,
+            bearing=bearing,
+            announce=speaker.say,
         )
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text())
     if not found.agree:

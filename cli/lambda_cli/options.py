@@ -40,6 +40,9 @@ UnitsOption = Annotated[
         help="Units of what is printed; LAMBDA_BEARING_UNITS=us sets them for good. Files and --json stay in SI.",
     ),
 ]
+BearingOption = Annotated[
+    str | None, typer.Option("--bearing", metavar="NAME", help="Which bearing of a machine is meant.")
+]
 ForceOption = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")]
 WorkersOption = Annotated[
     int | None, typer.Option("--workers", min=1, metavar="N", help="Processes; default: every processor.")

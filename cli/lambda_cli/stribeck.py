@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import CaseArgument, JsonOption, SetOption, Units, UnitsOption
+from lambda_cli.options import BearingOption, CaseArgument, JsonOption, SetOption, Units, UnitsOption
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.files import check_folder
 
@@ -20,6 +20,7 @@ SpeedsOption = Annotated[
 def stribeck(
     case: CaseArgument,
     changes: SetOption = None,
+    bearing: BearingOption = None,
     speeds: SpeedsOption = None,
     points: Annotated[int, typer.Option("--points", min=2, max=200, help="Speeds, where none is given.")] = 16,
     draw: Annotated[
@@ -41,7 +42,9 @@ def stribeck(
     if draw is not None:
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
-        found = api.stribeck(case, changes or (), speeds_rpm=chosen, points=points, announce=speaker.say)
+        found = api.stribeck(
+            case, changes or (), bearing=bearing, speeds_rpm=chosen, points=points, announce=speaker.say
+        )
     typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))
     if draw is not None:
         from lambda_core.views.other_units import in_units

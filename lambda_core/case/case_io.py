@@ -133,6 +133,12 @@ def is_machine(source: Any) -> bool:
         return False
 
 
+def refuse_bearing(name: str | None) -> None:
+    """Refuse the name of a bearing where the case has one only; UsageError."""
+    if name is not None:
+        raise UsageError(f'this case has one bearing: leave out --bearing "{name}"')
+
+
 def is_shaft(data: Mapping[str, Any]) -> bool:
     """Tell whether plain tables are those of a shaft in bearings, not of one bearing."""
     return "bearing" not in data and ("shaft" in data or "bearings" in data)

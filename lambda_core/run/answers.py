@@ -6,6 +6,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.thermal.temperatures import ready_model
 
@@ -13,12 +14,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
     from lambda_core.results.citation import Citation
     from lambda_core.results.reader import Result
     from lambda_core.results.side_by_side import SideBySide
     from lambda_core.results.summary import Summary
     from lambda_core.run.comparison import Comparison
     from lambda_core.system.bearing import BearingModel
+    from lambda_core.system.machine import Machine
+    from lambda_core.views.method import Method
 
 
 def result(path: str | PathLike[str]) -> Result:
@@ -112,12 +116,13 @@ def cite(path: str | PathLike[str]) -> Citation:
 
 
 def compare(
-    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine,
     overrides: Iterable[str] = (),
     *,
     methods: Sequence[str] = (),
     result: str | PathLike[str] | None = None,
     contamination: float | None = None,
+    bearing: str | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Comparison:
     """Apply every comparison method to one case, at its start.
@@ -132,6 +137,8 @@ def compare(
         Result of the same case, or its file: its simulation becomes the first column.
     contamination : float, optional
         e_C of ISO 281, for modified lives.
+    bearing : str, optional
+        Which one of a machine: under the load that it carries there.
     announce : callable, optional
         Called with a sentence before something is compiled.
 
@@ -152,10 +159,42 @@ def compare(
     from lambda_core.run.compare_methods import compare as ask
     from lambda_core.run.comparison import comparison_of
 
-    model, known = ready_model(source, overrides, announce, is_static=True), registry().methods
+    known = registry().methods
     unknown = next((name for name in methods if name not in known), None)
     if unknown is not None:
         raise UsageError(unknown_name("comparison method", unknown, known))
-    simulated = None if result is None else Result(result)
     chosen = [known[name] for name in methods or known]
+    if is_machine(source):
+        if result is not None:
+            raise UsageError("a result is compared with a case of one bearing; leave it out for one of a machine")
+        return _compare_in_machine(source, overrides, bearing, chosen, contamination, announce)
+    refuse_bearing(bearing)
+    model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
+    simulated = None if result is None else Result(result)
     return comparison_of(model, ask(model, chosen, contamination=contamination, announce=announce), simulated)
+
+
+def _compare_in_machine(
+    source: Any, overrides: Iterable[str], bearing: str | None, methods: Sequence[Method], contamination: float | None,
+    announce: Callable[[str], None] | None,
+) -> Comparison:  # fmt: skip
+    """Compare methods on one bearing of a machine, at its pose there."""
+    import dataclasses
+
+    from lambda_core.run.compare_methods import comparison_inputs
+    from lambda_core.run.comparison import comparison_of
+    from lambda_core.shaft.bearing_alone import alone_under_load, bearing_number
+    from lambda_core.shaft.machine_answers import machine_of
+    from lambda_core.shaft.shaft_equilibrium import solve_shaft
+    from lambda_core.views.method import evaluate_methods
+
+    machine = machine_of(source, overrides)
+    number = bearing_number(machine, bearing)
+    state = solve_shaft(machine, announce)
+    given = machine.contamination if contamination is None else contamination
+    inputs = comparison_inputs(state.rings[number].equilibrium(), contamination=given)
+    alone = alone_under_load(machine, state, number)
+    return comparison_of(
+        dataclasses.replace(alone, name=f"{machine.name}, {machine.bearings[number].name}"),
+        evaluate_methods(methods, inputs),
+    )

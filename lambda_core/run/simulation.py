@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from lambda_core.case.case_io import is_machine
+from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.run.answers import result
 from lambda_core.system.checking import resolve
@@ -244,10 +244,11 @@ def resume(
 
 @one_blas_thread()
 def cross_check(
-    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine,
     overrides: Iterable[str] = (),
     *,
     free_cage: bool = False,
+    bearing: str | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> CrossCheck:
     """Integrate a case with the program's integrator and with SUNDIALS CVODE, and compare.
@@ -261,6 +262,8 @@ def cross_check(
     free_cage : bool
         Leave the cage free and compare mean powers; otherwise it follows its kinematic path, where single
         trajectories can be compared.
+    bearing : str, optional
+        Which one of a machine: alone, under the constant load that it carries there at t = 0.
     announce : callable, optional
         Called with a sentence before something is compiled.
 
@@ -278,7 +281,15 @@ def cross_check(
     """
     from lambda_core.run.crosscheck import cross_check as ask
 
-    return ask(ready_model(source, overrides, announce), free_cage=free_cage, announce=announce)
+    if is_machine(source):
+        from lambda_core.shaft.bearing_alone import bearing_alone
+        from lambda_core.shaft.machine_answers import machine_of
+
+        model = bearing_alone(machine_of(source, overrides), bearing, announce)  # type: ignore[arg-type]
+    else:
+        refuse_bearing(bearing)
+        model = ready_model(source, overrides, announce)  # type: ignore[arg-type]
+    return ask(model, free_cage=free_cage, announce=announce)
 
 
 def warmup(*, announce: Callable[[str], None] | None = None) -> Warmup:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pydantic import Field
 
+from lambda_core.case.case_io import is_machine, refuse_bearing
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.channels import LOSSES
 from lambda_core.domain.errors import UsageError
@@ -23,6 +24,9 @@ from lambda_core.views.chart import Axis, Mark, Panel, Series, ViewData
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
+    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.system.bearing import BearingModel
+    from lambda_core.system.machine import Machine
 
 _RPM = np.pi / 30.0
 # Mechanisms of losses under the names that the picture shows.
@@ -70,9 +74,10 @@ class SpeedCurve(Record):
 
 @one_blas_thread()
 def stribeck(
-    source: str | Path | Mapping[str, Any] | Case,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | Machine,
     overrides: Iterable[str] = (),
     *,
+    bearing: str | None = None,
     speeds_rpm: Sequence[float] = (),
     points: int = 16,
     announce: Callable[[str], None] | None = None,
@@ -83,6 +88,8 @@ def stribeck(
     ----------
     source, overrides
         As for :func:`check`; the case's own speed counts for nothing.
+    bearing : str, optional
+        Which one of a machine: under the constant load that it carries there at t = 0.
     speeds_rpm : sequence of float
         Speeds [1/min]; from 1 1/min to n d_m = 500 000 mm/min, evenly by their logarithm, when empty.
     points : int
@@ -109,12 +116,13 @@ def stribeck(
         raise UsageError("speeds of a Stribeck curve are above zero: the axis is logarithmic")
     if (len(given) or points) < 2:
         raise UsageError("a Stribeck curve takes two speeds or more")
-    model = ready_model(source, _at(changes, given[0] if given else SLOWEST), announce)
+    model_at = _models(source, changes, bearing, announce)
+    model = model_at(given[0] if given else SLOWEST)
     if not given:
         mean_diameter = 500.0 * (model.geometry.bore_diameter + model.geometry.outside_diameter)
         given = np.geomspace(SLOWEST, FASTEST_FACTOR / mean_diameter, points).tolist()
     kernels = Kernels(model)
-    found = [_point(ready_model(source, _at(changes, speed)), kernels) for speed in given]
+    found = [_point(model_at(speed), kernels) for speed in given]
     names = dict.fromkeys(_PARTS.values())
     return SpeedCurve(
         case=model.name,
@@ -124,12 +132,23 @@ def stribeck(
         parts_Nmm={name: [parts[name] for parts, _, _ in found] for name in names},
         skf_Nmm=[skf for _, skf, _ in found],
         film_parameter=[film for _, _, film in found],
-        note="quasi-static, mean over the positions of the balls, without cage",
+        note="quasi-static, mean over the positions of the balls, without cage"
+        + (", load of the machine at t = 0" if is_machine(source) else ""),
     )
 
 
-def _at(changes: tuple[str, ...], speed: float) -> tuple[str, ...]:
-    return (*changes, f"operation.speed={speed!r} rpm")
+def _models(
+    source: Any, changes: tuple[str, ...], bearing: str | None, announce: Callable[[str], None] | None
+) -> Callable[[float], BearingModel]:
+    """Return what gives the model of the bearing at a speed [1/min]."""
+    if is_machine(source):
+        from lambda_core.shaft.bearing_alone import at_speed, bearing_alone
+        from lambda_core.shaft.machine_answers import machine_of
+
+        alone = bearing_alone(machine_of(source, changes), bearing, announce)
+        return lambda speed: at_speed(alone, speed * _RPM)
+    refuse_bearing(bearing)
+    return lambda speed: ready_model(source, (*changes, f"operation.speed={speed!r} rpm"), announce)
 
 
 def _point(model: Any, kernels: Any) -> tuple[dict[str, float], float | None, float]:
