@@ -7,6 +7,7 @@ differently.
 from __future__ import annotations
 
 import hashlib
+import importlib.util
 import json
 import sys
 import tempfile
@@ -50,6 +51,7 @@ def bearing_run(entry: dict[str, Any], folder: Path) -> dict[str, str]:
 def shaft_run(entry: dict[str, Any], folder: Path) -> dict[str, str]:
     """Return the hash of every channel and table of the run of a shaft and of each of its bearings."""
     out, case = folder / "run", {"name": "endstate"} | entry["case"]
+    case = case if has_one_notation() else older_notation(case)
     stop, end = (_seconds(entry[name]) if name in entry else None for name in ("stop", "duration"))
     api.shaft_run(case, out=out, duration=stop or end)
     if stop:
@@ -62,6 +64,25 @@ def shaft_run(entry: dict[str, Any], folder: Path) -> dict[str, str]:
         for name, values in file.items():
             if isinstance(values, h5py.Dataset) and values.dtype.kind == "f":
                 found[f"shaft/{name}"] = _hash(values[:])
+    return found
+
+
+def has_one_notation() -> bool:
+    """Tell whether this version writes every degree of freedom alike."""
+    return importlib.util.find_spec("lambda_core.case.holding") is not None
+
+
+def older_notation(case: dict[str, Any]) -> dict[str, Any]:
+    """Return a case of a shaft as versions before had it: positions, markers, springs, motions of locked seats."""
+    found: dict[str, Any] = json.loads(json.dumps(case))
+    found |= {"springs": found.pop("connections")} if "connections" in found else {}
+    for table in ("bearings", "gears", "discs", "loads", "springs"):
+        for part in found.get(table, {}).values():
+            at = part.pop("at")
+            part["marker" if at in found.get("markers", {}) else "position"] = at
+            for dof, held in list(part.get("support", {}).items()):
+                if isinstance(held, dict):
+                    part["support"] |= {dof: "locked", f"motion_{dof}": held["motion"]}
     return found
 
 

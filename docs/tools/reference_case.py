@@ -7,38 +7,38 @@ from collections.abc import Iterator
 import tables as md
 from pydantic import BaseModel
 
-from lambda_core.case import elastic, modelling, motion, parts, signals
+from lambda_core.case import elastic, holding, modelling, motion, parts, signals
 from lambda_core.case.cards import FieldCard, field_card
 from lambda_core.case.case import Case
 from lambda_core.domain.elements import ELEMENTS
 from lambda_core.domain.roles import DEFAULT_MODELS, MOTION_ROLES
 from lambda_core.domain.units import CUSTOMARY, UNITS
 
-_DOFS = (motion.Translation, motion.Tilt, motion.Spin, motion.InnerSpin)
+_DOFS = (holding.Translation, holding.Tilt, holding.Spin, holding.InnerSpin)
 # Tables that stand in several places are described once, under one name for all of these places.
 _SHARED: dict[type[BaseModel], str] = {
     parts.InlineMaterial: "materials.PART",
-    motion.BodyLoads: "loads.BODY",
+    motion.Load: "loads.BODY",
     motion.Marker: "markers.NAME",
     motion.BetweenBodies: "elements.NAME",
     modelling.ForceElement: "forces.ELEMENT",
     elastic.BendingRing: "elastic.RING",
-    motion.Translation: "bodies.BODY.x",
-    motion.Tilt: "bodies.BODY.tilt_y",
-    motion.Spin: "bodies.BODY.spin",
-    motion.InnerSpin: "bodies.inner_ring.spin",
+    holding.Translation: "bodies.BODY.x",
+    holding.Tilt: "bodies.BODY.tilt_y",
+    holding.Spin: "bodies.BODY.spin",
+    holding.InnerSpin: "bodies.inner_ring.spin",
 }
 _WHERE: dict[type[BaseModel], str] = {
     parts.InlineMaterial: "PART is `inner`, `outer`, `balls` or `cage`: a table in place of a catalogue name.",
-    motion.BodyLoads: "BODY is `inner_ring`, `outer_ring` or `cage`.",
+    motion.Load: "BODY is `inner_ring`, `outer_ring` or `cage`.",
     motion.Marker: "NAME is yours.",
     motion.BetweenBodies: "NAME is yours. What the law writes acts on the second body, its opposite on the first.",
     modelling.ForceElement: f"ELEMENT is {', '.join(f'`{name}`' for name in ELEMENTS)}. What stands here comes before "
     "`models` and `parameters` of the whole bearing.",
     elastic.BendingRing: "RING is `inner_ring` or `outer_ring`. [What it does](../elastic-rings.md).",
-    motion.Translation: "Also for `y` and `z`, of every body.",
-    motion.Tilt: "Also for `tilt_z`, of every body.",
-    motion.Spin: "Of the outer ring and the cage.",
+    holding.Translation: "Also for `y` and `z`, of every body.",
+    holding.Tilt: "Also for `tilt_z`, of every body.",
+    holding.Spin: "Of the outer ring and the cage.",
 }
 _INTRODUCTION = """# Case reference
 
@@ -48,7 +48,7 @@ the same as a JSON schema for editors, and `--set PATH=VALUE` changes one option
 A dimensional value is a text with its unit, `"16 kN"`; [the units](#units) of each quantity are a closed list. A value
 without unit, with a decimal comma or in a unit of another quantity is an error that says what to write. Where a
 *time function* is allowed, a value is a constant, and [a table](#time-functions) says more. A degree of freedom has a
-short form: `x = "free"`.
+short form: `x = "free"`, `x = "200 N/um"`.
 """
 
 

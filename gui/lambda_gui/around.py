@@ -62,8 +62,6 @@ class CaseAround(Surroundings):
 
     def names(self, kind: str) -> list[str]:
         """Return the names of one kind in the catalogue."""
-        if kind == "support":
-            return ["locked", "free"]
         if kind not in self._names:
             from contextlib import closing
 

@@ -65,10 +65,11 @@ def remove(node: Node, draft: Draft) -> Keys:
 
 
 # What names bodies and markers of a shaft: section and option
-_ENDS = (("bearings", "outer"), ("springs", "to"))
+_ENDS = (("bearings", "outer"), ("connections", "to"))
 _REFER: dict[str, tuple[tuple[str, str], ...]] = {
     "bodies": (*_ENDS, ("markers", "body")),
-    "markers": (*_ENDS, *((table, "marker") for table in ("bearings", "discs", "gears", "loads", "springs"))),
+    "bearings": tuple((table, "at") for table in ("discs", "gears", "loads", "connections")),
+    "markers": (*_ENDS, *((table, "at") for table in ("bearings", "discs", "gears", "loads", "connections"))),
 }
 
 
@@ -80,7 +81,8 @@ def rename(node: Node, draft: Draft, name: str) -> Keys:
         return node.table
     old = node.table[-1]
     _put(draft, section, {name if key == old else key: deepcopy(table) for key, table in tables.items()})
-    for places in _REFER.get(section[0], ()) if draft.is_shaft else ():
+    is_meant = draft.is_shaft and not (section == ("bearings",) and old in (draft.get("markers") or {}))
+    for places in _REFER.get(section[0], ()) if is_meant else ():
         for other, table in (draft.get(places[0]) or {}).items():
             if isinstance(table, dict) and table.get(places[1]) == old:
                 draft.set(places[0], other, places[1], value=name)

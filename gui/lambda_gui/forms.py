@@ -17,7 +17,6 @@ from textual.widget import Widget
 from textual.widgets import Button, Input, Static
 
 from lambda_core.api import FieldCard, field_card
-from lambda_core.domain.elements import DOFS
 from lambda_core.domain.option_tree import members
 from lambda_gui.around import CaseAround
 from lambda_gui.checking import by_place
@@ -26,7 +25,7 @@ from lambda_gui.details import Sources
 from lambda_gui.entries import free_name, is_list
 from lambda_gui.fields import ChoiceRow, ParagraphRow, TextRow, row_for
 from lambda_gui.laws import law_choice_row, law_choices, law_row
-from lambda_gui.nodes import Group, Keys, Node, table_model
+from lambda_gui.nodes import Group, Keys, Node, is_freedom, table_model
 from lambda_gui.parts import FreedomRow, MaterialRow
 from lambda_gui.places import Option
 from lambda_gui.rows import Row, Stepped
@@ -61,8 +60,9 @@ def row_at(draft: Draft, keys: Keys, around: CaseAround) -> Row:
     """Return the row for one option of the case."""
     table, name, place = table_model(draft.root, keys[:-1]), keys[-1], Option(draft, keys)
     card, annotation = field_card(table, name), table.model_fields[name].annotation
-    if keys[0] == "bodies" and name in DOFS and len(keys) == 3:
-        return FreedomRow(place, card, around, table_model(draft.root, keys))
+    freedom = next(members(annotation), None)
+    if freedom is not None and is_freedom(freedom):
+        return FreedomRow(place, card, around, freedom)
     if keys[0] in _MATERIALS and card.kind == "table":
         return MaterialRow(place, card, around)
     if keys == ("bodies", "cage", "type"):
@@ -74,7 +74,7 @@ def row_at(draft: Draft, keys: Keys, around: CaseAround) -> Row:
     if card.kind == "signal":
         return SignalRow(place, card, around, list(members(annotation)))
     if card.kind == "text":
-        kind = "support" if keys[-2:-1] == ("support",) else _NAMES.get(name, "") if len(keys) > 1 else ""
+        kind = _NAMES.get(name, "") if len(keys) > 1 else ""
         return TextRow(place, card, around, kind=kind)
     return row_for(place, card, around)
 

@@ -129,6 +129,11 @@ def told(root: type[BaseModel], path: str) -> str:
     return (info.description or "") if info is not None else ""
 
 
+def is_freedom(table: type[BaseModel] | None) -> bool:
+    """Tell whether a table is a degree of freedom: one option, with what holds or moves it."""
+    return table is not None and {"mode", "damping"} <= set(table.model_fields)
+
+
 def plain_fields(root: type[BaseModel], table: Keys) -> list[str]:
     """Return the options of a table that are no tables themselves (time functions are options)."""
     model = table_model(root, table)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import get_args
 
 from pydantic import BaseModel
 from textual.widget import Widget
@@ -24,6 +25,7 @@ _SENSE = {
     "x": "axial",
     "y": "horizontal",
     "z": "vertical",
+    "tilt_x": "about x",
     "tilt_y": "about y",
     "tilt_z": "about z",
     "spin": "about x",
@@ -48,11 +50,13 @@ class FreedomRow(Branch):
         self._supported = False
 
     def _modes(self, table: type[BaseModel]) -> list[tuple[str, str, str]]:
-        """Return the modes; a rotation about the body's own axis can only be resisted."""
+        """Return the modes that it can have; a rotation about the body's own axis can only be resisted."""
+        known = get_args(table.model_fields["mode"].annotation)
+        modes = [mode for mode in self._MODES if mode[0] in (*known, "support")]
         if "stiffness" in table.model_fields:
-            return list(self._MODES)
+            return modes
         resisted = ("support", "free with resistance", "moves by the forces on it and a moment against its speed")
-        return [resisted if mode[0] == "support" else mode for mode in self._MODES]
+        return [resisted if mode[0] == "support" else mode for mode in modes]
 
     def control(self) -> Widget:
         """Return the choice of modes."""
@@ -60,9 +64,10 @@ class FreedomRow(Branch):
         return Choice(modes, self._mode())
 
     def _mode(self) -> str:
-        value = self.place.get()
-        mode = str(self._option.part("mode").get() or (self.card.default if value is None else "free"))
-        held = isinstance(value, dict) and (value.keys() & {"stiffness", "damping"})
+        written = {name: self._option.part(name).get() for name in ("mode", "motion", "stiffness", "damping")}
+        implied = "prescribed" if written["motion"] is not None else "free"
+        mode = str(written["mode"] or (self.card.default if self.place.get() is None else implied))
+        held = written["stiffness"] is not None or written["damping"] is not None
         return "support" if mode == "free" and (held or self._supported) else mode
 
     def shape(self) -> object:

@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, get_origin
 from lambda_core.api import InlineMaterial, ShaftCase
 from lambda_core.domain.option_tree import members, model_at
 from lambda_core.domain.roles import MOTION_ROLES, ROLES
-from lambda_gui.nodes import Group, Keys, Named, Names, Node, about, form_node, plain_fields, table_model
+from lambda_gui.nodes import Group, Keys, Named, Names, Node, about, form_node, is_freedom, plain_fields, table_model
 from lambda_gui.outline import SHORT, force_elements
 
 if TYPE_CHECKING:
+    from pydantic import BaseModel
+
     from lambda_core.api import Draft
 
 SECTIONS = "shaft.sections"
@@ -23,17 +25,17 @@ _NAMED = {
     "bodies": Named("Bodies", "housings that give way: mass, inertia, what holds them", "body", {},
                     usual=("housing", "cover")),
     "markers": Named("Markers", "named places on shaft, bodies and ground", "marker", {}, usual=("foot", "seat")),
-    "springs": Named("Springs", "springs, dampers and bushings between shaft, bodies and ground", "spring", {},
-                     usual=("spring", "damper", "mount")),
+    "connections": Named("Connections", "springs, dampers, bushings between shaft, bodies and ground", "connection", {},
+                         usual=("spring", "damper", "mount")),
     "loads": Named("Loads", "forces and moments at a place, over time", "load", {}, usual=("belt", "load")),
 }  # fmt: skip
 _TITLES = {"operation": "Drive", "materials": "Materials", "surface": "Surfaces", "life": "Rating life"}
 # What comes first on the form of a table: what each of them needs
 _FIRST: dict[str, tuple[str, ...]] = {
-    "bearings": ("designation", "position", "marker", "outer", "takes", "preload", "preload_force"),
+    "bearings": ("designation", "at", "outer", "takes", "preload", "preload_force"),
     "markers": ("body", "x", "y", "z"),
     "bodies": ("x", "y", "z", "mass", "polar_inertia", "transverse_inertia"),
-    "springs": ("position", "marker", "to"),
+    "connections": ("at", "to"),
 }
 _BELOW: dict[Keys, dict[str, str]] = {
     ("lubricant",): {"properties": "Own properties"},
@@ -54,7 +56,7 @@ _ORDER = (
     "loads",
     "bodies",
     "markers",
-    "springs",
+    "connections",
     "operation",
     "housing",
     "lubricant",
@@ -157,13 +159,18 @@ def _group(table: Keys) -> Group:
 
 
 def _options(table: Keys) -> list[str]:
-    """Return the options of a table; a material, by name or as a table, is one."""
+    """Return the options of a table; a material or a degree of freedom is one."""
     plain = plain_fields(ShaftCase, table)
     fields = table_model(ShaftCase, table).model_fields
     return [
         name for name, info in fields.items()
-        if (name in plain or InlineMaterial in members(info.annotation)) and (*table, name) != ("parameters",)
+        if (name in plain or any(_is_one(inner) for inner in members(info.annotation)))
+        and (*table, name) != ("parameters",)
     ]  # fmt: skip
+
+
+def _is_one(table: type[BaseModel]) -> bool:
+    return table is InlineMaterial or is_freedom(table)
 
 
 def _tables(table: Keys) -> list[str]:

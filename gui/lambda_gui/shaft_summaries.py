@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
 # Options that tell most of a table, in order
 _TELL = {
-    "gears": ("position", "marker", "power", "torque"),
-    "discs": ("position", "marker", "mass"),
+    "gears": ("at", "power", "torque"),
+    "discs": ("at", "mass"),
     "bodies": ("x", "mass", "length", "diameter"),
     "markers": ("body", "x", "y", "z"),
-    "loads": ("position", "marker", "force_z", "force_y", "force_x", "moment_x", "moment_y", "moment_z"),
-    "springs": ("position", "marker", "to", "z", "y", "x"),
+    "loads": ("at", "force_z", "force_y", "force_x", "moment_x", "moment_y", "moment_z"),
+    "connections": ("at", "to", "z", "y", "x"),
     "operation": ("speed",),
     "lubricant": ("name", "temperature"),
     "housing": ("temperature", "reduced"),
@@ -39,7 +39,7 @@ def of_shaft(node: Node, draft: Draft, around: CaseAround) -> str:
         if section == "shaft":
             return f"⌀ {_text(table.get('diameter')) or '?'}\tx {_text(table.get('length')) or '?'}"
         if section == "bearings":
-            return _parts(*(table.get(name) for name in ("designation", "position", "marker", "takes")))
+            return _parts(*(table.get(name) for name in ("designation", "at", "takes")))
         return _parts(*(table.get(name) for name in _TELL.get(section, ())))
     if node.key == "surface":
         return _text(draft.get("surface", "roughness")) or around.resolved(("surface", "roughness"))

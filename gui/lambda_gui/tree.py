@@ -37,7 +37,7 @@ _OPEN = (
     "discs",
     "loads",
     "bodies",
-    "springs",
+    "connections",
 )
 
 

@@ -49,7 +49,7 @@ def field_card(model: type[BaseModel], name: str) -> FieldCard:
         default=written(info.get_default(call_default_factory=True, validated_data={}), quantity),
         required=info.is_required(),
         quantity=quantity,
-        units=list(UNITS[quantity]) if quantity else [],
+        units=list(UNITS[quantity or str(extra["x-quantity"])]) if quantity or "x-quantity" in extra else [],
         limits=list(limits(info, quantity)),
         kind=_kind(info, quantity, choices),
         choices=choices,

@@ -15,14 +15,14 @@ from lambda_core.case.builtin import builtin_cases, builtin_text
 from lambda_core.case.case import Case
 from lambda_core.case.case_io import is_shaft, load_case, syntax_problem, validate_case
 from lambda_core.case.case_writer import save_text, tables_toml
+from lambda_core.case.holding import Dof
 from lambda_core.case.shaft import ShaftCase
-from lambda_core.domain.elements import DOFS
 from lambda_core.domain.errors import CaseError, UsageError
 from lambda_core.domain.files import read_text
+from lambda_core.domain.option_tree import model_at
 
 Keys = tuple[str, ...]
-# A degree of freedom may be written short: "free" instead of {mode = "free"}.
-_MODE = "mode"
+_MODE, _STIFFNESS = "mode", "stiffness"
 
 
 @dataclass(frozen=True)
@@ -72,9 +72,7 @@ class Draft:
         """Return what is written at a place, None where nothing is."""
         value: Any = self.tables
         for key in keys:
-            if isinstance(value, str) and key == _MODE and _is_dof(keys[:-1]):
-                return value
-            value = _inner(value, key)
+            value = _inner(_in_full(value), key) if self._is_dof(keys[:-1]) and key == keys[-1] else _inner(value, key)
         return value
 
     def set(self, *keys: str, value: Any) -> None:
@@ -137,7 +135,7 @@ class Draft:
         for key in keys[:-1]:
             inner = _inner(tables[-1], key)
             if not isinstance(inner, dict | list):
-                inner = {_MODE: inner} if isinstance(inner, str) and _is_dof(keys[:-1]) else {}
+                inner = _in_full(inner) if isinstance(inner, str) and self._is_dof(keys[:-1]) else {}
                 tables[-1][key] = inner
             tables.append(inner)
         if value is None:
@@ -149,13 +147,18 @@ class Draft:
                 continue
             if not table[key] and not (table is not self.tables and table is tables[1] and self._names_tables(keys[0])):
                 del table[key]
-            elif _is_dof(keys[:-1]) and set(table[key]) == {_MODE}:
-                table[key] = table[key][_MODE]
+            elif len(table[key]) == 1 and self._is_dof(keys[:-1]) and (short := {_MODE, _STIFFNESS} & set(table[key])):
+                table[key] = table[key][short.pop()]
 
     def _names_tables(self, section: str) -> bool:
         """Tell whether a section has tables under names of its own, each of which says something even when empty."""
         info = self.root.model_fields.get(section)
         return info is not None and get_origin(info.annotation) is dict
+
+    def _is_dof(self, keys: Keys) -> bool:
+        """Tell whether a degree of freedom stands at a place, which may be written short."""
+        table = model_at(self.root, keys) if keys else None
+        return table is not None and issubclass(table, Dof)
 
     # -- what it means --
 
@@ -172,8 +175,7 @@ class Draft:
         """Tell whether what stands at a place (everything without one) differs from the file."""
         saved: Any = self._saved
         for key in keys:
-            if not isinstance(saved, str) or key != _MODE or not _is_dof(keys[:-1]):
-                saved = _inner(saved, key)
+            saved = _inner(_in_full(saved) if self._is_dof(keys[:-1]) and key == keys[-1] else saved, key)
         return bool((self.get(*keys) if keys else self.tables) != saved)
 
     # -- the file --
@@ -217,8 +219,11 @@ def _inner(value: Any, key: str) -> Any:
     return value.get(key) if isinstance(value, Mapping) else None
 
 
-def _is_dof(keys: Keys) -> bool:
-    return len(keys) == 3 and keys[0] == "bodies" and keys[2] in DOFS
+def _in_full(value: Any) -> Any:
+    """Return the table of a degree of freedom that is written short: "free" for {mode = "free"}."""
+    if not isinstance(value, str):
+        return value
+    return {_STIFFNESS if value[:1].isdigit() else _MODE: value}
 
 
 def new_draft(name: str = "untitled", *, shaft: bool = False) -> Draft:

@@ -8,92 +8,21 @@ from __future__ import annotations
 import math
 from typing import Any, Literal
 
-from pydantic import GetJsonSchemaHandler, field_validator, model_serializer, model_validator
-from pydantic_core import CoreSchema
+from pydantic import field_validator
 
+from lambda_core.case.holding import InnerSpin, Spin, Tilt, Translation
 from lambda_core.case.option import Section, option
-from lambda_core.case.signals import AngleSignal, ForceSignal, LengthSignal, MomentSignal, SpeedSignal
+from lambda_core.case.signals import ForceSignal, MomentSignal, SpeedSignal
 from lambda_core.domain.elements import BodyName
 from lambda_core.domain.units import (
     Acceleration,
     Angle,
-    AngularDamping,
-    AngularStiffness,
-    Damping,
     Inertia,
     Length,
     Mass,
     SmallLength,
-    Stiffness,
     Unbalance,
 )
-
-Mode = Literal["free", "locked", "prescribed"]
-
-
-class _Dof(Section):
-    """One degree of freedom; the short form is only its mode ("free", "locked")."""
-
-    mode: Mode = option("free", "free, locked, or prescribed by a motion")
-
-    @model_validator(mode="before")
-    @classmethod
-    def _short_form(cls, value: Any) -> Any:
-        if not isinstance(value, str):
-            return value
-        if value[:1] in "+-.0123456789" and "motion" in cls.model_fields:
-            raise ValueError(f'a motion is written {{ mode = "prescribed", motion = "{value}" }}')
-        return {"mode": value}
-
-    @model_validator(mode="after")
-    def _consistent(self) -> _Dof:
-        motion = getattr(self, "motion", None)
-        elastic = getattr(self, "stiffness", 0.0) or getattr(self, "damping", 0.0)
-        if self.mode == "prescribed" and motion is None and "motion" in type(self).model_fields:
-            raise ValueError('mode = "prescribed" needs a motion')
-        if motion is not None and self.mode != "prescribed":
-            raise ValueError(f'a motion needs mode = "prescribed", not "{self.mode}"')
-        if elastic and self.mode != "free":
-            raise ValueError(f'stiffness and damping of a support need mode = "free", not "{self.mode}"')
-        return self
-
-    @model_serializer(mode="wrap")
-    def _shorten(self, handler: Any) -> Any:
-        written = handler(self)
-        return self.mode if self.model_fields_set <= {"mode"} else {"mode": self.mode, **written}
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return {"anyOf": [{"enum": ["free", "locked", "prescribed"]}, handler(schema)]}
-
-
-class Translation(_Dof):
-    """Boundary condition along one axis."""
-
-    motion: LengthSignal | None = option(None, "prescribed position over time")
-    stiffness: Stiffness = option("0 N/m", "elastic support to ground", ge=0.0)
-    damping: Damping = option("0 N s/m", "damping of the support", ge=0.0)
-
-
-class Tilt(_Dof):
-    """Boundary condition of a rotation about y or z."""
-
-    motion: AngleSignal | None = option(None, "prescribed angle over time")
-    stiffness: AngularStiffness = option("0 N m/rad", "elastic support to ground", ge=0.0)
-    damping: AngularDamping = option("0 N m s/rad", "damping of the support", ge=0.0)
-
-
-class Spin(_Dof):
-    """Boundary condition of the rotation about the body's own axis."""
-
-    motion: SpeedSignal | None = option(None, "prescribed speed over time")
-    damping: AngularDamping = option("0 N m s/rad", "resistance to the rotation", ge=0.0)
-
-
-class InnerSpin(_Dof):
-    """Rotation of the inner ring; its speed over time is operation.speed."""
-
-    damping: AngularDamping = option("0 N m s/rad", "resistance to the rotation", ge=0.0)
 
 
 class _Body(Section):
@@ -158,12 +87,13 @@ class Bodies(Section):
     cage: CageBody = option({}, "cage")
 
 
-class BodyLoads(Section):
-    """External force and moment on one body, in the inertial frame."""
+class Load(Section):
+    """External force and moment over time, in the inertial frame; the equilibrium is that of t = 0."""
 
     force_x: ForceSignal = option("0 N", "force along the shaft")
     force_y: ForceSignal = option("0 N", "horizontal force")
     force_z: ForceSignal = option("0 N", "vertical force, upwards")
+    moment_x: MomentSignal = option("0 N m", "torque about x")
     moment_y: MomentSignal = option("0 N m", "moment about y")
     moment_z: MomentSignal = option("0 N m", "moment about z")
 
@@ -176,9 +106,9 @@ class Loads(Section):
     axial: ForceSignal = option("0 N", "axial load on the inner ring, along +x")
     moment_y: MomentSignal = option("0 N m", "moment on the inner ring about y")
     moment_z: MomentSignal = option("0 N m", "moment on the inner ring about z")
-    inner_ring: BodyLoads | None = option(None, "further loads on the inner ring")
-    outer_ring: BodyLoads | None = option(None, "loads on the outer ring")
-    cage: BodyLoads | None = option(None, "loads on the cage")
+    inner_ring: Load | None = option(None, "further loads on the inner ring")
+    outer_ring: Load | None = option(None, "loads on the outer ring")
+    cage: Load | None = option(None, "loads on the cage")
 
     @field_validator("radial_direction")
     @classmethod

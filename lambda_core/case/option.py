@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, ClassVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -12,10 +13,13 @@ from lambda_core.domain.units import Quantity
 class Section(BaseModel):
     """Base of every table of a case: no unknown keys, immutable, defaults checked like input."""
 
+    # what to write in place of a name that one would expect here
+    INSTEAD: ClassVar[Mapping[str, str]] = {}
+
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, allow_inf_nan=False, defer_build=True)
 
 
-def option(default: Any = ..., description: str = "", *, reference: str = "", **limits: Any) -> Any:
+def option(default: Any = ..., description: str = "", *, reference: str = "", quantity: str = "", **limits: Any) -> Any:
     """Declare one option of a case.
 
     Parameters
@@ -26,10 +30,13 @@ def option(default: Any = ..., description: str = "", *, reference: str = "", **
         One sentence for people.
     reference : str
         Where the default or the meaning comes from.
+    quantity : str
+        Of a text that may be a value with its unit, or a name.
     **limits
         Passed to :func:`pydantic.Field` (``ge``, ``gt``, ``le``, ``lt``, ``min_length`` ...), in SI.
     """
     extra: dict[str, Any] = {"x-reference": reference} if reference else {}
+    extra |= {"x-quantity": quantity} if quantity else {}
     return Field(default, description=description, json_schema_extra=extra or None, **limits)
 
 

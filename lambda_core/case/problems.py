@@ -8,7 +8,7 @@ from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
-from lambda_core.case.option import quantity_of
+from lambda_core.case.option import Section, quantity_of
 from lambda_core.case.signals import SIGNAL_KINDS
 from lambda_core.domain.errors import Problem, nearest
 from lambda_core.domain.option_tree import is_tag, model_at, option_paths
@@ -155,6 +155,8 @@ def _choices(parent: type[BaseModel] | None, name: str) -> list[str]:
 
 def _unknown_key(name: str, parent: type[BaseModel] | None, root: type[BaseModel]) -> str:
     """Say what an unknown option might be: the same name in another table counts more than a like one here."""
+    if parent is not None and issubclass(parent, Section) and name in parent.INSTEAD:
+        return f"is not an option: {parent.INSTEAD[name]}"
     siblings = list(parent.model_fields) if parent else []
     close = nearest(name, siblings)
     paths = sorted((path for path in option_paths(root) if path.rpartition(".")[2] == name), key=lambda p: p.count("."))

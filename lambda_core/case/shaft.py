@@ -4,42 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from pydantic import PrivateAttr, ValidationInfo, field_validator, model_validator
 
 from lambda_core.case.case import NAME_PATTERN
 from lambda_core.case.elastic import Elastic
+from lambda_core.case.holding import SeatTilt, SeatTranslation
 from lambda_core.case.modelling import Forces, Models, Parameters, Solver
 from lambda_core.case.motion import CageShape, Gravity
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, Surface
 from lambda_core.case.shaft_parts import (
+    Connection,
     Gear,
     Placed,
     PointLoad,
     ShaftBody,
     ShaftDisc,
     ShaftMarker,
-    ShaftSpring,
-    held,
-    leads_what_is_locked,
-    without_motion,
 )
-from lambda_core.case.signals import AngleSignal, LengthSignal, SpeedSignal
-from lambda_core.domain.units import (
-    AngularDamping,
-    Damping,
-    Force,
-    Length,
-    SmallLength,
-    Temperature,
-)
+from lambda_core.case.signals import SpeedSignal
+from lambda_core.domain.elements import POSE
+from lambda_core.domain.units import Force, Length, SmallLength, Temperature
 
 # tables of the case of every bearing
 SHARED = ("lubricant", "materials", "surface", "models", "parameters", "gravity", "solver")
 OWN = ("elastic", "forces")  # tables of one of them
-NAMED = ("bearings", "markers", "bodies", "discs", "loads", "gears", "springs")  # tables of named parts
+NAMED = ("bearings", "markers", "bodies", "discs", "loads", "gears", "connections")  # tables of named parts
 # Names that are there already; a bearing's result stands beside that of the whole, shaft.h5
 TAKEN = {"bearings": ("shaft",), "markers": ("shaft", "ground"), "bodies": ("shaft", "ground")}
 
@@ -103,40 +95,19 @@ class Housing(Section):
 
 
 class Support(Section):
-    """How the housing holds an outer ring: locked, free, or by a spring, for each degree of freedom."""
+    """How the housing holds an outer ring: locked, free, by a spring, or moved, for each degree of freedom."""
 
-    x: str = option("locked", 'axial: "locked", "free" (floating) or a stiffness ("200 N/um")')
-    y: str = option("locked", "horizontal, likewise")
-    z: str = option("locked", "vertical, likewise")
-    tilt_y: str = option("locked", 'rotation about y: "locked", "free" (self-aligning) or a stiffness ("50 N m/mrad")')
-    tilt_z: str = option("locked", "rotation about z, likewise")
-    damping_x: Damping = option("0 N s/m", "damping of the seat where the ring can move, in motion", ge=0.0)
-    damping_y: Damping = option("0 N s/m", "horizontal, likewise", ge=0.0)
-    damping_z: Damping = option("0 N s/m", "vertical, likewise", ge=0.0)
-    damping_tilt_y: AngularDamping = option("0 N m s/rad", "of rotation about y, likewise", ge=0.0)
-    damping_tilt_z: AngularDamping = option("0 N m s/rad", "of rotation about z, likewise", ge=0.0)
-    motion_x: LengthSignal | None = option(None, "prescribed displacement of a locked ring from its place, axial")
-    motion_y: LengthSignal | None = option(None, "horizontal, likewise")
-    motion_z: LengthSignal | None = option(None, "vertical, likewise")
-    motion_tilt_y: AngleSignal | None = option(None, "rotation about y, likewise: a seat that is not in line")
-    motion_tilt_z: AngleSignal | None = option(None, "rotation about z, likewise")
+    INSTEAD: ClassVar[Mapping[str, str]] = {
+        f"{old}_{dof}": f"write {dof} = {{ {new} }}"
+        for old, new in (("damping", "stiffness = ..., damping = ..."), ("motion", "motion = ..."))
+        for dof in POSE
+    }
 
-    _without_motion = field_validator("x", "y", "z", "tilt_y", "tilt_z", mode="before")(without_motion)
-
-    @field_validator("x", "y", "z")
-    @classmethod
-    def _translation(cls, text: str) -> str:
-        return held(text, "stiffness")
-
-    @field_validator("tilt_y", "tilt_z")
-    @classmethod
-    def _rotation(cls, text: str) -> str:
-        return held(text, "angular_stiffness")
-
-    @field_validator("motion_x", "motion_y", "motion_z", "motion_tilt_y", "motion_tilt_z")
-    @classmethod
-    def _leads_what_is_locked(cls, motion: Any, info: ValidationInfo) -> Any:
-        return leads_what_is_locked(motion, info, "")
+    x: SeatTranslation = option("locked", 'axial: "locked", "free" (floating), a stiffness ("200 N/um") or a motion')
+    y: SeatTranslation = option("locked", "horizontal, likewise")
+    z: SeatTranslation = option("locked", "vertical, likewise")
+    tilt_y: SeatTilt = option("locked", 'rotation about y: likewise, a stiffness being "50 N m/mrad"')
+    tilt_z: SeatTilt = option("locked", "rotation about z, likewise")
 
 
 class ShaftBearing(Bearing, Placed):
@@ -166,7 +137,7 @@ class ShaftBearing(Bearing, Placed):
             raise ValueError('a preload needs takes = "+x" or "-x": the force on the shaft that it makes it carry')
         if self.preload is not None and self.preload_force is not None:
             raise ValueError("give either `preload` (rigid) or `preload_force` (spring), not both")
-        if self.preload_force is not None and "x" in self.support.model_fields_set and self.support.x == "locked":
+        if self.preload_force is not None and "x" in self.support.model_fields_set and self.support.x.mode == "locked":
             raise ValueError('preload_force needs an outer ring that slides: support.x = "free" or a stiffness')
         if self.contact_angle is not None and self.takes is None:
             raise ValueError('an angular contact bearing needs takes = "+x" or "-x"')
@@ -188,6 +159,11 @@ class ShaftLife(Section):
 class ShaftCase(Section):
     """What the file of a shaft says; values in SI, written as unit strings."""
 
+    INSTEAD: ClassVar[Mapping[str, str]] = {
+        "springs": "write [connections.NAME]",
+        "elements": "write [connections.NAME]",
+    }
+
     name: str = option(description="short name, used for files", pattern=NAME_PATTERN)
     description: str = option("", "what this case is, for people")
     assumptions: list[str] = option([], "what the author of the case assumed, repeated with every result")
@@ -198,7 +174,7 @@ class ShaftCase(Section):
     discs: dict[str, ShaftDisc] = option({}, "rigid bodies on the shaft, by name")
     loads: dict[str, PointLoad] = option({}, "forces and moments on the shaft and on bodies, by name")
     gears: dict[str, Gear] = option({}, "gears on the shaft, by name")
-    springs: dict[str, ShaftSpring] = option(
+    connections: dict[str, Connection] = option(
         {}, "springs, dampers and bushings between shaft, bodies and ground, by name"
     )
     housing: Housing = option({}, "the housing")

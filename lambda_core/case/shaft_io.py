@@ -12,6 +12,7 @@ from pydantic import ValidationError
 from lambda_core.case.case import NAME_PATTERN
 from lambda_core.case.salvage import SHARED_STAND_INS, InvalidCase, StandIns, invalid_case
 from lambda_core.case.shaft import NAMED, TAKEN, ShaftCase
+from lambda_core.case.shaft_parts import length_in
 from lambda_core.domain.errors import CaseError, Problem
 
 STAND_IN = "stand-in"  # a bearing where no other is left
@@ -20,7 +21,7 @@ _STAND_INS: StandIns = {
     **SHARED_STAND_INS,
     ("shaft",): {"sections": _PIECES},
     ("shaft", "sections"): _PIECES,
-    ("bearings",): {STAND_IN: {"position": "0 mm"}},
+    ("bearings",): {STAND_IN: {"at": "0 mm"}},
 }
 
 
@@ -49,6 +50,8 @@ def _names(data: Mapping[str, Any]) -> list[Problem]:
         for name in parts if isinstance(parts, Mapping) else ():
             if not re.match(NAME_PATTERN, str(name)):
                 found.append(Problem(f"{table}.{name}", "use letters, digits, dot, dash and underscore in names"))
+            elif table == "markers" and length_in(str(name)) is not None:
+                found.append(Problem(f"{table}.{name}", "reads as a length: choose a name that does not"))
             elif name in TAKEN.get(table, ()):
                 found.append(Problem(f"{table}.{name}", f'"{name}" is there already: choose another name'))
     return found

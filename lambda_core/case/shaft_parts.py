@@ -3,55 +3,74 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import ClassVar, Literal, Self
 
-from pydantic import ValidationInfo, field_validator, model_validator
+from pydantic import PrivateAttr, field_validator, model_validator
 
+from lambda_core.case.holding import Roll, RotationSpring, Tilt, Translation, TranslationSpring
+from lambda_core.case.motion import Load
 from lambda_core.case.option import Section, option
 from lambda_core.case.parts import MaterialChoice
-from lambda_core.case.signals import AngleSignal, ForceSignal, LengthSignal, MomentSignal
 from lambda_core.domain.units import (
     Angle,
-    AngularDamping,
-    AngularStiffness,
-    Damping,
     Inertia,
     Length,
     Mass,
     Moment,
     Power,
-    Stiffness,
     Unbalance,
     parse,
-    show,
 )
 
-# Stiffness and damping at most, in SI: a cube of steel of a metre has 2e11 N/m; where one part is 1e20 as stiff as
-# others, these are lost in rounding.
-LARGEST = 1e15
+NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]*$"
+_DOFS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
+_AT = 'write at = "85 mm", a place along the shaft, or at = "NAME", a marker or a bearing'
 
 
 class Placed(Section):
-    """What stands at a place of the shaft."""
+    """What stands at a place of the shaft or of a body."""
 
-    marker: str | None = option(None, "in place of the position: one of [markers]", min_length=1)
-    position: Length | None = option(None, "place along the shaft, from its left end")
+    INSTEAD: ClassVar[Mapping[str, str]] = {"position": _AT, "marker": _AT}
 
-    @field_validator("position")
+    at: str = option(
+        description='where: a place along the shaft from its left end ("85 mm"), one of [markers], or a bearing',
+        quantity="length",
+        min_length=1,
+    )
+    _place: float = PrivateAttr(default=0.0)
+
+    @field_validator("at")
     @classmethod
-    def _stands_somewhere(cls, position: float | None, info: ValidationInfo) -> float | None:
-        marker = info.data.get("marker", "unknown" if position is None else None)
-        if position is None and marker is None:
-            raise ValueError("is required, or a marker")
-        if position is not None and marker is not None:
-            raise ValueError("give either `position` or `marker`, not both")
-        return position
+    def _is_a_place(cls, at: str) -> str:
+        if not re.match(NAME_PATTERN, at):
+            parse(at, "length")
+        return at
+
+    @property
+    def along(self) -> float | None:
+        """Place along the shaft [m]; None where it is a name."""
+        return length_in(self.at)
 
     @property
     def place(self) -> float:
-        """Along the shaft [m]; markers are replaced by their positions before anything is computed."""
-        return 0.0 if self.position is None else self.position
+        """Along the shaft [m], once names have been looked up."""
+        return self._place
+
+    def placed(self, place: float) -> Self:
+        """Return a copy whose name has been looked up."""
+        found = self.model_copy()
+        found._place = place
+        return found
+
+
+def length_in(text: str) -> float | None:
+    """Return the length that a text says [m]; None where it is none."""
+    try:
+        return parse(text, "length")
+    except ValueError:
+        return None
 
 
 class ShaftMarker(Section):
@@ -66,42 +85,24 @@ class ShaftMarker(Section):
     about_z: Angle = option("0 deg", "likewise about z")
 
 
-def held(text: str, quantity: str) -> str:
-    folded = text.strip()
-    if folded in ("locked", "free"):
-        return folded
-    try:
-        value = parse(folded, quantity)
-    except ValueError as error:
-        raise ValueError(f'{error}; or write "locked" or "free"') from None
-    if value <= 0.0:
-        raise ValueError(f'"{text}": a stiffness must be greater than 0; or write "free"')
-    if value > LARGEST:
-        raise ValueError(f'"{text}": a stiffness must be at most {show(LARGEST, quantity)}; or write "locked"')
-    return folded
+class BodySupport(Section):
+    """How the ground holds the centre of a body, for each degree of freedom."""
 
-
-def without_motion(value: Any) -> Any:
-    """Refuse a motion over time where a degree of freedom is held."""
-    if isinstance(value, Mapping):
-        raise ValueError(
-            'must be "locked", "free" or a stiffness; to move the shaft give operation.speed, loads over time or an '
-            "unbalance; to move a locked seat or body give its motion_x to motion_tilt_z"
-        )
-    return value
-
-
-def leads_what_is_locked(motion: Any, info: ValidationInfo, prefix: str) -> Any:
-    """Refuse a motion_DOF of what is not locked in that degree of freedom, by the option of the same name."""
-    dof = prefix + str(info.field_name).removeprefix("motion_")
-    how = info.data.get(dof, "locked")
-    if motion is not None and how != "locked":
-        raise ValueError(f'needs {dof} = "locked", not "{how}": only a locked direction can have a prescribed motion')
-    return motion
+    x: Translation = option("free", 'axial: "free", "locked", a stiffness ("200 N/um") or a motion')
+    y: Translation = option("free", "horizontal, likewise")
+    z: Translation = option("free", "vertical, likewise")
+    tilt_x: Roll = option("free", 'rotation about x: "free", "locked" or a stiffness ("50 N m/mrad")')
+    tilt_y: Tilt = option("free", "rotation about y, likewise, or a motion")
+    tilt_z: Tilt = option("free", "rotation about z, likewise")
 
 
 class ShaftBody(Section):
     """A rigid body such as a housing: mass and inertia, or a shape, and the supports of its centre of mass."""
+
+    INSTEAD: ClassVar[Mapping[str, str]] = {
+        **{f"hold_{dof}": f'write support.{dof} = "locked", "free" or a stiffness' for dof in _DOFS},
+        **{f"motion_{dof}": f"write support.{dof} = {{ motion = ... }}" for dof in _DOFS},
+    }
 
     x: Length = option(description="centre of mass along the shaft, from the shaft's left end")
     y: Length = option("0 mm", "distance of the centre of mass from the shaft's axis, horizontal")
@@ -117,36 +118,7 @@ class ShaftBody(Section):
     width: Length | None = option(None, "a box's width along y", gt=0.0)
     height: Length | None = option(None, "a box's height along z", gt=0.0)
     material: MaterialChoice = option("100Cr6", "of a shape: catalogue name or a table of properties")
-    hold_x: str = option("free", 'how the ground holds its centre: "free", "locked" or a stiffness ("200 N/um")')
-    hold_y: str = option("free", "horizontal, likewise")
-    hold_z: str = option("free", "vertical, likewise")
-    hold_tilt_x: str = option("free", 'rotation about x: "free", "locked" or a stiffness ("50 N m/mrad")')
-    hold_tilt_y: str = option("free", "rotation about y, likewise")
-    hold_tilt_z: str = option("free", "rotation about z, likewise")
-    motion_x: LengthSignal | None = option(None, "prescribed displacement of a locked centre from its place, axial")
-    motion_y: LengthSignal | None = option(None, "horizontal, likewise")
-    motion_z: LengthSignal | None = option(None, "vertical, likewise")
-    motion_tilt_y: AngleSignal | None = option(None, "rotation about y, likewise")
-    motion_tilt_z: AngleSignal | None = option(None, "rotation about z, likewise")
-
-    _without_motion = field_validator(
-        "hold_x", "hold_y", "hold_z", "hold_tilt_x", "hold_tilt_y", "hold_tilt_z", mode="before"
-    )(without_motion)
-
-    @field_validator("hold_x", "hold_y", "hold_z")
-    @classmethod
-    def _translation(cls, text: str) -> str:
-        return held(text, "stiffness")
-
-    @field_validator("hold_tilt_x", "hold_tilt_y", "hold_tilt_z")
-    @classmethod
-    def _rotation(cls, text: str) -> str:
-        return held(text, "angular_stiffness")
-
-    @field_validator("motion_x", "motion_y", "motion_z", "motion_tilt_y", "motion_tilt_z")
-    @classmethod
-    def _leads_what_is_locked(cls, motion: Any, info: ValidationInfo) -> Any:
-        return leads_what_is_locked(motion, info, "hold_")
+    support: BodySupport = option({}, "how the ground holds its centre")
 
     @model_validator(mode="after")
     def _has_a_mass(self) -> ShaftBody:
@@ -175,7 +147,7 @@ class ShaftDisc(Placed):
     width: Length | None = option(None, "width of the cylinder", gt=0.0)
     bore: Length = option("0 mm", "bore of the cylinder", ge=0.0)
     material: MaterialChoice = option("100Cr6", "of the cylinder: catalogue name or a table of properties")
-    unbalance: Unbalance = option("0 g mm", "mass times eccentricity; counts in motion (shaft --run)", ge=0.0)
+    unbalance: Unbalance = option("0 g mm", "mass times eccentricity; counts in motion", ge=0.0)
     unbalance_angle: Angle = option("0 deg", "azimuth of the unbalance at t = 0, from +y to +z")
 
     @model_validator(mode="after")
@@ -189,43 +161,34 @@ class ShaftDisc(Placed):
         return self
 
 
-class ShaftSpring(Placed):
+class Connection(Placed):
     """Spring and damper between a place and the ground or another body, without force where they are drawn.
 
     With six stiffnesses it is a bushing; its axes are those of its marker, and it acts at its place.
     """
 
+    INSTEAD: ClassVar[Mapping[str, str]] = {
+        **Placed.INSTEAD,
+        **{f"damping_{dof}": f"write {dof} = {{ stiffness = ..., damping = ... }}" for dof in _DOFS},
+    }
+
+    law: Literal["bushing"] = option("bushing", "linear springs and dampers; other laws only in cases of one bearing")
     to: str = option(
         "ground", "what it holds its place to: ground, shaft, one of [bodies], or a marker there", min_length=1
     )
-    x: Stiffness = option("0 N/m", "stiffness along the shaft", ge=0.0, le=LARGEST)
-    y: Stiffness = option("0 N/m", "horizontal", ge=0.0, le=LARGEST)
-    z: Stiffness = option("0 N/m", "vertical", ge=0.0, le=LARGEST)
-    tilt_x: AngularStiffness = option(
-        "0 N m/rad", "against rotation about x; not of the shaft, which turns", ge=0.0, le=LARGEST
-    )
-    tilt_y: AngularStiffness = option("0 N m/rad", "against rotation about y", ge=0.0, le=LARGEST)
-    tilt_z: AngularStiffness = option("0 N m/rad", "against rotation about z", ge=0.0, le=LARGEST)
-    damping_x: Damping = option("0 N s/m", "damping along the shaft", ge=0.0, le=LARGEST)
-    damping_y: Damping = option("0 N s/m", "horizontal", ge=0.0, le=LARGEST)
-    damping_z: Damping = option("0 N s/m", "vertical", ge=0.0, le=LARGEST)
-    damping_tilt_x: AngularDamping = option("0 N m s/rad", "of rotation about x; not of the shaft", ge=0.0, le=LARGEST)
-    damping_tilt_y: AngularDamping = option("0 N m s/rad", "of rotation about y", ge=0.0, le=LARGEST)
-    damping_tilt_z: AngularDamping = option("0 N m s/rad", "of rotation about z", ge=0.0, le=LARGEST)
+    x: TranslationSpring = option("free", 'along the shaft: a stiffness ("1 N/um"), or stiffness and damping')
+    y: TranslationSpring = option("free", "horizontal, likewise")
+    z: TranslationSpring = option("free", "vertical, likewise")
+    tilt_x: RotationSpring = option("free", "against rotation about x; not of the shaft, which turns")
+    tilt_y: RotationSpring = option("free", "against rotation about y")
+    tilt_z: RotationSpring = option("free", "against rotation about z")
 
 
-class PointLoad(Placed):
+class PointLoad(Placed, Load):
     """Force and moment on the shaft or another body at one place, over time; the equilibrium is that of t = 0.
 
     Along the axes of its marker, where it has one.
     """
-
-    force_x: ForceSignal = option("0 N", "force along the shaft")
-    force_y: ForceSignal = option("0 N", "horizontal force")
-    force_z: ForceSignal = option("0 N", "vertical force, upwards")
-    moment_x: MomentSignal = option("0 N m", "torque about x")
-    moment_y: MomentSignal = option("0 N m", "moment about y")
-    moment_z: MomentSignal = option("0 N m", "moment about z")
 
 
 class Gear(Placed):

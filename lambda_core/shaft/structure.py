@@ -90,4 +90,5 @@ def structure(model: Machine, rows: Rows) -> tuple[FloatArray, FloatArray]:
     for i, rigid in enumerate(model.bodies):
         own = rows.bodies + NODE * i + np.arange(NODE)
         stiffness[own, own] += np.where(np.isfinite(rigid.hold), rigid.hold, 0.0)
+        damping[own, own] += rigid.damping
     return stiffness, damping

@@ -9,7 +9,7 @@ from lambda_core.case.salvage import related
 from lambda_core.case.shaft_io import STAND_IN
 from lambda_core.domain.errors import Problem
 
-_REFERENCES = ("marker", "outer", "to", "body")  # options of parts that name a marker or a body
+_REFERENCES = ("at", "outer", "to", "body")  # options of parts that name a marker or a body
 _REFERRED = ("markers", "bodies")
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,7 +18,7 @@ from lambda_core.elastic.body import ElasticBody
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.machine import GROUND, SHAFT, Place
 
-_PLACED = ("bearings", "discs", "gears", "loads", "springs")
+_PLACED = ("bearings", "discs", "gears", "loads", "connections")
 _ON_AXIS = ("bearings", "discs", "gears")  # stand on the shaft itself
 _SAME = 1e-6  # [m]
 
@@ -74,16 +74,19 @@ def places(case: ShaftCase, outside: ElasticBody | None, ledger: Ledger) -> Plac
     for table in _PLACED:
         for name, part in getattr(case, table).items():
             where = f"{table}.{name}"
-            if part.marker is None:
-                found[where] = Place(SHAFT, (part.position, 0.0, 0.0), np.eye(3))
-            elif part.marker not in markers and is_blind:
-                continue
-            elif part.marker not in markers:
-                words = unknown_name("marker", part.marker, markers) if markers else "there are no [markers]"
-                ledger.problem(f"{where}.marker", words)
-            else:
-                found[where] = markers[part.marker]
-                _fits(table, where, part.marker, found[where], ledger)
+            if part.along is not None:
+                found[where] = Place(SHAFT, (part.along, 0.0, 0.0), np.eye(3))
+            elif part.at in markers:
+                found[where] = markers[part.at]
+                _fits(table, where, part.at, found[where], ledger)
+            elif table != "bearings" and part.at in case.bearings:
+                if f"bearings.{part.at}" in found:  # else that is what is wrong
+                    found[where] = Place(SHAFT, found[f"bearings.{part.at}"].point, np.eye(3))
+            elif not is_blind:
+                what, known = (
+                    ("marker", markers) if table == "bearings" else ("marker or bearing", [*markers, *case.bearings])
+                )
+                ledger.problem(f"{where}.at", _unknown(what, part.at, known))
     _ends(case, carriers, markers, found, ledger)
     return Places(found, carriers, markers)
 
@@ -96,15 +99,20 @@ def carried(arm: Sequence[float] | FloatArray) -> FloatArray:
     return found
 
 
+def _unknown(what: str, name: str, known: Iterable[str]) -> str:
+    """Say what may stand in place of a name that nobody knows."""
+    names = list(known)
+    words = unknown_name(what, name, names) if names else f'there is no marker "{name}"; there are no [markers]'
+    return f'{words}; or a length with its unit, "85 mm"' if name[:1].isdigit() else words
+
+
 def _fits(table: str, where: str, marker: str, place: Place, ledger: Ledger) -> None:
     """Note a marker that this part cannot stand at."""
     beside = max(abs(place.point[1]), abs(place.point[2])) > _SAME
     if table in _ON_AXIS and (place.body != SHAFT or beside):
-        ledger.problem(f"{where}.marker", f'"{marker}" is not on the axis of the shaft, where this has to stand')
-    elif table == "springs" and place.body == SHAFT and beside:
-        ledger.problem(
-            f"{where}.marker", f'"{marker}" turns with the shaft off its axis, where no spring can be attached'
-        )
+        ledger.problem(f"{where}.at", f'"{marker}" is not on the axis of the shaft, where this has to stand')
+    elif table == "connections" and place.body == SHAFT and beside:
+        ledger.problem(f"{where}.at", f'"{marker}" turns with the shaft off its axis, where no spring can be attached')
 
 
 def _ends(
@@ -113,7 +121,7 @@ def _ends(
 ) -> None:  # fmt: skip
     """Check what carries outer rings, and the other ends of springs."""
     others = [(f"bearings.{name}", "outer", part.outer) for name, part in case.bearings.items()]
-    others += [(f"springs.{name}", "to", part.to) for name, part in case.springs.items()]
+    others += [(f"connections.{name}", "to", part.to) for name, part in case.connections.items()]
     for where, option, other in others:
         if other not in carriers and other not in markers:
             ledger.problem(f"{where}.{option}", unknown_name("body or marker", other, [*carriers, *markers]))

@@ -103,6 +103,7 @@ class RigidBody:
     hold: tuple[float, ...]  # stiffness of what holds the centre, six; inf where locked, 0 where free [N/m, N m/rad]
     extent: tuple[float, float, float]  # length, width, height of its shape, zeros where there is none [m]
     lead: tuple[TimeFunction, ...] = (ZERO,) * 6  # where it is led, what is locked of it [m, rad]
+    damping: tuple[float, ...] = (0.0,) * 6  # of what holds the centre [N s/m, N m s/rad]
 
     @property
     def shift(self) -> tuple[float, ...]:

@@ -29,10 +29,9 @@ def changing(case: ShaftCase) -> list[tuple[str, Any]]:
     for key, load in case.loads.items():
         found += [(f"loads.{key}.{name}", getattr(load, name)) for name in COMPONENTS]
     for key, bearing in case.bearings.items():
-        motions = [f"motion_{dof}" for dof in POSE]
-        found += [(f"bearings.{key}.support.{name}", getattr(bearing.support, name)) for name in motions]
+        found += [(f"bearings.{key}.support.{dof}.motion", getattr(bearing.support, dof).motion) for dof in POSE]
     for key, rigid in case.bodies.items():
-        found += [(f"bodies.{key}.motion_{dof}", getattr(rigid, f"motion_{dof}")) for dof in POSE]
+        found += [(f"bodies.{key}.support.{dof}.motion", getattr(rigid.support, dof).motion) for dof in POSE]
     return found
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
+from lambda_core.case.holding import Dof
 from lambda_core.case.shaft import ShaftBearing
 from lambda_core.domain.elements import POSE
 from lambda_core.domain.ratings import dynamic_rating, fatigue_load_limit, static_rating
-from lambda_core.domain.units import parse
 from lambda_core.system.bearing import BearingModel, TimeFunction
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.machine import GROUND, LOCKED, MountedBearing, Seating
@@ -39,7 +39,7 @@ def mounted(
         ledger.assume(f"{name}: a self-aligning bearing follows every tilt of the shaft without resistance")
     play = axial_play(given, model) if takes else 0.0
     drawn = TimeFunction.constant(growth - takes * (play + (given.preload or 0.0)))
-    motions = [time_function(getattr(given.support, f"motion_{dof}")) for dof in POSE]
+    motions = [time_function(getattr(given.support, dof).motion) for dof in POSE]
     lead = (added(drawn, motions[0]), *motions[1:])
     dynamic, static, fatigue = _ratings(name, angle, model, ledger)
     return MountedBearing(
@@ -51,7 +51,7 @@ def mounted(
             stiffness=_seat(name, given, model, carrier, ledger),
             shift=tuple(map(initial, lead)),
             force=-takes * (given.preload_force or 0.0),
-            damping=tuple(getattr(given.support, f"damping_{dof}") for dof in POSE),
+            damping=tuple(getattr(given.support, dof).damping for dof in POSE),
             lead=lead,
         ),
         takes=takes,
@@ -65,7 +65,7 @@ def mounted(
 def refuse_motion(name: str, given: ShaftBearing, is_carried: bool, ledger: Ledger) -> None:
     """Note motions of a ring that something else decides; `is_carried`: by a body or an elastic housing."""
     for dof in POSE:
-        where, motion = f"bearings.{name}.support.motion_{dof}", getattr(given.support, f"motion_{dof}")
+        where, motion = f"bearings.{name}.support.{dof}.motion", getattr(given.support, dof).motion
         if motion is None:
             continue
         refuse_far(where, dof, time_function(motion), ledger)
@@ -106,12 +106,8 @@ def _seat(name: str, given: ShaftBearing, model: BearingModel, carrier: int, led
 
 def _stiffness(given: ShaftBearing, dof: str) -> float:
     """Return the housing's stiffness in a degree of freedom; inf where locked, 0 where free."""
-    text: str = getattr(given.support, dof)
-    if dof == "x" and given.preload_force is not None and text == "locked":
-        return 0.0
-    if text in ("locked", "free"):
-        return math.inf if text == "locked" else 0.0
-    return parse(text, "angular_stiffness" if dof.startswith("tilt") else "stiffness")
+    held: Dof = getattr(given.support, dof)
+    return 0.0 if dof == "x" and given.preload_force is not None and held.mode == "locked" else held.hold
 
 
 def _ratings(name: str, angle: float, model: BearingModel, ledger: Ledger) -> tuple[float, float, float]:

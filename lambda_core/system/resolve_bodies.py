@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from lambda_core.case.case import Case
-from lambda_core.case.motion import BodyLoads, CageBody, InnerRing, OuterRing
+from lambda_core.case.motion import CageBody, InnerRing, Load, OuterRing
 from lambda_core.catalogue.protocol import CageRow
 from lambda_core.domain.elements import BODIES, DOFS, TILTS, TRANSLATIONS, BodyName
 from lambda_core.domain.units import show
@@ -226,9 +226,9 @@ def resolve_body(name: BodyName, case: Case, inertia: Inertia) -> Body:
 def body_loads(name: BodyName, case: Case) -> tuple[Vector, Vector]:
     """Return force (x, y, z) [N] and moment (about x, y, z) [N m] on one body, inertial frame."""
     loads = case.loads
-    own: BodyLoads = getattr(loads, name) or BodyLoads()
+    own: Load = getattr(loads, name) or Load()
     force = [time_function(own.force_x), time_function(own.force_y), time_function(own.force_z)]
-    moment = [TimeFunction(), time_function(own.moment_y), time_function(own.moment_z)]
+    moment = [time_function(own.moment_x), time_function(own.moment_y), time_function(own.moment_z)]
     if name == "inner_ring":
         radial = time_function(loads.radial)
         along_y, along_z = _direction(loads.radial_direction)
@@ -237,7 +237,7 @@ def body_loads(name: BodyName, case: Case) -> tuple[Vector, Vector]:
         force[2] = added(force[2], scaled(radial, along_z))
         moment[1] = added(moment[1], time_function(loads.moment_y))
         moment[2] = added(moment[2], time_function(loads.moment_z))
-        moment[0] = time_function(case.operation.torque)
+        moment[0] = added(moment[0], time_function(case.operation.torque))
     return (force[0], force[1], force[2]), (moment[0], moment[1], moment[2])
 
 
@@ -299,7 +299,8 @@ def _check_locked_loads(case: Case, ledger: Ledger) -> None:
     """Note loads along degrees of freedom that cannot move: they would have no effect."""
     for name in BODIES:
         force, moment = body_loads(name, case)
-        for dof, load in zip((*TRANSLATIONS, *TILTS), (*force, *moment[1:]), strict=True):
+        torque = TimeFunction() if case.operation.torque is not None and name == "inner_ring" else moment[0]
+        for dof, load in zip((*TRANSLATIONS, "spin", *TILTS), (*force, torque, *moment[1:]), strict=True):
             mode = getattr(getattr(case.bodies, name), dof).mode
             if load.terms and mode != "free":
                 ledger.problem(

@@ -234,24 +234,22 @@ def _shaft(
 
 
 def _in_place(case: ShaftCase, stand: Places) -> ShaftCase:
-    """Return the case with positions in place of markers."""
+    """Return the case with the place of every part."""
     tables = {}
-    for table in ("bearings", "discs", "gears", "loads", "springs"):
+    for table in ("bearings", "discs", "gears", "loads", "connections"):
         parts = getattr(case, table)
         at = {name: stand.of[f"{table}.{name}"].point[0] for name in parts if f"{table}.{name}" in stand.of}
-        tables[table] = {
-            name: part.model_copy(update={"position": at[name]}) if name in at else part for name, part in parts.items()
-        }
+        tables[table] = {name: part.placed(at[name]) if name in at else part for name, part in parts.items()}
     return case.model_copy(update=tables)
 
 
 def _check_on_shaft(case: ShaftCase, stand: Places, outside: ElasticBody | None, ledger: Ledger) -> None:
     """Note everything that stands beyond the ends of the shaft, or off the nodes of one from outside."""
-    parts = {f"{path}.position": place.point[0] for path, place in stand.of.items() if place.body == SHAFT}
+    parts = {f"{path}.at": place.point[0] for path, place in stand.of.items() if place.body == SHAFT}
     parts |= {f"markers.{name}.x": marker.x for name, marker in case.markers.items() if marker.body == "shaft"}
-    for name, spring in case.springs.items():
+    for name, spring in case.connections.items():
         if stand.carrier(spring.to) == SHAFT:
-            parts[f"springs.{name}.to"] = spring.place
+            parts[f"connections.{name}.to"] = spring.place
     if case.shaft.drive is not None:
         parts["shaft.drive"] = case.shaft.drive
     length = sum(section.length for section in case.shaft.sections)
@@ -275,9 +273,7 @@ def _check_one_place(case: ShaftCase, stand: Places, ledger: Ledger) -> None:
     for name, bearing in ((name, one) for name, one in case.bearings.items() if f"bearings.{name}" in stand.of):
         other = seen.setdefault(round(bearing.place, 7), name)
         if other != name:
-            ledger.problem(
-                f"bearings.{name}.position", f'is also that of "{other}"; give each bearing a position of its own'
-            )
+            ledger.problem(f"bearings.{name}.at", f'is also that of "{other}"; give each bearing a place of its own')
 
 
 def _gears(case: ShaftCase, ledger: Ledger) -> dict[str, GearForces]:
@@ -334,7 +330,7 @@ def _body(case: ShaftCase, stand: Places, material: BodyMaterial, discs: list[Di
     sections = [(s.length, RoundSection(s.diameter, s.bore, material)) for s in case.shaft.sections]
     held = [place.point[0] for place in stand.of.values() if place.body == SHAFT]
     held += [place.point[0] for place in stand.markers.values() if place.body == SHAFT]
-    held += [spring.place for spring in case.springs.values() if stand.carrier(spring.to) == SHAFT]
+    held += [spring.place for spring in case.connections.values() if stand.carrier(spring.to) == SHAFT]
     drive = [] if case.shaft.drive is None else [case.shaft.drive]
     return shaft_body(sections, places=[*held, *drive], discs=discs)
 

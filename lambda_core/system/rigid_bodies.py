@@ -7,13 +7,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from lambda_core.case.holding import Dof
 from lambda_core.case.shaft import ShaftCase
 from lambda_core.case.shaft_parts import ShaftBody
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import POSE
 from lambda_core.domain.gear_forces import GearForces
-from lambda_core.domain.units import parse, show
+from lambda_core.domain.units import show
 from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import ElasticBody
 from lambda_core.system.bearing import TimeFunction
@@ -58,11 +59,14 @@ def _rigid(name: str, given: ShaftBody, catalogue: Catalogue, ledger: Ledger) ->
             f"no body has a polar inertia, {show(polar, 'inertia', 4)}, of more than twice its transverse one, "
             f"{show(transverse, 'inertia', 4)}",
         )
-    hold = [_hold(getattr(given, f"hold_{dof}"), dof) for dof in _DOFS]
-    lead = tuple(time_function(getattr(given, f"motion_{dof}", None)) for dof in _DOFS)  # nothing is led about x
+    held: list[Dof] = [getattr(given.support, dof) for dof in _DOFS]
+    lead = tuple(time_function(getattr(one, "motion", None)) for one in held)  # nothing is led about x
     for dof, motion in zip(_DOFS, lead, strict=True):
-        refuse_far(f"bodies.{name}.motion_{dof}", dof, motion, ledger)
-    return RigidBody(name, (given.x, given.y, given.z), mass, polar, transverse, tuple(hold), extent, lead)
+        refuse_far(f"bodies.{name}.support.{dof}.motion", dof, motion, ledger)
+    return RigidBody(
+        name, (given.x, given.y, given.z), mass, polar, transverse, tuple(one.hold for one in held), extent, lead,
+        tuple(float(getattr(one, "damping", 0.0)) for one in held),
+    )  # fmt: skip
 
 
 def refuse_far(where: str, dof: str, motion: TimeFunction, ledger: Ledger) -> None:
@@ -73,25 +77,19 @@ def refuse_far(where: str, dof: str, motion: TimeFunction, ledger: Ledger) -> No
         ledger.problem(where, f"goes to {far}, at most {most}: is the unit right?")
 
 
-def _hold(text: str, dof: str) -> float:
-    if text in ("locked", "free"):
-        return math.inf if text == "locked" else 0.0
-    return parse(text, "angular_stiffness" if dof.startswith("tilt") else "stiffness")
-
-
 def connections(case: ShaftCase, stand: Places, ledger: Ledger) -> tuple[ShaftSpring, ...]:
     """Return springs, dampers and bushings, along the axes of the case."""
     found = []
-    for name, given in case.springs.items():
-        if f"springs.{name}" not in stand.of:
+    for name, given in case.connections.items():
+        if f"connections.{name}" not in stand.of:
             continue  # said where places are sought
-        place, to = stand.of[f"springs.{name}"], stand.carrier(given.to)
+        place, to = stand.of[f"connections.{name}"], stand.carrier(given.to)
         matrices = []
-        for prefix in ("", "damping_"):
-            own = np.diag([getattr(given, prefix + dof) for dof in _DOFS])
+        for kind in ("stiffness", "damping"):
+            own = np.diag([getattr(getattr(given, dof), kind) for dof in _DOFS])
             matrices.append(_along(place).T @ own @ _along(place))
         if SHAFT in (place.body, to) and max(np.abs(matrix[3]).max() for matrix in matrices) > _ROUNDING:
-            ledger.problem(f"springs.{name}.tilt_x", "would prevent rotation of the shaft; remove it")
+            ledger.problem(f"connections.{name}.tilt_x", "would prevent rotation of the shaft; remove it")
         found.append(ShaftSpring(name, place, to, *matrices))
     return tuple(found)
 
@@ -156,5 +154,5 @@ def refuse_idle_dampers(bearings: Sequence[MountedBearing], housing: FloatArray 
     for bearing in bearings:
         for dof, k, c in zip(POSE, bearing.seating.stiffness, bearing.seating.damping, strict=True):
             if c and math.isinf(k) and housing is None:
-                where = f"bearings.{bearing.name}.support.damping_{dof}"
+                where = f"bearings.{bearing.name}.support.{dof}.damping"
                 ledger.problem(where, "does nothing: the outer ring is locked in the ground")

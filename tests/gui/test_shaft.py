@@ -33,7 +33,7 @@ NAMES = {
     "gears": ("g",),
     "discs": ("d",),
     "loads": ("l",),
-    "springs": ("s",),
+    "connections": ("s",),
     "bodies": ("k",),
     "markers": ("m",),
 }
@@ -193,19 +193,19 @@ async def test_a_shaft_file_keeps_its_comments_and_says_what_it_does(work_folder
         assert "moment about y" in screen_text(pilot.app)  # type: ignore[arg-type]
         await pilot.press("escape")
         screen = builder(pilot)
-        screen.go_to(("bearings", "right", "position"))
-        await wait_for(pilot, lambda: focused_place(pilot) == ("bearings", "right", "position"))
+        screen.go_to(("bearings", "right", "at"))
+        await wait_for(pilot, lambda: focused_place(pilot) == ("bearings", "right", "at"))
         await pilot.press("ctrl+a", *"190", "enter")
         await checked(pilot)
         assert "is not on the shaft: 0 mm" in screen_text(pilot.app)  # type: ignore[arg-type]
         assert pilot.app.screen.query_one(ModelTree).wrong_nodes() == ["bearings.right"]
-        screen.draft.set("bearings", "right", "position", value="149 mm")
+        screen.draft.set("bearings", "right", "at", value="149 mm")
         await checked(pilot)
         assert not screen.check.problems
         await pilot.press("ctrl+s")
         await wait_for(pilot, lambda: not screen.draft.is_changed())
     after = path.read_text(encoding="utf-8").splitlines()
-    assert [line for line in after if line not in before] == ['position = "149 mm"']
+    assert [line for line in after if line not in before] == ['at = "149 mm"']
 
 
 @pytest.mark.usefixtures("answered")
@@ -270,12 +270,12 @@ height = "80 mm"
 body = "box"
 x = "10 mm"
 
-[springs.mount]
-marker = "foot"
+[connections.mount]
+at = "foot"
 z = "40 N/um"
 
-[springs.seal]
-position = "120 mm"
+[connections.seal]
+at = "120 mm"
 to = "box"
 z = "1 N/um"
 """
@@ -307,13 +307,13 @@ def test_a_new_name_goes_wherever_it_is_named(tmp_path: Path) -> None:
     found = [m for top in shaft_outline(shaft_names(draft)) for m in top.walk()]
     (node,) = (n for n in found if n.key == "bodies.box")
     assert rename(node, draft, "case") == ("bodies", "case")
-    assert (draft.get("markers", "foot", "body"), draft.get("springs", "seal", "to")) == ("case", "case")
+    assert (draft.get("markers", "foot", "body"), draft.get("connections", "seal", "to")) == ("case", "case")
     assert draft.get("bearings", "right", "outer") == "case"
     (node,) = (
         n for n in (m for top in shaft_outline(shaft_names(draft)) for m in top.walk()) if n.key == "markers.foot"
     )
     rename(node, draft, "paw")
-    assert draft.get("springs", "mount", "marker") == "paw"
+    assert draft.get("connections", "mount", "at") == "paw"
     assert "# A housing that gives way" in draft.text()
     assert api.check_shaft(draft.tables).bodies[0].name == "case"
 

@@ -59,10 +59,10 @@ def pair(force_x: float = 0.0, preload: float = 0.0, arrangement: str = "O", **s
     left, right = {"O": ("+x", "-x"), "X": ("-x", "+x"), "T": ("+x", "+x")}[arrangement]
     more = {"preload": f"{1e6 * preload:.9g} um"} if preload else {}
     bearings = {
-        name: {"position": place, "takes": takes, "contact_angle": "25 deg", "geometry": GEOMETRY, **more}
+        name: {"at": place, "takes": takes, "contact_angle": "25 deg", "geometry": GEOMETRY, **more}
         for name, place, takes in (("left", "20 mm", left), ("right", "40 mm", right))
     }
-    loads = {"axial": {"position": "30 mm", "force_x": f"{force_x:.9g} N"}}
+    loads = {"axial": {"at": "30 mm", "force_x": f"{force_x:.9g} N"}}
     return {**PAIR, "shaft": {**PAIR["shaft"], **shaft}, "bearings": bearings, "loads": loads}
 
 

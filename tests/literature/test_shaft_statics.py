@@ -35,7 +35,7 @@ KERNELS = SharedKernels()
 
 def bearing(position: str, designation: str = "SKF 6206", **more: Any) -> dict[str, Any]:
     """Return a bearing that leaves the shaft to tilt."""
-    return {"position": position, "designation": designation, "support": PINNED, **more}
+    return {"at": position, "designation": designation, "support": PINNED, **more}
 
 
 def solved(case: dict[str, Any]) -> tuple[Machine, ShaftState]:
@@ -55,7 +55,7 @@ def overhung() -> tuple[Machine, ShaftState]:
                 "left": bearing("30 mm"),
                 "right": bearing("150 mm", support={**PINNED, "x": "free"}),
             },
-            "loads": {"gear": {"position": "200 mm", "force_z": "-1200 N", "force_y": "300 N", "force_x": "150 N"}},
+            "loads": {"gear": {"at": "200 mm", "force_z": "-1200 N", "force_y": "300 N", "force_x": "150 N"}},
         }
     )
 
@@ -81,7 +81,7 @@ def test_the_overhung_gear_without_weight() -> None:
         {
             "shaft": {"sections": [{"length": "210 mm", "diameter": "30 mm"}]},
             "bearings": {"left": bearing("30 mm"), "right": bearing("150 mm", support={**PINNED, "x": "free"})},
-            "loads": {"gear": {"position": "200 mm", "force_z": "-1200 N"}},
+            "loads": {"gear": {"at": "200 mm", "force_z": "-1200 N"}},
             "gravity": {"z": "0 m/s2"},
         }
     )
@@ -102,10 +102,10 @@ def test_self_aligning_bearings_bear_no_moment(axial: float) -> None:
         {
             "shaft": {"sections": [{"length": "1000 mm", "diameter": "40 mm"}]},
             "bearings": {
-                "left": {"position": "100 mm", "designation": "1208E"},
-                "right": {"position": "700 mm", "designation": "1208E", "support": {"x": "free"}},
+                "left": {"at": "100 mm", "designation": "1208E"},
+                "right": {"at": "700 mm", "designation": "1208E", "support": {"x": "free"}},
             },
-            "loads": {"gear": {"position": "900 mm", "force_z": "-1500 N", "force_x": f"{axial} N"}},
+            "loads": {"gear": {"at": "900 mm", "force_z": "-1500 N", "force_x": f"{axial} N"}},
             "gravity": {"z": "0 m/s2"},
         }
     )
@@ -146,8 +146,8 @@ def test_three_bearings_with_loads_at_midspan() -> None:
                 )
             },
             "loads": {
-                "one": {"position": "500 mm", "force_z": f"-{load} N"},
-                "two": {"position": "1500 mm", "force_z": f"-{load} N"},
+                "one": {"at": "500 mm", "force_z": f"-{load} N"},
+                "two": {"at": "1500 mm", "force_z": f"-{load} N"},
             },
             "gravity": {"z": "0 m/s2"},
         }
@@ -163,10 +163,10 @@ def test_six_bearings() -> None:
         {
             "shaft": {"sections": [{"length": "300 mm", "diameter": "30 mm"}]},
             "bearings": {
-                f"b{i}": {"position": f"{x} mm", "designation": "SKF 6206", "support": {} if i == 2 else {"x": "free"}}
+                f"b{i}": {"at": f"{x} mm", "designation": "SKF 6206", "support": {} if i == 2 else {"x": "free"}}
                 for i, x in enumerate(places)
             },
-            "loads": {"belt": {"position": "150 mm", "force_z": "-6 kN"}},
+            "loads": {"belt": {"at": "150 mm", "force_z": "-6 kN"}},
             "gravity": {"z": "0 m/s2"},
         }
     )
@@ -195,10 +195,10 @@ def test_the_limit_of_a_rigid_shaft() -> None:
                     "material": {**steel, "youngs_modulus": f"{210 * ratio:.17g} GPa"},
                 },
                 "bearings": {
-                    "left": {"position": "30 mm", "designation": "SKF 6206"},
-                    "right": {"position": "150 mm", "designation": "SKF 6206", "support": {"x": "free"}},
+                    "left": {"at": "30 mm", "designation": "SKF 6206"},
+                    "right": {"at": "150 mm", "designation": "SKF 6206", "support": {"x": "free"}},
                 },
-                "loads": {"gear": {"position": "80 mm", "force_z": "-2 kN", "force_y": "500 N", "force_x": "300 N"}},
+                "loads": {"gear": {"at": "80 mm", "force_z": "-2 kN", "force_y": "500 N", "force_x": "300 N"}},
             }
         )
     state = found[1e7]
@@ -231,7 +231,7 @@ def test_what_nothing_holds_is_said() -> None:
                     "left": bearing("30 mm", support={"x": "free"}),
                     "right": bearing("150 mm", support={"x": "free"}),
                 },
-                "loads": {"gear": {"position": "100 mm", "force_x": "200 N", "force_z": "-500 N"}},
+                "loads": {"gear": {"at": "100 mm", "force_x": "200 N", "force_z": "-500 N"}},
             }
         )
 
@@ -245,7 +245,7 @@ def test_housing_in_series() -> None:
                 "left": bearing("30 mm", support={**PINNED, "z": "50 N/um", "y": "20 N/um"}),
                 "right": bearing("150 mm", support={**PINNED, "x": "free"}),
             },
-            "loads": {"gear": {"position": "100 mm", "force_z": "-2 kN", "force_y": "500 N"}},
+            "loads": {"gear": {"at": "100 mm", "force_z": "-2 kN", "force_y": "500 N"}},
         }
     )
     assert -state.outer[0, 1:3] * [20e6, 50e6] == pytest.approx(state.reactions[0, 1:3], rel=1e-6)
@@ -270,7 +270,7 @@ def test_an_elastic_housing_from_a_file(tmp_path: Path) -> None:
             "left": bearing("30 mm", support={}),
             "right": bearing("150 mm", support={"x": "free"}),
         },
-        "loads": {"gear": {"position": "100 mm", "force_z": "-2 kN", "force_y": "500 N", "force_x": "300 N"}},
+        "loads": {"gear": {"at": "100 mm", "force_z": "-2 kN", "force_y": "500 N", "force_x": "300 N"}},
         "housing": {"reduced": str(tmp_path / "housing.json")},
     }
     model, state = solved(case)
@@ -358,7 +358,7 @@ def test_warm_rings_in_the_equilibrium_of_the_whole() -> None:
                 "left": bearing("30 mm", **more),
                 "right": bearing("150 mm", **more, support={**PINNED, "x": "free"}),
             },
-            "loads": {"gear": {"position": "80 mm", "force_z": "-2 kN", "force_y": "500 N", "force_x": "300 N"}},
+            "loads": {"gear": {"at": "80 mm", "force_z": "-2 kN", "force_y": "500 N", "force_x": "300 N"}},
         }
         if not more:
             for one in case["bearings"].values():
@@ -384,7 +384,7 @@ def test_misalignment_of_the_rings() -> None:
     case: dict[str, Any] = {
         "shaft": {"sections": [{"length": "200 mm", "diameter": "30 mm"}]},
         "bearings": {"left": bearing("30 mm", support={}), "right": bearing("150 mm", support={"x": "free"})},
-        "loads": {"gear": {"position": "195 mm", "force_z": "-1 kN"}},
+        "loads": {"gear": {"at": "195 mm", "force_z": "-1 kN"}},
     }
     model, state = solved(case)
     assert state.pose(model, 1)[3:] == pytest.approx(state.displacement[model.body.rows(0.15)][4:], abs=1e-15)

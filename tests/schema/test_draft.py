@@ -211,8 +211,8 @@ def test_tables_that_go_on_further_down_are_changed_too(changes: dict[tuple[str,
 def test_a_renamed_table_keeps_its_comments(tmp_path: Path) -> None:
     """Also where its values change afterwards, and for tables in it; other tables stay as they are."""
     text = (
-        'name = "box"\n\n# the left one\n[bearings.left]\nposition = "20 mm"  # its middle\n'
-        '[bearings.left.geometry]  # own\nball_count = 9\n\n# the right one\n[bearings.right]\nposition = "150 mm"\n'
+        'name = "box"\n\n# the left one\n[bearings.left]\nat = "20 mm"  # its middle\n'
+        '[bearings.left.geometry]  # own\nball_count = 9\n\n# the right one\n[bearings.right]\nat = "150 mm"\n'
     )
     path = tmp_path / "box.toml"
     path.write_text(text)
@@ -220,19 +220,19 @@ def test_a_renamed_table_keeps_its_comments(tmp_path: Path) -> None:
     tables = draft.get("bearings")
     draft.set("bearings", value={"drive-side" if name == "left" else name: table for name, table in tables.items()})
     assert draft.text() == text.replace("bearings.left", "bearings.drive-side")
-    draft.set("bearings", "drive-side", "position", value="25 mm")
+    draft.set("bearings", "drive-side", "at", value="25 mm")
     assert draft.text() == text.replace("bearings.left", "bearings.drive-side").replace('"20 mm"', '"25 mm"')
 
 
 def test_two_renamed_tables_that_also_change_keep_their_comments() -> None:
     """Both have new names and new values: each name stands where the old one stood."""
     text = (
-        'name = "box"\n# the left one\n[bearings.left]\nposition = "20 mm"  # its middle\n'
+        'name = "box"\n# the left one\n[bearings.left]\nat = "20 mm"  # its middle\n'
         'support.x = "free"  # floats\n'
-        '\n# the right one\n[bearings.right]\nposition = "150 mm"  # also\n'
+        '\n# the right one\n[bearings.right]\nat = "150 mm"  # also\n'
     )
     draft = draft_of(text, None)
-    draft.set("bearings", value={"a": {"position": "21 mm", "support": {"x": "free"}}, "b": {"position": "151 mm"}})
+    draft.set("bearings", value={"a": {"at": "21 mm", "support": {"x": "free"}}, "b": {"at": "151 mm"}})
     new = text.replace("left]", "a]").replace("right]", "b]").replace('"20 mm"', '"21 mm"').replace('"150', '"151')
     assert draft.text() == new
 

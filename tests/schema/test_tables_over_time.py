@@ -135,7 +135,7 @@ def test_a_spline_through_a_well_sampled_sine_is_silent() -> None:
 def test_a_shaft_says_where_a_spline_leaves_its_points() -> None:
     table = {"kind": "table", "interpolation": "spline", "points": PULSE}
     speed = {**table, "points": [["0 s", "1000 rpm"], ["1 s", "1000 rpm"], ["1.1 s", "2000 rpm"], ["3 s", "2000 rpm"]]}
-    case = tomllib.loads(geared_shaft("box")) | {"loads": {"kick": {"position": "85 mm", "force_z": table}}}
+    case = tomllib.loads(geared_shaft("box")) | {"loads": {"kick": {"at": "85 mm", "force_z": table}}}
     del case["gears"]  # whose power asks for a constant speed
     case["operation"] = {**case["operation"], "speed": speed}
     told = [sentence for sentence in api.machine_warnings(check_shaft(case)) if "spline" in sentence]

@@ -26,7 +26,11 @@ from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
 
 KERNELS = SharedKernels()
-MOUNT = {"x": "20 N/um", "y": "30 N/um", "z": "40 N/um", "damping_y": "2000 N s/m", "damping_z": "2000 N s/m"}
+MOUNT = {
+    "x": "20 N/um",
+    "y": {"stiffness": "30 N/um", "damping": "2000 N s/m"},
+    "z": {"stiffness": "40 N/um", "damping": "2000 N s/m"},
+}
 
 
 def tables(**changes: Any) -> dict[str, Any]:
@@ -38,10 +42,10 @@ def tables(**changes: Any) -> dict[str, Any]:
         f"foot-{name}": {"body": "box", "x": f"{x} mm", "y": f"{y} mm", "z": "-80 mm"}
         for name, (x, y) in feet.items()
     }  # fmt: skip
-    found["springs"] = {f"mount-{name}": {"marker": f"foot-{name}", **MOUNT} for name in feet}
+    found["connections"] = {f"mount-{name}": {"at": f"foot-{name}", **MOUNT} for name in feet}
     for name in ("left", "right"):
         found["bearings"][name]["outer"] = "box"
-    found["bearings"]["left"]["support"] = {"y": "300 N/um", "damping_y": "1000 N s/m"}
+    found["bearings"]["left"]["support"] = {"y": {"stiffness": "300 N/um", "damping": "1000 N s/m"}}
     return found | changes
 
 
@@ -77,11 +81,11 @@ def test_a_stiff_housing_is_the_ground(model: Machine) -> None:
     ground = tables()
     for bearing in ground["bearings"].values():
         bearing["outer"] = "ground"
-    held = tables(springs={})
-    held["bodies"]["box"] |= {f"hold_{dof}": "locked" for dof in ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")}
+    held = tables(connections={})
+    held["bodies"]["box"]["support"] = dict.fromkeys(("x", "y", "z", "tilt_x", "tilt_y", "tilt_z"), "locked")
     one, two = (
         solve_shaft(check_shaft(case), kernels=KERNELS)
-        for case in (ground | {"springs": {}, "bodies": {}, "markers": {}}, held)
+        for case in (ground | {"connections": {}, "bodies": {}, "markers": {}}, held)
     )
     assert two.reactions == pytest.approx(one.reactions, rel=1e-3, abs=1e-3 * np.abs(one.reactions).max())
     assert np.array_equal(two.bodies, np.zeros((1, 6)))
@@ -130,12 +134,12 @@ def test_a_shaft_that_swings_with_its_housing_has_its_critical_speed(model: Mach
 
 def test_what_nothing_holds_is_said() -> None:
     """A shaft whose bearings are free along x, and a box on one mount, which takes the shaft with it."""
-    case = tables(springs={}, bodies={}, markers={})
+    case = tables(connections={}, bodies={}, markers={})
     for name in ("left", "right"):
         case["bearings"][name] |= {"outer": "ground", "support": {"x": "free"}}
     with pytest.raises(SolverError, match="nothing holds it along x"):
         solve_shaft(check_shaft(case), kernels=KERNELS)
-    alone = tables(springs={"foot": {"marker": "foot-lf", "z": "20 N/um"}})
+    alone = tables(connections={"foot": {"at": "foot-lf", "z": "20 N/um"}})
     with pytest.raises(SolverError, match="nothing holds it"):
         solve_shaft(check_shaft(alone), kernels=KERNELS)
 
@@ -185,9 +189,9 @@ def check_columns(engine: WholeEngine, number: int) -> None:
 def test_a_spring_along_turned_axes() -> None:
     """At 30 degrees about x, k along y gives k cos^2, k sin cos, k sin^2 (exact); a load there turns, too."""
     case = tables(markers={"felt": {"x": "110 mm", "about_x": "30 deg"}}, bodies={})
-    case["springs"] = {"felt": {"marker": "felt", "y": "10 N/um"}}
+    case["connections"] = {"felt": {"at": "felt", "y": "10 N/um"}}
     wave = {"kind": "harmonic", "amplitude": "100 N", "frequency": "50 Hz", "phase": "90 deg"}
-    case["loads"] = {"pull": {"marker": "felt", "force_y": wave}}
+    case["loads"] = {"pull": {"at": "felt", "force_y": wave}}
     for bearing in case["bearings"].values():
         bearing.pop("outer")
     model = check_shaft(case)
@@ -202,7 +206,7 @@ def test_a_spring_along_turned_axes() -> None:
 def test_a_torque_over_time() -> None:
     """moment_x over time: the coupling answers it at once where the shaft does not twist."""
     wave = {"kind": "harmonic", "amplitude": "20 N m", "frequency": "100 Hz", "phase": "90 deg"}
-    case = tomllib.loads(geared_shaft("box")) | {"loads": {"fan": {"position": "160 mm", "moment_x": wave}}}
+    case = tomllib.loads(geared_shaft("box")) | {"loads": {"fan": {"at": "160 mm", "moment_x": wave}}}
     model = check_shaft(case)
     assert model.loads[model.body.rows(0.16).start + 3] == pytest.approx(20.0)
     assert dict(model.varying)[model.body.rows(0.16).start + 3].terms[0].kind == "harmonic"
@@ -213,23 +217,23 @@ def test_a_torque_over_time() -> None:
 def test_mistakes_with_their_paths() -> None:
     case = tables()
     case["bearings"]["left"]["outer"] = "bos"
-    case["bearings"]["right"]["marker"] = case["bearings"]["right"].pop("position")
+    case["bearings"]["right"]["at"] = "nowhere"
     case["markers"]["loose"] = {"body": "boks", "x": "10 mm"}
-    case["springs"]["own"] = {"marker": "foot-lf", "to": "box", "z": "1 N/um"}
-    case["springs"]["far"] = {"position": "110 mm", "to": "foot-lf", "z": "1 N/um"}
+    case["connections"]["own"] = {"at": "foot-lf", "to": "box", "z": "1 N/um"}
+    case["connections"]["far"] = {"at": "110 mm", "to": "foot-lf", "z": "1 N/um"}
     with pytest.raises(api.CaseError) as found:
         check_shaft(case)
     told = {problem.where: problem.message for problem in found.value.problems}
     assert "box" in told["bearings.left.outer"]
-    assert {"bearings.right.marker", "markers.loose.body", "springs.own.to", "springs.far.to"} <= set(told)
+    assert {"bearings.right.at", "markers.loose.body", "connections.own.to", "connections.far.to"} <= set(told)
     case = tables()
-    case["bearings"]["left"]["support"] = {"damping_y": "10 N s/m"}
+    case["bearings"]["left"]["support"] = {"y": {"mode": "locked", "damping": "10 N s/m"}}
     case["bearings"]["left"]["outer"] = "ground"
-    case["springs"]["grip"] = {"position": "110 mm", "tilt_x": "1 N m/mrad"}
-    with pytest.raises(api.CaseError, match=r"springs\.grip\.tilt_x +would prevent rotation"):
+    case["connections"]["grip"] = {"at": "110 mm", "tilt_x": "1 N m/mrad"}
+    with pytest.raises(api.CaseError, match=r"connections\.grip\.tilt_x +would prevent rotation"):
         check_shaft(case)
-    del case["springs"]["grip"]
-    with pytest.raises(api.CaseError, match=r"bearings\.left\.support\.damping_y +does nothing"):
+    del case["connections"]["grip"]
+    with pytest.raises(api.CaseError, match=r"bearings\.left\.support\.y\.damping +does nothing"):
         check_shaft(case)
     case = tables()
     case["bodies"]["box"]["bore"] = "1 mm"

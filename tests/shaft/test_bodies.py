@@ -16,17 +16,22 @@ from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
 
-SEAL = {"position": "110 mm", "y": "10 N/um", "z": "20 N/um", "tilt_y": "1 N m/mrad", "damping_z": "500 N s/m"}
+SEAL = {
+    "at": "110 mm",
+    "y": "10 N/um",
+    "z": {"stiffness": "20 N/um", "damping": "500 N s/m"},
+    "tilt_y": "1 N m/mrad",
+}
 
 
 def tables(**changes: Any) -> dict[str, Any]:
     """Return the case that init writes, with a spring and changes."""
-    return tomllib.loads(geared_shaft("box")) | {"springs": {"seal": SEAL}} | changes
+    return tomllib.loads(geared_shaft("box")) | {"connections": {"seal": SEAL}} | changes
 
 
 def test_a_disc_by_its_shape() -> None:
     """Hollow cylinder: m = rho pi/4 (D^2 - d^2) b, J_p = m (D^2 + d^2)/8, J_t = J_p/2 + m b^2/12."""
-    shape = {"position": "85 mm", "diameter": "120 mm", "width": "25 mm", "bore": "48 mm"}
+    shape = {"at": "85 mm", "diameter": "120 mm", "width": "25 mm", "bore": "48 mm"}
     model = check_shaft(tables(discs={"wheel": shape}))
     (disc,) = model.body.discs
     density = model.body.elements[0].material.density
@@ -46,7 +51,7 @@ def test_a_spring_takes_its_part() -> None:
     total = state.reactions[:, :3].sum(axis=0) + held + (model.loads + model.weight).reshape(-1, 6)[:, :3].sum(axis=0)
     assert np.abs(total).max() < 1e-6 * 1000.0
     assert abs(held[2]) > 1.0
-    without = check_shaft(tables(springs={"seal": {"position": SEAL["position"]}}))
+    without = check_shaft(tables(connections={"seal": {"at": SEAL["at"]}}))
     added = supported(model, state) - supported(without, state)
     assert np.diag(added)[np.flatnonzero(np.diag(added))] == pytest.approx([10e6, 20e6, 1e3], rel=1e-6)
     assert damped(model, state, np.zeros((2, 6, 6))).sum() == pytest.approx(500.0, rel=1e-12)
@@ -55,8 +60,8 @@ def test_a_spring_takes_its_part() -> None:
 
 def test_a_damper_in_motion() -> None:
     """Motion begins in the equilibrium with the spring; what the damper takes is in the balance of energy (1e-3)."""
-    damping = dict.fromkeys(("damping_y", "damping_z"), "5000 N s/m")
-    changed = tables(springs={"seal": {**SEAL, "position": "85 mm", **damping}})
+    damped_by = {dof: {"stiffness": k, "damping": "5000 N s/m"} for dof, k in (("y", "10 N/um"), ("z", "20 N/um"))}
+    changed = tables(connections={"seal": {**SEAL, "at": "85 mm", **damped_by}})
     changed["discs"]["wheel"]["unbalance"] = "500 g mm"
     engine = WholeEngine(check_shaft(changed))
     assert engine.advance(2e-3).ok
@@ -67,14 +72,14 @@ def test_a_damper_in_motion() -> None:
 
 
 def test_mistakes_with_their_paths() -> None:
-    wrong = tables(springs={"seal": {**SEAL, "position": "900 mm"}, "felt": {"position": "10 mm", "z": "soft"}})
+    wrong = tables(connections={"seal": {**SEAL, "at": "900 mm"}, "felt": {"at": "10 mm", "z": "soft"}})
     wrong["discs"]["wheel"] |= {"diameter": "50 mm"}
     with pytest.raises(api.CaseError) as found:
         check_shaft(wrong)
     where = {problem.where for problem in found.value.problems}
-    assert {"springs.felt.z", "discs.wheel"} <= where
-    with pytest.raises(api.CaseError, match=r"springs\.seal\.position") as found:
-        check_shaft(tables(springs={"seal": {**SEAL, "position": "900 mm"}}))
+    assert {"connections.felt.z", "discs.wheel"} <= where
+    with pytest.raises(api.CaseError, match=r"connections\.seal\.at") as found:
+        check_shaft(tables(connections={"seal": {**SEAL, "at": "900 mm"}}))
     law = {"kind": "law", "law": "chirp", "amplitude": "10 N"}
     with pytest.raises(api.CaseError, match=r"loads\.push\.force_z"):
-        check_shaft(tables(loads={"push": {"position": "110 mm", "force_z": law}}))
+        check_shaft(tables(loads={"push": {"at": "110 mm", "force_z": law}}))

@@ -17,10 +17,10 @@ def pair(**left: str) -> dict[str, Any]:
         "name": "pair",
         "shaft": {"sections": [{"length": "100 mm", "diameter": "40 mm"}]},
         "bearings": {
-            "left": {**bearing, "position": "20 mm", **left},
-            "right": {"designation": "SKF 7208 BEP", "position": "80 mm", "takes": "-x"},
+            "left": {**bearing, "at": "20 mm", **left},
+            "right": {"designation": "SKF 7208 BEP", "at": "80 mm", "takes": "-x"},
         },
-        "loads": {"force": {"position": "50 mm", "force_z": "-2 kN"}},
+        "loads": {"force": {"at": "50 mm", "force_z": "-2 kN"}},
         "lubricant": {"name": "FVA3", "temperature": "60 degC"},
         "operation": {"speed": "1500 rpm"},
     }

@@ -36,8 +36,8 @@ ONE: dict[str, Any] = {
     **COMMON,
     "name": "one",
     "shaft": {"sections": [{"length": "40 mm", "diameter": "95 mm"}], "drive": "20 mm"},
-    "bearings": {"only": {**BEARING, "position": "20 mm", "elastic": {"outer_ring": SOFT, "cage": CAGE}}},
-    "loads": {"pull": {"position": "20 mm", "force_z": "-16 kN"}},
+    "bearings": {"only": {**BEARING, "at": "20 mm", "elastic": {"outer_ring": SOFT, "cage": CAGE}}},
+    "loads": {"pull": {"at": "20 mm", "force_z": "-16 kN"}},
 }
 
 
@@ -109,13 +109,11 @@ def test_a_bearing_of_the_whole_moves_as_it_does_alone(whole: WholeEngine) -> No
     parts = {"inner_ring": SOFT, "outer_ring": SOFT, "cage": CAGE}
     changed["shaft"] = {"sections": [{"length": "300 mm", "diameter": "95 mm"}]}
     changed["bearings"] = {
-        name: {**BEARING, "position": place, "elastic": parts} for name, place in (("a", "40 mm"), ("b", "260 mm"))
+        name: {**BEARING, "at": place, "elastic": parts} for name, place in (("a", "40 mm"), ("b", "260 mm"))
     }
     changed["bearings"]["b"]["support"] = {"x": "free"}
-    changed["loads"] = {"pull": {"position": "120 mm", "force_z": "-25 kN"}}
-    changed["discs"] = {
-        "wheel": {"position": "150 mm", "mass": "5 kg", "unbalance": "1 kg mm", "unbalance_angle": "50 deg"}
-    }
+    changed["loads"] = {"pull": {"at": "120 mm", "force_z": "-25 kN"}}
+    changed["discs"] = {"wheel": {"at": "150 mm", "mass": "5 kg", "unbalance": "1 kg mm", "unbalance_angle": "50 deg"}}
     engine = WholeEngine(check_shaft(changed))
     bodies = feels_the_same(engine)
     # the start: waves of the outer rings rest, but for those of the equilibrium whose balls' friction was left out
@@ -129,11 +127,11 @@ def test_kinds_of_bearings_in_a_whole() -> None:
     changed["shaft"] = {"sections": [{"length": "300 mm", "diameter": "40 mm"}]}
     floats = {"support": {"x": "free"}, "elastic": {"outer_ring": SOFT, "cage": {"orders": 2}}}
     changed["bearings"] = {
-        "a": {"designation": "SKF 3208 A", "position": "30 mm", "elastic": {"outer_ring": SOFT}},
-        "b": {"designation": "SKF QJ 208", "position": "150 mm", **floats},
-        "c": {"designation": "SKF 6208", "position": "270 mm", "clearance": "CN", **floats},
+        "a": {"designation": "SKF 3208 A", "at": "30 mm", "elastic": {"outer_ring": SOFT}},
+        "b": {"designation": "SKF QJ 208", "at": "150 mm", **floats},
+        "c": {"designation": "SKF 6208", "at": "270 mm", "clearance": "CN", **floats},
     }
-    changed["loads"] = {"pull": {"position": "150 mm", "force_z": "-5 kN", "force_x": "500 N"}}
+    changed["loads"] = {"pull": {"at": "150 mm", "force_z": "-5 kN", "force_x": "500 N"}}
     engine = WholeEngine(check_shaft(changed))
     feels_the_same(engine)
     assert engine.advance(2e-4).ok

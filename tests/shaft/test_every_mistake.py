@@ -26,10 +26,10 @@ def mistakes(changes: Mapping[str, Any]) -> dict[str, str]:
 def test_no_stage_hides_another_one() -> None:
     found = mistakes({
         "lubricant": {"temperature": "70 mm"},
-        "bearings": {"right": {"designation": "SKF 62066"}, "left": {"position": "300 mm", "takes": "+x"}},
+        "bearings": {"right": {"designation": "SKF 62066"}, "left": {"at": "300 mm", "takes": "+x"}},
         "gears": {"wheel": {"helix_angle": "85 deg"}},
-        "springs": {"a": {"marker": "nowhere", "x": "1 N/um"}, "b": {"position": "10 mm", "tilt_x": "1 N m/rad"}},
-        "discs": {"wheel": {"position": "400 mm"}},
+        "connections": {"a": {"at": "nowhere", "x": "1 N/um"}, "b": {"at": "10 mm", "tilt_x": "1 N m/rad"}},
+        "discs": {"wheel": {"at": "400 mm"}},
         "shaft": {"material": "cheese"},
         "bodies": {"plate": {"x": "1 mm", "mass": "1 kg", "polar_inertia": "9 kg m2", "transverse_inertia": "1 kg m2"}},
         "housing": {"reduced": "nothing.json"},
@@ -38,10 +38,10 @@ def test_no_stage_hides_another_one() -> None:
         "lubricant.temperature": "mm is not a unit of temperature",
         "gears.wheel.helix_angle": "85 deg: must be less than 80 deg",
         "bearings.right.designation": '"SKF 62066" is not a known bearing',
-        "bearings.left.position": "300 mm is not on the shaft: 0 mm to 170 mm",
-        "springs.a.marker": "there are no [markers]",
-        "springs.b.tilt_x": "would prevent rotation",
-        "discs.wheel.position": "400 mm is not on the shaft",
+        "bearings.left.at": "300 mm is not on the shaft: 0 mm to 170 mm",
+        "connections.a.at": '"nowhere" is not a known marker or bearing; available: left, right',
+        "connections.b.tilt_x": "would prevent rotation",
+        "discs.wheel.at": "400 mm is not on the shaft",
         "shaft.material": '"cheese" is not a known material',
         "bodies.plate.polar_inertia": "more than twice its transverse one",
         "housing.reduced": "nothing.json: cannot be read: no such file",
@@ -58,7 +58,7 @@ def test_no_stage_hides_another_one() -> None:
         (
             {
                 "shaft": {"sections": [{"length": "3", "diameter": "2 mm"}]},
-                "loads": {"far": {"position": "9 m"}},
+                "loads": {"far": {"at": "9 m"}},
                 "operation": {"speed": "0 rpm"},
             },
             ["shaft.sections.0.length", "gears.wheel.power"],
@@ -67,30 +67,30 @@ def test_no_stage_hides_another_one() -> None:
         (
             {
                 "shaft": {"reduced": "none.npz", "sections": None},
-                "bearings": {"left": {"marker": "seat", "position": None}},
-                "springs": {"b": {"position": "1 m", "tilt_x": "1 N m/rad"}},
+                "bearings": {"left": {"at": "seat"}},
+                "connections": {"b": {"at": "1 m", "tilt_x": "1 N m/rad"}},
             },
-            ["shaft.reduced", "springs.b.tilt_x"],
+            ["shaft.reduced", "connections.b.tilt_x"],
         ),
         # markers on a body that is wrong, and what stands at them
         (
             {
                 "bodies": {"box": {"x": "1 mm", "length": "3"}},
                 "markers": {"foot": {"body": "box", "x": "1 mm"}},
-                "loads": {"push": {"marker": "foot"}},
+                "loads": {"push": {"at": "foot"}},
                 "bearings": {"left": {"outer": "foot"}, "right": {"outer": "boxx"}},
             },
             ["bodies.box.length", "bearings.right.outer"],
         ),
-        ({"bearings": {"left": None, "right": {"position": None}}}, ["bearings.right.position"]),
+        ({"bearings": {"left": None, "right": {"at": None}}}, ["bearings.right.at"]),
         (
-            {"bearings": {"left": None, "right": None}, "discs": {"wheel": {"position": "1 m"}}},
-            ["bearings", "discs.wheel.position"],
+            {"bearings": {"left": None, "right": None}, "discs": {"wheel": {"at": "1 m"}}},
+            ["bearings", "discs.wheel.at"],
         ),
         ({"shaft": {"sections": [{"length": "1000 m", "diameter": "40 mm"}]}}, ["shaft.sections"]),
         (
-            {"markers": {"ground": {"x": "1 mm"}}, "loads": {"far": {"position": "9 m"}}},
-            ["markers.ground", "loads.far.position"],
+            {"markers": {"ground": {"x": "1 mm"}}, "loads": {"far": {"at": "9 m"}}},
+            ["markers.ground", "loads.far.at"],
         ),
     ],
 )

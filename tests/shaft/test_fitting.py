@@ -31,27 +31,27 @@ def tables(**changes: Any) -> dict[str, Any]:
     ("changes", "said"),
     [
         (
-            {"bearings": {"left": {"designation": "SKF 6319", "position": "25 mm"}}},
+            {"bearings": {"left": {"designation": "SKF 6319", "at": "25 mm"}}},
             ("its bore of 95 mm is 55 mm wider than the shaft's diameter of 40 mm from 2.5 mm to 30 mm",),
         ),
         (
-            {"bearings": {"left": {"position": "24 mm"}}},
+            {"bearings": {"left": {"at": "24 mm"}}},
             ("left: its bore of 40 mm does not go over the shaft's diameter of 48 mm from 30 mm to 33 mm",),
         ),
         (
-            {"bearings": {"right": {"position": "165 mm"}}},
+            {"bearings": {"right": {"at": "165 mm"}}},
             ("right (157 mm to 173 mm) stands out 3 mm beyond the right end of the shaft, 170 mm long",),
         ),
         (
-            {"bearings": {"left": {"position": "8 mm"}}},
+            {"bearings": {"left": {"at": "8 mm"}}},
             ("left (-1 mm to 17 mm) stands out 1 mm beyond the left end of the shaft",),
         ),
         (
-            {"bearings": {"next": {"designation": "SKF 6208", "position": "9 mm"}}},
+            {"bearings": {"next": {"designation": "SKF 6208", "at": "9 mm"}}},
             ("next (0 mm to 18 mm) and left (12 mm to 30 mm) overlap by 6 mm",),
         ),
         (
-            {"gears": {"wheel": {"position": "29 mm"}}},
+            {"gears": {"wheel": {"at": "29 mm"}}},
             ("the gear wheel at 29 mm stands inside the bearing left (12 mm to 30 mm)",),
         ),
         (
@@ -59,12 +59,12 @@ def tables(**changes: Any) -> dict[str, Any]:
             ("the pitch diameter of 45 mm of the gear wheel is inside the shaft, whose diameter there is 48 mm",),
         ),
         (
-            {"discs": {"rotor": {"position": "120 mm", "diameter": "90 mm", "width": "50 mm"}}},
+            {"discs": {"rotor": {"at": "120 mm", "diameter": "90 mm", "width": "50 mm"}}},
             ("the disc rotor (95 mm to 145 mm) and the bearing right (140 mm to 156 mm) overlap by 5 mm",),
         ),
         ({"bearings": {"left": {"fits": {"shaft": "k5", "shaft_bore": "12 mm"}}}}, ("shaft_bore is 12 mm, but",)),
         # two bearings face to face: only the end of the shaft is too short
-        ({"bearings": {"next": {"designation": "SKF 6208", "position": "3 mm"}}}, ("next (-6 mm to 12 mm) stands",)),
+        ({"bearings": {"next": {"designation": "SKF 6208", "at": "3 mm"}}}, ("next (-6 mm to 12 mm) stands",)),
         ({}, ()),
     ],
 )
@@ -86,7 +86,7 @@ def test_an_undercut_takes_no_seat() -> None:
 
 def test_it_is_said_everywhere(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """In `check`, its `--json`, and the builder; nothing is said of loads before they are known."""
-    changed = tables(bearings={"left": {"designation": "SKF 6319", "position": "25 mm"}})
+    changed = tables(bearings={"left": {"designation": "SKF 6319", "at": "25 mm"}})
     case = tmp_path / "box.toml"
     case.write_text(tables_toml(changed))
     (sentence,) = api.machine_warnings(check_shaft(case))

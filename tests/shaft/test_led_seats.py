@@ -29,10 +29,14 @@ def test_a_shaft_that_is_carried_along_stays_as_it_is() -> None:
     model = check_shaft(tomllib.loads(geared_shaft("box")))
     places = {bearing.name: bearing.position for bearing in model.bearings}
     seats = [
-        {"motion_y": f"{y + angle * places[name]:.12g} m", "motion_z": f"{z} m", "motion_tilt_z": f"{angle} rad"}
+        {
+            "y": {"motion": f"{y + angle * places[name]:.12g} m"},
+            "z": {"motion": f"{z} m"},
+            "tilt_z": {"motion": f"{angle} rad"},
+        }
         for name in ("left", "right")
     ]
-    seats[0]["motion_x"] = "3 um"
+    seats[0]["x"] = {"motion": "3 um"}
     at_rest, carried = solve_shaft(model), solve_shaft(check_shaft(tables(*seats)))
     assert carried.reactions == pytest.approx(at_rest.reactions, rel=2e-3, abs=0.5)
     moved = (carried.displacement - at_rest.displacement).reshape(-1, 6)
@@ -44,7 +48,7 @@ def test_a_shaft_that_is_carried_along_stays_as_it_is() -> None:
 
 def test_a_seat_out_of_line_loads_its_bearing() -> None:
     """Half a milliradian between both seats is what the rings are tilted by, less what the shaft bends."""
-    report = api.quasistatic(check_shaft(tables({}, {"motion_tilt_y": "0.5 mrad"})))
+    report = api.quasistatic(check_shaft(tables({}, {"tilt_y": {"motion": "0.5 mrad"}})))
     at_rest = api.quasistatic(check_shaft(tables({}, {})))
     (one,), (other,) = ([b for b in found.bearings if b.name == "right"] for found in (report, at_rest))
     assert one.misalignment_mrad[0] - other.misalignment_mrad[0] == pytest.approx(-0.5, rel=0.1)
@@ -55,8 +59,8 @@ def test_a_shaft_follows_seats_that_move() -> None:
     """Both go up by 20 um in 4 ms while the right one is shaken along x at 250 Hz."""
     up = {"kind": "ramp", "start": "0 um", "end": "20 um", "start_time": "0 s", "end_time": "4 ms"}
     shaken = {"kind": "harmonic", "amplitude": "2 um", "frequency": "250 Hz"}
-    right = {"x": "locked", "motion_x": shaken, "motion_z": up}
-    engine = WholeEngine(check_shaft(tables({"x": "free", "motion_z": up}, right)))
+    right = {"x": {"motion": shaken}, "z": {"motion": up}}
+    engine = WholeEngine(check_shaft(tables({"x": "free", "z": {"motion": up}}, right)))
     still = WholeEngine(check_shaft(tables({"x": "free"}, {"x": "locked"})))
     assert engine.advance(8e-3).ok
     assert still.advance(8e-3).ok
@@ -84,8 +88,8 @@ BOX = {"x": "85 mm", "z": "-40 mm", "length": "160 mm", "width": "120 mm", "heig
 
 def boxed(hold: dict[str, Any]) -> dict[str, Any]:
     """Return the case that init writes with both bearings in a body that the ground holds."""
-    held = {f"hold_{dof}": "locked" for dof in ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")}
-    case = tables({}, {}, bodies={"box": {**BOX, **held, **hold}})
+    held = dict.fromkeys(("x", "y", "z", "tilt_x", "tilt_y", "tilt_z"), "locked")
+    case = tables({}, {}, bodies={"box": {**BOX, "support": {**held, **hold}}})
     for bearing in case["bearings"].values():
         bearing["outer"] = "box"
     return case
@@ -95,7 +99,7 @@ def test_a_body_that_is_led_carries_its_bearings() -> None:
     """By 20 um and, about its centre, 0.2 mrad: reactions as before, the shaft where the body takes it."""
     at_rest, model = (
         solve_shaft(check_shaft(boxed({}))),
-        check_shaft(boxed({"motion_x": "3 um", "motion_y": "20 um", "motion_tilt_z": "0.2 mrad"})),
+        check_shaft(boxed({"x": {"motion": "3 um"}, "y": {"motion": "20 um"}, "tilt_z": {"motion": "0.2 mrad"}})),
     )
     carried = solve_shaft(model)
     assert carried.bodies[0] == pytest.approx([3e-6, 2e-5, 0.0, 0.0, 0.0, 2e-4], abs=1e-15)
@@ -108,7 +112,7 @@ def test_a_body_that_is_led_carries_its_bearings() -> None:
 def test_a_body_that_is_shaken_does_work() -> None:
     """Body, rings and shaft go along with 10 um at 100 Hz, far below all modes; energy is balanced."""
     swing = {"kind": "harmonic", "amplitude": "10 um", "frequency": "100 Hz"}
-    engine = WholeEngine(check_shaft(boxed({"motion_y": swing, "motion_x": "3 um"})))
+    engine = WholeEngine(check_shaft(boxed({"y": {"motion": swing}, "x": {"motion": "3 um"}})))
     assert engine.advance(8e-3).ok
     samples = engine.samples()
     assert samples is not None
@@ -128,31 +132,36 @@ def test_what_cannot_be_led() -> None:
     """Each at its path: a ring that gives way, one in a body, one on a preload spring, a course by a law."""
     box = {"x": "85 mm", "mass": "9 kg", "polar_inertia": "1 kg m2", "transverse_inertia": "1 kg m2"}
     for changes, where, said in (
-        (tables({"y": "free", "motion_y": "1 um"}, {}), "support.motion_y", 'needs y = "locked", not "free"'),
-        (tables({"motion_y": "1e6 mm"}, {}), "support.motion_y", "at most 100 mm: is the unit right?"),
+        (tables({"y": {"mode": "free", "motion": "1 um"}}, {}), "support.y", 'needs mode = "prescribed", not "free"'),
+        (tables({"y": {"motion": "1e6 mm"}}, {}), "support.y.motion", "at most 100 mm: is the unit right?"),
         (
-            tables({}, {}, bodies={"box": {**box, "hold_tilt_y": "locked", "motion_tilt_y": "9 deg"}}),
-            "bodies.box.motion_tilt_y",
+            tables({}, {}, bodies={"box": {**box, "support": {"tilt_y": {"motion": "9 deg"}}}}),
+            "bodies.box.support.tilt_y.motion",
             "at most",
         ),
         (
-            merged(tables({"motion_y": "1 um"}, {}, bodies={"box": box}), {"bearings": {"left": {"outer": "box"}}}),
-            "support.motion_y",
+            merged(
+                tables({"y": {"motion": "1 um"}}, {}, bodies={"box": box}), {"bearings": {"left": {"outer": "box"}}}
+            ),
+            "support.y.motion",
             "only a ring whose `outer` is the ground",
         ),
         (
-            merged(tables({"motion_x": "1 um"}, {}), {"bearings": {"left": {"takes": "+x", "preload_force": "100 N"}}}),
-            "support.motion_x",
+            merged(
+                tables({"x": {"motion": "1 um"}}, {}),
+                {"bearings": {"left": {"takes": "+x", "preload_force": "100 N"}}},
+            ),
+            "support.x.motion",
             "`preload_force` makes the ring slide",
         ),
         (
             tables({}, {}, bodies={"box": {**box, "motion_z": "1 um"}}),
             "bodies.box.motion_z",
-            'needs hold_z = "locked", not "free"',
+            "write support.z = { motion = ... }",
         ),
         (
-            tables({"motion_z": {"kind": "law", "law": "chirp", "amplitude": "1 um"}}, {}),
-            "support.motion_z.law",
+            tables({"z": {"motion": {"kind": "law", "law": "chirp", "amplitude": "1 um"}}}, {}),
+            "support.z.motion.law",
             "is no law yet",
         ),
     ):

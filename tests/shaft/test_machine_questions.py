@@ -23,14 +23,14 @@ diameter = "30 mm"
 bore = "31 mm"
 [bearings.left]
 designation = "SKF 6206"
-positon = "10 mm"
+clearence = "10 um"
 [bearings.right]
 designation = "SKF 62066"
-position = "90 mm"
+at = "90 mm"
 preload = "5 um"
 support.y = "stiff"
 [gears.wheel]
-position = "50 mm"
+at = "50 mm"
 pitch_diameter = "80 mm"
 role = "driver"
 mesh = "90 deg"
@@ -128,8 +128,8 @@ def test_every_mistake_at_once(folder: Path, capsys: pytest.CaptureFixture[str])
     said = capsys.readouterr().err
     for place, hint in (
         ("shaft.sections.0", "bore must be smaller"),
-        ("bearings.left.positon", "nearest: position"),
-        ("bearings.left.position", "is required"),
+        ("bearings.left.clearence", "nearest: clearance"),
+        ("bearings.left.at", "is required"),
         ("bearings.right.designation", "62066"),
         ("bearings.right.support.y", '"locked" or "free"'),
         ("gears.wheel.role", '"driving" or "driven"'),
@@ -140,11 +140,11 @@ def test_every_mistake_at_once(folder: Path, capsys: pytest.CaptureFixture[str])
 
 def test_what_only_the_whole_shows(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A place beside the shaft, two bearings in one, a power at rest."""
-    changes = ["gears.wheel.position=300 mm", "bearings.right.position=21 mm", "operation.speed=0 rpm"]
+    changes = ["gears.wheel.at=300 mm", "bearings.right.at=21 mm", "operation.speed=0 rpm"]
     arguments = [part for change in changes for part in ("--set", change)]
     assert main(["check", str(folder / "box.toml"), *arguments]) == 3
     said = capsys.readouterr().err
-    assert "gears.wheel.position" in said
+    assert "gears.wheel.at" in said
     assert "0 mm to 170 mm" in said
     assert 'is also that of "left"' in said
     assert "needs a speed" in said

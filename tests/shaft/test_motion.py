@@ -45,8 +45,8 @@ def tables(**changes: Any) -> dict[str, Any]:
 LONG = {
     "shaft": {"sections": [{"length": "500 mm", "diameter": "40 mm"}]},
     "bearings": {
-        "a": {"designation": "SKF 6208", "position": "50 mm"},
-        "b": {"designation": "SKF 6208", "position": "450 mm", "support": {"x": "free"}},
+        "a": {"designation": "SKF 6208", "at": "50 mm"},
+        "b": {"designation": "SKF 6208", "at": "450 mm", "support": {"x": "free"}},
     },
     "discs": {},
     "gears": {},
@@ -256,10 +256,10 @@ def test_six_bearings_on_one_shaft_until_converged(tmp_path: Path) -> None:
         "lubricant": {"name": "FVA3", "temperature": "70 degC"},
         "shaft": {"sections": [{"length": "600 mm", "diameter": "40 mm"}]},
         "bearings": {
-            f"b{i}": {"designation": "SKF 6208", "position": f"{50 + 100 * i} mm"} | (free if i else {})
+            f"b{i}": {"designation": "SKF 6208", "at": f"{50 + 100 * i} mm"} | (free if i else {})
             for i in range(6)
         },
-        "loads": {f"pull{i}": {"position": f"{100 + 100 * i} mm", "force_z": "-1000 N"} for i in range(5)},
+        "loads": {f"pull{i}": {"at": f"{100 + 100 * i} mm", "force_z": "-1000 N"} for i in range(5)},
     }  # fmt: skip
     found = api.shaft_run(api.check_shaft(case), out=tmp_path / "run", max_wall=900.0)
     assert found.converged, found.reasons
@@ -285,7 +285,7 @@ def test_what_changes_over_time() -> None:
     """A run-up from 500 to 3000 1/min in 4 ms: angle and speed are those of the ramp, energy is balanced to 1e-3."""
     ramp = {"kind": "ramp", "start": "500 rpm", "end": "3000 rpm", "end_time": "4 ms"}
     force = {"kind": "harmonic", "amplitude": "100 N", "frequency": "200 Hz"}
-    changed = tables(operation={"speed": ramp}, loads={"push": {"position": "110 mm", "force_z": force}})
+    changed = tables(operation={"speed": ramp}, loads={"push": {"at": "110 mm", "force_z": force}})
     with pytest.raises(api.CaseError, match="constant speed"):
         check_shaft(changed)
     changed["gears"]["wheel"] |= {"power": None, "torque": "20 N m"}

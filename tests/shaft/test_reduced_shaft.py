@@ -57,8 +57,7 @@ def of_file(model: Machine, path: Path) -> Machine:
     """Return the case with the file as its shaft, the gear by the name of its node."""
     write_reduced(alone(model), path)
     found = tables(shaft={"reduced": path.name, "temperature": "50 degC"})
-    found["gears"]["wheel"]["marker"] = f"n{model.body.node(0.085)}"
-    del found["gears"]["wheel"]["position"]
+    found["gears"]["wheel"]["at"] = f"n{model.body.node(0.085)}"
     return check_shaft(found, folder=path.parent)
 
 
@@ -173,7 +172,7 @@ def test_files_that_are_no_shaft(change: Any, words: str, beam: Machine, tmp_pat
 
 def test_what_does_not_stand_at_a_node_is_said(beam: Machine, tmp_path: Path) -> None:
     write_reduced(craig_bampton(alone(beam), [0.0, 0.085, 0.17], 0), tmp_path / "shaft.json")
-    with pytest.raises(api.CaseError, match=r"bearings\.left\.position +there is no node at 21 mm"):
+    with pytest.raises(api.CaseError, match=r"bearings\.left\.at +there is no node at 21 mm"):
         check_shaft(tables(shaft={"reduced": "shaft.json"}), folder=tmp_path)
     with pytest.raises(api.CaseError, match=r"shaft\.sections +must have at least one entry"):
         check_shaft(tables(shaft={"material": "100Cr6"}))

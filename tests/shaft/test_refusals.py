@@ -49,13 +49,13 @@ def test_ross_has_no_shafts_from_outside(tmp_path: Path) -> None:
 @pytest.mark.parametrize("way", ["to the body", "from the body"])
 def test_ross_has_no_springs_to_bodies(way: str) -> None:
     body = {"x": "85 mm", "mass": "9 kg", "polar_inertia": "1 kg m2", "transverse_inertia": "1 kg m2"}
-    springs: dict[str, Any] = {"mount": {"marker": "foot", "z": "50 N/um"}}
+    connections: dict[str, Any] = {"mount": {"at": "foot", "z": "50 N/um"}}
     if way == "to the body":
-        springs["seal"] = {"position": "100 mm", "to": "box", "z": "1 N/um"}
+        connections["seal"] = {"at": "100 mm", "to": "box", "z": "1 N/um"}
     else:
-        springs["seal"] = {"marker": "inside", "to": "shaft", "z": "1 N/um"}
+        connections["seal"] = {"at": "inside", "to": "shaft", "z": "1 N/um"}
     markers = {"foot": {"body": "box", "x": "10 mm"}, "inside": {"body": "box", "x": "100 mm"}}
-    model = check_shaft(tables(bodies={"box": body}, markers=markers, springs=springs))
+    model = check_shaft(tables(bodies={"box": body}, markers=markers, connections=connections))
     with pytest.raises(api.UsageError, match="springs between shaft and other bodies have no place in a rotor of ROSS"):
         api.ross_rotor(model)
 
@@ -67,16 +67,18 @@ def test_ross_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_no_motion_is_led() -> None:
-    """Rings, bodies and the shaft have no prescribed degree of freedom, each said at its path."""
-    led = {"mode": "prescribed", "motion": "1 um"}
-    body = {"x": "85 mm", "mass": "9 kg", "polar_inertia": "1 kg m2", "transverse_inertia": "1 kg m2", "hold_z": led}
+    """A motion over time stands under its name, the shaft has none, a body none about x; each said at its path."""
+    led = {"kind": "harmonic", "amplitude": "1 um", "frequency": "50 Hz"}
+    body = {"x": "85 mm", "mass": "9 kg", "polar_inertia": "1 kg m2", "transverse_inertia": "1 kg m2"}
+    body["support"] = {"z": led, "tilt_x": {"motion": "1 mrad"}}
     changes = {"bearings": {"left": {"support": {"y": led}}}, "bodies": {"box": body}, "shaft": {"z": led}}
     with pytest.raises(api.CaseError) as found:
         check_shaft(tables(**changes))
     said = {problem.where: problem.message for problem in found.value.problems}
-    assert sorted(said) == ["bearings.left.support.y", "bodies.box.hold_z", "shaft.z"]
-    for where in ("bearings.left.support.y", "bodies.box.hold_z"):
-        assert said[where].startswith('must be "locked", "free" or a stiffness')
+    places = ["bearings.left.support.y", "bodies.box.support.tilt_x.motion", "bodies.box.support.z", "shaft.z"]
+    assert sorted(said) == places
+    for where in ("bearings.left.support.y", "bodies.box.support.z"):
+        assert "{ motion = { kind = ... } }" in said[where]
     assert "is not an option here" in said["shaft.z"]
 
 
@@ -103,12 +105,16 @@ def test_what_of_a_housing_is_left_out_is_said(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("changes", "where", "said"),
     [
-        ({"springs": {"s": {"position": "85 mm", "z": "1e30 N/m"}}}, "springs.s.z", "1e+15 N/m"),
-        ({"springs": {"s": {"position": "85 mm", "damping_y": "1e30 N s/m"}}}, "springs.s.damping_y", "1e+15 N s/m"),
+        ({"connections": {"s": {"at": "85 mm", "z": "1e30 N/m"}}}, "connections.s.z", "1000000000 N/um"),
+        (
+            {"connections": {"s": {"at": "85 mm", "y": {"damping": "1e30 N s/m"}}}},
+            "connections.s.y.damping",
+            "1e+15 N s/m",
+        ),
         ({"bearings": {"left": {"support": {"y": "1e30 N/m"}}}}, "bearings.left.support.y", 'or write "locked"'),
         ({"gears": {"wheel": {"power": "1e300 kW"}}}, "gears.wheel.power", "more than 1000 times the"),
         (
-            {"loads": {"belt": {"position": "5 mm", "force_z": "-1e12 N"}}},
+            {"loads": {"belt": {"at": "5 mm", "force_z": "-1e12 N"}}},
             "loads.belt.force_z",
             "acts with 1e+12 N, more than 1000 times the",
         ),

@@ -37,10 +37,10 @@ def box(solver: dict[str, Any] | None = None, **changes: Any) -> dict[str, Any]:
 
 def kicked(force: float, solver: dict[str, Any]) -> dict[str, Any]:
     """Return a shaft in one bearing and a bushing, struck at its wheel for a millisecond."""
-    found = box(solver, springs={"right": {"position": "148 mm", "y": "100 N/um", "z": "100 N/um"}})
+    found = box(solver, connections={"right": {"at": "148 mm", "y": "100 N/um", "z": "100 N/um"}})
     del found["bearings"]["right"]
     points = [["0 s", "0 N"], ["2 ms", "0 N"], ["2.5 ms", f"{force} N"], ["3 ms", "0 N"], ["3.5 ms", "0 N"]]
-    found["loads"] = {"kick": {"position": "85 mm", "force_z": {"kind": "table", "points": points}}}
+    found["loads"] = {"kick": {"at": "85 mm", "force_z": {"kind": "table", "points": points}}}
     return found
 
 
@@ -100,7 +100,7 @@ def test_vibrations_choose_themselves(is_shaken: bool) -> None:
     assert check_shaft(found).solver.resolve == 0.0
     if is_shaken:
         shaking = {"kind": "harmonic", "amplitude": "10 N", "frequency": "1.5 kHz"}
-        found["loads"] = {"shaker": {"position": "85 mm", "force_z": shaking}}
+        found["loads"] = {"shaker": {"at": "85 mm", "force_z": shaking}}
         why, resolve = "the shaft is excited at 1.5 kHz", 3000.0
     else:
         found["bearings"]["right"]["forces"] = DEFECT
@@ -122,20 +122,20 @@ def test_vibrations_choose_themselves(is_shaken: bool) -> None:
 def test_what_shakes_with_every_turn_is_not_faster() -> None:
     """11 Hz at 660 1/min, whatever the last bit of their quotient is."""
     shaking = {"kind": "harmonic", "amplitude": "10 N", "frequency": "11 Hz"}
-    load = {"shaker": {"position": "85 mm", "force_z": shaking}}
+    load = {"shaker": {"at": "85 mm", "force_z": shaking}}
     assert check_shaft(box(operation={"speed": "660 rpm"}, loads=load)).solver.resolve == 0.0
     assert check_shaft(box(operation={"speed": "659 rpm"}, loads=load)).solver.resolve == 2000.0
 
 
 def test_a_run_up_is_sampled_for_the_speed_that_it_reaches() -> None:
     up = {"kind": "ramp", "start": "0 rpm", "end": "3000 rpm", "start_time": "0 s", "end_time": "20 ms"}
-    model = check_shaft(box(operation={"speed": up}, gears={}, loads={"l": {"position": "85 mm", "force_z": "-400 N"}}))
+    model = check_shaft(box(operation={"speed": up}, gears={}, loads={"l": {"at": "85 mm", "force_z": "-400 N"}}))
     assert WholeEngine(model).sample_interval < 1e-3
 
 
 def test_steps_that_are_cut_are_said_once() -> None:
     shaking = {"kind": "harmonic", "amplitude": "10 N", "frequency": "1.5 kHz"}
-    load = {"shaker": {"position": "85 mm", "force_z": shaking}}
+    load = {"shaker": {"at": "85 mm", "force_z": shaking}}
     model = check_shaft(box({"max_step": "1 ms"}, loads=load))
     assert [text for text in model.assumptions if "steps are at most" in text] == [
         "in motion steps are at most 55.6 us: solver.max_step would lose what is to be followed"
@@ -156,15 +156,15 @@ def test_steps_that_are_cut_are_said_once() -> None:
 def test_settings_that_cannot_be_are_said_once(solver: dict[str, Any], place: str, words: str) -> None:
     found = box(solver)
     shaking = {"kind": "harmonic", "amplitude": "10 N", "frequency": "1.5 kHz"}
-    found["loads"] = {"shaker": {"position": "85 mm", "force_z": shaking}}
+    found["loads"] = {"shaker": {"at": "85 mm", "force_z": shaking}}
     with pytest.raises(api.CaseError) as caught:
         check_shaft(found)
     assert [problem.where for problem in caught.value.problems] == [place]
     assert words in caught.value.problems[0].message
-    found["bearings"]["left"]["position"] = "2 m"
+    found["bearings"]["left"]["at"] = "2 m"
     with pytest.raises(api.CaseError) as caught:
         check_shaft(found)
-    assert {problem.where for problem in caught.value.problems} == {place, "bearings.left.position"}
+    assert {problem.where for problem in caught.value.problems} == {place, "bearings.left.at"}
 
 
 def test_a_mistake_in_a_force_element_of_one_bearing_has_its_place() -> None:
