@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort, now, sum_of_minima
 from lambda_core.run.whole_provenance import bearing_alone
-from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.shaft.machine_motion import MachineEngine, machine_engine
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.system.checking import check
 from lambda_core.system.machine_templates import geared_shaft
@@ -24,18 +24,18 @@ _MILLISECONDS, _MILLISECONDS_QUICK = 200, 40
 _REPEATS = 5
 _COUNTED = ("steps", "newton_iterations", "rests", "jacobians", "ball_jacobians", "factorisations")
 WHOLE = "whole"
-Engine = WholeEngine | BearingEngine
+Engine = MachineEngine | BearingEngine
 Passage = tuple[tuple[float, ...], Mapping[str, float]]  # time of each piece [s], counters
 
 
 def starts(changes: tuple[str, ...] = CHANGES) -> dict[str, Callable[[], Engine]]:
     """Return how the whole and each of its bearings alone are started, by name."""
     model = check_shaft(tomllib.loads(geared_shaft("whole")), changes)
-    first = WholeEngine(model)
-    found: dict[str, Callable[[], Engine]] = {WHOLE: lambda: WholeEngine(model)}
-    for i, part in enumerate(first.parts):
+    first = machine_engine(model)
+    found: dict[str, Callable[[], Engine]] = {WHOLE: lambda: machine_engine(model)}
+    for i, part in enumerate(first.bearings):
         alone = check(tomllib.loads(bearing_alone(first, i).case_toml))
-        found[part.bearing.name] = lambda alone=alone: BearingEngine(alone)  # type: ignore[misc]
+        found[part.name] = lambda alone=alone: BearingEngine(alone)  # type: ignore[misc]
     return found
 
 

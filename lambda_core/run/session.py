@@ -241,7 +241,7 @@ class Session:
             statistics=counters,
             process=this_process(),
             faults=self._watch.faults,
-            modes=tuple(self._engine.ring_modes()) if state != "running" else (),
+            modes=tuple(self._engine.modes()) if state != "running" else (),
         )
 
     def _progress(self) -> Progress:

@@ -71,7 +71,7 @@ class SuspiciousEngine(BearingEngine):
 
     def _run_away(self) -> str:
         """Say which state of a contact is beyond all bounds, or nothing."""
-        y, count = self._memory.y, self._context.bundle.states.size
+        y, count = self._memory.y, self.context.bundle.states.size
         if not count:
             return ""
         values = y[y.size - count :]

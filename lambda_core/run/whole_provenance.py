@@ -8,38 +8,40 @@ import tomllib
 from lambda_core.case.case_writer import tables_toml
 from lambda_core.laws.kernels import sources_key
 from lambda_core.laws.pack import code
-from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.shaft.machine_motion import MachineEngine
 from lambda_core.solver.code_files import physics_sources
 from lambda_core.system.bearing import BearingModel, TimeFunction
 from lambda_core.system.state_channels import result_channels
 
 
-def channels_of_bearings(engine: WholeEngine) -> list[tuple]:  # type: ignore[type-arg]
+def channels_of_bearings(engine: MachineEngine) -> list[tuple]:  # type: ignore[type-arg]
     """Return the channels of every bearing's result."""
-    return [result_channels(part.alone.model) for part in engine.parts]
+    return [result_channels(bearing.context.model) for bearing in engine.bearings]
 
 
-def kernel_keys(engine: WholeEngine, i: int) -> dict[str, str]:
+def kernel_keys(engine: MachineEngine, i: int) -> dict[str, str]:
     """Return the hashes of the laws of a bearing and of the core's own code."""
-    return {**engine.parts[i].alone.kernels.keys(), "core": sources_key(*physics_sources()), "code": code()}
+    return {**engine.bearings[i].context.kernels.keys(), "core": sources_key(*physics_sources()), "code": code()}
 
 
-def code_of(engine: WholeEngine) -> str:
+def code_of(engine: MachineEngine) -> str:
     """Return what has to be the same for a run to go on: code, laws, and what the whole starts from."""
     import hashlib
 
-    keys = [f"{key}={value}" for i in range(len(engine.parts)) for key, value in sorted(kernel_keys(engine, i).items())]
+    keys = [
+        f"{key}={value}" for i in range(len(engine.bearings)) for key, value in sorted(kernel_keys(engine, i).items())
+    ]
     numbers = engine.fingerprint()
     return hashlib.sha256("\n".join(keys).encode() + numbers).hexdigest()
 
 
-def bearing_alone(engine: WholeEngine, i: int) -> BearingModel:
+def bearing_alone(engine: MachineEngine, i: int) -> BearingModel:
     """Return a bearing as its own result says it: under the load that it has in the equilibrium of the whole."""
-    model, reaction = engine.parts[i].bearing.model, engine.start.reactions[i]
-    name = engine.parts[i].bearing.name
+    model, reaction = engine.machine.bearings[i].model, engine.start.state.reactions[i]
+    name = engine.bearings[i].name
     force = tuple(TimeFunction.constant(-float(f)) for f in reaction[:3])
     inner = dataclasses.replace(model.inner_ring, force=force)  # type: ignore[arg-type]
-    shaft = engine.model.name
+    shaft = engine.machine.name
     tables = tomllib.loads(model.case_toml)
     tables["name"] = f"{shaft}-{name}"
     loads = zip(("force_x", "force_y", "force_z"), reaction[:3], strict=True)

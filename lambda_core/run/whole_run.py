@@ -26,7 +26,7 @@ from lambda_core.results.writer import ResultWriter
 from lambda_core.run.progress import Progress, Report, StopRequest, stop_request
 from lambda_core.run.record_times import RECORDS_PER_REVOLUTION, next_multiple
 from lambda_core.run.whole_provenance import bearing_alone, channels_of_bearings, code_of, kernel_keys
-from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.shaft.machine_motion import MachineEngine, machine_engine
 from lambda_core.shaft.whole_file import WHOLE, WholeFile, WholeWriter, earlier_files
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
 
@@ -50,34 +50,35 @@ def launch_whole(
 ) -> WholeFile:  # fmt: skip
     """Run a shaft from its quasi-static equilibrium into a new folder."""
     folder = _folder(model, out, force)
-    engine = WholeEngine(model, announce)
+    engine = machine_engine(model, announce)
     if announce is not None:
         announce(
-            f"{len(engine.parts)} bearings, {engine.shaft.positions.size} lumps of the shaft, {engine.states} states"
+            f"{len(engine.bearings)} bearings, {engine.start.shaft.positions.size} lumps of the shaft, "
+            f"{engine.states} states"
         )
     folder.mkdir(exist_ok=True)
     with held(folder):
         return _launch(engine, folder, ends, report, force=force)
 
 
-def _launch(engine: WholeEngine, folder: Path, ends: Ends, report: Report | None, *, force: bool) -> WholeFile:
+def _launch(engine: MachineEngine, folder: Path, ends: Ends, report: Report | None, *, force: bool) -> WholeFile:
     """Begin the results of a run in its folder, and drive it."""
-    model = engine.model
+    model = engine.machine
     for old in earlier_files(folder, model.names["bearings"]) if force else ():
         old.unlink()
     channels, writers, status, run = channels_of_bearings(engine), [], Status(process=this_process()), uuid4().hex
     for i, own in enumerate(channels):
-        name = engine.parts[i].bearing.name
+        name = engine.bearings[i].name
         provenance = Provenance(bearing_alone(engine, i), kernel_keys(engine, i), part_of=(run, name))
         writers.append(ResultWriter.create(folder / f"{name}.h5", provenance, own, status))
     texts = {"case": model.name, "case_toml": model.case_toml, "code": code_of(engine), "run": run}
     texts["warnings"] = "\n".join(model.warnings)
     whole = WholeWriter.create(
         folder / WHOLE,
-        {**texts, "speed": model.speed, "drive_torque": engine.drive_torque},  # type: ignore[dict-item]
+        {**texts, "speed": model.speed, "drive_torque": engine.start.drive_torque},  # type: ignore[dict-item]
         {
-            "lump_positions": engine.shaft.positions,
-            "bearing_positions": [part.bearing.position for part in engine.parts],
+            "lump_positions": engine.start.shaft.positions,
+            "bearing_positions": [bearing.position for bearing in model.bearings],
         },
         model.names,
     )
@@ -108,10 +109,10 @@ def _resume(
     before = {result.kernel_keys.get("code", NATIVE) for result in found.results().values()}
     if why := next(filter(None, map(other_code, sorted(before))), ""):
         raise UsageError(f"{found.path} cannot go on: {why}")
-    engine = WholeEngine(model, announce)
+    engine = machine_engine(model, announce)
     if code_of(engine) != found.code:
         raise UsageError(f"{found.path} cannot go on: the code or the case has changed since")
-    engine.restore({k: v for k, v in checkpoint.state.items() if not k.startswith("rows")})
+    engine.restore({k: v for k, v in checkpoint.state.items() if k != "rows"})
     position, revolutions = checkpoint.position, checkpoint.state["rows"].astype(int)
     if status.state == "finished" and not engine.time < ends.duration:
         raise UsageError(f"{found.folder} is finished: nothing is left to do; a longer --duration continues it")
@@ -119,8 +120,8 @@ def _resume(
     last: list[FloatArray] = []
     turned = False
     results = found.results()
-    for part, own, count in zip(engine.parts, channels_of_bearings(engine), revolutions, strict=True):
-        result = results[part.bearing.name]
+    for bearing, own, count in zip(engine.bearings, channels_of_bearings(engine), revolutions, strict=True):
+        result = results[bearing.name]
         known.append(list(result.revolutions()[:count]))
         records = result.integrals()[: position.rows.records]
         last.append(records[-1])
@@ -152,11 +153,11 @@ class _Session:
     """One stretch of a run, from a start or a checkpoint to an end."""
 
     def __init__(
-        self, engine: WholeEngine, whole: WholeWriter, writers: list[ResultWriter], ends: Ends, report: Report | None
+        self, engine: MachineEngine, whole: WholeWriter, writers: list[ResultWriter], ends: Ends, report: Report | None
     ) -> None:
         self._engine, self._whole, self._writers, self._ends, self._report = engine, whole, writers, ends, report
         self._solvers = [
-            dataclasses.replace(p.bearing.model.solver, duration=ends.duration or 0.0) for p in engine.parts
+            dataclasses.replace(p.model.solver, duration=ends.duration or 0.0) for p in engine.machine.bearings
         ]
         self._end = ends.duration or max(solver.max_duration for solver in self._solvers)
         self._interval = engine.sample_interval * SAMPLES_PER_REVOLUTION / RECORDS_PER_REVOLUTION
@@ -258,7 +259,7 @@ class _Session:
 
     def _collect(self) -> None:
         found = self._engine.samples()
-        if found is None:
+        if not found.whole["time"].size:
             return
         self._whole.add(found.whole)
         for writer, samples in zip(self._writers, found.each, strict=True):

@@ -14,10 +14,10 @@ from lambda_core.domain.errors import SolverError
 from lambda_core.elastic.whirl import natural_frequencies
 from lambda_core.shaft.machine_assembly import member_numbers
 from lambda_core.shaft.machine_equilibrium import BodyMoved
+from lambda_core.shaft.machine_motion import MachineEngine, machine_engine
 from lambda_core.shaft.shaft_equilibrium import SharedKernels, solve_shaft
 from lambda_core.shaft.structure import static_rows, stretch
 from lambda_core.shaft.vibration import criticals, damped, masses, modes_at, supported
-from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.tables import STATES
@@ -146,9 +146,9 @@ def test_what_nothing_holds_is_said() -> None:
 
 def test_a_housing_in_motion(model: Machine) -> None:
     """It begins in equilibrium, energy is balanced to 1e-3 with what mounts and seats take, columns are right."""
-    engine = WholeEngine(model)
-    bundle, y = engine._bundle, engine._memory.y
-    number = int(member_numbers(model, engine.shaft).bodies[0])
+    engine = machine_engine(model)
+    bundle, y = engine.context.bundle, engine._memory.y
+    number = int(member_numbers(model, engine.start.shaft).bodies[0])
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))
     assert core().evaluate(0.0, y, bundle, dydt, rates, 1) == 1
     force = bundle.body_wrenches["force"][number] + [0.0, 0.0, -9.80665 * model.bodies[0].mass]
@@ -159,18 +159,17 @@ def test_a_housing_in_motion(model: Machine) -> None:
         losses = sum(value for name, value in row.items() if name.startswith("loss"))
         assert abs(row["input"] - losses - row["stored"]) < 1e-3 * row["input_abs"]
     samples = engine.samples()
-    assert samples is not None
-    moved = samples.whole["body_position"][:, 0] - engine.start.bodies[0, :3]
+    moved = samples.whole["body_position"][:, 0] - engine.start.state.bodies[0, :3]
     assert 0.0 < np.abs(moved).max() < 5e-6  # the ball passage shakes it, no more
 
 
-def check_columns(engine: WholeEngine, number: int) -> None:
+def check_columns(engine: MachineEngine, number: int) -> None:
     """Slopes of the accelerations of a body with its own motion against differences (3e-4, the tilts)."""
-    bundle, y = engine._bundle, engine._memory.y.copy()
+    bundle, y = engine.context.bundle, engine._memory.y.copy()
     base = L.NB * int(bundle.system["balls"][0])
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))
     assert core().evaluate(0.0, y, bundle, dydt, rates, 1) == 1
-    assert core().jacobian(0.0, y, bundle, engine._blocks) == 1
+    assert core().jacobian(0.0, y, bundle, engine.context.blocks) == 1
     slots = L.NS * number + np.array([*STATES, L.SVX, L.SVY, L.SVZ, L.SWY, L.SWZ])
     own = [int(np.flatnonzero(bundle.active == slot)[0]) for slot in slots]
     for column, slot in zip(own, slots, strict=True):
@@ -182,7 +181,7 @@ def check_columns(engine: WholeEngine, number: int) -> None:
             assert core().evaluate(0.0, near, bundle, dydt, rates, 1) == 1
             found.append(dydt[base:].copy())
         slope = ((found[0] - found[1]) / (2.0 * step))[own]
-        off = np.abs(engine._blocks.d[np.ix_(own, [column])].ravel() - slope).max()
+        off = np.abs(engine.context.blocks.d[np.ix_(own, [column])].ravel() - slope).max()
         assert off < 3e-4 * np.abs(slope).max() + 1e-3, slot
 
 

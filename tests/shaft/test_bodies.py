@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from lambda_core import api
+from lambda_core.shaft.machine_motion import machine_engine
 from lambda_core.shaft.shaft_equilibrium import solve_shaft
 from lambda_core.shaft.vibration import damped, supported
-from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
 
@@ -63,7 +63,7 @@ def test_a_damper_in_motion() -> None:
     damped_by = {dof: {"stiffness": k, "damping": "5000 N s/m"} for dof, k in (("y", "10 N/um"), ("z", "20 N/um"))}
     changed = tables(connections={"seal": {**SEAL, "at": "85 mm", **damped_by}})
     changed["discs"]["wheel"]["unbalance"] = "500 g mm"
-    engine = WholeEngine(check_shaft(changed))
+    engine = machine_engine(check_shaft(changed))
     assert engine.advance(2e-3).ok
     rows = engine.integrals()
     for row in rows:

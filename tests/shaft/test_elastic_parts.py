@@ -14,8 +14,8 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.elements import CAGE as CAGE_BODY
 from lambda_core.domain.errors import CaseError
 from lambda_core.results.quasistatic import QuasiStatic
+from lambda_core.shaft.machine_motion import MachineEngine, machine_engine
 from lambda_core.shaft.shaft_equilibrium import solve_shaft
-from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.damping import damping_matrix
@@ -51,31 +51,30 @@ def alone(**elastic: Any) -> api.BearingModel:
 
 
 @pytest.fixture(scope="module")
-def whole() -> WholeEngine:
+def whole() -> MachineEngine:
     """Return the shaft in its one bearing at the beginning of its motion."""
-    return WholeEngine(check_shaft(ONE))
+    return machine_engine(check_shaft(ONE))
 
 
-def test_equilibrium_of_one_bearing(whole: WholeEngine) -> None:
+def test_equilibrium_of_one_bearing(whole: MachineEngine) -> None:
     """Pose as in a case of that bearing alone, whose balls' friction moves it by 6e-5, elastic or rigid: 1e-4."""
     found: QuasiStatic = api.quasistatic(alone(outer_ring=SOFT))
-    pose = whole.start.pose(whole.model, 0)
+    pose = whole.start.state.pose(whole.machine, 0)
     assert 1e6 * pose[2] == pytest.approx(found.inner_ring_displacement_um[2], rel=1e-4)
     rigid = copy.deepcopy(ONE)
     del rigid["bearings"]["only"]["elastic"]
     stiff = solve_shaft(check_shaft(rigid))
     assert stiff.pose(check_shaft(rigid), 0)[2] > 1.05 * pose[2]  # down; the soft one goes further
-    assert whole.start.stiffness[0][2, 2] < 0.8 * stiff.stiffness[0][2, 2]
+    assert whole.start.state.stiffness[0][2, 2] < 0.8 * stiff.stiffness[0][2, 2]
 
 
-def test_motion_of_one_bearing(whole: WholeEngine) -> None:
+def test_motion_of_one_bearing(whole: MachineEngine) -> None:
     """For 2 ms balls and waves are where those of the bearing alone are, 1 % of the largest: their starts differ."""
     one = BearingEngine(alone(outer_ring=SOFT, cage=CAGE))
-    engine = WholeEngine(whole.model)
+    engine = machine_engine(whole.machine)
     assert one.advance(2e-3).ok
     assert engine.advance(2e-3).ok
     samples, other = engine.samples(), one.samples()
-    assert samples is not None
     (both,) = samples.each
     for name in ("outer_ring_waves_2", "outer_ring_waves_3", "outer_ring_ovality", "load", "ball_azimuth"):
         times, values = both["time"], both[name].reshape(both["time"].size, -1)
@@ -84,26 +83,26 @@ def test_motion_of_one_bearing(whole: WholeEngine) -> None:
         assert np.abs(values - at).max() < 1e-2 * np.abs(reference).max(), name
 
 
-def feels_the_same(engine: WholeEngine) -> FloatArray:
+def feels_the_same(engine: MachineEngine) -> FloatArray:
     """Compare balls and waves of every bearing with the same alone, bit for bit; returns the whole shared state."""
-    y, bundle = engine._memory.y, engine._bundle
+    y, bundle = engine._memory.y, engine.context.bundle
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))
     assert core().evaluate(0.0, y, bundle, dydt, rates, 1) == 1
-    bodies = engine._bodies(y.reshape(1, -1), np.zeros(1)).reshape(-1, L.NS)
+    bodies = engine._readings.shared(np.zeros(1), y.reshape(1, -1)).reshape(-1, L.NS)
     slopes = np.array(bundle.shared_rates).reshape(-1, L.NS)
-    for part in engine.parts:
-        one = part.alone
-        balls = slice(L.NB * part.first_ball, L.NB * (part.first_ball + part.balls))
-        own = np.concatenate([y[balls], bodies[list(part.bodies)].ravel()[one.bundle.active], one.bundle.states])
+    for part in engine.bearings:
+        one = part.context
+        balls = slice(L.NB * part.span.first_ball, L.NB * (part.span.first_ball + part.span.balls))
+        own = np.concatenate([y[balls], bodies[list(part.span.bodies)].ravel()[one.bundle.active], one.bundle.states])
         slope, powers = np.zeros(own.size), np.zeros(L.power_count(one.bundle))
         assert core().evaluate(0.0, own, one.bundle, slope, powers, 1) == 1
-        assert np.array_equal(slope[: L.NB * part.balls], dydt[balls])
+        assert np.array_equal(slope[: L.NB * part.span.balls], dydt[balls])
         waves = np.array(one.bundle.shared_rates).reshape(-1, L.NS)[3:]
-        assert np.array_equal(waves, slopes[list(part.bodies[3:])])
+        assert np.array_equal(waves, slopes[list(part.span.bodies[3:])])
     return bodies
 
 
-def test_a_bearing_of_the_whole_moves_as_it_does_alone(whole: WholeEngine) -> None:
+def test_a_bearing_of_the_whole_moves_as_it_does_alone(whole: MachineEngine) -> None:
     """Balls and waves of both rings and the cage feel the same bits as in a model of that bearing alone."""
     changed = copy.deepcopy(ONE)
     parts = {"inner_ring": SOFT, "outer_ring": SOFT, "cage": CAGE}
@@ -114,10 +113,10 @@ def test_a_bearing_of_the_whole_moves_as_it_does_alone(whole: WholeEngine) -> No
     changed["bearings"]["b"]["support"] = {"x": "free"}
     changed["loads"] = {"pull": {"at": "120 mm", "force_z": "-25 kN"}}
     changed["discs"] = {"wheel": {"at": "150 mm", "mass": "5 kg", "unbalance": "1 kg mm", "unbalance_angle": "50 deg"}}
-    engine = WholeEngine(check_shaft(changed))
+    engine = machine_engine(check_shaft(changed))
     bodies = feels_the_same(engine)
     # the start: waves of the outer rings rest, but for those of the equilibrium whose balls' friction was left out
-    outer = [body for part in engine.parts for body in part.bodies[6 : 6 + 3]]
+    outer = [body for part in engine.bearings for body in part.span.bodies[6 : 6 + 3]]
     assert np.abs(bodies[outer][:, [L.SY, L.SZ]]).max() > 1e-6
 
 
@@ -132,19 +131,19 @@ def test_kinds_of_bearings_in_a_whole() -> None:
         "c": {"designation": "SKF 6208", "at": "270 mm", "clearance": "CN", **floats},
     }
     changed["loads"] = {"pull": {"at": "150 mm", "force_z": "-5 kN", "force_x": "500 N"}}
-    engine = WholeEngine(check_shaft(changed))
+    engine = machine_engine(check_shaft(changed))
     feels_the_same(engine)
     assert engine.advance(2e-4).ok
 
 
-def test_damping_lets_waves_follow(whole: WholeEngine) -> None:
+def test_damping_lets_waves_follow(whole: MachineEngine) -> None:
     """An inner ring made 200 times as heavy, free along z: the whole Jacobian's damping to 4 %, with its waves.
 
     As in test_damping.test_a_ring_that_vibrates, where rings are rigid: the eigenvalue near sqrt(k/m), balls and the
     outer ring's waves moving, against k and c of the matrices at that frequency. With waves at
     rest the damping is another one by a tenth and more.
     """
-    (found,) = whole.equilibria
+    (found,) = whole.start.equilibria
     context = freed(found.context)
     count, mass = context.model.geometry.balls, 200.0 * context.model.inner_ring.mass
     context.bundle.bodies["mass"][0] = mass
@@ -176,7 +175,7 @@ def test_damping_lets_waves_follow(whole: WholeEngine) -> None:
 
 def test_balance_of_a_run() -> None:
     """What is put in is dissipated or stored to 1e-3; the waves' dampers count to their bearing."""
-    engine = WholeEngine(check_shaft(ONE))
+    engine = machine_engine(check_shaft(ONE))
     assert engine.advance(6e-3).ok
     (row,) = engine.integrals()
     losses = {name: value for name, value in row.items() if name.startswith("loss")}

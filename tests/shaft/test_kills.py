@@ -23,7 +23,7 @@ from lambda_core.results import hdf5
 from lambda_core.results.run_status import Status
 from lambda_core.results.writer import ResultWriter
 from lambda_core.run import whole_run
-from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.shaft.machine_motion import MachineEngine
 from lambda_core.shaft.whole_file import WHOLE, WholeFile, WholeWriter
 from lambda_core.system.machine import Machine
 from lambda_core.system.machine_templates import geared_shaft
@@ -35,13 +35,13 @@ if TYPE_CHECKING:
 DURATION = 1.5e-3  # a record of the grid, and the end between two of them [s]
 MOMENTS: tuple[tuple[Any, str], ...] = (
     *((ResultWriter, "_put_status"), (ResultWriter, "close"), (hdf5, "copy"), (os, "replace")),
-    *((WholeWriter, "flush"), (WholeWriter, "save"), (WholeWriter, "close"), (WholeEngine, "modes")),
+    *((WholeWriter, "flush"), (WholeWriter, "save"), (WholeWriter, "close"), (MachineEngine, "modes")),
 )  # before and after each call of these
 KILLED = """
 import os, sys
 from lambda_core import api
-from lambda_core.shaft.whole_engine import WholeEngine
-WholeEngine.modes = lambda engine: os._exit(9)
+from lambda_core.shaft.machine_motion import MachineEngine, machine_engine
+MachineEngine.modes = lambda engine: os._exit(9)
 api.shaft_run(sys.argv[1], out=sys.argv[2], duration=float(sys.argv[3]))
 """
 

@@ -11,8 +11,8 @@ import pytest
 from lambda_core import api
 from lambda_core.case.case import merged
 from lambda_core.domain.elements import OUTER
+from lambda_core.shaft.machine_motion import machine_engine
 from lambda_core.shaft.shaft_equilibrium import solve_shaft
-from lambda_core.shaft.whole_engine import WholeEngine
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
 
@@ -60,8 +60,8 @@ def test_a_shaft_follows_seats_that_move() -> None:
     up = {"kind": "ramp", "start": "0 um", "end": "20 um", "start_time": "0 s", "end_time": "4 ms"}
     shaken = {"kind": "harmonic", "amplitude": "2 um", "frequency": "250 Hz"}
     right = {"x": {"motion": shaken}, "z": {"motion": up}}
-    engine = WholeEngine(check_shaft(tables({"x": "free", "z": {"motion": up}}, right)))
-    still = WholeEngine(check_shaft(tables({"x": "free"}, {"x": "locked"})))
+    engine = machine_engine(check_shaft(tables({"x": "free", "z": {"motion": up}}, right)))
+    still = machine_engine(check_shaft(tables({"x": "free"}, {"x": "locked"})))
     assert engine.advance(8e-3).ok
     assert still.advance(8e-3).ok
     moved, alike = engine.samples(), still.samples()
@@ -112,10 +112,9 @@ def test_a_body_that_is_led_carries_its_bearings() -> None:
 def test_a_body_that_is_shaken_does_work() -> None:
     """Body, rings and shaft go along with 10 um at 100 Hz, far below all modes; energy is balanced."""
     swing = {"kind": "harmonic", "amplitude": "10 um", "frequency": "100 Hz"}
-    engine = WholeEngine(check_shaft(boxed({"y": {"motion": swing}, "x": {"motion": "3 um"}})))
+    engine = machine_engine(check_shaft(boxed({"y": {"motion": swing}, "x": {"motion": "3 um"}})))
     assert engine.advance(8e-3).ok
     samples = engine.samples()
-    assert samples is not None
     t = samples.whole["time"]
     expected = 1e-5 * np.sin(200.0 * np.pi * t)
     assert samples.whole["body_position"][:, 0, 1] == pytest.approx(expected, abs=1e-12)

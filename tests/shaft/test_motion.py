@@ -20,9 +20,8 @@ from lambda_core.elastic.whirl import natural_frequencies
 from lambda_core.results.reader import Result
 from lambda_core.shaft.lumps import LumpedShaft, lump
 from lambda_core.shaft.machine_assembly import member_numbers
-from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.shaft.machine_motion import RING_SIGNS, RING_STATES, MachineEngine, machine_engine
 from lambda_core.shaft.whole_file import WholeFile
-from lambda_core.shaft.whole_tables import RING_SIGNS, RING_STATES
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
@@ -87,14 +86,14 @@ def test_lumps_keep_mass_centre_inertia_and_low_frequencies(changes: dict[str, A
 
 
 @pytest.fixture(scope="module")
-def engine() -> WholeEngine:
+def engine() -> MachineEngine:
     """Return the gearbox shaft at the beginning of its motion."""
-    return WholeEngine(check_shaft(tables()))
+    return machine_engine(check_shaft(tables()))
 
 
-def evaluated(engine: WholeEngine, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+def evaluated(engine: MachineEngine, y: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return dy/dt and the forces on the bodies, friction left out."""
-    bundle = engine._bundle
+    bundle = engine.context.bundle
     bundle.system["friction_on"], bundle.system["guides_on"] = 0, 0
     dydt, rates = np.zeros(y.size), np.zeros(L.power_count(bundle))
     assert core().evaluate(0.0, y, bundle, dydt, rates, 1) == 1
@@ -102,47 +101,50 @@ def evaluated(engine: WholeEngine, y: FloatArray) -> tuple[FloatArray, FloatArra
     return dydt, bundle.body_wrenches.view(np.float64).reshape(-1, 6).copy()
 
 
-def test_the_motion_begins_in_equilibrium(engine: WholeEngine) -> None:
+def test_the_motion_begins_in_equilibrium(engine: MachineEngine) -> None:
     """What is left on the lumps is the weight of the inner rings, the first push of the unbalance, no more."""
     _, forces = evaluated(engine, engine._memory.y.copy())
-    loads = engine._bundle.inputs["force"]["value"]
-    weight = engine._bundle.bodies["mass"] * 9.80665
-    for body in member_numbers(engine.model, engine.shaft).lumps:
+    loads = engine.context.bundle.inputs["force"]["value"]
+    weight = engine.context.bundle.bodies["mass"] * 9.80665
+    for body in member_numbers(engine.machine, engine.start.shaft).lumps:
         left = forces[body, :3] + loads[body] - [0.0, 0.0, weight[body]]
         assert np.abs(left).max() < 6.0  # of 700 N: rings 2 N, unbalance 50 g mm at 314 rad/s 4.9 N over all lumps
 
 
-def test_a_bearing_of_the_whole_moves_as_it_does_alone(engine: WholeEngine) -> None:
+def test_a_bearing_of_the_whole_moves_as_it_does_alone(engine: MachineEngine) -> None:
     """The balls of each bearing feel the same bits as in a model of that bearing alone."""
     y = engine._memory.y
-    dydt, rates = np.zeros(y.size), np.zeros(L.power_count(engine._bundle))
-    assert core().evaluate(0.0, y, engine._bundle, dydt, rates, 1) == 1
-    bodies = engine._bodies(y.reshape(1, -1), np.zeros(1)).reshape(-1, L.NS)
-    for part in engine.parts:
-        alone = part.alone
-        balls = slice(L.NB * part.first_ball, L.NB * (part.first_ball + part.balls))
-        own = np.concatenate([y[balls], bodies[list(part.bodies)].ravel()[alone.bundle.active], alone.bundle.states])
+    dydt, rates = np.zeros(y.size), np.zeros(L.power_count(engine.context.bundle))
+    assert core().evaluate(0.0, y, engine.context.bundle, dydt, rates, 1) == 1
+    bodies = engine._readings.shared(np.zeros(1), y.reshape(1, -1)).reshape(-1, L.NS)
+    for part in engine.bearings:
+        alone = part.context
+        span = part.span
+        balls = slice(L.NB * span.first_ball, L.NB * (span.first_ball + span.balls))
+        own = np.concatenate([y[balls], bodies[list(span.bodies)].ravel()[alone.bundle.active], alone.bundle.states])
         slope, powers = np.zeros(own.size), np.zeros(L.power_count(alone.bundle))
         assert core().evaluate(0.0, own, alone.bundle, slope, powers, 1) == 1
-        assert np.array_equal(slope[: L.NB * part.balls], dydt[balls])
+        assert np.array_equal(slope[: L.NB * span.balls], dydt[balls])
 
 
-def test_slopes_and_energy_of_the_ties(engine: WholeEngine) -> None:
+def test_slopes_and_energy_of_the_ties(engine: MachineEngine) -> None:
     """Columns of the Jacobian against differences, of a shaft that bends only."""
     check_slopes(engine)
 
 
-def check_slopes(engine: WholeEngine) -> None:
+def check_slopes(engine: MachineEngine) -> None:
     """What the columns of a twist leave out is of the order of the tilts, 2e-4 of it."""
-    bundle, y = engine._bundle, engine._memory.y.copy()
+    bundle, y = engine.context.bundle, engine._memory.y.copy()
     base = L.NB * int(bundle.system["balls"][0])
-    middle = next(b for b in member_numbers(engine.model, engine.shaft).lumps if not bundle.bodies["mass"][b] < 1.0)
+    middle = next(
+        b for b in member_numbers(engine.machine, engine.start.shaft).lumps if not bundle.bodies["mass"][b] < 1.0
+    )
     bundle.system["friction_on"], bundle.system["guides_on"] = 0, 0
     evaluated(engine, y)
     bundle.system["friction_on"], bundle.system["guides_on"] = 0, 0
-    assert core().jacobian(0.0, y, bundle, engine._blocks) == 1
+    assert core().jacobian(0.0, y, bundle, engine.context.blocks) == 1
     bundle.system["friction_on"], bundle.system["guides_on"] = 1, 1
-    ours, steps = engine._blocks.d, np.array([1e-8, 1e-8, 1e-8, 1e-7, 1e-7, 1e-7])
+    ours, steps = engine.context.blocks.d, np.array([1e-8, 1e-8, 1e-8, 1e-7, 1e-7, 1e-7])
     for state, step in zip(STATES, steps, strict=True):
         column = int(np.flatnonzero(bundle.active == L.NS * middle + state)[0])
         up, down = y.copy(), y.copy()
@@ -157,14 +159,13 @@ def check_slopes(engine: WholeEngine) -> None:
 def test_a_shaft_that_twists() -> None:
     """Torque of the gear through the shaft to a coupling at its left end: twist of the equilibrium, energy to 1e-3."""
     changed = tables(shaft={**tables()["shaft"], "twists": True})
-    engine = WholeEngine(check_shaft(changed))
+    engine = machine_engine(check_shaft(changed))
     check_slopes(engine)
-    start = engine.start.displacement.reshape(-1, 6)[:, 3]
-    expected = [start[engine.model.body.node(float(place))] for place in engine.shaft.positions]
+    start = engine.start.state.displacement.reshape(-1, 6)[:, 3]
+    expected = [start[engine.machine.body.node(float(place))] for place in engine.start.shaft.positions]
     assert min(expected, key=abs) != 0.0
     assert engine.advance(1e-3).ok
     samples, rows = engine.samples(), engine.integrals()
-    assert samples is not None
     assert samples.whole["shaft_twist"][-1] == pytest.approx(expected, rel=0.01)
     assert samples.each[0]["body_spin"][:, 0] == pytest.approx(100.0 * np.pi, rel=1e-4)
     for row in rows:
@@ -290,10 +291,9 @@ def test_what_changes_over_time() -> None:
         check_shaft(changed)
     changed["gears"]["wheel"] |= {"power": None, "torque": "20 N m"}
     changed["gears"]["wheel"].pop("power")
-    engine = WholeEngine(check_shaft(changed))
+    engine = machine_engine(check_shaft(changed))
     assert engine.advance(2e-3).ok
     t, samples, rows = engine.time, engine.samples(), engine.integrals()
-    assert samples is not None
     ramped = np.pi / 30.0 * (500.0 + 2500.0 * samples.each[0]["time"] / 4e-3)
     assert samples.each[0]["body_spin"][:, 0] == pytest.approx(ramped, rel=1e-9)
     angle = np.pi / 30.0 * (500.0 * t + 0.5 * 2500.0 * t * t / 4e-3)

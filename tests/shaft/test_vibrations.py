@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from lambda_core import api
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.results.reader import Result
-from lambda_core.shaft.whole_engine import WholeEngine
+from lambda_core.shaft.machine_motion import machine_engine
 from lambda_core.solver.integrator.tableau import STAGES
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
@@ -48,12 +48,11 @@ def ringing(solver: dict[str, Any]) -> Callable[[FloatArray], FloatArray]:
     """Return what a kick moves the wheel by over time [m]: half the difference of one upwards and one downwards."""
     found = []
     for force in (30.0, -30.0):
-        engine = WholeEngine(check_shaft(kicked(force, solver)))
+        engine = machine_engine(check_shaft(kicked(force, solver)))
         engine._memory.control["sample_interval"] = 5e-5  # alike for averages
         assert engine.advance(0.0105).ok
         samples = engine.samples()
-        assert samples is not None
-        wheel = int(np.argmin(np.abs(engine.shaft.positions - WHEEL)))
+        wheel = int(np.argmin(np.abs(engine.start.shaft.positions - WHEEL)))
         found.append(CubicSpline(samples.whole["time"], samples.whole["shaft_position"][:, wheel, 2]))
     up, down = found
     return lambda at: 0.5 * np.asarray(up(at) - down(at))
@@ -73,7 +72,7 @@ def test_a_kick_rings_as_in_a_run_a_hundred_times_tighter() -> None:
 
 def test_another_course_of_a_load_is_another_run() -> None:
     """A run goes on with the fingerprint that it began with: the points of a table belong to it."""
-    found = {WholeEngine(check_shaft(kicked(force, VIBRATION))).fingerprint() for force in (30.0, 31.0)}
+    found = {machine_engine(check_shaft(kicked(force, VIBRATION))).fingerprint() for force in (30.0, 31.0)}
     assert len(found) == 2
 
 
@@ -83,7 +82,7 @@ def test_modes_in_motion_are_those_of_the_rotor() -> None:
     To 8 %: the beam has no rings and balls (0.4 kg beside 4 kg), and balls that stand still.
     """
     tables = box(VIBRATION)
-    engine = WholeEngine(check_shaft(tables))
+    engine = machine_engine(check_shaft(tables))
     assert engine.advance(2e-4).ok
     whole = np.array([frequency for frequency, damping in engine.modes()])
     assert np.all(np.diff(whole) > 0.0)
@@ -111,7 +110,7 @@ def test_vibrations_choose_themselves(is_shaken: bool) -> None:
     assert [b.model.laws["ball_outer"]["surface"].model.name for b in model.bearings] == [
         "none", "none" if is_shaken else "defect"
     ]  # fmt: skip
-    engine = WholeEngine(model)
+    engine = machine_engine(model)
     assert engine._memory.stages.shape[0] > STAGES
     assert engine.sample_interval <= 1.0 / (5.0 * resolve)
     assert float(engine._memory.control["longest_step"][0]) <= 1.0 / (6.0 * resolve)
@@ -130,7 +129,7 @@ def test_what_shakes_with_every_turn_is_not_faster() -> None:
 def test_a_run_up_is_sampled_for_the_speed_that_it_reaches() -> None:
     up = {"kind": "ramp", "start": "0 rpm", "end": "3000 rpm", "start_time": "0 s", "end_time": "20 ms"}
     model = check_shaft(box(operation={"speed": up}, gears={}, loads={"l": {"at": "85 mm", "force_z": "-400 N"}}))
-    assert WholeEngine(model).sample_interval < 1e-3
+    assert machine_engine(model).sample_interval < 1e-3
 
 
 def test_steps_that_are_cut_are_said_once() -> None:
@@ -224,13 +223,12 @@ def lines(solver: dict[str, Any]) -> tuple[FloatArray, FloatArray]:
     """Return frequencies [Hz] and the spectrum of the shaft's velocity at the damaged bearing, (n, 2) [m/s]."""
     rate, count, found = 81920.0, 4096, box(solver)
     found["bearings"]["right"]["forces"] = DEFECT
-    engine = WholeEngine(check_shaft(found))
+    engine = machine_engine(check_shaft(found))
     engine._memory.control["sample_interval"] = 1.0 / rate
     assert engine.advance(0.062).ok
     samples = engine.samples()
-    assert samples is not None
     after = samples.whole["time"] > 0.01
-    lump = int(np.argmin(np.abs(engine.shaft.positions - 0.148)))
+    lump = int(np.argmin(np.abs(engine.start.shaft.positions - 0.148)))
     moved = samples.whole["shaft_position"][after][:count, lump, 1:]
     window, frequency = np.hanning(count)[:, None], np.fft.rfftfreq(count, 1.0 / rate)
     size = 2.0 * np.abs(np.fft.rfft((moved - moved.mean(axis=0)) * window, axis=0)) / window.sum()

@@ -131,7 +131,7 @@ class FakeEngine:
     def statistics(self) -> dict[str, float]:
         return {"steps": float(self._steps)}
 
-    def ring_modes(self) -> list[tuple[float, float]]:
+    def modes(self) -> list[tuple[float, float]]:
         return []
 
     def state(self) -> dict[str, FloatArray]:

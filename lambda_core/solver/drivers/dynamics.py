@@ -1,15 +1,16 @@
-"""The dynamics of one bearing: the compiled integrator behind the Engine protocol."""
+"""Integrate the motion of one or more bearings over time: the compiled integrator behind Python."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Generic
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.channels import LOSSES, SHORTED
 from lambda_core.domain.elements import CAGE
 from lambda_core.domain.errors import SolverError
 from lambda_core.solver import records as R
@@ -28,8 +29,16 @@ from lambda_core.solver.drivers.engine import (
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, solve
 from lambda_core.solver.drivers.given import make_room
 from lambda_core.solver.drivers.modes import ring_modes
-from lambda_core.solver.drivers.observation import Scratch, channels_of
-from lambda_core.solver.drivers.ring_values import losses_by_ring
+from lambda_core.solver.drivers.observation import Scratch
+from lambda_core.solver.drivers.readings import (
+    BearingReadings,
+    Channels,
+    ReadBearing,
+    Readings,
+    Sampled,
+    Summed_co,
+    Sums,
+)
 from lambda_core.solver.drivers.solver_context import SolverContext
 from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import running
@@ -38,22 +47,253 @@ from lambda_core.solver.records import CONTACT_CHANNELS
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.state_channels import result_channels
 
-_CAPACITY = 512
+CAPACITY = 512  # samples that the buffer holds
 _COUNTERS = (
-    "steps",
-    "rejected",
-    "failed",
-    "newton_iterations",
-    "rhs_calls",
-    "jacobians",
-    "ball_jacobians",
-    "factorisations",
-)
+    "steps", "rejected", "failed", "newton_iterations", "rhs_calls", "jacobians", "ball_jacobians", "factorisations",
+    "rests",
+)  # fmt: skip
 _BUFFER = ("sample_t", "sample_y")  # of the memory
+# Of the blocks, what is kept from one step to the next; the rest is room to work in.
+_BLOCKS = ("a", "b", "c", "d", "d_own", "changed", "newer", "cross", "shared", "parts")
+_INPUTS = ("bodies", "par", "tie_stiffness", "terms", "table")  # tables that say what moves and under what
 
 
-class BearingEngine:
-    """Dynamics of one bearing, started from its quasi-static equilibrium.
+@dataclass(frozen=True)
+class MotionStart(Generic[Sampled, Summed_co]):
+    """Where a motion begins, and how it is integrated and read.
+
+    Attributes
+    ----------
+    context : SolverContext
+    state : float64[:], shape (size,)
+        At t = 0.
+    readings : Readings
+        What is read of the motion.
+    tolerance : float
+        Dimensionless; multiplies the scales of the states.
+    sample_interval : float
+        [s]
+    longest_step : float
+        [s]
+    resolve : float
+        Highest frequency that vibrations are followed to [Hz]; 0: averages are the answer.
+    modes_until : float, optional
+        Highest frequency of the modes that are told of [Hz]; by default those that are damped least are.
+    given : records.TERM[:]
+        One row for each signal from outside.
+    """
+
+    context: SolverContext
+    state: FloatArray
+    readings: Readings[Sampled, Summed_co]
+    tolerance: float
+    sample_interval: float
+    longest_step: float
+    resolve: float = 0.0
+    modes_until: float | None = None
+    given: Any = field(default_factory=lambda: np.zeros(0, R.TERM))
+
+
+class MotionEngine(Generic[Sampled, Summed_co]):
+    """The dynamics of an assembly of one or more bearings.
+
+    The step sequence does not depend on when `advance` is called or what is sampled, so a run continued from `state` is
+    the run that was never interrupted, bit for bit.
+
+    Parameters
+    ----------
+    start : MotionStart
+    announce : callable, optional
+        Called with a sentence before something is compiled.
+    capacity : int
+        Samples that the buffer holds.
+
+    Attributes
+    ----------
+    context : SolverContext
+        Tables and memory of what moves.
+    sample_interval : float
+        Time between samples [s].
+    given : records.TERM[:]
+        One row for each of the signals from outside, which may be written to between two calls of :meth:`advance`.
+    """
+
+    def __init__(
+        self, start: MotionStart[Sampled, Summed_co], announce: Announce = None, *, capacity: int = CAPACITY
+    ) -> None:
+        self._core, self.context, self._readings = core(announce), start.context, start.readings
+        self.sample_interval, self.given, self._modes_until = start.sample_interval, start.given, start.modes_until
+        self._memory = make_memory(
+            start.state, self.context.scale, start.tolerance, self.context.bundle, capacity,
+            stages=STAGES if start.resolve else 0,
+        )  # fmt: skip
+        control, count = self._memory.control, self._memory.count
+        control["longest_step"] = start.longest_step
+        control["step"] = np.minimum(FIRST_STEP, control["longest_step"])
+        control["shortest_step"], control["sample_interval"] = SMALLEST_STEP, self.sample_interval
+        count["stale"] = 1
+        self._handle = self.context.handle(self._memory)
+        self._drained: list[Sampled] = []
+        self._readings.begin(self._memory.y, self.time)
+        self._start_energy = self._energy()
+
+    @property
+    def time(self) -> float:
+        """Start of the next step [s]."""
+        return float(self._memory.control["time"][0])
+
+    @property
+    def iterations(self) -> int:
+        """Newton iterations since the start."""
+        return int(self._memory.count["newton_iterations"][0])
+
+    @property
+    def states(self) -> int:
+        """Number of states."""
+        return int(self._memory.y.size)
+
+    @property
+    def bearings(self) -> tuple[ReadBearing, ...]:
+        """The bearings, each with its own context."""
+        return self._readings.bearings
+
+    def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
+        """Integrate until `time` >= `until` [s] or `pause` says so; samples gather in the buffer meanwhile."""
+
+        def integrate(end: float) -> int:
+            return int(self._core.integrate(self._handle, end, WORK_PER_CALL))
+
+        return drive(integrate, self, until, pause, self._drain, lambda: fault_sentence(self.context, self.time))
+
+    def advance_exactly(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
+        """Integrate until `time` == `until` [s]: steps on the way there are cut to end at it."""
+        self._memory.control["stop"] = until
+        try:
+            return self.advance(until, pause)
+        finally:
+            self._memory.control["stop"] = math.inf
+
+    def samples(self) -> Sampled:
+        """Return and clear the buffered samples."""
+        self._drain()
+        blocks, self._drained = self._drained, []
+        return self._readings.joined(blocks)
+
+    def forget_samples(self) -> None:
+        """Empty the buffer of samples without looking at them."""
+        self._memory.count["samples_waiting"] = 0
+        self._drained.clear()
+
+    def buffered(self) -> tuple[FloatArray, FloatArray]:
+        """Return times and states of the samples that no one has taken yet, shapes (n,) [s] and (n, size)."""
+        n = int(self._memory.count["samples_waiting"][0])
+        return self._memory.sample_t[:n].copy(), self._memory.sample_y[:n].copy()
+
+    def _drain(self) -> None:
+        """Read the buffered states."""
+        times, states = self.buffered()
+        if times.size:
+            self._memory.count["samples_waiting"] = 0
+            self._drained.append(self._readings.sampled(times, states))
+
+    def channels_now(self, number: int = 0) -> Channels:
+        """Return every channel of a bearing at `time`."""
+        found = self._readings.channels(number, self.time, self._memory.y)
+        return {name: values[0] for name, values in found.items()}
+
+    def kept_states(self, number: int = 0) -> FloatArray:
+        """Return what the contacts of a bearing keep, by laws of the role contact_state, at `time`."""
+        span, y = self.bearings[number].span, self._memory.y
+        first = y.size - self.context.bundle.states.size + span.first_state
+        kept: FloatArray = y[first : first + span.states].copy()
+        return kept
+
+    def _energy(self) -> float:
+        """Return kinetic and elastic energy at `time` [J]."""
+        bundle = self.context.bundle
+        powers = L.power_count(bundle)
+        extra, one = np.zeros((1, powers + 2)), np.zeros((1, 1, 3))
+        self._core.sample(
+            self._handle, np.array([self.time]), self._memory.y.reshape(1, -1), -1.0, np.zeros((1, 1, 1, 16)), one,
+            one.copy(), extra, np.zeros((1, bundle.shared.size)), np.zeros((1, powers)), np.zeros(self.states),
+        )  # fmt: skip
+        return float(extra[0, 0])  # a records.TOTALS
+
+    def integrals(self) -> Summed_co:
+        """Return the running integrals since the start (see the Engine protocol)."""
+        if self._readings.adds_up_samples:
+            self._drain()
+        return self._readings.integrals(self._memory.integrals, self._memory.y, self._energy() - self._start_energy)
+
+    def statistics(self) -> dict[str, float]:
+        """Return counters of the integrator."""
+        counted = {name: float(self._memory.count[name][0]) for name in _COUNTERS}
+        steps, rest = self._memory.control["fourth_powers"][0], running(self._memory.integrals)["iteration"]
+        return {**counted, "steps_to_the_fourth": float(steps), "iteration_work": float(rest)}
+
+    def modes(self) -> list[tuple[float, float]]:
+        """Return frequency [Hz] and damping ratio of the modes of rings, shaft and bodies at `time`."""
+        bundle, blocks = self.context.bundle, self.context.blocks
+        return ring_modes(bundle, blocks, self._memory.inertia, until=self._modes_until)
+
+    def fingerprint(self) -> bytes:
+        """Return the numbers that the motion is made of: another case or code has others."""
+        tables = [getattr(self.context.bundle, name) for name in _INPUTS]
+        start = [self._readings.state()["angles"], np.array([self._start_energy, self.sample_interval])]
+        return b"".join(table.tobytes() for table in (*tables, *start))
+
+    def state(self, *, samples: bool = True) -> dict[str, NDArray[np.float64]]:
+        """Return everything that a continuation needs: memory, Jacobian blocks, factors.
+
+        Without `samples` the buffer of those that nobody has taken yet is left out.
+        """
+        parts: dict[str, NDArray[np.float64]] = {}
+        for prefix, group in self._groups().items():
+            for name, array in group._asdict().items():
+                if not isinstance(array, np.ndarray) or (prefix == "blocks" and name not in _BLOCKS):
+                    continue
+                if samples or name not in _BUFFER:
+                    parts[f"{prefix}.{name}"] = array.copy()
+        parts |= {f"readings.{name}": array for name, array in self._readings.state().items()}
+        parts["start_energy"] = np.array([self._start_energy])
+        if self.given.size:
+            parts["given"] = self.given.view(np.float64).copy()
+        return parts
+
+    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
+        """Continue from what `state` returned.
+
+        Raises
+        ------
+        SolverError
+            When the state is of another model.
+        """
+        groups, read = self._groups(), {}
+        for key, saved in state.items():
+            prefix, _, name = key.partition(".")
+            if prefix == "readings":
+                read[name] = saved
+            elif prefix in groups:
+                array = getattr(groups[prefix], name)
+                if array.shape != saved.shape or array.dtype != saved.dtype:
+                    raise SolverError(f"the checkpoint does not fit this model: {key} has shape {saved.shape}")
+                array[...] = saved
+        self._readings.restore(read)
+        self._start_energy = float(state["start_energy"][0])
+        if self.given.size:
+            self.given.view(np.float64)[:] = state["given"]
+
+    def _groups(self) -> dict[str, Any]:
+        """Return what remembers a motion, by the names that a checkpoint has for it."""
+        context = self.context
+        return {
+            "memory": self._memory, "factors": context.factors, "blocks": context.blocks,
+            "condensed": context.factors.condensed,
+        }  # fmt: skip
+
+
+class BearingEngine(MotionEngine[Channels, Sums]):
+    """The dynamics of one bearing, started from its quasi-static equilibrium.
 
     Parameters
     ----------
@@ -63,7 +303,6 @@ class BearingEngine:
         Called with a sentence before something is compiled.
     equilibrium : Equilibrium, optional
         Start from this instead of solving for it.
-
     given : sequence of str
         Loads and motions from outside, see :mod:`lambda_core.solver.drivers.given`.
     capacity : int
@@ -73,8 +312,6 @@ class BearingEngine:
     ----------
     channels : tuple of Channel
         What every sample carries.
-    given : records.TERM[:]
-        One row for each of the signals from outside, which may be written to between two calls of :meth:`advance`.
 
     Raises
     ------
@@ -89,84 +326,25 @@ class BearingEngine:
         equilibrium: Equilibrium | None = None,
         *,
         given: Sequence[str] = (),
-        capacity: int = _CAPACITY,
+        capacity: int = CAPACITY,
     ) -> None:
         self.model = model
         self.channels = result_channels(model)
         self._equilibrium = equilibrium or solve(model, announce=announce, strict=False)
-        self._core = core(announce)
-        self._context = self._equilibrium.context
-        self.given = make_room(self._context, given)
-        self._balls = model.geometry.balls
-        start = initial_state(self._equilibrium)
-        self._memory = make_memory(
-            start,
-            self._context.scale,
-            model.solver.tolerance,
-            self._context.bundle,
-            capacity,
-            stages=STAGES if model.solver.resolve else 0,
-        )
-        self.sample_interval = model.output.interval or usual_interval(model, self._equilibrium.orbit)
-        control, count = self._memory.control, self._memory.count
-        control["longest_step"] = min(model.solver.max_step, longest_step(self._context))
-        control["step"] = np.minimum(FIRST_STEP, control["longest_step"])
-        control["shortest_step"] = SMALLEST_STEP
-        control["sample_interval"] = self.sample_interval
-        count["stale"] = 1
-        self._handle = self._context.handle(self._memory)
-        self._scratch = Scratch.of(1, self._context)
-        self._start_angles = self._angles()
-        self._start_energy = self._stored(0.0, start)
-        self._drained: list[dict[str, FloatArray]] = []
-
-    @property
-    def time(self) -> float:
-        """Start of the next step [s]."""
-        return float(self._memory.control["time"][0])
-
-    @property
-    def iterations(self) -> int:
-        """Newton iterations since the start."""
-        return int(self._memory.count["newton_iterations"][0])
+        super().__init__(bearing_start(self._equilibrium, model, given), announce, capacity=capacity)
 
     def parts(self) -> tuple[Core, SolverContext, Memory, Scratch]:
         """Return what takes steps and looks at states, for code that is to do so elsewhere."""
-        return self._core, self._context, self._memory, self._scratch
+        return self._core, self.context, self._memory, Scratch.of(1, self.context)
 
     @property
     def kernel_keys(self) -> dict[str, str]:
         """Hash of everything each kernel reaches."""
-        return self._context.kernels.keys()
+        return self.context.kernels.keys()
 
-    def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
-        """Integrate until `time` >= `until` [s] or `pause` says so; samples gather in the buffer meanwhile."""
-
-        def integrate(end: float) -> int:
-            return int(self._core.integrate(self._handle, end, WORK_PER_CALL))
-
-        return drive(integrate, self, until, pause, self._drain, lambda: fault_sentence(self._context, self.time))
-
-    def advance_exactly(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
-        """Integrate until `time` == `until` [s]: steps on the way there are cut to end at it."""
-        self._memory.control["stop"] = until
-        try:
-            return self.advance(until, pause)
-        finally:
-            self._memory.control["stop"] = math.inf
-
-    def samples(self) -> dict[str, FloatArray]:
-        """Return and clear the buffered samples: channel -> array, first axis is time."""
-        self._drain()
-        blocks, self._drained = self._drained, []
-        if not blocks:
-            blocks = [self._observe(np.zeros(0), self._memory.sample_y)]
-        return {c.name: np.concatenate([block[c.name] for block in blocks]) for c in self.channels}
-
-    def now(self) -> dict[str, FloatArray]:
+    def now(self) -> Channels:
         """Return every channel at `time`."""
-        found = self._observe(np.array([self.time]), self._memory.y.reshape(1, -1))
-        return {name: values[0] for name, values in found.items()}
+        return self.channels_now()
 
     def reactions(self) -> FloatArray:
         """Return what the bearing puts on its bodies where :meth:`now` looked last, shape (bodies, 6).
@@ -174,99 +352,8 @@ class BearingEngine:
         Force x, y, z [N] and moment x, y, z about the body's centre [N m] of all contacts and force elements on it:
         without its loads, weight and support.
         """
-        wrenches: FloatArray = self._context.bundle.body_wrenches[: CAGE + 1].view(np.float64).reshape(-1, 6)
+        wrenches: FloatArray = self.context.bundle.body_wrenches[: CAGE + 1].view(np.float64).reshape(-1, 6)
         return wrenches.copy()
-
-    def forget_samples(self) -> None:
-        """Empty the buffer of samples without looking at them."""
-        self._memory.count["samples_waiting"] = 0
-        self._drained.clear()
-
-    def buffered(self) -> tuple[FloatArray, FloatArray]:
-        """Return times and states of the samples that no one has taken yet, shapes (n,) [s] and (n, size)."""
-        n = int(self._memory.count["samples_waiting"][0])
-        return self._memory.sample_t[:n].copy(), self._memory.sample_y[:n].copy()
-
-    def _drain(self) -> None:
-        """Turn buffered states into channels."""
-        n = int(self._memory.count["samples_waiting"][0])
-        if n:
-            self._drained.append(self._observe(self._memory.sample_t[:n].copy(), self._memory.sample_y))
-            self._memory.count["samples_waiting"] = 0
-
-    def _stored(self, t: float, y: FloatArray) -> float:
-        scratch = self._scratch
-        self._core.sample(self._handle, np.array([t]), y.reshape(1, -1), -1.0, *scratch)
-        return float(scratch.extra[0, 0])  # a records.TOTALS
-
-    def integrals(self) -> dict[str, float]:
-        """Return running time integrals from t = 0 (see the Engine protocol)."""
-        values = self._memory.integrals
-        so_far, now = running(values), self._angles()
-        losses = losses_by_ring(self.model.geometry, values[: -L.BESIDE_LOSSES])
-        result = {f"loss.{name}": float(losses[i]) for i, name in enumerate(LOSSES)}
-        stored = self._stored(self.time, self._memory.y) - self._start_energy
-        result.update(
-            input=float(so_far["input"]),
-            input_abs=float(so_far["input_abs"]),
-            drive=float(so_far["drive"]),
-            stored=float(stored),
-            relative_angle=float(so_far["relative_speed"]),
-            cage_angle=now[0] - self._start_angles[0],
-            inner_angle=now[1] - self._start_angles[1],
-            **dict(zip("xyz", so_far["position"].tolist(), strict=True)),
-        )
-        return result
-
-    def statistics(self) -> dict[str, float]:
-        """Return counters of the integrator."""
-        counted = {name: float(self._memory.count[name][0]) for name in _COUNTERS}
-        steps, rest = self._memory.control["fourth_powers"][0], running(self._memory.integrals)["iteration"]
-        return {**counted, "steps_to_the_fourth": float(steps), "iteration_work": float(rest)}
-
-    def ring_modes(self) -> list[tuple[float, float]]:
-        """Return frequency [Hz] and damping ratio of the modes of the rings at `time`."""
-        return ring_modes(self._context.bundle, self._context.blocks, self._memory.inertia)
-
-    def state(self, *, samples: bool = True) -> dict[str, NDArray[np.float64]]:
-        """Return everything that a continuation needs: memory, Jacobian blocks, factors.
-
-        Without `samples` the buffer of those that nobody has taken yet is left out.
-        """
-        parts: dict[str, NDArray[np.float64]] = {}
-        for prefix, group in (("memory", self._memory), ("factors", self._context.factors)):
-            for name, array in zip(group._fields, group, strict=True):
-                # what is no array is of several bearings
-                if isinstance(array, np.ndarray) and (samples or name not in _BUFFER):
-                    parts[f"{prefix}.{name}"] = array.copy()
-        for name in ("a", "b", "c", "d", "cross", "shared", "parts"):
-            parts[f"blocks.{name}"] = getattr(self._context.blocks, name).copy()
-        parts["start"] = np.array([*self._start_angles, self._start_energy])
-        if self.given.size:
-            parts["given"] = self.given.view(np.float64).copy()
-        return parts
-
-    def restore(self, state: Mapping[str, NDArray[np.float64]]) -> None:
-        """Continue from what `state` returned.
-
-        Raises
-        ------
-        SolverError
-            When the state is of another model.
-        """
-        groups = {"memory": self._memory, "factors": self._context.factors, "blocks": self._context.blocks}
-        for key, saved in state.items():
-            if key == "start":
-                self._start_angles, self._start_energy = (float(saved[0]), float(saved[1])), float(saved[2])
-                continue
-            if key == "given":
-                self.given.view(np.float64)[:] = saved
-                continue
-            group, name = key.split(".")
-            array = getattr(groups[group], name)
-            if array.shape != saved.shape or array.dtype != saved.dtype:
-                raise SolverError(f"the checkpoint does not fit this model: {key} has shape {saved.shape}")
-            array[...] = saved
 
     def equilibrium(self) -> Mapping[str, object]:
         """Return the quasi-static solution the run started from."""
@@ -281,21 +368,29 @@ class BearingEngine:
             "relative_speed": e.relative_speed,
         }
 
-    def _angles(self) -> tuple[float, float]:
-        """Return cage angle (mean of the balls when there is no cage) and inner spin angle, to the outer ring [rad]."""
-        bundle = self._context.bundle
-        bodies, tail = np.zeros(bundle.bodies.size, R.BODY_STATE), L.NB * self._balls
-        bodies.view(np.float64)[bundle.active] = self._context.shared_part(self._memory.y)
-        inner, outer, cage = (float(angle) for angle in bodies["angle"][: CAGE + 1])
-        if not self.model.depth.cage:
-            cage = float(np.mean(self._memory.y[:tail].view(R.BALL)["azimuth"]))
-        return cage - outer, inner - outer
 
-    def _observe(self, times: FloatArray, states: FloatArray) -> dict[str, FloatArray]:
-        """Return every channel at n points: channel -> array, first axis is time."""
-        scratch = Scratch.of(times.size, self._context)
-        ok = self._core.sample(self._handle, times, states, SHORTED, *scratch)
-        return channels_of(ok, self._context, times, states, scratch)
+def bearing_start(
+    equilibrium: Equilibrium, model: BearingModel, given: Sequence[str] = ()
+) -> MotionStart[Channels, Sums]:
+    """Return the start of the motion of a bearing that is alone.
+
+    Parameters
+    ----------
+    model : BearingModel
+        That of the equilibrium, maybe with other settings of solver and output.
+    """
+    context = equilibrium.context
+    rows = make_room(context, given)
+    return MotionStart(
+        context=context,
+        state=initial_state(equilibrium),
+        readings=BearingReadings(context),
+        tolerance=model.solver.tolerance,
+        sample_interval=model.output.interval or usual_interval(model, equilibrium.orbit),
+        longest_step=min(model.solver.max_step, longest_step(context)),
+        resolve=model.solver.resolve,
+        given=rows,
+    )
 
 
 def initial_state(equilibrium: Equilibrium) -> FloatArray:

@@ -135,7 +135,7 @@ class Engine(Protocol):
         early ends of Newton's iteration put in or took, counted positive [J].
         """
 
-    def ring_modes(self) -> list[tuple[float, float]]:
+    def modes(self) -> list[tuple[float, float]]:
         """Return frequency [Hz] and damping ratio of the modes of the rings at `time`."""
 
     def state(self) -> dict[str, NDArray[np.float64]]:

@@ -15,17 +15,19 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
-from lambda_core.domain.elements import INNER, OUTER
+from lambda_core.domain.elements import INNER, LANDS, OUTER
 from lambda_core.domain.errors import EquilibriumError, SolverError
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.fault_roles import OUTSIDE, ROLES
 from lambda_core.solver.core import Core, core
+from lambda_core.solver.drivers.assembly import Assembly
 from lambda_core.solver.drivers.ball_paths import follow_paths
 from lambda_core.solver.drivers.compiled_laws import Announce, Kernels, check_laws, derive_oils
 from lambda_core.solver.drivers.first_state import first_frame, first_state, roll
-from lambda_core.solver.drivers.law_inputs import guides, links, times
+from lambda_core.solver.drivers.law_inputs import guides, times
 from lambda_core.solver.drivers.ring_values import contacts_by_ring, losses_by_ring, rings_of_contacts
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
+from lambda_core.solver.drivers.tables import bearing_of_land
 from lambda_core.solver.drivers.warmer_oil import StaticReport, from_warmer_oil
 from lambda_core.solver.records import CONTACT_CHANNELS, STATIC_REPORT
 from lambda_core.solver.status import Status
@@ -296,23 +298,14 @@ _WHOLE = ("force_element", "time_function")  # roles that belong to no ball
 
 
 def fault_sentence(context: SolverContext, time: float | None = None) -> str:
-    """Say which kernel refused, where, and with what inputs."""
+    """Say which kernel refused, in which bearing of several, where, and with what inputs."""
     fault = context.bundle.scratch[0].fault
     if fault.role < 0:
         return "the time step became too small"
     role = ROLES[fault.role]
-    ball, number = int(fault.ball), int(fault.place)
-    if role == "fluid_drag":
-        element = "fluid_drag"
-    elif role == "force_element":
-        element = links(context.model)[number]
-    elif role == "time_function":
-        element = times(context.model)[number]
-    elif role == "cage_contact":
-        element = {0: "cage_inner", 1: "cage_outer"}.get(number, guides(context.model)[0])
-    else:
-        element = raceways(context.model.geometry)[max(number, 0)].element
-    model = context.model.laws[element][role].model
+    number, element, ball = _faulty(context.assembly, role, int(fault.ball), int(fault.place))
+    bearing = context.assembly.bearings[number]
+    model = bearing.model.laws[element][role].model
     status = int(fault.status)
     if status == 1:
         what = "returned a number that is not finite"
@@ -323,7 +316,29 @@ def fault_sentence(context: SolverContext, time: float | None = None) -> str:
     else:
         what = f"returned status {status}: {model.errors.get(status, 'not declared')}"
     place = element.replace("_", " - ") + (f", t = {time:.6g} s" if time is not None else "")
-    if element not in ("cage_inner", "cage_outer") and role not in _WHOLE:
+    if element not in LANDS and role not in _WHOLE:
         place = f"ball {ball + 1}, {place}"
     inputs = ", ".join(f"{v:.6g}" for v in fault.inputs)
-    return f"{model.label} {what} ({place}; inputs {inputs})"
+    sentence = f"{model.label} {what} ({place}; inputs {inputs})"
+    return f"{bearing.name}: {sentence}" if bearing.name else sentence
+
+
+def _faulty(assembly: Assembly, role: str, ball: int, place: int) -> tuple[int, str, int]:
+    """Return the bearing whose law refused, the force element, and which of the bearing's balls it was."""
+    spans = assembly.spans()
+    if role == "force_element":
+        return assembly.links[place].bearing, assembly.links[place].element, 0
+    if role == "time_function":
+        return *[(i, name) for i, one in enumerate(assembly.bearings) for name in times(one.model)][place], 0
+    if role == "cage_contact" and place >= 0:
+        bearing, ring = bearing_of_land(place)
+        return bearing, tuple(LANDS)[ring], 0
+    bearing = max(i for i, span in enumerate(spans) if span.first_ball <= ball or i == 0)
+    model, span = assembly.bearings[bearing].model, spans[bearing]
+    if role == "cage_contact":
+        element = guides(model)[0]
+    elif role == "fluid_drag":
+        element = "fluid_drag"
+    else:
+        element = raceways(model.geometry)[max(place - span.first_raceway, 0)].element
+    return bearing, element, ball - span.first_ball

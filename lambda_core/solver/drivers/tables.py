@@ -343,6 +343,11 @@ def land_number(bearing: int, ring: int) -> int:
     return 2 * bearing + ring
 
 
+def bearing_of_land(number: int) -> tuple[int, int]:
+    """Return bearing and ring of what :func:`land_number` returned."""
+    return divmod(number, 2)
+
+
 def _links(assembly: Assembly, number: int, offsets: _Offsets, parameters: _Parameters) -> Any:
     """Return the force elements between members whose laws are those of a bearing."""
     own = [(i, link) for i, link in enumerate(assembly.links) if link.bearing == number]

@@ -1,0 +1,330 @@
+"""Read channels and running integrals of every bearing from the states of a motion.
+
+Of one bearing all integrals are exact. Of several the integrator adds up what pockets, lands and drag dissipate for all
+together: samples say how much of it is whose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Protocol, TypeVar
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.channels import LOSSES, SHORTED
+from lambda_core.domain.elements import CAGE, INNER
+from lambda_core.domain.errors import SolverError
+from lambda_core.solver import records as R
+from lambda_core.solver.arrays import bundle as L
+from lambda_core.solver.core import core
+from lambda_core.solver.drivers.assembly import BearingSpan
+from lambda_core.solver.drivers.equilibrium import fault_sentence
+from lambda_core.solver.drivers.observation import Scratch, channels_of, observe
+from lambda_core.solver.drivers.ring_values import losses_by_ring, losses_of_raceways
+from lambda_core.solver.drivers.solver_context import SolverContext
+from lambda_core.solver.drivers.tables import running
+
+Channels = dict[str, FloatArray]
+Sums = dict[str, float]
+Sampled = TypeVar("Sampled")
+Summed_co = TypeVar("Summed_co", covariant=True)
+_SHARED = ("pocket", "land", "drag")  # losses that only samples part by bearing
+_WAVES = "support"  # what damps the waves of elastic parts of one of several bearings, known by samples alone
+
+
+@dataclass(frozen=True)
+class ReadBearing:
+    """A bearing whose channels are read.
+
+    Attributes
+    ----------
+    name : str
+        "" for a bearing that is alone.
+    context : SolverContext
+        Of the bearing alone; of one of several with rings and cage that are free in every direction.
+    span : BearingSpan
+        Where it stands in tables and states of the motion.
+    """
+
+    name: str
+    context: SolverContext
+    span: BearingSpan
+
+
+class Readings(Protocol[Sampled, Summed_co]):
+    """What is read from the states of a motion."""
+
+    @property
+    def bearings(self) -> tuple[ReadBearing, ...]:
+        """Return the bearings in the order of the assembly."""
+
+    @property
+    def adds_up_samples(self) -> bool:
+        """Tell whether integrals need all samples up to now."""
+
+    def begin(self, y: FloatArray, time: float) -> None:
+        """Take a state as the one from which angles are counted."""
+
+    def sampled(self, times: FloatArray, states: FloatArray) -> Sampled:
+        """Return what is read at samples, which follow those of the last call."""
+
+    def joined(self, blocks: list[Sampled]) -> Sampled:
+        """Return blocks one after the other in time, of which there may be none, as one."""
+
+    def channels(self, number: int, time: float, y: FloatArray) -> Channels:
+        """Return every channel of a bearing at a state, the first axis for time."""
+
+    def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> Summed_co:
+        """Return the running integrals, `stored` the energy taken up since the start [J]."""
+
+    def state(self) -> dict[str, FloatArray]:
+        """Return what a continuation needs."""
+
+    def restore(self, state: Mapping[str, FloatArray]) -> None:
+        """Continue from what `state` returned."""
+
+
+class BearingReadings:
+    """Read a bearing that is alone."""
+
+    adds_up_samples = False
+
+    def __init__(self, context: SolverContext) -> None:
+        self._context = context
+        self.bearings = (ReadBearing("", context, context.assembly.spans()[0]),)
+        self._start = np.zeros(2)
+
+    def begin(self, y: FloatArray, time: float) -> None:
+        """Take a state as the one from which angles are counted."""
+        self._start = self._angles(y)
+
+    def _angles(self, y: FloatArray) -> FloatArray:
+        """Return cage angle (mean of the balls when there is no cage) and inner spin angle, to the outer ring [rad]."""
+        context = self._context
+        bodies = np.zeros(context.bundle.bodies.size, R.BODY_STATE)
+        bodies.view(np.float64)[context.bundle.active] = context.shared_part(y)
+        inner, outer, cage = (float(angle) for angle in bodies["angle"][: CAGE + 1])
+        if not context.model.depth.cage:
+            cage = float(np.mean(y[: L.NB * context.model.geometry.balls].view(R.BALL)["azimuth"]))
+        return np.array([cage - outer, inner - outer])
+
+    def sampled(self, times: FloatArray, states: FloatArray) -> Channels:
+        """Return every channel at samples: channel -> array, first axis is time."""
+        return observe(core(), self._context, times, states)
+
+    def joined(self, blocks: list[Channels]) -> Channels:
+        """Return blocks one after the other in time as one."""
+        if not blocks:
+            return self.sampled(np.zeros(0), np.zeros((0, self._context.size)))
+        return _joined(blocks)
+
+    def channels(self, number: int, time: float, y: FloatArray) -> Channels:
+        """Return every channel at a state."""
+        return self.sampled(np.array([time]), y.reshape(1, -1))
+
+    def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> Sums:
+        """Return the running integrals since the start (see the Engine protocol)."""
+        so_far, turned = running(values), self._angles(y) - self._start
+        losses = losses_by_ring(self._context.model.geometry, values[: -L.BESIDE_LOSSES])
+        return {
+            **{f"loss.{name}": float(losses[i]) for i, name in enumerate(LOSSES)},
+            "input": float(so_far["input"]),
+            "input_abs": float(so_far["input_abs"]),
+            "drive": float(so_far["drive"]),
+            "stored": stored,
+            "relative_angle": float(so_far["relative_speed"]),
+            "cage_angle": float(turned[0]),
+            "inner_angle": float(turned[1]),
+            **dict(zip("xyz", so_far["position"].tolist(), strict=True)),
+        }
+
+    def state(self) -> dict[str, FloatArray]:
+        """Return what a continuation needs."""
+        return {"angles": self._start.copy()}
+
+    def restore(self, state: Mapping[str, FloatArray]) -> None:
+        """Continue from what `state` returned."""
+        self._start = state["angles"].copy()
+
+
+@dataclass(frozen=True)
+class MachineSamples:
+    """What was sampled: of the machine, and of every bearing as a run of it alone has it."""
+
+    whole: Channels
+    each: list[Channels]
+
+
+class MachineReadings:
+    """Read every bearing of a machine.
+
+    Parameters
+    ----------
+    context : SolverContext
+        Of the machine.
+    bearings : tuple of ReadBearing
+    members : callable
+        Returns channels of the machine from times [s] and the whole shared state of samples, shape (n, 12 bodies).
+    standing : float64[:], shape (12 bodies,), or None
+        The whole shared state where nothing that is prescribed changes; its free entries do not count. None where
+        prescribed motions change.
+    """
+
+    adds_up_samples = True
+
+    def __init__(
+        self,
+        context: SolverContext,
+        bearings: tuple[ReadBearing, ...],
+        members: Callable[[FloatArray, FloatArray], Channels],
+        standing: FloatArray | None,
+    ) -> None:
+        self.bearings = bearings
+        self._context, self._members, self._standing = context, members, standing
+        self._start = np.zeros(2 * len(bearings))
+        self._sampled = np.zeros((len(bearings), len(_SHARED) + 5))  # integrals of what only samples say
+        self._last: list[FloatArray] = []  # their rates at the last sample
+        self._last_time = 0.0
+
+    def begin(self, y: FloatArray, time: float) -> None:
+        """Take a state as the one from which angles are counted."""
+        self._start, self._last_time = self._angles(y), time
+
+    def _angles(self, y: FloatArray) -> FloatArray:
+        """Return the angles of all cages, then those of all inner rings [rad]."""
+        flat = np.zeros(self._context.bundle.shared.size)
+        flat[self._context.bundle.active] = self._context.shared_part(y)
+        angles = flat.view(R.BODY_STATE)["angle"]
+        return np.array([float(angles[one.span.bodies[body]]) for body in (CAGE, INNER) for one in self.bearings])
+
+    def sampled(self, times: FloatArray, states: FloatArray) -> MachineSamples:
+        """Return what is read at samples, which follow those of the last call."""
+        flat = self.shared(times, states)
+        found = [self._observed(one, times, states, flat) for one in self.bearings]
+        whole = {
+            "time": times,
+            **self._members(times, flat),
+            "reaction_force": np.stack([wrenches[:, :3] for _, wrenches in found], axis=1),
+            "reaction_moment": np.stack([wrenches[:, 3:] for _, wrenches in found], axis=1),
+            "power_loss": sum((channels["loss"].sum(axis=1) for channels, _ in found), np.zeros(times.size)),
+        }
+        each = [channels for channels, _ in found]
+        for i, channels in enumerate(each):
+            self._add_up(i, channels)
+        self._last_time = float(times[-1])
+        return MachineSamples(whole, each)
+
+    def joined(self, blocks: list[MachineSamples]) -> MachineSamples:
+        """Return blocks one after the other in time as one; without blocks there is no channel but an empty time."""
+        if not blocks:
+            return MachineSamples({"time": np.zeros(0)}, [{} for _ in self.bearings])
+        whole = _joined([block.whole for block in blocks])
+        return MachineSamples(whole, [_joined([block.each[i] for block in blocks]) for i in range(len(self.bearings))])
+
+    def channels(self, number: int, time: float, y: FloatArray) -> Channels:
+        """Return every channel of a bearing at a state."""
+        times, states = np.array([time]), y.reshape(1, -1)
+        return self._observed(self.bearings[number], times, states, self.shared(times, states))[0]
+
+    def shared(self, times: FloatArray, states: FloatArray) -> FloatArray:
+        """Return the whole shared state of samples, shape (n, 12 bodies)."""
+        bundle = self._context.bundle
+        if self._standing is None:
+            return np.array([self._evaluated(float(t), y) for t, y in zip(times, states, strict=True)])
+        flat = np.tile(self._standing, (len(states), 1))
+        tail = L.NB * int(bundle.system["balls"][0])
+        flat[:, bundle.active] = states[:, tail : tail + bundle.active.size]
+        return flat
+
+    def _evaluated(self, t: float, state: FloatArray) -> FloatArray:
+        """Return the whole shared state at a sample, with what is prescribed."""
+        bundle, slope, rates = self._context.bundle, np.zeros(state.size), np.zeros(L.power_count(self._context.bundle))
+        if core().evaluate(t, np.ascontiguousarray(state), bundle, slope, rates, 0) != 1:
+            raise SolverError(fault_sentence(self._context, t))
+        return np.asarray(bundle.shared.copy())
+
+    def _observed(
+        self, one: ReadBearing, times: FloatArray, states: FloatArray, flat: FloatArray
+    ) -> tuple[Channels, FloatArray]:
+        """Return every channel of a bearing, and force and moment of its contacts on the shaft, (n, 6)."""
+        context, span, n = one.context, one.span, times.size
+        begin = L.NB * span.first_ball
+        kept = states.shape[1] - self._context.bundle.states.size + span.first_state
+        own = flat.reshape(n, -1, L.NS)[:, list(span.bodies)].reshape(n, -1)[:, context.bundle.active]
+        y = np.ascontiguousarray(np.concatenate([
+            states[:, begin : begin + L.NB * span.balls], own, states[:, kept : kept + span.states]
+        ], axis=1))  # fmt: skip
+        scratch, wrenches, evaluate = Scratch.of(n, context), np.zeros((n, 6)), core().evaluate_pointer
+        for i in range(n):
+            rows = [array[i : i + 1] for array in scratch[:-1]]
+            ok = core().observe(times[i : i + 1], y[i : i + 1], context.bundle, evaluate, SHORTED, *rows, scratch.dydt)
+            if ok != 1:
+                raise SolverError(f"{one.name}: {fault_sentence(context, float(times[i]))}")
+            wrenches[i] = context.bundle.body_wrenches.view(np.float64)[:6]
+        return channels_of(1, context, times, y, scratch), wrenches
+
+    def _add_up(self, i: int, channels: Channels) -> None:
+        """Go on with the integrals of what only samples say, by the trapezium rule."""
+        columns = [channels["loss"][:, LOSSES.index(name)] for name in (*_SHARED, _WAVES)]
+        speed = channels["body_spin"][:, INNER]
+        rates = np.column_stack([*columns, channels["input_torque"] * speed, channels["body_position"][:, INNER]])
+        if len(self._last) <= i:
+            self._last.append(rates[0])
+        steps = np.diff(np.concatenate([[self._last_time], channels["time"]]))[:, None]
+        around = np.concatenate([self._last[i][None], rates])
+        grown = np.concatenate([self._sampled[i][None], 0.5 * steps * (around[1:] + around[:-1])])
+        self._sampled[i] = np.add.accumulate(grown)[-1]  # one after the other: the same bits in blocks of any length
+        self._last[i] = rates[-1]
+
+    def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> list[Sums]:
+        """Return the running integrals of every bearing since the start, as a run of it alone has them.
+
+        What its raceways dissipate is exact; pocket, land and drag are known exactly for all bearings together and are
+        parted by their samples. Energy is balanced for the machine: input is that of the machine less what the other
+        bearings and the dampers of the shaft dissipate, stored that of the machine, so that the residual is the
+        machine's.
+        """
+        count, so_far = len(self.bearings), running(values)
+        parted = self._sampled[:, : len(_SHARED)]
+        sums = parted.sum(axis=0)
+        shares = np.where(sums > 0.0, parted / np.where(sums > 0.0, sums, 1.0), 1.0 / count)
+        losses = []
+        for i, one in enumerate(self.bearings):
+            own = losses_of_raceways(one.context.model.geometry, values, one.span.first_raceway)
+            own |= {name: float(so_far[name]) * float(shares[i, k]) for k, name in enumerate(_SHARED)}
+            losses.append(own)
+        every = sum(sum(own.values()) for own in losses) + float(so_far["support"])  # dampers of the shaft, too
+        for i, own in enumerate(losses):
+            own[_WAVES] = float(self._sampled[i, len(_SHARED)])
+        turned = (self._angles(y) - self._start).tolist()
+        return [
+            {
+                **{f"loss.{name}": value for name, value in own.items()},
+                "input": float(so_far["input"]) - (every - sum(own.values())),
+                "input_abs": float(so_far["input_abs"]),
+                "drive": float(self._sampled[i, len(_SHARED) + 1]),
+                "stored": stored,
+                "relative_angle": float(so_far["relative_speed"]),
+                "cage_angle": turned[i],
+                "inner_angle": turned[count + i],
+                **dict(zip("xyz", self._sampled[i, len(_SHARED) + 2 :].tolist(), strict=True)),
+            }
+            for i, own in enumerate(losses)
+        ]
+
+    def state(self) -> dict[str, FloatArray]:
+        """Return what a continuation needs."""
+        last = np.array(self._last)
+        return {"angles": self._start.copy(), "sampled": self._sampled.copy(), "last": last,
+                "last_time": np.array([self._last_time])}  # fmt: skip
+
+    def restore(self, state: Mapping[str, FloatArray]) -> None:
+        """Continue from what `state` returned."""
+        self._start, self._sampled, self._last = state["angles"].copy(), state["sampled"].copy(), list(state["last"])
+        self._last_time = float(state["last_time"][0])
+
+
+def _joined(blocks: list[Channels]) -> Channels:
+    return {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}
