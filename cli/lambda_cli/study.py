@@ -190,7 +190,7 @@ def _print(table: StudyTable, units: UnitSystem) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    columns = [*table.parameters, *(c for c in table.responses if "." not in c.name)]
+    columns = [*table.parameters, *(c for c in table.responses if not c.is_part)]
     shown = Table(box=None, pad_edge=False, header_style="bold")
     shown.add_column("point", justify="right")
     for column in columns:

@@ -67,7 +67,7 @@ def study_view(status: StudyStatus, points: StudyTable, width: int, units: UnitS
     width : int
         Columns that there are.
     """
-    columns = [*points.parameters, *(c for c in points.responses if "." not in c.name)]
+    columns = [*points.parameters, *(c for c in points.responses if not c.is_part)]
     shown = columns[: max(2, (width - _STATE) // _NUMBER)]
     table = Table(box=None, pad_edge=False, header_style="bold", padding=(0, 1, 0, 0))
     for column in shown:

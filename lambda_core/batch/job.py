@@ -5,14 +5,15 @@ A task is plain data; kernels, catalogue and base case are kept by the process f
 
 from __future__ import annotations
 
+import hashlib
 import logging
 import multiprocessing
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import LambdaError, UsageError
@@ -22,9 +23,11 @@ if TYPE_CHECKING:
     from lambda_core.case.case import Case
     from lambda_core.catalogue.protocol import Catalogue
     from lambda_core.results.reader import Result
+    from lambda_core.shaft.shaft_equilibrium import SharedKernels
     from lambda_core.solver.drivers.compiled_laws import Kernels
     from lambda_core.solver.drivers.equilibrium import Equilibrium
     from lambda_core.system.bearing import BearingModel
+    from lambda_core.system.machine import Machine
 
 RUNS = "runs"
 State = Literal["done", "partial", "failed", "stopped", "pending"]
@@ -70,6 +73,8 @@ class Outcome:
 @one_blas_thread()
 def work(task: Task) -> Outcome:
     """Do one task; never raises for what is wrong with the point."""
+    from lambda_core.system.machine import Machine
+
     global _asked_to_stop
     start = time.perf_counter()
     hash_, state, reason, values, file = "", "failed", "", {}, ""
@@ -78,9 +83,10 @@ def work(task: Task) -> Outcome:
     failed = len(failures_so_far())
     try:
         _be_ready(task.guests)
-        model = resolve_point(task.case_toml, task.changes)
+        model = point_model(task.case_toml, task.changes)
         hash_ = point_hash(model)
-        model = with_temperatures(model)
+        if not isinstance(model, Machine):
+            model = with_temperatures(model)
         if task.mode == "quasi-static":
             state, values = "done", static_values(model, task.responses)
         else:
@@ -109,13 +115,43 @@ def lost(task: Task, reason: str) -> Outcome:
     return Outcome(task.number, "failed", reason, "", {}, "", 0.0)
 
 
+def point_model(case_toml: str, changes: tuple[str, ...]) -> BearingModel | Machine:
+    """Return the model of one point, of one bearing or of a machine; CaseError with everything that is wrong."""
+    tables = _machine_tables(case_toml)
+    if tables is None:
+        return resolve_point(case_toml, changes)
+    from lambda_core.system.resolve_machine import check_shaft
+
+    return check_shaft(tables, changes, catalogue=_catalogue())
+
+
 def resolve_point(case_toml: str, changes: tuple[str, ...]) -> BearingModel:
-    """Return the model of one point; CaseError with everything that is wrong with it."""
+    """Return the model of one point of a case of one bearing; CaseError with everything that is wrong with it."""
     from lambda_core.case.case_io import apply_overrides
     from lambda_core.discovery.manager import registry
     from lambda_core.system.resolve import resolve
 
     return resolve(apply_overrides(_base(case_toml), changes), registry(), _catalogue())
+
+
+@lru_cache(maxsize=4)
+def _machine_tables(case_toml: str) -> dict[str, Any] | None:
+    """Return the tables of a machine's case, None for that of one bearing."""
+    from lambda_core.case.case_io import is_shaft, toml_tables
+
+    tables = toml_tables(case_toml, "the case of the study")
+    return tables if is_shaft(tables) else None
+
+
+def bearings_of(case_toml: str) -> tuple[str, ...]:
+    """Return the names of the bearings of a machine's case; none for that of one bearing."""
+    tables = _machine_tables(case_toml)
+    return () if tables is None else tuple(tables["bearings"])
+
+
+def bearing_names(model: BearingModel | Machine) -> tuple[str, ...]:
+    """Return the names of a machine's bearings; none for the model of one bearing."""
+    return tuple(bearing.name for bearing in getattr(model, "bearings", ()))
 
 
 def with_temperatures(model: BearingModel) -> BearingModel:
@@ -127,11 +163,15 @@ def with_temperatures(model: BearingModel) -> BearingModel:
     return at_own_temperatures(model, lambda case: resolve(case, registry(), _catalogue()))
 
 
-def point_hash(model: BearingModel) -> str:
-    """Return the hash that a point is known by."""
+def point_hash(model: BearingModel | Machine) -> str:
+    """Return the hash that a point is known by: of all that decides its numbers."""
+    from lambda_core.system.machine import Machine
     from lambda_core.system.resolve import case_hash
 
-    return case_hash(model)
+    if not isinstance(model, Machine):
+        return case_hash(model)
+    parts = [model.case_toml, *(case_hash(bearing.model) for bearing in model.bearings)]
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
 @lru_cache(maxsize=4)
@@ -167,7 +207,15 @@ def _equilibrium(model: BearingModel) -> Equilibrium:
     return solve(model, kernels_of(model))
 
 
-def static_values(model: BearingModel, names: tuple[str, ...]) -> dict[str, float | None]:
+@lru_cache(maxsize=1)
+def _shared_kernels() -> SharedKernels:
+    """Return the compiled laws of machines in this process."""
+    from lambda_core.shaft.shaft_equilibrium import SharedKernels
+
+    return SharedKernels()
+
+
+def static_values(model: BearingModel | Machine, names: tuple[str, ...]) -> dict[str, float | None]:
     """Return the responses of a quasi-static point.
 
     Raises
@@ -177,10 +225,30 @@ def static_values(model: BearingModel, names: tuple[str, ...]) -> dict[str, floa
     """
     from lambda_core.batch.responses import StaticPoint, evaluate
     from lambda_core.results.quasistatic import quasistatic_of
+    from lambda_core.system.machine import Machine
 
+    if isinstance(model, Machine):
+        from lambda_core.batch.machine_responses import machine_point
+
+        whole = machine_point(model, _shared_kernels())
+        rows = {name: value for name, (value, _, _) in machine_columns(model, whole.equilibria, names).items()}
+        return evaluate(names, whole, rows, bearing_names(model))
     found = _equilibrium(model)
     point = StaticPoint(found, quasistatic_of(found), kernels_of(model))
     return evaluate(names, point, method_rows(found, names))
+
+
+def machine_columns(
+    model: Machine, equilibria: Sequence[Equilibrium], names: tuple[str, ...]
+) -> dict[str, tuple[float | None, str, str]]:
+    """Return value, unit and meaning of the rows of comparison methods of each bearing among `names`."""
+    columns: dict[str, tuple[float | None, str, str]] = {}
+    for bearing, found in zip(model.bearings, equilibria, strict=True):
+        own = f"{bearing.name}."
+        rows = tuple(name.removeprefix(own) for name in names if "/" in name and name.startswith(own))
+        for name, (value, unit, meaning) in method_columns(found, rows).items():
+            columns[own + name] = (value, unit, f"{bearing.name}: {meaning}")
+    return columns
 
 
 def method_rows(found: Equilibrium, names: tuple[str, ...]) -> dict[str, float | None]:
@@ -225,7 +293,9 @@ def method_columns(found: Equilibrium, names: tuple[str, ...]) -> dict[str, tupl
     return columns
 
 
-def _dynamic(model: BearingModel, path: Path, names: tuple[str, ...]) -> tuple[State, str, dict[str, float | None]]:
+def _dynamic(
+    model: BearingModel | Machine, path: Path, names: tuple[str, ...]
+) -> tuple[State, str, dict[str, float | None]]:
     """Run a point, or go on with what there is of it, and read its responses."""
     from lambda_core.batch.responses import DynamicPoint, evaluate
     from lambda_core.results.opening import BeingWrittenError
@@ -238,12 +308,13 @@ def _dynamic(model: BearingModel, path: Path, names: tuple[str, ...]) -> tuple[S
     if status.state == "interrupted":
         return "stopped", status.message, {}
     summary = result.summary()
-    methods = method_rows(_equilibrium(model), names) if any("/" in name for name in names) else {}
-    values = evaluate(names, DynamicPoint(result, summary), methods)
+    rows = tuple(name for name in names if "/" in name)
+    methods = static_values(model, rows) if rows else {}
+    values = evaluate(names, DynamicPoint(result, summary), methods, bearing_names(model))
     return ("done", "", values) if summary.converged else ("partial", "; ".join(summary.reasons), values)
 
 
-def _run(model: BearingModel, path: Path) -> Result:
+def _run(model: BearingModel | Machine, path: Path) -> Result:
     from lambda_core.results.opening import BeingWrittenError, ResultError
     from lambda_core.results.reader import Result
     from lambda_core.run.launch import launch, relaunch
@@ -256,14 +327,14 @@ def _run(model: BearingModel, path: Path) -> Result:
             if before.status().state in ("finished", "stopped"):
                 return before
             if before.status().state != "failed":
-                return relaunch(path, model)
+                return relaunch(path, model)  # type: ignore[arg-type]
         except NothingLeftError:  # another process has brought it to its end since
             return Result(path)
         except BeingWrittenError:
             raise
         except ResultError:  # damaged, or of another program: begun anew
             pass
-    return launch(model, path, force=True)
+    return launch(model, path, force=True)  # type: ignore[arg-type]
 
 
 def _left_by_others(result: Result) -> Result:

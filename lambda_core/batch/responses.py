@@ -19,6 +19,7 @@ from lambda_core.domain.errors import CaseError, Problem, nearest
 from lambda_core.electric.current_numbers import UNITS, CurrentNumbers, meaning, run_numbers, static_numbers
 
 if TYPE_CHECKING:
+    from lambda_core.batch.machine_responses import MachinePoint
     from lambda_core.results.quasistatic import QuasiStatic
     from lambda_core.results.reader import Result
     from lambda_core.results.summary import Summary
@@ -183,8 +184,22 @@ def asks_currents(names: Sequence[str]) -> bool:
     return any(name in UNITS for name in names)
 
 
-def chosen(names: Sequence[str], mode: str, source: str) -> tuple[str, ...]:
+def responses_of(bearings: tuple[str, ...]) -> Mapping[str, Response]:
+    """Return the responses of a case: of one bearing, or of a machine with bearings of these names."""
+    if not bearings:
+        return RESPONSES
+    from lambda_core.batch.machine_responses import machine_responses
+
+    return machine_responses(bearings)
+
+
+def chosen(names: Sequence[str], mode: str, source: str, bearings: tuple[str, ...] = ()) -> tuple[str, ...]:
     """Return the names of the responses of a study, groups written out.
+
+    Parameters
+    ----------
+    bearings : tuple of str
+        Names of the bearings of a machine; empty for a case of one.
 
     Raises
     ------
@@ -193,15 +208,19 @@ def chosen(names: Sequence[str], mode: str, source: str) -> tuple[str, ...]:
     """
     found: list[str] = []
     wrong: list[Problem] = []
-    for name in names or USUAL[mode]:
-        if name == BREAKDOWN:
-            found += [part for part in RESPONSES if part.startswith(f"{BREAKDOWN}.")]
+    known = responses_of(bearings)
+    for name in names or _usual(bearings, mode):
+        if name.endswith(BREAKDOWN) and any(part.startswith(f"{name}.") for part in known):
+            found += [part for part in known if part.startswith(f"{name}.")]
         elif "/" in name:
+            if bearings and name.partition(".")[0] not in bearings:
+                words = f'"{name}": name the bearing that is meant, "{bearings[0]}.{name}"'
+                wrong.append(Problem("responses", words))
             found.append(name)
-        elif name not in RESPONSES:
-            close = nearest(name, RESPONSES) or sorted(RESPONSES)
+        elif name not in known:
+            close = nearest(name, known) or [one for one in known if one.endswith(f".{name}")] or sorted(known)
             wrong.append(Problem("responses", f'"{name}" is not a known response; nearest: {", ".join(close)}'))
-        elif _of_mode(RESPONSES[name], mode) is None:
+        elif _of_mode(known[name], mode) is None:
             other = "dynamic" if mode == "quasi-static" else "quasi-static"
             wrong.append(Problem("responses", f'"{name}" exists in {other} studies only'))
         else:
@@ -211,27 +230,39 @@ def chosen(names: Sequence[str], mode: str, source: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(found))
 
 
+def _usual(bearings: tuple[str, ...], mode: str) -> tuple[str, ...]:
+    """Return what is asked where nothing is named."""
+    if not bearings:
+        return USUAL[mode]
+    from lambda_core.batch.machine_responses import usual_responses
+
+    return usual_responses(bearings, mode)
+
+
 def _of_mode(response: Response, mode: str) -> Callable[[Any], Number] | None:
     return response.static if mode == "quasi-static" else response.dynamic
 
 
 def evaluate(
-    names: Sequence[str], point: StaticPoint | DynamicPoint, methods: Mapping[str, Number]
-) -> dict[str, Number]:
+    names: Sequence[str], point: StaticPoint | MachinePoint | DynamicPoint, methods: Mapping[str, Number],
+    bearings: tuple[str, ...] = (),
+) -> dict[str, Number]:  # fmt: skip
     """Return the responses of a point; a number that does not exist is None.
 
     Parameters
     ----------
     methods : mapping
         Values of the responses that are rows of comparison methods.
+    bearings : tuple of str
+        Names of the bearings of a machine; empty for a case of one.
     """
-    mode = "quasi-static" if isinstance(point, StaticPoint) else "dynamic"
+    mode, known = "dynamic" if isinstance(point, DynamicPoint) else "quasi-static", responses_of(bearings)
     found: dict[str, Number] = {}
     for name in names:
         if "/" in name:
             found[name] = methods.get(name)
             continue
-        read = _of_mode(RESPONSES[name], mode)
+        read = _of_mode(known[name], mode)
         assert read is not None
         value = read(point)
         found[name] = value if value is not None and math.isfinite(value) else None

@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from lambda_core.batch.definition import Study, read_study, validate_study
 from lambda_core.batch.design import Plan
-from lambda_core.batch.job import RUNS, Outcome, Task, lost, point_hash, resolve_point, work
+from lambda_core.batch.job import RUNS, Outcome, Task, lost, point_hash, point_model, work
 from lambda_core.batch.optimise import Best, best_row, search
 from lambda_core.batch.pool import pool, usable_cores
 from lambda_core.batch.responses import asks_currents
@@ -188,7 +188,7 @@ def _fingerprint(plan: Plan, case_toml: str, names: tuple[str, ...]) -> str:
     from lambda_core.laws.kernels import sources_key
     from lambda_core.solver.code_files import compiled_sources
 
-    model = resolve_point(case_toml, plan.point(0).changes)
+    model = point_model(case_toml, plan.point(0).changes)
     sources = (*compiled_sources(), code_folder()) if asks_currents(names) else compiled_sources()
     return f"{point_hash(model)} {sources_key(*sources)}"
 

@@ -14,14 +14,24 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from lambda_core.batch.definition import Study
 from lambda_core.batch.design import Coordinate, Plan, Point
-from lambda_core.batch.job import kernels_of, method_columns, resolve_point, static_values, with_temperatures
-from lambda_core.batch.responses import RESPONSES, asks_currents, chosen
+from lambda_core.batch.job import (
+    bearings_of,
+    kernels_of,
+    machine_columns,
+    method_columns,
+    point_model,
+    resolve_point,
+    static_values,
+    with_temperatures,
+)
+from lambda_core.batch.responses import asks_currents, chosen, responses_of
 from lambda_core.batch.store import Heading, parameter_headings
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError
 
 if TYPE_CHECKING:
     from lambda_core.case.case import Case
     from lambda_core.system.bearing import BearingModel
+    from lambda_core.system.machine import Machine
 
 Announce = Callable[[str], None] | None
 _TRIED_VALUES = 50  # values of a list that are tried out beforehand
@@ -70,7 +80,7 @@ class Ready:
     names: tuple[str, ...]  # of the responses
     headings: tuple[Heading, ...]
     estimate: StudyEstimate
-    first: BearingModel
+    first: BearingModel | Machine
 
 
 def check(
@@ -93,9 +103,10 @@ def check(
         When the case does not exist, or the study has more points than it allows; with what they would cost.
     """
     plan = Plan(study)
-    names = chosen(study.responses, study.mode, study.name)
-    _check_goal(study, names)
     case_toml = _case_toml(study, folder, case)
+    bearings = bearings_of(case_toml)
+    names = chosen(study.responses, study.mode, study.name, bearings)
+    _check_goal(study, names)
     first = _first_model(study, plan, case_toml)
     warnings = _try_ends(study, plan, case_toml)
     seconds, columns, size = _probe(study, first, names, announce)
@@ -120,30 +131,34 @@ def check(
             f"{disk}; at most {study.max_points:,} are allowed (max_points): take fewer points, or samples "
             '(design.kind = "sobol")'
         )
-    headings = (*parameter_headings(plan.coordinates), *_response_headings(names, columns))
+    headings = (*parameter_headings(plan.coordinates), *_response_headings(names, columns, bearings))
     return Ready(study, plan, case_toml, names, headings, estimate, first)
 
 
 def _case_toml(study: Study, folder: Path | None, case: Case | None) -> str:
     """Return the study's case with its fixed changes, complete."""
     from lambda_core.batch.values import written
-    from lambda_core.case.case_io import apply_overrides, load_case
+    from lambda_core.case.case_io import apply_overrides, is_machine, load_case
     from lambda_core.case.case_writer import standalone_toml
     from lambda_core.discovery.manager import registry
     from lambda_core.system.law_packages import with_packages
+    from lambda_core.system.resolve_machine import check_shaft
 
+    changes = [f"{path}={written(value)}" for path, value in study.set.items()]
     if case is None:
         local = folder / study.case if folder is not None else Path(study.case)
-        case = load_case(local if local.is_file() else study.case)
-    changes = [f"{path}={written(value)}" for path, value in study.set.items()]
+        source = local if local.is_file() else study.case
+        if is_machine(source):
+            return check_shaft(source, changes).case_toml
+        case = load_case(source)
     return standalone_toml(with_packages(apply_overrides(case, changes) if changes else case, registry()))
 
 
-def _first_model(study: Study, plan: Plan, case_toml: str) -> BearingModel:
+def _first_model(study: Study, plan: Plan, case_toml: str) -> BearingModel | Machine:
     """Resolve the first point: what is wrong there is wrong everywhere."""
     point = _corner(plan, {})
     try:
-        return resolve_point(case_toml, point.changes)
+        return point_model(case_toml, point.changes)
     except CaseError as error:
         raise CaseError(f"{study.name}, first point ({', '.join(point.changes)})", error.problems) from None
 
@@ -167,7 +182,7 @@ def _try_ends(study: Study, plan: Plan, case_toml: str) -> list[str]:
     warnings: list[str] = []
     for where, changes, is_name in _trials(study, plan):
         try:
-            resolve_point(case_toml, changes)
+            point_model(case_toml, changes)
         except CaseError as error:
             physical = not is_name and not _refused_by_schema(case_toml, changes)
             for problem in error.problems:
@@ -218,10 +233,15 @@ def _tried(c: Coordinate) -> Iterator[tuple[str, float | str]]:
 
 
 def _refused_by_schema(case_toml: str, changes: tuple[str, ...]) -> bool:
-    from lambda_core.case.case_io import apply_overrides, parse_case
+    from lambda_core.case.case_io import apply_overrides, overridden, parse_case, toml_tables
+    from lambda_core.case.shaft import ShaftCase
+    from lambda_core.case.shaft_io import validate_shaft
 
     try:
-        apply_overrides(parse_case(case_toml), changes)
+        if bearings_of(case_toml):
+            validate_shaft(overridden(toml_tables(case_toml, "case"), changes, ShaftCase))
+        else:
+            apply_overrides(parse_case(case_toml), changes)
     except LambdaError:
         return True
     return False
@@ -240,7 +260,7 @@ def _check_goal(study: Study, names: tuple[str, ...]) -> None:
 
 
 def _probe(
-    study: Study, model: BearingModel, names: tuple[str, ...], announce: Announce
+    study: Study, model: BearingModel | Machine, names: tuple[str, ...], announce: Announce
 ) -> tuple[float, dict[str, tuple[float | None, str, str]], float]:
     """Compile what the study needs and time one point.
 
@@ -255,7 +275,10 @@ def _probe(
     """
     from lambda_core.run.estimate import estimate as estimate_run
     from lambda_core.solver.drivers.equilibrium import solve
+    from lambda_core.system.machine import Machine
 
+    if isinstance(model, Machine):
+        return _probe_machine(study, model, names, announce)
     solve(with_temperatures(model), announce=announce)  # compiles or loads; not timed
     start = time.perf_counter()
     resolved = with_temperatures(resolve_point(model.case_toml, ()))
@@ -275,6 +298,22 @@ def _probe(
     return seconds + run.run_s, columns, _file_size(resolved, run.simulated_s, found.orbit)
 
 
+def _probe_machine(
+    study: Study, model: Machine, names: tuple[str, ...], announce: Announce
+) -> tuple[float, dict[str, tuple[float | None, str, str]], float]:
+    """Do for a machine what :func:`_probe` does for one bearing."""
+    from lambda_core.shaft.shaft_equilibrium import solve_shaft
+
+    if study.mode == "dynamic":
+        raise UsageError("studies of machines are quasi-static: the runs of a machine have no responses yet")
+    state = solve_shaft(model, announce)  # compiles or loads; not timed
+    columns = machine_columns(model, [ring.equilibrium() for ring in state.rings], names)
+    static_values(model, names)
+    start = time.perf_counter()
+    static_values(point_model(model.case_toml, ()), names)
+    return time.perf_counter() - start, columns, 0.0
+
+
 def _file_size(model: BearingModel, simulated: float, orbit: float) -> float:
     """Return what the samples of a run take, before compression [byte]; `orbit`: mean speed of the balls [rad/s]."""
     from lambda_core.domain.channels import CHANNELS, DIMENSIONS
@@ -286,10 +325,13 @@ def _file_size(model: BearingModel, simulated: float, orbit: float) -> float:
     return _DOUBLE * per_sample * simulated / interval
 
 
-def _response_headings(names: tuple[str, ...], columns: dict[str, tuple[float | None, str, str]]) -> Iterator[Heading]:
+def _response_headings(
+    names: tuple[str, ...], columns: dict[str, tuple[float | None, str, str]], bearings: tuple[str, ...]
+) -> Iterator[Heading]:
+    known = responses_of(bearings)
     for name in names:
-        if name in RESPONSES:
-            yield Heading("response", name, RESPONSES[name].unit, RESPONSES[name].meaning)
+        if name in known:
+            yield Heading("response", name, known[name].unit, known[name].meaning)
         else:
             yield Heading("response", name, columns[name][1], columns[name][2])
 

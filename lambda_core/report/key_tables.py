@@ -175,7 +175,7 @@ def convergence(summary: Any, units: UnitSystem = SI) -> Table:
 
 
 def study_points(table: StudyTable, units: UnitSystem = SI) -> Table:
-    columns = [*table.parameters, *(c for c in table.responses if "." not in c.name)]
+    columns = [*table.parameters, *(c for c in table.responses if not c.is_part)]
     head = ("point", *(f"{c.label} [{units.unit(c.unit)}]" if c.unit else c.label for c in columns), "state")
     shown = table.rows()[:_ROWS]
     rows = tuple(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -124,9 +125,15 @@ class MachineEquilibrium(Record):
         return f"<MachineEquilibrium {self.case}, {self.speed_rpm:.5g} 1/min, radial loads {loads}>"
 
 
-def equilibrium_of(model: Machine, state: ShaftState) -> MachineEquilibrium:
-    """Put the equilibrium into the units of the interface; every bearing is solved once more with its friction."""
-    bearings = [_bearing(model, state, i, ring.equilibrium()) for i, ring in enumerate(state.rings)]
+def equilibrium_of(
+    model: Machine, state: ShaftState, equilibria: Sequence[Equilibrium] | None = None
+) -> MachineEquilibrium:
+    """Put the equilibrium into the units of the interface.
+
+    `equilibria` are those of the bearings with the friction of their balls; by default they are solved.
+    """
+    solved = equilibria or [ring.equilibrium() for ring in state.rings]
+    bearings = [_bearing(model, state, i, found) for i, found in enumerate(solved)]
     moved = state.displacement[: NODE * model.body.positions.size].reshape(-1, NODE)
     cuts, forces = internal_forces(model.body, state.displacement, model.gravity)
     lives = [b.reference_rating_life_h for b in bearings if b.reference_rating_life_h is not None]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -40,6 +41,11 @@ class Column:
     def numeric(self) -> bool:
         """Whether every value that exists is a number."""
         return not any(isinstance(value, str) for value in self.values)
+
+    @property
+    def is_part(self) -> bool:
+        """Whether it is a part of another response: of the friction torque, or a component of a displacement."""
+        return re.search(r"_(Nmm|um|mrad)\.\w+$", self.name) is not None
 
     @property
     def label(self) -> str:

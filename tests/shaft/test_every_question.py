@@ -17,7 +17,16 @@ QUESTIONS = {
                  "torque_Nmm"),
     "compare": (["compare", "box.toml", "--bearing", "right", "--json", "-q"], "methods"),
     "cross-check": (["cross-check", "box.toml", "--bearing", "right", "--duration", "1 ms", "--json", "-q"], "agree"),
+    "study": (["study", "run", "study.toml", "--executor", "here", "--json", "-q"], "done"),
 }  # fmt: skip
+STUDY = """
+name = "power"
+case = "box.toml"
+responses = ["system_life_h"]
+[[parameters]]
+path = "gears.wheel.power"
+values = ["5 kW", "15 kW"]
+"""
 ABOUT_ONE = {name: arguments for name, (arguments, _) in QUESTIONS.items() if "--bearing" in arguments}
 
 
@@ -26,6 +35,7 @@ def box(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Work in a folder with the case of a shaft in two bearings."""
     monkeypatch.chdir(tmp_path)
     assert main(["init", "box", "--template", "geared-shaft"]) == 0
+    (tmp_path / "study.toml").write_text(STUDY)
     return tmp_path / "box.toml"
 
 
