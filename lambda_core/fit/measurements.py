@@ -1,0 +1,278 @@
+"""Read measured operating points from a CSV file; every mistake is reported with its line and column."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.errors import CaseError, Problem, UsageError, nearest
+from lambda_core.domain.files import read_text
+from lambda_core.domain.units import from_si, misread, parse, units_of
+from lambda_core.fit.quantities import CONDITIONS, ERROR, LABEL, MEASURED
+
+_LARGEST = 4 * 2**20  # [byte] of a file
+_MOST_ROWS = 2000
+_HEADER = re.compile(r"^\s*(.*?)\s*(?:\[\s*(.*?)\s*\])?\s*$")
+_EXAMPLE = '"speed [1/min],radial load [kN],friction torque [N mm]"'
+_SHARE = "%"  # unit of an error as a share of the value
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """Measured operating points.
+
+    Attributes
+    ----------
+    name, sha256 : str
+        Name of the file and hash of its content.
+    lines : tuple of int
+        Line of the file in which each point stands.
+    labels : tuple of str
+        Names of the points, empty where there are none.
+    conditions : dict of str to float64[:]
+        Operating conditions in SI.
+    condition_errors : dict of str to float64[:]
+        Their standard deviations in SI; absent where they are exact.
+    measured : dict of str to float64[:]
+        Measured quantities in the units of `quantities.MEASURED`; NaN where one was not measured.
+    errors : dict of str to float64[:]
+        Standard deviations in the same units.
+    shares : dict of str to float64[:]
+        Standard deviations given as shares of the value.
+    """
+
+    name: str
+    sha256: str
+    lines: tuple[int, ...]
+    labels: tuple[str, ...]
+    conditions: dict[str, FloatArray]
+    condition_errors: dict[str, FloatArray] = field(default_factory=dict)
+    measured: dict[str, FloatArray] = field(default_factory=dict)
+    errors: dict[str, FloatArray] = field(default_factory=dict)
+    shares: dict[str, FloatArray] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.lines)
+
+
+@dataclass(frozen=True)
+class _Column:
+    """One column: what it holds, of which name, in which unit."""
+
+    kind: str  # "condition", "condition error", "measured", "error", "share", "label"
+    name: str
+    unit: str
+    quantity: str
+    header: str
+
+
+def read_measurements(path: str | Path) -> Measurements:
+    """Read measured operating points.
+
+    The first line names the columns with their units, for example ``speed [1/min]``. A column whose name ends in
+    ``error`` holds standard deviations, in a unit or in %. Lines that start with # are comments.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file.
+    CaseError
+        With every mistake of the file, its line and column, and what to write instead.
+    """
+    file = Path(path)
+    try:
+        text = read_text(file, _LARGEST)
+    except UnicodeDecodeError:
+        raise CaseError(file.name, [Problem("", "is not UTF-8 text: save it as CSV in UTF-8")]) from None
+    except OSError as error:
+        raise UsageError(f'cannot read "{file}": {error.strerror}') from None
+    return parse_measurements(text, file.name)
+
+
+def parse_measurements(text: str, name: str) -> Measurements:
+    """Read measured operating points from text; CaseError with every mistake."""
+    problems: list[Problem] = []
+    rows = list(_rows(text.removeprefix("\ufeff"), problems))
+    if problems or not rows:
+        raise CaseError(name, problems or [Problem("line 1", f"is empty: write a header, for example {_EXAMPLE}")])
+    (head, header), *body = rows
+    columns = _columns(head, header, problems)
+    if not body:
+        problems.append(Problem(f"line {head}", "no measured point follows the header"))
+    if len(body) > _MOST_ROWS:
+        problems.append(Problem(f"line {body[_MOST_ROWS][0]}", f"has more than {_MOST_ROWS} points: average them"))
+    if problems:
+        raise CaseError(name, problems)
+    table = [_values(line, cells, columns, problems) for line, cells in body]
+    if problems:
+        raise CaseError(name, problems)
+    return _measurements(name, text, [line for line, _ in body], columns, table, problems)
+
+
+def _rows(text: str, problems: list[Problem]) -> Iterator[tuple[int, list[str]]]:
+    """Yield line numbers and cells; a quote that opens and does not close is a mistake."""
+    delimiter = None
+    for line, content in enumerate(text.splitlines(), 1):
+        if not content.strip() or content.lstrip().startswith("#"):
+            continue
+        delimiter = delimiter or next((mark for mark in (";", "\t") if mark in content), ",")
+        if content.count('"') % 2:
+            column = content.index('"') + 1
+            problems.append(Problem(f"line {line}", f'has a single quote mark at character {column}: remove the "'))
+            continue
+        try:
+            cells = next(csv.reader(io.StringIO(content), delimiter=delimiter, strict=True))
+        except csv.Error as error:
+            problems.append(Problem(f"line {line}", f'{error}: remove the " marks, numbers need none'))
+            continue
+        yield line, [cell.strip() for cell in cells]
+
+
+def _columns(line: int, header: list[str], problems: list[Problem]) -> list[_Column]:
+    """Return what the columns hold."""
+    found: list[_Column] = []
+    for number, text in enumerate(header, 1):
+        where = f"line {line}, column {number}"
+        column = _column(text, where, problems)
+        if column is None:
+            continue
+        if any((column.kind, column.name) == (other.kind, other.name) for other in found):
+            problems.append(Problem(where, f'"{column.name}" appears twice: remove or rename one of the columns'))
+        found.append(column)
+    if problems:
+        return found
+    names = {(column.kind, column.name) for column in found}
+    if not any(kind == "measured" for kind, _ in names):
+        listed = ", ".join(MEASURED)
+        problems.append(Problem(f"line {line}", f"has no measured quantity: add a column named {listed}"))
+    for column in found:
+        owner = "measured" if column.kind in ("error", "share") else "condition"
+        if column.kind in ("error", "share", "condition error") and (owner, column.name) not in names:
+            problems.append(Problem(f"line {line}", f'"{column.header}" has no column "{column.name}" it belongs to'))
+    both = {n for k, n in names if k == "error"} & {n for k, n in names if k == "share"}
+    problems += [Problem(f"line {line}", f'"{name}" has two columns of errors: keep one') for name in sorted(both)]
+    return found
+
+
+def _column(text: str, where: str, problems: list[Problem]) -> _Column | None:
+    """Return what one column holds, None after a mistake."""
+    match = _HEADER.match(text)
+    words, unit = (match[1].casefold(), match[2]) if match else ("", None)
+    if words == LABEL:
+        return _Column("label", LABEL, "", "", text)
+    name, is_error = words.removesuffix(ERROR), words.endswith(ERROR)
+    known = [*CONDITIONS, *MEASURED]
+    if name not in known:
+        close = nearest(name, known) or known
+        problems.append(Problem(where, f'"{text}" is not a known column; nearest: {", ".join(close)}'))
+        return None
+    quantity = CONDITIONS[name].quantity if name in CONDITIONS else MEASURED[name].quantity
+    if is_error and name in CONDITIONS:
+        quantity = CONDITIONS[name].error_quantity
+    units = units_of(quantity)
+    if unit is None:
+        first = next(iter(units))
+        problems.append(
+            Problem(where, f'"{text}" has no unit: write "{words} [{first}]" (allowed: {", ".join(units)})')
+        )
+        return None
+    if unit == _SHARE and is_error and name in MEASURED:
+        return _Column("share", name, unit, "", text)
+    try:
+        parse(f"1 {unit}", quantity)
+    except ValueError as error:
+        problems.append(Problem(where, f'"{text}": {str(error).split(": ", 1)[-1]}'))
+        return None
+    kind = "condition" if name in CONDITIONS else "measured"
+    return _Column(
+        ("condition error" if name in CONDITIONS else "error") if is_error else kind, name, unit, quantity, text
+    )
+
+
+def _values(line: int, cells: list[str], columns: list[_Column], problems: list[Problem]) -> list[float | str]:
+    """Return the values of one line."""
+    if len(cells) != len(columns):
+        comma = (
+            "; write decimal points, not commas" if len(cells) > len(columns) else "; leave a cell empty between commas"
+        )
+        problems.append(Problem(f"line {line}", f"has {len(cells)} cells, the header {len(columns)}{comma}"))
+        return []
+    return [_value(f"line {line}, column {n}", cell, column, problems) for n, (cell, column) in enumerate(
+        zip(cells, columns, strict=True), 1)]  # fmt: skip
+
+
+def _value(where: str, cell: str, column: _Column, problems: list[Problem]) -> float | str:
+    """Return one value: a condition in SI, a measured quantity in the unit in which it is fitted."""
+    if column.kind == "label":
+        return cell
+    if not cell:
+        if column.kind != "measured":
+            problems.append(Problem(where, f'"{column.header}" is empty: write a number or remove the line'))
+        return math.nan
+    try:
+        if mistake := misread(cell):
+            raise ValueError(mistake)
+        number = float(cell)
+        if not math.isfinite(number):
+            raise ValueError(f'"{cell}" is not a finite number')
+        if column.kind in ("share", "error", "condition error") and number <= 0.0:
+            raise ValueError(f'"{cell}": an error must be above zero')
+        if column.kind == "share":
+            return number / 100.0
+        value = parse(f"{cell} {column.unit}", column.quantity)
+    except ValueError as error:
+        message = str(error)
+        if message.startswith("could not convert"):
+            message = f'"{cell}" is not a number: write it without quotes, units or words'
+        problems.append(Problem(where, f"{column.header}: {message}"))
+        return math.nan
+    return from_si(value, column.quantity, MEASURED[column.name].unit) if column.name in MEASURED else value
+
+
+def _measurements(
+    name: str,
+    text: str,
+    lines: list[int],
+    columns: list[_Column],
+    table: list[list[float | str]],
+    problems: list[Problem],
+) -> Measurements:
+    """Put the columns together."""
+    labels = tuple("" for _ in lines)
+    groups: dict[str, dict[str, FloatArray]] = {
+        kind: {} for kind in ("condition", "condition error", "measured", "error", "share")
+    }
+    for index, column in enumerate(columns):
+        cells = [row[index] for row in table]
+        if column.kind == "label":
+            labels = tuple(str(cell) for cell in cells)
+        else:
+            groups[column.kind][column.name] = np.array(cells, dtype=np.float64)
+    known = np.isfinite(np.column_stack(list(groups["measured"].values()))).any(axis=1)
+    problems += [
+        Problem(f"line {line}", "has no measured value: fill one in or remove the line")
+        for line, is_known in zip(lines, known, strict=True)
+        if not is_known
+    ]
+    if problems:
+        raise CaseError(name, problems)
+    return Measurements(
+        name,
+        hashlib.sha256(text.encode()).hexdigest(),
+        tuple(lines),
+        labels,
+        groups["condition"],
+        groups["condition error"],
+        groups["measured"],
+        groups["error"],
+        groups["share"],
+    )
