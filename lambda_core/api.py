@@ -27,6 +27,8 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.discovery.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins, watchers
     from lambda_core.domain.errors import CaseError, LambdaError, UsageError
     from lambda_core.electric.api import check_discharges_file, electric, film_from_capacitance, write_discharges
+    from lambda_core.fit.fit_case import fit
+    from lambda_core.fit.fitted_case import fitted_case
     from lambda_core.fmu.unit_file import export_fmu
     from lambda_core.report.pictures import animate, draw, report, view, view_all, view_stem, views
     from lambda_core.run.answers import cite, compare, result, side_by_side, summary
@@ -60,6 +62,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.discovery.manager import registry, switch_off
     from lambda_core.discovery.registry import Registry
     from lambda_core.discovery.survey import CheckCard, ModelCard, NoteCard, Verdict
+    from lambda_core.fit.report import FitReport
     from lambda_core.results.reader import Result
     from lambda_core.results.run_status import Status, process_identity, this_process
     from lambda_core.results.side_by_side import SideBySide

@@ -10,6 +10,7 @@ from pydantic import PrivateAttr, model_validator
 
 from lambda_core.case.elastic import Elastic
 from lambda_core.case.electric import Electric
+from lambda_core.case.fitted import FitOrigin
 from lambda_core.case.modelling import Depth, Forces, Models, Output, Parameters, Solver
 from lambda_core.case.motion import BetweenBodies, Bodies, Gravity, Loads, Marker, Operation
 from lambda_core.case.option import Section, option
@@ -53,6 +54,7 @@ class Case(Section):
     events: Parameters = option(
         {}, "what plugins look out for: a table per event, action stop (default) or record, and its parameters"
     )
+    fit: FitOrigin | None = option(None, "where fitted values come from; written by the command fit")
     _folder: Path | None = PrivateAttr(default=None)
 
     @model_validator(mode="after")

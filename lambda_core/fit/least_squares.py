@@ -16,6 +16,8 @@ from lambda_core.fit.residual_tests import ResidualTest, residual_tests
 Model = Callable[[FloatArray], FloatArray]
 _ROUNDS = 6  # of weights from the residuals of the round before
 _SETTLED = 0.02  # of a standard deviation, and of the scatter: change that ends the rounds
+_UPDATED = 0.3  # of a change, by which an updated Jacobian may miss it before it is computed anew
+_COSTLY_TOLERANCE = 1e-4  # relative change of the cost that ends a round of a costly model
 _NORMAL_MAD = 1.482602218505602  # standard deviation over median absolute deviation of a normal distribution
 _STEP = 1e-6  # of a parameter, for slopes where no Jacobian is given
 _OUTLIER = 3.5  # standardised residual (Iglewicz and Hoaglin 1993)
@@ -184,10 +186,12 @@ class _Recorder:
         self._model, self._jacobian, self._step = model, jacobian, step
         self._values: dict[bytes, FloatArray] = {}
         self._slopes: dict[bytes, FloatArray] = {}
+        self._last: tuple[FloatArray, FloatArray] | None = None
         self.evaluations = 0
         self.best: tuple[float, FloatArray] = (math.inf, np.zeros(0))
 
     def values(self, point: FloatArray) -> FloatArray:
+        """Return the predicted values at a point."""
         key = point.tobytes()
         if key not in self._values:
             self.evaluations += 1
@@ -195,10 +199,26 @@ class _Recorder:
         return self._values[key]
 
     def slopes(self, point: FloatArray) -> FloatArray:
+        """Return the derivatives at a point."""
         key = point.tobytes()
         if key not in self._slopes:
             self._slopes[key] = self._computed(point)
+            self._last = (point, self._slopes[key])
         return self._slopes[key]
+
+    def near_slopes(self, point: FloatArray, spread: FloatArray) -> FloatArray:
+        """Return the derivatives at a point by an update of the last ones (Broyden 1965, Math. Comp. 19, 577)."""
+        if self._last is None or point.tobytes() in self._slopes:
+            return self.slopes(point)
+        before, slopes = self._last
+        step = (point - before) / spread
+        change = self.values(point) - self.values(before)
+        missed = change - (slopes * spread) @ step
+        if np.linalg.norm(missed) > _UPDATED * np.linalg.norm(change):
+            return self.slopes(point)
+        updated = slopes + np.outer(missed, step / (step @ step)) / spread
+        self._last = (point, updated)
+        return updated
 
     def last_slopes(self, point: FloatArray, count: int) -> FloatArray:
         """Return the derivatives at a point, or the last ones there are, without a call of the model."""
@@ -227,6 +247,7 @@ def fit(
     jacobian: Model | None = None,
     input_slopes: Model | None = None,
     limit: float = U.HUBER,
+    is_costly: bool = False,
 ) -> Fit:
     """Fit parameters to measured values.
 
@@ -244,6 +265,8 @@ def fit(
         Derivatives by the operating conditions that have errors, shape (n, k).
     limit : float
         Residual in units of its error from which it counts less (Huber's loss); infinite for plain least squares.
+    is_costly : bool
+        Update the Jacobian between steps where that is accurate enough; the last one is always computed.
 
     Returns
     -------
@@ -267,7 +290,7 @@ def fit(
         )
     step = _STEP * np.maximum(np.abs(starts(parameters)), spreads(parameters) * 1e-3)
     recorder = _Recorder(model, jacobian, step)
-    search = _Search(recorder, tuple(parameters), data, input_slopes, limit)
+    search = _Search(recorder, tuple(parameters), data, input_slopes, limit, is_costly)
     try:
         search.run([])
         held = search.inseparable()
@@ -288,7 +311,9 @@ class _Search:
         data: Data,
         input_slopes: Model | None,
         limit: float,
+        is_costly: bool,
     ) -> None:
+        self._costly = is_costly
         self._recorder, self._parameters, self._data = recorder, parameters, data
         self._input_slopes, self._limit = input_slopes, limit
         self._point = starts(parameters)
@@ -308,11 +333,16 @@ class _Search:
             self._errors = self._effective()
             self._scale = self._scatter()
             self._point = self._minimised()
-            if self._data.is_error_known and not self._data.input_errors.size and not self._data.is_proportional:
+            if not self._needs_rounds():
                 break
             moved = np.abs(self._point - before) / np.maximum(self._deviations(), 1e-300)
             if number and float(moved.max()) < _SETTLED and abs(self._scale / scale - 1.0) < _SETTLED:
                 break
+
+    def _needs_rounds(self) -> bool:
+        """Tell whether errors, scatter or an updated Jacobian depend on the solution."""
+        data = self._data
+        return not data.is_error_known or bool(data.input_errors.size) or data.is_proportional or self._costly
 
     def inseparable(self) -> list[int]:
         """Return the parameters that the data do not determine."""
@@ -432,7 +462,9 @@ class _Search:
             return found
 
         def slopes(part: FloatArray) -> FloatArray:
-            rows = [self._recorder.slopes(whole(part)) / errors[:, None]]
+            point = whole(part)
+            own = self._recorder.near_slopes(point, spread) if self._costly else self._recorder.slopes(point)
+            rows = [own / errors[:, None]]
             rows += [
                 np.eye(len(self._parameters))[i : i + 1] / p.spread
                 for i, p in enumerate(self._parameters)
@@ -442,11 +474,12 @@ class _Search:
             return found
 
         self._recorder.best = (math.inf, self._point)
+        self._recorder.slopes(self._point)  # each round begins with computed derivatives
         inside = np.clip(self._point[free], low, high)
         robust = math.isfinite(self._limit)
         solved = least_squares(
             residuals, inside, slopes, bounds=(low, high), x_scale=spread[free],
             loss="huber" if robust else "linear", f_scale=self._limit if robust else 1.0,
-            xtol=1e-12, ftol=1e-14 if not robust else 1e-8, gtol=1e-14,
+            xtol=1e-12, gtol=1e-14, ftol=_COSTLY_TOLERANCE if self._costly else 1e-8 if robust else 1e-14,
         )  # fmt: skip
         return whole(solved.x)

@@ -257,11 +257,11 @@ def _measurements(
             labels = tuple(str(cell) for cell in cells)
         else:
             groups[column.kind][column.name] = np.array(cells, dtype=np.float64)
-    known = np.isfinite(np.column_stack(list(groups["measured"].values()))).any(axis=1)
+    known = np.isfinite(np.column_stack(list(groups["measured"].values()))).sum(axis=1).tolist()
     problems += [
         Problem(f"line {line}", "has no measured value: fill one in or remove the line")
-        for line, is_known in zip(lines, known, strict=True)
-        if not is_known
+        for line, count in zip(lines, known, strict=True)
+        if not count
     ]
     if problems:
         raise CaseError(name, problems)

@@ -54,7 +54,7 @@ def test_one_of_several_quantities_may_be_missing() -> None:
         ("speed [kN],power loss [W]\n1,2\n", "kN is not a unit of rotational_speed"),
         ("speed [rpm],speed [rpm],power loss [W]\n1,1,2\n", 'column 2       "speed" appears twice'),
         ("power loss [W],speed error [rpm]\n1,2\n", 'no column "speed" it belongs to'),
-        ("speed [rpm];power loss [W]\n1;2\n1,5;2\n", 'line 3, column 1       speed [rpm]: "1,5": write a decimal point'),
+        ("speed [rpm];power loss [W]\n1;2\n1,5;2\n", 'column 1       speed [rpm]: "1,5": write a decimal point'),
         ("speed [rpm],power loss [W]\n1,2\n1,5,2\n", "has 3 cells, the header 2; write decimal points"),
         ("speed [rpm],power loss [W]\n1\n", "line 2                 has 1 cells, the header 2"),
         ("speed [rpm],power loss [W]\n,2\n", 'line 2, column 1       "speed [rpm]" is empty: write a number'),

@@ -1,0 +1,67 @@
+"""The command fit: parameters of a case from measured operating points."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lambda_cli.options import CaseArgument, ForceOption, JsonOption, SetOption, Units, UnitsOption
+from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
+from lambda_core.domain.errors import PartialResultError
+from lambda_core.domain.files import check_folder, check_new
+
+MeasuredArgument = Annotated[
+    Path, typer.Argument(metavar="DATA.csv", help='Measured points; columns such as "speed [1/min]".')
+]
+VaryOption = Annotated[
+    list[str],
+    typer.Option(
+        "--vary",
+        metavar="PATH[=LOW..HIGH]",
+        help='A parameter, "loss_factor" or "tau_eyring=3 MPa..10 MPa"; repeat it.',
+    ),
+]
+
+
+def fit(
+    case: CaseArgument,
+    measured: MeasuredArgument,
+    vary: VaryOption,
+    changes: SetOption = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="FILE", help="Write a case file with the fitted values.")
+    ] = None,
+    draw: Annotated[
+        Path | None, typer.Option("--draw", metavar="DIR", help="Write pictures (svg and png) into this folder.")
+    ] = None,
+    force: ForceOption = False,
+    as_json: JsonOption = False,
+    units: UnitsOption = Units.SI,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Fit parameters of a case to measured operating points, and tell what the measurements determine.
+
+    Quasi-static and without cage. Ctrl+C keeps the best values so far.
+    """
+    from lambda_core import api
+
+    if out is not None:
+        check_new(out, force)
+    if draw is not None:
+        check_folder(draw, made=True)
+    with talk(progress, quiet) as speaker:
+        found = api.fit(case, measured, vary, changes or (), announce=speaker.say)
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text(columns(), units.system))
+    if out is not None:
+        typer.echo(str(api.fitted_case(case, found, out, changes or (), overwrite=force)), err=True)
+    if draw is not None:
+        from lambda_core.views.other_units import in_units
+
+        for picture in found.pictures():
+            for path in api.draw(in_units(picture, units.system), draw, api.view_stem([str(case)])):
+                typer.echo(str(path), err=True)
+    if found.is_interrupted:
+        raise PartialResultError("the fit was interrupted: the values are the best so far")

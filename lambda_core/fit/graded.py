@@ -1,0 +1,265 @@
+"""Ranges of a case's parameters: published with the laws, of the clearance class, or usual for an option."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any
+
+from lambda_core.batch.values import Scale, scale_of
+from lambda_core.domain.errors import UsageError, nearest
+from lambda_core.domain.units import UNITS, from_si, parse
+
+if TYPE_CHECKING:
+    from lambda_core.system.bearing import BearingModel
+
+_FILE = "graded_ranges.toml"
+_BETWEEN = ".."
+CLEARANCE = "bearing.clearance"
+
+
+@dataclass(frozen=True)
+class Graded:
+    """A parameter of a case with its range.
+
+    Attributes
+    ----------
+    path : str
+        Option of the case.
+    value : float
+        Value in the case, NaN where the law computes it.
+    low, high : float
+        Ends of the range.
+    scale : Scale
+        Unit of the three.
+    source, grade : str
+        Where the range comes from; "published", "assumed", "given" for one of the user.
+    """
+
+    path: str
+    value: float
+    low: float
+    high: float
+    scale: Scale
+    source: str
+    grade: str
+
+    @property
+    def short(self) -> str:
+        """Name for tables."""
+        return self.path.removeprefix("parameters.")
+
+    def change(self, number: float) -> str:
+        """Return the change of the case that sets a value."""
+        return f"{self.path}={self.scale.text(number)}"
+
+
+@dataclass(frozen=True)
+class Exchange:
+    """Laws of a role between which published work does not decide."""
+
+    role: str
+    laws: tuple[str, ...]
+    source: str
+
+
+@cache
+def _data() -> Mapping[str, list[dict[str, Any]]]:
+    return tomllib.loads(files(__package__).joinpath(_FILE).read_text(encoding="utf-8"))
+
+
+def exchanges(model: BearingModel) -> list[Exchange]:
+    """Return the laws that may stand in place of those of a model, its own ones left out."""
+    chosen = {role: law.model.name for roles in model.laws.values() for role, law in roles.items()}
+    found = []
+    for entry in _data()["exchange"]:
+        role = entry["role"]
+        if chosen.get(role) in entry["laws"]:
+            others = tuple(name for name in entry["laws"] if name != chosen[role])
+            found.append(Exchange(role, others, entry["source"]))
+    return found
+
+
+def graded_parameters(model: BearingModel) -> list[Graded]:
+    """Return every parameter of a model that has a range."""
+    of_laws = (_within_class(entry, model.oil.base_type) for entry in _of_laws(model, is_ranged=True))
+    return [*(entry for entry in of_laws if entry is not None), *_of_options(model), *_of_clearance(model)]
+
+
+def varied(model: BearingModel, specification: str) -> Graded:
+    """Return the parameter that ``PATH`` or ``PATH=LOW..HIGH`` names.
+
+    The path may be shortened to its end ("loss_factor") where that names one parameter only.
+
+    Raises
+    ------
+    UsageError
+        When no parameter or several have the name, or it has no range and none is given.
+    """
+    name, equals, ends = specification.partition("=")
+    name = name.strip()
+    ranged = {entry.path: entry for entry in graded_parameters(model)}
+    if not equals and name in ranged:
+        return ranged[name]
+    every = {entry.path: entry for entry in _of_laws(model, is_ranged=False)} | ranged | _plain(model, name)
+    matching = [path for path in every if path == name or path.endswith(f".{name}")]
+    if not matching:
+        last = {path.rpartition(".")[2]: path for path in every}
+        close = [last.get(word, word) for word in nearest(name, [*last, *every])]
+        known = f"nearest: {', '.join(dict.fromkeys(close))}" if close else f"with a range: {', '.join(ranged)}"
+        raise UsageError(f'--vary: "{name}" is not a known parameter of this case; {known}')
+    if len(matching) > 1:
+        raise UsageError(f'--vary: "{name}" names several parameters: write {" or ".join(sorted(matching))}')
+    found = every[matching[0]]
+    if equals:
+        return _given(found, ends)
+    if found.path not in ranged:
+        raise UsageError(
+            f"--vary: {found.path} has no published range: give one, for example --vary "
+            f'{found.path}="{_example(found)}"'
+        )
+    return found
+
+
+def _example(entry: Graded) -> str:
+    middle = entry.value if math.isfinite(entry.value) and entry.value else 1.0
+    return f"{entry.scale.text(0.5 * middle)}{_BETWEEN}{entry.scale.text(2.0 * middle)}"
+
+
+def _given(entry: Graded, ends: str) -> Graded:
+    """Return a parameter with a range of the user."""
+    low, between, high = ends.partition(_BETWEEN)
+    wrong = UsageError(f'--vary {entry.path}: "{ends}" is not a range: write LOW..HIGH, for example {_example(entry)}')
+    if not between:
+        raise wrong
+    texts = [_number(low.strip()), _number(high.strip())]
+    if entry.scale.unit and all(isinstance(text, float) for text in texts):
+        raise UsageError(f'--vary {entry.path}: "{ends}" has no unit: write {_example(entry)}')
+    own = entry.scale.text(entry.value) if math.isfinite(entry.value) else None
+    try:
+        read = scale_of([*texts] if own is None else [*texts, own if entry.scale.unit else entry.value])
+    except ValueError as error:
+        raise UsageError(f"--vary {entry.path}: {error}") from None
+    if read is None or not read[1][0] < read[1][1]:
+        raise wrong
+    scale, numbers = read
+    value = numbers[2] if own is not None else math.nan
+    return Graded(entry.path, value, numbers[0], numbers[1], scale, "given on the command line", "given")
+
+
+def _number(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def _of_laws(model: BearingModel, *, is_ranged: bool) -> list[Graded]:
+    """Return the parameters of the laws: those with a published range, or all numbers."""
+    found: dict[str, Graded] = {}
+    for roles in model.laws.values():
+        for role, law in roles.items():
+            written = law.parameters.model_dump(mode="json")
+            for name, info in type(law.parameters).model_fields.items():
+                path = f"parameters.{role}.{name}"
+                extra = info.json_schema_extra if isinstance(info.json_schema_extra, dict) else {}
+                ends = extra.get("published_range")
+                if path in found or (is_ranged and not isinstance(ends, list)):
+                    continue
+                entry = _read(path, written[name], ends if isinstance(ends, list) else None, extra)
+                if entry is not None:
+                    found[path] = entry
+    return list(found.values())
+
+
+def _within_class(entry: Graded, base_type: str) -> Graded | None:
+    """Return a parameter with the range of the class of its oil, None where there is none."""
+    for row in _data()["within"]:
+        if row["path"] == entry.path and row.get("base_type", base_type) == base_type:
+            if "low" not in row:
+                return None
+            return replace(entry, low=_in_unit(row["low"], entry), high=_in_unit(row["high"], entry))
+    return entry
+
+
+def _read(path: str, value: Any, ends: Sequence[Any] | None, extra: Mapping[str, Any]) -> Graded | None:
+    """Return one parameter of a law, None where it is no number."""
+    values = [*(ends or ()), *([] if value is None else [value])]
+    try:
+        read = scale_of(values) if values else None
+    except ValueError:
+        return None
+    if read is None:
+        return None
+    scale, numbers = read
+    own = numbers[-1] if value is not None else math.nan
+    low, high = numbers[:2] if ends else (math.nan, math.nan)
+    return Graded(path, own, low, high, scale, str(extra.get("source", "")), "published" if ends else "")
+
+
+def _plain(model: BearingModel, name: str) -> dict[str, Graded]:
+    """Return the option of the case that a name ends in, without a range."""
+    found = {}
+    for value in model.values:
+        is_named = value.path == name or value.path.endswith(f".{name}")
+        if is_named and value.path.split(".")[0] in ("lubricant", "surface", "bearing", "loads", "operation"):
+            entry = _option(model, value.path)
+            if entry is not None:
+                found[value.path] = entry
+    return found
+
+
+def _option(model: BearingModel, path: str) -> Graded | None:
+    """Return the value of an option of the case, None where it is no number."""
+    value = next((value for value in model.values if value.path == path), None)
+    if value is None or not isinstance(value.value, float):
+        return None
+    unit = next(iter(UNITS[value.quantity])) if value.quantity else ""
+    number = from_si(value.value, value.quantity, unit) if value.quantity else value.value
+    return Graded(path, number, math.nan, math.nan, Scale(unit), "", "")
+
+
+def _of_options(model: BearingModel) -> list[Graded]:
+    """Return the options of the case with a usual range."""
+    found = []
+    for entry in _data()["range"]:
+        own = _option(model, entry["path"])
+        if own is None:
+            continue
+        if "half_width" in entry:
+            width = float(entry["half_width"].split()[0])
+            low, high = own.value - width, own.value + width
+        else:
+            low, high = (_in_unit(entry[end], own) for end in ("low", "high"))
+        found.append(Graded(own.path, own.value, low, high, own.scale, entry["source"], "assumed"))
+    return found
+
+
+def _in_unit(text: str, own: Graded) -> float:
+    """Return a value of the table in the unit of an option."""
+    if not own.scale.unit:
+        return float(text)
+    quantity = next(name for name, units in UNITS.items() if own.scale.unit == next(iter(units)))
+    return from_si(parse(text, quantity), quantity, own.scale.unit)
+
+
+def _of_clearance(model: BearingModel) -> list[Graded]:
+    """Return the clearance with the limits of its class, where the case leaves it to the class."""
+    from lambda_core.batch.job import resolve_point
+
+    own = _option(model, CLEARANCE)
+    status = next((value.status for value in model.values if value.path == CLEARANCE), "")
+    if own is None or status != "assumed":
+        return []
+    ends = []
+    for pick in ("minimum", "maximum"):
+        moved = _option(resolve_point(model.case_toml, (f"bearing.clearance_pick={pick}",)), CLEARANCE)
+        ends.append(moved.value if moved else math.nan)
+    if not ends[0] < ends[1]:
+        return []
+    source = next(value.source for value in model.values if value.path == CLEARANCE)
+    return [Graded(CLEARANCE, own.value, ends[0], ends[1], own.scale, source, "published")]
