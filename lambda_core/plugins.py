@@ -6,6 +6,7 @@ from lambda_core.discovery.hookspecs import hookimpl
 from lambda_core.discovery.manager import built_in
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import Channel
+from lambda_core.domain.gap_capacitance import VACUUM_PERMITTIVITY, gap_capacitance
 from lambda_core.domain.hertz import hertz_shape
 from lambda_core.domain.roles import OK, ROLE_API
 from lambda_core.domain.units import Quantity
@@ -31,6 +32,7 @@ __all__ = [
     "OK",
     "ROLE_API",
     "SECTION_API",
+    "VACUUM_PERMITTIVITY",
     "VIEW_API",
     "Arrows",
     "Axis",
@@ -70,6 +72,7 @@ __all__ = [
     "View",
     "ViewData",
     "built_in",
+    "gap_capacitance",
     "hertz_shape",
     "hookimpl",
     "law",

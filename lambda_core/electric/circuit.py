@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.gap_capacitance import VACUUM_PERMITTIVITY
 from lambda_core.electric.circuit_integrator import Circuit, Films
-from lambda_core.electric.contacts import VACUUM_PERMITTIVITY
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
+from lambda_core.domain.gap_capacitance import VACUUM_PERMITTIVITY
 from lambda_core.electric.circuit_integrator import Films
 
 if TYPE_CHECKING:
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
 PHASES = 12  # equilibria per ball pitch
 _MOST_SAMPLES = 500_000  # about a gigabyte of nine balls
 _TURNS = 10.0  # of the cage, where nothing says how long
-VACUUM_PERMITTIVITY = 8.8541878128e-12  # [F/m], CODATA 2018
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from lambda_core.domain.channels import RINGS, SHORTED
+from lambda_core.domain.gap_capacitance import VACUUM_PERMITTIVITY
 from lambda_core.domain.loading import CARRYING
 from lambda_core.electric import columns as circuit_columns
-from lambda_core.electric.contacts import VACUUM_PERMITTIVITY
 from lambda_core.fmu.circuit_image import NUMBERS
 from lambda_core.fmu.frozen import Frozen
 from lambda_core.fmu.variables import Variable, control

@@ -9,7 +9,12 @@ import numpy as np
 
 from lambda_core.solver.arrays.bundle import MECHANISMS, NB
 from lambda_core.solver.cage.guides import guide_force, land_state, pocket_apply, pocket_state
-from lambda_core.solver.contact.contact_capacitance import bulk_permittivity, contact_capacitance, gap_capacitance
+from lambda_core.solver.contact.contact_capacitance import (
+    bulk_permittivity,
+    contact_capacitance,
+    open_capacitance,
+    touching_film,
+)
 from lambda_core.solver.contact.contact_kinematics import axis_x, contact_angle, contact_wrench, near, touch
 from lambda_core.solver.contact.contact_states import hand_states
 from lambda_core.solver.contact.dissipation import raceway_losses
@@ -53,6 +58,24 @@ def _show(kin, contact, sample):
 
 
 @helper
+def _light_capacitance(delta, kin, raceway, j, laws, bundle):
+    """Return the capacitance [F] of an open contact or the least one of a light contact, 0 of others; -1 on a fault.
+
+    Open contacts come no closer than the film that the oil would leave where they touched, so that capacitance is
+    continuous where they do. Beyond the reach of the kinematics the film counts for nothing.
+    """
+    if delta >= raceway.roughness:
+        return 0.0
+    film = 0.0
+    if delta > -raceway.reach:
+        hand_states(raceway, j, bundle)
+        film = touching_film(raceway, kin, bundle)
+        if film < -0.5:
+            return -1.0
+    return open_capacitance(raceway, max(-delta, film), bulk_permittivity(raceway, laws, bundle))
+
+
+@helper
 def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
     """Write the channels of one contact; zeros and the gap's capacitance when it is open.
 
@@ -68,8 +91,11 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
         return 0
     sample.contact_angle = contact_angle(kin, raceway)
     sample.film_temperature = raceway.oil.temperature
+    touching = _light_capacitance(delta, kin, raceway, j, laws, bundle)
+    if touching < -0.5:
+        return 0
     if delta <= 0.0:
-        sample.capacitance = bulk_permittivity(raceway, laws, bundle) * gap_capacitance(raceway, -delta)
+        sample.capacitance = touching
     if delta <= -near(raceway, system):
         return 1
     hand_states(raceway, j, bundle)
@@ -86,7 +112,7 @@ def _raceway_channels(ball, j, raceway, bundle, shorted, values, losses, rates):
         rates[i] += losses[i]
     if delta <= 0.0:
         return 1
-    return contact_capacitance(raceway, kin, laws, bundle, shorted, sample)
+    return contact_capacitance(raceway, kin, laws, bundle, shorted, touching, sample)
 
 
 @helper

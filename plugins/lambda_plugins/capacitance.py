@@ -5,11 +5,37 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from lambda_core.plugins import OK, Context, FloatArray, NoParameters, Parameters, law, parameter
+from lambda_core.plugins import (
+    OK,
+    VACUUM_PERMITTIVITY,
+    Context,
+    FloatArray,
+    NoParameters,
+    Parameters,
+    gap_capacitance,
+    law,
+    parameter,
+)
 from lambda_plugins.shapes import at_least, at_most
 
-_EPSILON_0 = 8.8541878128e-12  # [F/m], CODATA 2018
 _STEPS = 160
+_LEAST_GAP = 1e-10  # [m] below which a gap counts as this one (numerical)
+
+
+class Ball(NamedTuple):
+    """The ball of a contact."""
+
+    radius: float  # [m]
+
+
+def prepare_ball(parameters: NoParameters, context: Context) -> Ball:
+    """Return the ball."""
+    return Ball(0.5 * context.ball_diameter)
+
+
+def open_gap(film: float, R_x: float, R_y: float, ball_radius: float, eps_r0: float) -> float:
+    """Return the capacitance [F] of ball and raceway without load that stand a film apart (:func:`gap_capacitance`)."""
+    return eps_r0 * gap_capacitance(at_least(film, _LEAST_GAP), R_x, R_y, ball_radius)
 
 
 @law(
@@ -17,7 +43,8 @@ _STEPS = 160
     "schneider",
     role_api=2,
     reference="Schneider et al. 2021, Tribol. Int. 154, 106714; Syla et al. 2026, Lubricants 14, 154, eq. 34",
-    validity="radial deep groove ball bearings, fully flooded",
+    validity="radial deep groove ball bearings, fully flooded; light loads are those of the gap without load",
+    prepare=prepare_ball,
 )
 def schneider(
     C_hertz: float,
@@ -30,21 +57,30 @@ def schneider(
     G: float,
     W: float,
     eps_r0: float,
-    par: NoParameters,
+    par: Ball,
     out: FloatArray,
 ) -> int:
-    """Correction factor after Schneider et al., C = k_c C_Hertz.
+    """Correction factor after Schneider et al., C = k_c C_Hertz, at least the gap's capacitance.
 
     k_c = 9.5923 U^0.3305 G^0.3431 W^-0.3342 k_e^0.1391 with Hamrock and Dowson's U, G, W (R_x, mean velocity) and
     k_e = a/b: Schneider, Liu, Bader, Furtmann and Poll 2021, Tribol. Int. 154, 106714; Syla et al. 2026, eq. 34. Held
     at 1 and above: the surroundings cannot take capacitance away (slow or heavily loaded contacts outside the fit).
+    A power of the load has no limit where the load vanishes, and the fit falls to a third of the truth there. So C is
+    at least that of ball and raceway without load, a film apart (:func:`gap_capacitance`, Derjaguin 1934).
     """
     if C_hertz <= 0.0 or W <= 0.0 or semi_b <= 0.0:
         out[0] = C_hertz
         return OK
     factor = 9.5923 * U**0.3305 * G**0.3431 * W**-0.3342 * (semi_a / semi_b) ** 0.1391
-    out[0] = C_hertz * at_least(factor, 1.0)
+    out[0] = at_least(C_hertz * at_least(factor, 1.0), open_gap(h, R_x, R_y, par.radius, eps_r0))
     return OK
+
+
+class Factor(NamedTuple):
+    """A factor and the ball of a contact."""
+
+    k_c: float
+    radius: float  # of the ball [m]
 
 
 class ConstantFactor(Parameters):
@@ -60,6 +96,11 @@ class ConstantFactor(Parameters):
     )
 
 
+def prepare_factor(parameters: ConstantFactor, context: Context) -> Factor:
+    """Return the factor and the ball."""
+    return Factor(parameters.k_c, 0.5 * context.ball_diameter)
+
+
 @law(
     "capacitance",
     "constant-factor",
@@ -67,6 +108,7 @@ class ConstantFactor(Parameters):
     role_api=2,
     reference="Barz 1996 (thesis, Hannover)",
     validity="order of magnitude; the true factor falls with load and rises with film thickness",
+    prepare=prepare_factor,
 )
 def constant_factor(
     C_hertz: float,
@@ -79,14 +121,17 @@ def constant_factor(
     G: float,
     W: float,
     eps_r0: float,
-    par: ConstantFactor,
+    par: Factor,
     out: FloatArray,
 ) -> int:
-    """Constant correction factor, C = k_c C_Hertz.
+    """Constant correction factor, C = k_c C_Hertz, at least the gap's capacitance.
 
-    Barz 1996 (thesis, Hannover), as cited by Syla et al. 2026, section 3.
+    Barz 1996 (thesis, Hannover), as cited by Syla et al. 2026, section 3. At least that of ball and raceway without
+    load, a film apart (:func:`gap_capacitance`, Derjaguin 1934).
     """
     out[0] = par.k_c * C_hertz
+    if C_hertz > 0.0:
+        out[0] = at_least(out[0], open_gap(h, R_x, R_y, par.radius, eps_r0))
     return OK
 
 
@@ -174,7 +219,7 @@ def gap_integral(
     if C_hertz <= 0.0 or minor <= 0.0 or major >= outer:
         out[0] = C_hertz
         return OK
-    film = at_least(h, 1e-10)
+    film = at_least(h, _LEAST_GAP)
     P = gap_scale(major, minor, R_x, R_y)
     step = math.asinh(math.sqrt(outer * outer - major * major) / minor) / _STEPS
     i_a = 0.0
@@ -204,5 +249,5 @@ def gap_integral(
         root = math.sqrt(gamma * gamma - kappa * kappa)
         ring = 0.5 * (A2 + B2) / root - 0.5 * (B2 - A2) * kappa / (root * (root + gamma))
         total += (0.5 if i == _STEPS else 1.0) * t / A * ring
-    out[0] = C_hertz + _EPSILON_0 * eps_r0 * 2.0 * math.pi * step * total
+    out[0] = C_hertz + VACUUM_PERMITTIVITY * eps_r0 * 2.0 * math.pi * step * total
     return OK

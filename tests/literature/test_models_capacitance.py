@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,9 +11,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy.special import roots_legendre
 
+from lambda_core.domain.gap_capacitance import gap_capacitance
 from lambda_core.domain.hertz import hertz_contact
 from lambda_core.laws.probe import trial_context
-from lambda_core.solver.contact.contact_capacitance import gap_capacitance
 from lambda_core.testing import evaluate
 
 from .oils import BODE_PERMITTIVITY
@@ -151,8 +150,7 @@ def test_capacitance_of_two_spheres_without_contact_pressure() -> None:
 
 def open_contact(R_x: float, R_y: float, radius: float, gap: float) -> float:
     """Capacitance in vacuum over eps_0 of a ball that touches nothing, as the core computes it [m]."""
-    raceway = SimpleNamespace(ball_radius=radius, radius_x=R_x, radius_y=R_y, roughness=1e-9)
-    return float(gap_capacitance.py_func(raceway, gap)) / EPS_0
+    return gap_capacitance(gap, R_x, R_y, radius) / EPS_0
 
 
 def groove_6208(inner: bool) -> tuple[float, float, float, float, float]:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
+from lambda_core.domain.gap_capacitance import VACUUM_PERMITTIVITY, gap_capacitance
 from lambda_core.solver.arrays.fault_roles import CAPACITANCE, PERMITTIVITY
+from lambda_core.solver.contact.contact_kinematics import contact_wrench
 from lambda_core.solver.faults import report
 from lambda_core.solver.layout import cells_of, grid_of, helper, part
 
-VACUUM_PERMITTIVITY = 8.8541878128e-12  # [F/m], CODATA 2018
+_gap_capacitance = helper(gap_capacitance)
 
 
 @helper
@@ -25,8 +25,8 @@ def bulk_permittivity(raceway, laws, bundle):
 
 
 @helper
-def contact_capacitance(raceway, kin, laws, bundle, shorted, sample):
-    """Write the capacitance of the Hertzian area and of the contact [F]."""
+def contact_capacitance(raceway, kin, laws, bundle, shorted, touching, sample):
+    """Write the capacitance of the Hertzian area and of the contact [F], which is at least that of two that touch."""
     scratch, par, where = bundle.scratch[0], bundle.par, raceway.parameters
     contact, cells, grid, out, oil = (
         scratch.contact[0],
@@ -61,21 +61,27 @@ def contact_capacitance(raceway, kin, laws, bundle, shorted, sample):
         return report(scratch.fault, CAPACITANCE, status, ring, hertz, h, a, b)
     sample.capacitance_hertz = hertz
     touches = contact.film_parameter < shorted and contact.asperity_share > 0.0
-    sample.capacitance = np.inf if touches else out[0]
+    sample.capacitance = np.inf if touches else max(out[0], touching)
     return 1
 
 
 @helper
-def gap_capacitance(raceway, gap):
-    """Return the capacitance [F] of a ball and a raceway that stand `gap` [m] apart, in vacuum.
+def touching_film(raceway, kin, bundle):
+    """Return the central film [m] that entrained oil leaves between ball and raceway where they just touch, or -1.
 
-    Plates in each element (Derjaguin 1934): dA/(h + x^2/(2 R_x) + y^2/(2 R_y)) over the ball's projection, in closed
-    form 4 pi sqrt(R_x R_y) ln{[sqrt(h_x/R_y) + sqrt(h_y/R_x)]/[sqrt(h/R_y) + sqrt(h/R_x)]}, h_x = h + R_b^2/(2 R_x).
-    The edge is that of the law `gap-integral`, which this meets at vanishing load. Surfaces are no closer than their
-    roughness.
+    Hertz's contact and with it the law of the film end where the approach is that of the surfaces' roughness: the film
+    there stands for all lighter contacts. Writes over the contact in scratch.
     """
-    h, s = max(gap, raceway.roughness), raceway.ball_radius * raceway.ball_radius
-    rx, ry = raceway.radius_x, raceway.radius_y
-    edge = math.sqrt((h + 0.5 * s / rx) / ry) + math.sqrt((h + 0.5 * s / ry) / rx)
-    middle = math.sqrt(h / ry) + math.sqrt(h / rx)
-    return VACUUM_PERMITTIVITY * 4.0 * math.pi * math.sqrt(rx * ry) * math.log(edge / middle)
+    contact, penetration, velocity = bundle.scratch[0].contact[0], kin.penetration, kin.normal_velocity
+    kin.penetration, kin.normal_velocity = raceway.roughness, 0.0
+    found = contact_wrench(raceway, bundle)
+    film = contact.film_central
+    kin.penetration, kin.normal_velocity = penetration, velocity
+    return film if found == 1 else -1.0
+
+
+@helper
+def open_capacitance(raceway, gap, bulk):
+    """Return the capacitance [F] of a ball and a raceway at a distance [m]; no closer than their roughness."""
+    distance = max(gap, raceway.roughness)
+    return bulk * _gap_capacitance(distance, raceway.radius_x, raceway.radius_y, raceway.ball_radius)

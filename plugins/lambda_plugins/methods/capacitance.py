@@ -11,11 +11,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from lambda_core.domain.gap_capacitance import VACUUM_PERMITTIVITY
 from lambda_core.domain.hertz import ball_raceway_radii, reduced_modulus
 from lambda_core.domain.kinematics import entrainment_speed
-from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable, NoParameters, NotApplicable
-
-VACUUM_PERMITTIVITY = 8.8541878188e-12  # [F/m], CODATA 2022
+from lambda_core.plugins import Method, MethodInputs, MethodRow, MethodTable, NotApplicable
 
 
 @dataclass(frozen=True)
@@ -40,7 +39,7 @@ def plate_contact(inputs: MethodInputs, load: float, contact_angle: float, *, in
     """
     import numpy as np
 
-    from lambda_plugins.capacitance import schneider
+    from lambda_plugins.capacitance import Ball, schneider
     from lambda_plugins.film_thickness import FilmFloors, chittenden
     from lambda_plugins.normal_contact import fitted, hamrock_brewe, known
 
@@ -73,7 +72,7 @@ def plate_contact(inputs: MethodInputs, load: float, contact_angle: float, *, in
         load / (e_eff * radius_x**2),
         inputs.permittivity(0.0),
     )
-    schneider(hertz, central, semi_a, semi_b, radius_x, radius_y, *parameters, NoParameters(), whole)
+    schneider(hertz, central, semi_a, semi_b, radius_x, radius_y, *parameters, Ball(0.5 * inputs.ball_diameter), whole)
     return PlateContact(area, central, p_max, permittivity, hertz, float(whole[0]))
 
 
