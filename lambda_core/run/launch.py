@@ -16,9 +16,9 @@ from lambda_core.results.provenance import Provenance, differences, model_data
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.reader import Result
 from lambda_core.run.engineering import rating_of
+from lambda_core.run.law_blame import BlamingBearingEngine, naming_laws
 from lambda_core.run.loop import resume, run
 from lambda_core.run.progress import Report
-from lambda_core.run.suspects import SuspiciousEngine, naming_laws
 from lambda_core.run.watch import Watch
 from lambda_core.solver.code_files import physics_sources
 from lambda_core.solver.drivers.equilibrium import solve
@@ -116,12 +116,12 @@ def _live(model: BearingModel, announce: Announce | None) -> Live | None:
 
 def _engine(
     model: BearingModel, announce: Announce | None, live: Live | None, watch: Watch
-) -> tuple[SuspiciousEngine, Provenance]:
+) -> tuple[BlamingBearingEngine, Provenance]:
     with naming_laws(model):
         start = solve(model, announce=announce)
     if announce is not None:
         announce(_start_line(quasistatic_of(start)))
-    engine = SuspiciousEngine(model, announce, start)
+    engine = BlamingBearingEngine(model, announce, start)
     core = sources_key(*physics_sources())
     rating = rating_of(start, registry().methods)
     keys = live.keys() if live is not None else {}

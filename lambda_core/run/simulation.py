@@ -56,12 +56,15 @@ def quasistatic(
     CaseError, SolverError
         With a sentence about the case, or about why there is no equilibrium.
     """
-    if is_machine(source):
-        from lambda_core.shaft.machine_answers import machine_equilibrium
+    from lambda_core.run.law_blame import naming_laws
 
-        return machine_equilibrium(source, overrides, announce=announce)  # type: ignore[arg-type]
+    if is_machine(source):
+        from lambda_core.shaft.machine_answers import machine_equilibrium, machine_of
+
+        machine = machine_of(source, overrides)  # type: ignore[arg-type]
+        with naming_laws(*(bearing.model for bearing in machine.bearings)):
+            return machine_equilibrium(machine, announce=announce)
     from lambda_core.results.quasistatic import quasistatic_of
-    from lambda_core.run.suspects import naming_laws
     from lambda_core.solver.drivers.equilibrium import solve
 
     model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]

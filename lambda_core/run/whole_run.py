@@ -23,10 +23,11 @@ from lambda_core.results.convergence import Window, are_converged, revolutions_w
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.run_status import Rows, State, Status, this_process
 from lambda_core.results.writer import ResultWriter
+from lambda_core.run.law_blame import BlamingMachineEngine, naming_laws
 from lambda_core.run.progress import Progress, Report, StopRequest, stop_request
 from lambda_core.run.record_times import RECORDS_PER_REVOLUTION, next_multiple
 from lambda_core.run.whole_provenance import bearing_alone, channels_of_bearings, code_of, kernel_keys
-from lambda_core.shaft.machine_motion import MachineEngine, machine_engine
+from lambda_core.shaft.machine_motion import MachineEngine, machine_start
 from lambda_core.shaft.whole_file import WHOLE, WholeFile, WholeWriter, earlier_files
 from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
 
@@ -50,7 +51,7 @@ def launch_whole(
 ) -> WholeFile:  # fmt: skip
     """Run a shaft from its quasi-static equilibrium into a new folder."""
     folder = _folder(model, out, force)
-    engine = machine_engine(model, announce)
+    engine = _started(model, announce)
     if announce is not None:
         announce(
             f"{len(engine.bearings)} bearings, {engine.start.shaft.positions.size} lumps of the shaft, "
@@ -59,6 +60,11 @@ def launch_whole(
     folder.mkdir(exist_ok=True)
     with held(folder):
         return _launch(engine, folder, ends, report, force=force)
+
+
+def _started(model: Machine, announce: Callable[[str], None] | None) -> BlamingMachineEngine:
+    with naming_laws(*(bearing.model for bearing in model.bearings)):
+        return BlamingMachineEngine(machine_start(model, announce), announce)
 
 
 def _launch(engine: MachineEngine, folder: Path, ends: Ends, report: Report | None, *, force: bool) -> WholeFile:
@@ -109,7 +115,7 @@ def _resume(
     before = {result.kernel_keys.get("code", NATIVE) for result in found.results().values()}
     if why := next(filter(None, map(other_code, sorted(before))), ""):
         raise UsageError(f"{found.path} cannot go on: {why}")
-    engine = machine_engine(model, announce)
+    engine = _started(model, announce)
     if code_of(engine) != found.code:
         raise UsageError(f"{found.path} cannot go on: the code or the case has changed since")
     engine.restore({k: v for k, v in checkpoint.state.items() if k != "rows"})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -9,9 +10,12 @@ import pytest
 
 from lambda_core import api
 from lambda_core.domain.errors import SolverError
+from lambda_core.solver.arrays.fault_roles import ROLES
 from lambda_core.solver.drivers.assembly import AssembledBearing, Assembly, assembly_of
 from lambda_core.solver.drivers.compiled_laws import Kernels, derive_oils
+from lambda_core.solver.drivers.equilibrium import fault_sentence
 from lambda_core.solver.drivers.first_state import first_frame
+from lambda_core.solver.drivers.solver_context import context_of
 from lambda_core.solver.drivers.tables import Tables, build
 
 CASES = ("6208-axial-700", "6319-cp10-500")
@@ -74,3 +78,22 @@ def test_other_cells_in_another_bearing_are_refused(alone: list[Assembly]) -> No
     changed = replace(both, bearings=(both.bearings[0], replace(other, model=replace(other.model, depth=depth))))
     with pytest.raises(SolverError, match=r"number 0 divides .* number 1 .* same depth\.strips"):
         build(changed)
+
+
+FAULTS = {  # role, ball and place as compiled code leaves them -> what is said
+    "inner land": ("cage_contact", 3, 2, r"^number 1: cage_contact/.* \(cage - inner, t = "),
+    "outer land": ("cage_contact", 3, 1, r"^number 0: cage_contact/.* \(cage - outer, t = "),
+    "pocket": ("cage_contact", 10, -1, r"^number 1: cage_contact/.* \(ball 2, ball - cage, t = "),
+    "drag": ("fluid_drag", 8, -1, r"^number 0: fluid_drag/.* \(ball 9, fluid - drag, t = "),
+    "raceway": ("traction", 9, 3, r"^number 1: traction/.* \(ball 1, ball - outer, t = "),
+}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_law_that_refuses_is_named_with_its_bearing(alone: list[Assembly], name: str) -> None:
+    """A land is no ball: which ball was in hand last does not count."""
+    role, ball, place, expected = FAULTS[name]
+    context = context_of(together(alone))
+    fault = context.bundle.scratch[0].fault
+    fault.role, fault.status, fault.ball, fault.place = ROLES.index(role), 1, ball, place
+    assert re.search(expected, fault_sentence(context, 0.0)), fault_sentence(context, 0.0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import time
+import tomllib
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -20,8 +21,11 @@ from lambda_core.domain.installed import ON_VARIABLE
 from lambda_core.laws import check
 from lambda_core.laws.jit.reach import UnreachableError, reach
 from lambda_core.laws.kernels import CHECKED_VARIABLE, compile_kernel
-from lambda_core.run.suspects import SuspiciousEngine, naming_laws
+from lambda_core.run.law_blame import BlamingBearingEngine, BlamingMachineEngine, naming_laws
+from lambda_core.shaft.machine_motion import MachineEngine, machine_start
 from lambda_core.solver.drivers.engine import Advance
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 LAWS = """
 import math
@@ -189,7 +193,7 @@ def test_a4_a_step_that_becomes_too_small_is_told_with_the_law_behind_it(monkeyp
     from lambda_core.solver.drivers.equilibrium import solve
 
     model = api.check(CASE, ["models.traction=sound"])
-    engine = SuspiciousEngine(model, None, solve(model))
+    engine = BlamingBearingEngine(model, None, solve(model))
     stuck = Advance(ok=False, message="the time step fell below 1e-14 s at t = 0 s")
     monkeypatch.setattr(BearingEngine, "advance", lambda *_: stuck)
     assert "laws of others took part: traction/sound (hostile.py " in engine.advance(1.0).message
@@ -199,12 +203,32 @@ def test_a4_a_step_that_becomes_too_small_is_told_with_the_law_behind_it(monkeyp
         tau[:] = -0.05 * p
         return 1
 
-    kernels = engine._start.context.kernels.compiled
+    kernels = engine.context.kernels.compiled
     monkeypatch.setitem(kernels, ("ball_inner", "traction"), SimpleNamespace(dispatcher=drives))
     said = engine.advance(1.0).message
     assert said.startswith(f"{stuck.message}; traction/sound (hostile.py ")
     assert "returns a shear stress of -" in said
     assert "ball - inner (slip = " in said
+
+
+@pytest.mark.timeout(900)
+def test_a4_a_failure_of_a_machine_names_law_and_bearing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As for one bearing, with the name of the bearing whose contacts are driven."""
+    machine = check_shaft(tomllib.loads(geared_shaft("box")), ["models.traction=sound"])
+    engine = BlamingMachineEngine(machine_start(machine))
+    stuck = Advance(ok=False, message="the time step fell below 1e-14 s at t = 0 s")
+    monkeypatch.setattr(MachineEngine, "advance", lambda *_: stuck)
+    assert "laws of others took part: traction/sound (hostile.py " in engine.advance(1.0).message
+
+    def drives(slip: Any, p: Any, T: Any, ln_eta: Any, h: float, par: Any, tau: Any) -> int:
+        tau[:] = -0.05 * p
+        return 1
+
+    kernels = engine.bearings[0].context.kernels.compiled
+    monkeypatch.setitem(kernels, ("ball_outer", "traction"), SimpleNamespace(dispatcher=drives))
+    said = engine.advance(1.0).message
+    assert said.startswith(f"{stuck.message}; left: traction/sound (hostile.py "), said
+    assert "ball - outer (slip = " in said
 
 
 def test_a4_an_equilibrium_that_is_not_found_names_the_laws_of_others() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,10 @@ from lambda_core.discovery import local_files, manager, survey
 from lambda_core.domain.installed import ON_VARIABLE
 from lambda_core.laws import check
 from lambda_core.laws.state import State, state_fault
+from lambda_core.run.law_blame import BlamingMachineEngine
+from lambda_core.shaft.machine_motion import machine_start
+from lambda_core.system.machine_templates import geared_shaft
+from lambda_core.system.resolve_machine import check_shaft
 
 LAWS = """
 from lambda_core.plugins import OK, State, law
@@ -92,3 +97,13 @@ def test_a_run_ends_with_the_state_that_ran_away(capsys: pytest.CaptureFixture[s
     said = capsys.readouterr().err
     assert "contact_state/feeding (states.py " in said
     assert "its state heat runs away" in said
+
+
+@pytest.mark.timeout(900)
+def test_a_machine_ends_with_the_bearing_whose_state_ran_away() -> None:
+    """The bearing is named, too; the other one keeps the state as well, but its contacts were told first."""
+    machine = check_shaft(tomllib.loads(geared_shaft("box")), ["models.contact_state=feeding"])
+    found = BlamingMachineEngine(machine_start(machine)).advance(3e-3)
+    assert not found.ok
+    assert found.message.startswith("left: contact_state/feeding (states.py "), found.message
+    assert "its state heat runs away" in found.message
