@@ -27,6 +27,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.discovery.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins, watchers
     from lambda_core.domain.errors import CaseError, LambdaError, UsageError
     from lambda_core.electric.api import check_discharges_file, electric, film_from_capacitance, write_discharges
+    from lambda_core.fit.band import model_band
     from lambda_core.fit.fit_case import fit
     from lambda_core.fit.fitted_case import fitted_case
     from lambda_core.fmu.unit_file import export_fmu

@@ -38,6 +38,8 @@ class Graded:
         Unit of the three.
     source, grade : str
         Where the range comes from; "published", "assumed", "given" for one of the user.
+    law : str
+        Law that the parameter belongs to, for a parameter of a law.
     """
 
     path: str
@@ -47,15 +49,17 @@ class Graded:
     scale: Scale
     source: str
     grade: str
+    law: str = ""
 
     @property
     def short(self) -> str:
         """Name for tables."""
         return self.path.removeprefix("parameters.")
 
-    def change(self, number: float) -> str:
-        """Return the change of the case that sets a value."""
-        return f"{self.path}={self.scale.text(number)}"
+    def changes(self, number: float) -> tuple[str, ...]:
+        """Return the changes of the case that set a value, and keep the law that it belongs to."""
+        value = f"{self.path}={self.scale.text(number)}"
+        return (f"models.{self.path.split('.')[1]}={self.law}", value) if self.law else (value,)
 
 
 @dataclass(frozen=True)
@@ -148,7 +152,7 @@ def _given(entry: Graded, ends: str) -> Graded:
         raise wrong
     scale, numbers = read
     value = numbers[2] if own is not None else math.nan
-    return Graded(entry.path, value, numbers[0], numbers[1], scale, "given on the command line", "given")
+    return Graded(entry.path, value, numbers[0], numbers[1], scale, "given on the command line", "given", entry.law)
 
 
 def _number(text: str) -> float | str:
@@ -172,7 +176,7 @@ def _of_laws(model: BearingModel, *, is_ranged: bool) -> list[Graded]:
                     continue
                 entry = _read(path, written[name], ends if isinstance(ends, list) else None, extra)
                 if entry is not None:
-                    found[path] = entry
+                    found[path] = replace(entry, law=law.model.name)
     return list(found.values())
 
 

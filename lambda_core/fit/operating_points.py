@@ -12,7 +12,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError, LambdaError, SolverError, UsageError
 from lambda_core.domain.loading import CARRYING
 from lambda_core.domain.units import UNITS, from_si
-from lambda_core.fit.quantities import CONDITIONS
+from lambda_core.fit.quantities import CONDITIONS, MEASURED
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
 from lambda_core.solver.records import CONTACT_CHANNELS
 from lambda_core.system.bearing import BearingModel
@@ -21,6 +21,7 @@ from lambda_core.system.bearing import BearingModel
 # midpoints leave out all but the fourth harmonic of the ball pass.
 _POSITIONS = (0.125, 0.375)
 _LOAD = CONTACT_CHANNELS.index("load")
+UNITS_OF = {**{name: measured.unit for name, measured in MEASURED.items()}, "maximum pressure": "GPa"}
 _SAME = 1e-6  # relative spread of the loads below which the position of the balls does not matter
 
 
@@ -85,7 +86,8 @@ def _pressure(found: Equilibrium) -> float:
 
 def _capacitance(found: Equilibrium) -> float:
     each = found.contacts[:, :, CONTACT_CHANNELS.index("capacitance")]
-    return 1e9 * float((1.0 / (1.0 / each).sum(axis=1)).sum())
+    with np.errstate(divide="ignore"):
+        return 1e9 * float((1.0 / (1.0 / each).sum(axis=1)).sum())
 
 
 def _displacement(axis: int) -> Callable[[Equilibrium], float]:

@@ -165,7 +165,11 @@ class CaseProblem:
         """Return the quantities at one operating point; equal ones are computed once."""
         changes = (
             *(condition_change(name, value) for name, value in conditions.items()),
-            *(graded.change(float(value)) for graded, value in zip(self.varied, values, strict=True)),
+            *(
+                change
+                for graded, value in zip(self.varied, values, strict=True)
+                for change in graded.changes(float(value))
+            ),
         )
         key = (*changes, *names)
         for kind in ("all", "one") if one else ("all",):

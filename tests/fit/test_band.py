@@ -1,0 +1,73 @@
+"""The model band: against the measured points of the paper, and after a fit."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lambda_core import api
+from lambda_core.fit.measurements import parse_measurements
+from lambda_core.fit.scores import interval_score, rounded
+
+# Table 4 of Syla et al. 2026, and the oil temperatures that its SKF row has (docs/validation.md).
+POINTS = {
+    "6319-cp10-500": (63.7, 925.0),
+    "6319-cp10-1500": (60.3, 1306.0),
+    "6319-cp10-3000": (69.1, 1564.0),
+    "6319-cp6.5-500": (64.1, 1456.0),
+    "6319-cp6.5-1500": (65.1, 1750.0),
+    "6319-cp6.5-3000": (69.4, 1847.0),
+}
+TORQUE = ("friction torque",)
+
+
+def test_the_interval_score_is_the_published_one() -> None:
+    """Eq. 43 of Gneiting and Raftery 2007 for one value inside, one below and one above; alpha = 0.1."""
+    low, high = np.array([1.0, 1.0, 1.0]), np.array([2.0, 2.0, 2.0])
+    np.testing.assert_allclose(interval_score(low, high, np.array([1.5, 0.9, 2.2])), [1.0, 3.0, 5.0])
+
+
+@pytest.mark.parametrize(
+    ("value", "half", "text"),
+    [(1157.02, 95.0, "1157"), (1157.02, 213.0, "1160"), (0.4719, 0.023, "0.472"), (5.0, 0.0, "5.000")],
+)
+def test_numbers_are_rounded_to_their_band(value: float, half: float, text: str) -> None:
+    assert rounded(value, half) == text
+
+
+def test_the_band_of_table_4_holds_five_of_six_measured_torques() -> None:
+    bands = [
+        api.model_band(case, [f"lubricant.temperature={temperature} degC"], quantities=TORQUE).band("friction torque")
+        for case, (temperature, _) in POINTS.items()
+    ]
+    measured = [torque for _, torque in POINTS.values()]
+    inside = [band.low <= torque <= band.high for band, torque in zip(bands, measured, strict=True)]
+    assert sum(inside) >= 5
+    assert max(band.half_width_pct for band in bands) <= 25.0
+    assert all(band.low < band.value < band.high for band in bands)
+
+
+def test_the_band_names_what_it_comes_from() -> None:
+    found = api.model_band("6319-cp10-500")
+    torque = found.band("friction torque")
+    assert torque.contributors[0].name == "elastic_hysteresis.loss_factor"
+    assert sum(c.share for c in torque.contributors) == pytest.approx(1.0, abs=0.1)
+    assert found.band("minimum film").contributors[0].name == "lubricant.temperature"
+    assert found.band("maximum pressure").contributors[0].name == "bearing.clearance"
+    assert "90 % model band" in found.text()
+    assert not found.left_out
+
+
+def test_the_errors_of_a_fit_replace_the_ranges(tmp_path: Path) -> None:
+    head = "speed [1/min],radial load [kN],friction torque [N mm],friction torque error [%]\n"
+    measured = parse_measurements(head + "500,8,440,1\n500,16,900,1\n500,24.6,1560,1\n500,30,2020,1", "rig.csv")
+    report = api.fit("6319-cp10-500", measured, ["loss_factor=0.01..0.08"], suggest=False)
+    path = api.fitted_case("6319-cp10-500", report, tmp_path / "fitted.toml")
+    before, after = (
+        api.model_band(case, quantities=TORQUE).band("friction torque") for case in ("6319-cp10-500", path)
+    )
+    assert "elastic_hysteresis.loss_factor" not in {c.name for c in after.contributors}
+    assert "law of elastic_hysteresis" not in {c.name for c in after.contributors}
+    assert after.half_width_pct < 0.9 * before.half_width_pct
