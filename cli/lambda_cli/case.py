@@ -69,6 +69,7 @@ def check(
             _check_machine(case, changes or [], units, as_json=as_json)
             return
         model = api.check(case, changes or ())
+        assert isinstance(model, api.BearingModel)
         if faults := api.law_problems(model):
             raise api.CaseError(model.name, faults)
         report = api.describe(model)

@@ -58,6 +58,7 @@ def run(
         )  # fmt: skip
         return
     model = api.check(case, [*(changes or ()), *limits(duration, max_wall)])
+    assert isinstance(model, api.BearingModel)
     with talk(progress, quiet) as speaker:
         for line in api.describe(model).headline:
             speaker.say(units.system.sentence(line))

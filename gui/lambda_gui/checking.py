@@ -65,6 +65,7 @@ class Checker:
         from lambda_core.api import operating_warnings, value_reports
 
         model = api.check(tables, folder=folder, catalogue=catalogue)
+        assert isinstance(model, api.BearingModel)
         return Check((), model, None, tuple(value_reports(model)), tuple(operating_warnings(model)))
 
     def _order(self, problem: Problem) -> int:

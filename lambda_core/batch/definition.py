@@ -10,8 +10,7 @@ from typing import Any, Literal
 
 from pydantic import ValidationError, field_validator, model_validator
 
-from lambda_core.case.case import NAME_PATTERN
-from lambda_core.case.option import Section, option
+from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.problems import problems
 from lambda_core.domain.errors import CaseError, Problem, UsageError
 from lambda_core.domain.files import read_text

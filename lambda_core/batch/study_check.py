@@ -233,15 +233,10 @@ def _tried(c: Coordinate) -> Iterator[tuple[str, float | str]]:
 
 
 def _refused_by_schema(case_toml: str, changes: tuple[str, ...]) -> bool:
-    from lambda_core.case.case_io import apply_overrides, overridden, parse_case, toml_tables
-    from lambda_core.case.shaft import ShaftCase
-    from lambda_core.case.shaft_io import validate_shaft
+    from lambda_core.case.case_io import read_case, toml_tables
 
     try:
-        if bearings_of(case_toml):
-            validate_shaft(overridden(toml_tables(case_toml, "case"), changes, ShaftCase))
-        else:
-            apply_overrides(parse_case(case_toml), changes)
+        read_case(toml_tables(case_toml, "case"), changes)
     except LambdaError:
         return True
     return False

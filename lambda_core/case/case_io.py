@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
 from lambda_core.case.builtin import builtin_cases, builtin_text, is_builtin
-from lambda_core.case.case import Case, merged
-from lambda_core.case.salvage import invalid_case
+from lambda_core.case.case import Case, Written, merged
+from lambda_core.case.option import NAME_PATTERN
+from lambda_core.case.salvage import ONE_BEARING, SHARED_STAND_INS, InvalidCase, StandIns, invalid_case
+from lambda_core.case.shaft import NAMED, TAKEN, ShaftCase
+from lambda_core.case.shaft_parts import length_in
 from lambda_core.domain.errors import CaseError, LambdaError, Problem, UsageError, nearest
 from lambda_core.domain.files import read_text
 from lambda_core.domain.handed_laws import named
@@ -23,39 +27,143 @@ _LOCATION = re.compile(r"\(at (?:line (\d+), column (\d+)|end of document)\)")
 _BARE_UNIT = re.compile(r"^(\s*[\w.\"-]+\s*=\s*)([+-]?[\d.,]+\s*[A-Za-z/][^#\"]*?)\s*(#.*)?$")
 _LAWS_IN = ("models", "forces", "electric")  # where a program may hand over a law in place of its name
 _FILES = 8  # most names that an error lists
+STAND_IN = "stand-in"  # a bearing where no other is left
+_PIECES = [{"length": "1 m", "diameter": "40 mm"}]
+_OF_A_MACHINE: StandIns = {
+    **SHARED_STAND_INS,
+    ("shaft",): {"sections": _PIECES},
+    ("shaft", "sections"): _PIECES,
+    ("bearings",): {STAND_IN: {"at": "0 mm"}},
+}
 
 
-def load_case(source: str | Path) -> Case:
-    """Read a case from a TOML file, or a built-in case by its name.
+Source = str | Path | Mapping[str, Any] | Written  # a file, a built-in name, plain tables, a case
+
+
+@dataclass(frozen=True)
+class Tables:
+    """What a source says, right or wrong.
+
+    Attributes
+    ----------
+    data : dict
+        Plain tables.
+    name : str
+        Of the file or the case, for messages.
+    folder : Path or None
+        That file names in the tables are relative to; None: the working directory.
+    """
+
+    data: dict[str, Any]
+    name: str
+    folder: Path | None
+
+    @property
+    def root(self) -> type[Case] | type[ShaftCase]:
+        """Which kind of case it is: of one bearing, or a machine."""
+        return ShaftCase if is_shaft(self.data) else Case
+
+    def changed(self, overrides: Iterable[str]) -> Tables:
+        """Return the tables with ``path=value`` texts applied in order, as ``--set`` does; UsageError without ``=``."""
+        texts = list(overrides)
+        return replace(self, data=overridden(self.data, texts, self.root)) if texts else self
+
+
+def read_tables(source: Source, folder: Path | None = None) -> Tables:
+    """Return the plain tables of a source.
+
+    Parameters
+    ----------
+    source : str, Path, mapping or case
+        TOML file, name of a built-in case, plain tables, or a case.
+    folder : Path, optional
+        That file names in plain tables are relative to.
 
     Raises
     ------
     UsageError
         When there is neither such a file nor such a built-in case.
     CaseError
-        With every problem of the case.
+        When the file is not TOML.
     """
+    if isinstance(source, Written):
+        return Tables(source.written(), source.name, source.folder)
+    if isinstance(source, Mapping):
+        return Tables(dict(source), str(source.get("name", "case")), folder)
     path = Path(source)
     if path.is_file():
-        return parse_case(case_text(path), source=path.name, folder=path.resolve().parent)
+        return Tables(toml_tables(case_text(path), path.name), path.name, path.resolve().parent)
     if is_builtin(str(source)):
-        return parse_case(builtin_text(str(source)), source=str(source))
+        return Tables(toml_tables(builtin_text(str(source)), str(source)), str(source), None)
     if path.is_dir():
         raise UsageError(f'"{source}" is a folder, not a case file')
+    raise UsageError(f'"{source}" is neither a file nor a built-in case; {_instead_of(path)}')
+
+
+def _instead_of(path: Path) -> str:
+    """Say what there is in place of a file that is not there."""
     names = list(builtin_cases())
-    close = nearest(str(source), names)
+    close = nearest(str(path), names)
     files = sorted(file.name for file in path.parent.glob("*.toml")) if path.suffix == ".toml" else []
-    if Path(f"{source}.toml").is_file():
-        hint = f"the file is {source}.toml"
-    elif files:
+    if Path(f"{path}.toml").is_file():
+        return f"the file is {path}.toml"
+    if files:
         listed = ", ".join([*files[:_FILES], "..."] if len(files) > _FILES else files)
         likely = ", ".join(nearest(path.name, files))
-        hint = f"nearest files there: {likely}" if likely else f"files there: {listed}"
-    elif close:
-        hint = f"nearest built-in cases: {', '.join(close)}"
-    else:
-        hint = f"built-in cases: {', '.join(names)}; lambda-bearing init starts one for any bearing (--bearing)"
-    raise UsageError(f'"{source}" is neither a file nor a built-in case; {hint}')
+        return f"nearest files there: {likely}" if likely else f"files there: {listed}"
+    if close:
+        return f"nearest built-in cases: {', '.join(close)}"
+    return (
+        f"built-in cases: {', '.join(names)}; lambda-bearing init starts one for any bearing (--bearing), "
+        "or a machine (--template geared-shaft)"
+    )
+
+
+def read_case(source: Source, overrides: Iterable[str] = (), folder: Path | None = None) -> Case | ShaftCase:
+    """Read a case, of one bearing or of a machine, whichever the source is.
+
+    Parameters
+    ----------
+    source : str, Path, mapping or case
+        TOML file, name of a built-in case, plain tables, or a case.
+    overrides : iterable of str
+        Changes ``path=value``, as ``--set`` takes them.
+    folder : Path, optional
+        That file names in plain tables are relative to.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file or name, or an override has no ``=``.
+    CaseError
+        With every problem of the case.
+    """
+    changes = list(overrides)
+    if isinstance(source, Case | ShaftCase) and not changes:
+        return source
+    tables = read_tables(source, folder).changed(changes)
+    return validate(tables.root, tables.data, _changed_name(tables.name, changes), tables.folder)
+
+
+def load_case(source: Source, overrides: Iterable[str] = (), folder: Path | None = None) -> Case:
+    """Read the case of one bearing; a machine is refused.
+
+    Raises
+    ------
+    UsageError
+        When there is no such file or built-in case.
+    CaseError
+        With every problem of the case.
+    """
+    changes = list(overrides)
+    if isinstance(source, Case) and not changes:
+        return source
+    tables = read_tables(source, folder).changed(changes)
+    return validate_case(tables.data, _changed_name(tables.name, changes), tables.folder)
+
+
+def _changed_name(name: str, changes: Sequence[str]) -> str:
+    return f"{name} with {', '.join(changes)}" if changes else name
 
 
 def case_text(path: Path) -> str:
@@ -83,36 +191,47 @@ def toml_tables(text: str, source: str) -> dict[str, Any]:
         raise CaseError(source, [Problem("", "is nested too deeply")]) from None
 
 
-def shaft_tables(source: str | Path) -> dict[str, Any]:
-    """Return what stands in the TOML file of a shaft.
-
-    Raises
-    ------
-    UsageError
-        When there is no such file.
-    CaseError
-        When it is not TOML.
-    """
-    path = Path(source)
-    if not path.is_file():
-        how = "lambda-bearing init NAME --template geared-shaft writes one to start from"
-        raise UsageError(f'"{source}" is not a file; {how}')
-    return toml_tables(case_text(path), path.name)
+C = TypeVar("C", bound=Written)
 
 
-def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> Case:
-    """Check plain tables as a case; CaseError with every problem at once."""
+def validate(root: type[C], data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> C:
+    """Check plain tables as a case of a class; InvalidCase with every mistake at once, and what is left without."""
     if isinstance(data.get("parameters"), list) and "bearing" not in data:
         raise CaseError(source, [Problem("", f"is a study, not a case: lambda-bearing study run {source}")])
-    if is_shaft(data):
-        raise CaseError(source, [Problem("", "is a machine of several bearings; this question is about one bearing")])
     if _is_deep(data):
         raise CaseError(source, [Problem("", "is nested too deeply")])
     data = {key: named(value) if key in _LAWS_IN else value for key, value in data.items()}
+    found = _names(data) if root is ShaftCase else []
     try:
-        return Case.model_validate(data, context={"folder": folder})
+        case = root.model_validate(data, context={"folder": folder})
     except ValidationError as error:
-        raise invalid_case(source, error, data, folder) from None
+        wrong = invalid_case(source, error, data, folder, root, _OF_A_MACHINE if root is ShaftCase else ONE_BEARING)
+        raise InvalidCase(source, [*wrong.problems, *found], wrong.remainder) from None
+    if found:
+        raise InvalidCase(source, found, case)
+    return case
+
+
+def validate_case(data: Mapping[str, Any], source: str = "case", folder: Path | None = None) -> Case:
+    """Check plain tables as the case of one bearing; CaseError with every problem at once."""
+    if is_shaft(data):
+        raise CaseError(source, [Problem("", "is a machine of several bearings; this question is about one bearing")])
+    return validate(Case, data, source, folder)
+
+
+def _names(data: Mapping[str, Any]) -> list[Problem]:
+    """Return what is wrong with the names of named parts of a machine, each at its own path."""
+    found = []
+    for table in NAMED:
+        parts = data.get(table)
+        for name in parts if isinstance(parts, Mapping) else ():
+            if not re.match(NAME_PATTERN, str(name)):
+                found.append(Problem(f"{table}.{name}", "use letters, digits, dot, dash and underscore in names"))
+            elif table == "markers" and length_in(str(name)) is not None:
+                found.append(Problem(f"{table}.{name}", "reads as a length: choose a name that does not"))
+            elif name in TAKEN.get(table, ()):
+                found.append(Problem(f"{table}.{name}", f'"{name}" is there already: choose another name'))
+    return found
 
 
 def is_machine(source: Any) -> bool:
@@ -128,7 +247,7 @@ def is_machine(source: Any) -> bool:
     if not isinstance(source, str | Path):
         return hasattr(source, "bearings")  # a case or a model; that of one bearing has `bearing`, or is one
     try:
-        return is_shaft(shaft_tables(source))
+        return is_shaft(read_tables(source).data)
     except LambdaError:
         return False
 
@@ -173,7 +292,7 @@ def syntax_problem(message: str, text: str) -> Problem:
     return Problem(where, f"{line.strip()}: {message[: location.start()].strip()} (column {column})")
 
 
-def apply_overrides(case: Case, overrides: Iterable[str]) -> Case:
+def apply_overrides(case: C, overrides: Iterable[str]) -> C:
     """Return the case with ``path=value`` texts applied in order, as ``--set`` does.
 
     Raises
@@ -184,8 +303,9 @@ def apply_overrides(case: Case, overrides: Iterable[str]) -> Case:
         When the changed case is invalid.
     """
     texts = list(overrides)
-    data = overridden(case.written(), texts, Case)
-    return validate_case(data, f"{case.name} with {', '.join(texts)}" if texts else case.name, case.folder)
+    return validate(
+        type(case), overridden(case.written(), texts, type(case)), _changed_name(case.name, texts), case.folder
+    )
 
 
 def overridden(data: Mapping[str, Any], overrides: Iterable[str], root: type[BaseModel]) -> dict[str, Any]:

@@ -17,8 +17,8 @@ from tomlkit.items import AoT, Array, Table, Trivia
 from tomlkit.toml_document import TOMLDocument
 
 from lambda_core.case.builtin import builtin_cases, builtin_text
-from lambda_core.case.case import Case
-from lambda_core.case.case_io import load_case, parse_case
+from lambda_core.case.case import Written
+from lambda_core.case.case_io import read_case, toml_tables, validate
 from lambda_core.case.electric import Series
 from lambda_core.case.signals import Table as TimeTableFile
 from lambda_core.domain.errors import CaseError, UsageError
@@ -28,12 +28,12 @@ _PLAIN = re.compile(r"[\w .+/-]*", re.ASCII)  # texts without anything to escape
 _INLINE_KEYS = frozenset({"kind", "mode", "points"})  # small tables that read best on one line
 
 
-def case_toml(case: Case, original: str | None = None) -> str:
+def case_toml(case: Written, original: str | None = None) -> str:
     """Write a case as TOML.
 
     Parameters
     ----------
-    case : Case
+    case : Case or ShaftCase
         What to write.
     original : str, optional
         Text of the file it came from; its comments, order and the spelling of unchanged
@@ -43,7 +43,7 @@ def case_toml(case: Case, original: str | None = None) -> str:
     if original is None:
         return _fresh(written)
     try:
-        before = parse_case(original, folder=case.folder).written()
+        before = validate(type(case), toml_tables(original, case.name), folder=case.folder).written()
     except CaseError:
         before = {}
     document = tomlkit.parse(original)
@@ -51,7 +51,7 @@ def case_toml(case: Case, original: str | None = None) -> str:
     return tomlkit.dumps(document)
 
 
-def standalone_toml(case: Case) -> str:
+def standalone_toml(case: Written) -> str:
     """Write a case that needs no other file: CSV tables become points in the text."""
     return _fresh(_inlined(case, case.written()))
 
@@ -123,7 +123,7 @@ def _with_name(text: str, section: str, old: str, new: str) -> str:
         return text
 
 
-def save_case(case: Case, path: str | Path, original: str | None = None) -> None:
+def save_case(case: Written, path: str | Path, original: str | None = None) -> None:
     """Write a case to `path` in one step (a crash leaves the old file whole).
 
     `original` defaults to the text that stands in `path`, so that saving keeps comments.
@@ -167,7 +167,7 @@ def save_text(text: str, target: Path) -> None:
 def new_case(name: str, start: str, path: Path, overwrite: bool) -> Path:
     """Write the case `start`, comments included, under another name; see :func:`lambda_core.api.init_case`."""
     original = builtin_text(start) if start in builtin_cases() else None
-    source = load_case(start)
+    source = read_case(start)
     try:
         renamed = source.with_(name=name)
     except CaseError as error:
@@ -177,7 +177,7 @@ def new_case(name: str, start: str, path: Path, overwrite: bool) -> Path:
     return write_new(renamed, original, path, overwrite)
 
 
-def write_new(case: Case, original: str, path: Path, overwrite: bool) -> Path:
+def write_new(case: Written, original: str, path: Path, overwrite: bool) -> Path:
     """Write a case with the comments of `original` to a file that does not exist yet.
 
     Raises

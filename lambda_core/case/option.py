@@ -9,6 +9,8 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from lambda_core.domain.units import Quantity
 
+NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]*$"
+
 
 class Section(BaseModel):
     """Base of every table of a case: no unknown keys, immutable, defaults checked like input."""

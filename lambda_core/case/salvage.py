@@ -28,7 +28,7 @@ SHARED_STAND_INS: StandIns = {
     ("operation",): {"speed": "1000 rpm"},
     ("operation", "speed"): "1000 rpm",
 }
-_ONE_BEARING: StandIns = {**SHARED_STAND_INS, ("bearing",): {}}
+ONE_BEARING: StandIns = {**SHARED_STAND_INS, ("bearing",): {}}
 
 
 class InvalidCase(CaseError):
@@ -56,7 +56,7 @@ def invalid_case(
     data: Mapping[str, Any],
     folder: Path | None,
     root: type[BaseModel] = Case,
-    stand_ins: StandIns = _ONE_BEARING,
+    stand_ins: StandIns = ONE_BEARING,
 ) -> InvalidCase:
     """Return the error that names every mistake in `data`, with what is left of the case, of one bearing or a shaft."""
     return InvalidCase(source, problems(error, root, data), _remainder(error, data, folder, root, stand_ins))

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any, ClassVar, Literal
 
-from pydantic import PrivateAttr, ValidationInfo, field_validator, model_validator
+from pydantic import ValidationInfo, field_validator, model_validator
 
-from lambda_core.case.case import NAME_PATTERN
+from lambda_core.case.case import Written
 from lambda_core.case.elastic import Elastic
 from lambda_core.case.holding import SeatTilt, SeatTranslation
 from lambda_core.case.modelling import Forces, Models, Parameters, Solver
@@ -156,7 +155,7 @@ class ShaftLife(Section):
     contamination: float | None = option(None, "contamination factor e_C of ISO 281", ge=0.0, le=1.0)
 
 
-class ShaftCase(Section):
+class ShaftCase(Written):
     """What the file of a shaft says; values in SI, written as unit strings."""
 
     INSTEAD: ClassVar[Mapping[str, str]] = {
@@ -164,9 +163,6 @@ class ShaftCase(Section):
         "elements": "write [connections.NAME]",
     }
 
-    name: str = option(description="short name, used for files", pattern=NAME_PATTERN)
-    description: str = option("", "what this case is, for people")
-    assumptions: list[str] = option([], "what the author of the case assumed, repeated with every result")
     shaft: Shaft = option(description="the shaft")
     bearings: dict[str, ShaftBearing] = option(description="its bearings, by name", min_length=1)
     markers: dict[str, ShaftMarker] = option({}, "named places on the shaft, on bodies and on the ground, by name")
@@ -187,21 +183,6 @@ class ShaftCase(Section):
     models: Models = option({}, "model by role, for every bearing")
     parameters: Parameters = option({}, "parameters by role, for every bearing")
     solver: Solver = option({}, "integrator and averages, in motion")
-    _folder: Path | None = PrivateAttr(default=None)
-
-    @model_validator(mode="after")
-    def _knows_its_folder(self, info: Any) -> ShaftCase:
-        self._folder = (info.context or {}).get("folder")
-        return self
-
-    @property
-    def folder(self) -> Path | None:
-        """Folder that file names in the case are relative to; None is the working directory."""
-        return self._folder
-
-    def written(self) -> dict[str, Any]:
-        """Return what stands in the case's file: plain tables with unit strings, no defaults."""
-        return self.model_dump(mode="json", exclude_unset=True, exclude_none=True)
 
 
 def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from pydantic import PrivateAttr, field_validator, model_validator
 
 from lambda_core.case.holding import Roll, RotationSpring, Tilt, Translation, TranslationSpring
 from lambda_core.case.motion import Load
-from lambda_core.case.option import Section, option
+from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.parts import MaterialChoice
 from lambda_core.domain.units import (
     Angle,
@@ -24,7 +24,6 @@ from lambda_core.domain.units import (
     parse,
 )
 
-NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]*$"
 _DOFS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
 _AT = 'write at = "85 mm", a place along the shaft, or at = "NAME", a marker or a bearing'
 

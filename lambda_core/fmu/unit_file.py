@@ -93,11 +93,11 @@ def export_fmu(
     CaseError, SolverError
         With a sentence about the case or its equilibrium.
     """
+    from lambda_core.case.case_io import load_case
     from lambda_core.case.case_writer import standalone_toml
     from lambda_core.domain.files import check_folder, check_new, check_target
     from lambda_core.fmu.varied import varied
     from lambda_core.solver.drivers.given import COUPLINGS
-    from lambda_core.system.cases import case
     from lambda_core.system.checking import resolve
 
     wanted = tuple(dict.fromkeys(platforms))
@@ -117,7 +117,7 @@ def export_fmu(
         if name not in PLATFORMS:
             raise UsageError(unknown_name("platform", name, PLATFORMS))
         compiler(name)
-    loaded = _loaded(source, overrides) if not isinstance(source, str | Path) else case(source, overrides)
+    loaded = load_case(source, overrides)
     options = tuple(vary)
     varied(options, loaded)
     resolve(loaded)
@@ -132,15 +132,6 @@ def export_fmu(
             announce(f"exporting for {processor} (the first time what is compiled takes about a minute)")
         _write_apart(task, processor)
     return target
-
-
-def _loaded(source: Any, overrides: Iterable[str]) -> Case:
-    from lambda_core.case.case import Case
-    from lambda_core.case.case_io import apply_overrides, validate_case
-
-    loaded = source if isinstance(source, Case) else validate_case(source)
-    changes = list(overrides)
-    return apply_overrides(loaded, changes) if changes else loaded
 
 
 def _plain(name: str) -> str:

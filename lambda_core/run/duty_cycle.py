@@ -15,9 +15,9 @@ from typing import Any
 
 from pydantic import Field, ValidationError
 
-from lambda_core.case.case import NAME_PATTERN, Case
+from lambda_core.case.case import Case
 from lambda_core.case.case_io import apply_overrides, load_case, syntax_problem
-from lambda_core.case.option import Section, option
+from lambda_core.case.option import NAME_PATTERN, Section, option
 from lambda_core.case.problems import problems
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.blas_threads import one_blas_thread

@@ -11,11 +11,11 @@ from lambda_core.domain.blas_threads import one_blas_thread
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from lambda_core.case.case_io import Source
     from lambda_core.run.progress import Progress
     from lambda_core.run.whole_run import Ends
     from lambda_core.shaft.whole_summary import WholeSummary
     from lambda_core.system.machine import Machine
-    from lambda_core.system.resolve_machine import Source
     from lambda_core.views.chart import ViewData
 
 

@@ -9,10 +9,10 @@ from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
 
 if TYPE_CHECKING:
+    from lambda_core.case.case_io import Source
     from lambda_core.shaft.machine_equilibrium import MachineEquilibrium
     from lambda_core.shaft.machine_modes import MachineModes
     from lambda_core.system.machine import Machine
-    from lambda_core.system.resolve_machine import Source
     from lambda_core.views.chart import ViewData
 
 

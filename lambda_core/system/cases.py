@@ -12,26 +12,27 @@ if TYPE_CHECKING:
 
     from lambda_core.case.case import Case
     from lambda_core.case.draft import Draft
+    from lambda_core.case.shaft import ShaftCase
     from lambda_core.catalogue.protocol import Catalogue
 
 
 GEARED_SHAFT = "geared-shaft"  # template of a shaft in two bearings
 
 
-def case(source: str | Path, overrides: Iterable[str] = ()) -> Case:
-    """Read a case from a TOML file or by the name of a built-in one.
+def case(source: str | Path | Mapping[str, Any], overrides: Iterable[str] = ()) -> Case | ShaftCase:
+    """Read a case, of one bearing or of a machine, from a TOML file, plain tables or by the name of a built-in one.
 
     Parameters
     ----------
-    source : str or Path
-        File, or built-in name such as "6319-cp10-1500".
+    source : str, Path or mapping
+        File, built-in name such as "6319-cp10-1500", or plain tables as they stand in a file.
     overrides : iterable of str
         Changes ``path=value``, as ``--set`` takes them.
 
     Returns
     -------
-    Case
-        Values in SI; what the file leaves open has its default.
+    Case or ShaftCase
+        Of one bearing, or of a machine. Values in SI; what the file leaves open has its default.
 
     Raises
     ------
@@ -40,10 +41,9 @@ def case(source: str | Path, overrides: Iterable[str] = ()) -> Case:
     CaseError
         With every problem of the case.
     """
-    from lambda_core.case.case_io import apply_overrides, load_case
+    from lambda_core.case.case_io import read_case
 
-    loaded, changes = load_case(source), list(overrides)
-    return apply_overrides(loaded, changes) if changes else loaded
+    return read_case(source, overrides)
 
 
 def builtin_cases() -> dict[str, str]:
@@ -58,12 +58,12 @@ def builtin_cases() -> dict[str, str]:
     return builtin_cases()
 
 
-def save(case: Case, path: str | Path) -> None:
+def save(case: Case | ShaftCase, path: str | Path) -> None:
     """Write a case as TOML; comments of the file that stands there are kept.
 
     Parameters
     ----------
-    case : Case
+    case : Case or ShaftCase
         What to write: options at their default are left out.
     path : path-like
         The file.
@@ -132,11 +132,12 @@ def init_case(
     if template == GEARED_SHAFT:
         import tomllib
 
+        from lambda_core.case.case_io import validate
         from lambda_core.case.case_writer import save_text
-        from lambda_core.case.shaft_io import validate_shaft
+        from lambda_core.case.shaft import ShaftCase
         from lambda_core.domain.files import check_new
 
-        validate_shaft(tomllib.loads(text), f'new machine "{name}"')
+        validate(ShaftCase, tomllib.loads(text), f'new machine "{name}"')
         save_text(text, check_new(target, overwrite))
         return target
     from lambda_core.case.case_io import parse_case
@@ -191,8 +192,9 @@ def schema() -> dict[str, Any]:
     from lambda_core.case.shaft import ShaftCase
 
     kinds, parts = models_json_schema([(Case, "validation"), (ShaftCase, "validation")], title="lambda-bearing case")
+    one, several = kinds[Case, "validation"], kinds[ShaftCase, "validation"]
     head = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
-    return {**head, "anyOf": list(kinds.values()), **parts}
+    return {**head, "if": {"required": ["bearing"]}, "then": one, "else": several, **parts}
 
 
 def draft(source: str | Path | None = None, *, template: str | None = None, shaft: bool = False) -> Draft:
@@ -245,20 +247,13 @@ def catalogue() -> Catalogue:
 
 
 def case_of(source: str | Path | Mapping[str, Any] | Case) -> Case:
-    """Return the case of whatever a function of this package takes as one.
+    """Return the case of one bearing of whatever a function of this package takes as one.
 
     Raises
     ------
     UsageError, CaseError
         When there is no such case, or it has mistakes.
     """
-    from collections.abc import Mapping
+    from lambda_core.case.case_io import load_case
 
-    from lambda_core.case.case import Case
-    from lambda_core.case.case_io import validate_case
-
-    if isinstance(source, Case):
-        return source
-    if isinstance(source, Mapping):
-        return validate_case(source, str(source.get("name", "case")))
-    return case(source)
+    return load_case(source)

@@ -3,33 +3,34 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from lambda_core.domain.errors import CaseError, Problem, UsageError
-from lambda_core.system.cases import case
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
 
     from lambda_core.case.case import Case
+    from lambda_core.case.case_io import Source
     from lambda_core.catalogue.protocol import Catalogue
     from lambda_core.system.bearing import BearingModel
     from lambda_core.system.describe import CaseReport
+    from lambda_core.system.machine import Machine
 
 
 def check(
-    source: str | Path | Mapping[str, Any] | Case,
+    source: Source,
     overrides: Iterable[str] = (),
     *,
     folder: Path | None = None,
     catalogue: Catalogue | None = None,
     is_static: bool = False,
-) -> BearingModel:
-    """Read and resolve a case without running it.
+) -> BearingModel | Machine:
+    """Read and resolve a case, of one bearing or of a machine, without running it.
 
     Parameters
     ----------
-    source : str, Path, mapping or Case
+    source : str, Path, mapping or case
         File, built-in name, plain tables as they stand in a file, or a case.
     overrides : iterable of str
         Changes ``path=value``.
@@ -42,8 +43,8 @@ def check(
 
     Returns
     -------
-    BearingModel
-        With its assumptions and the origin of every value.
+    BearingModel or Machine
+        Of one bearing, or of a machine; with its assumptions and the origin of every value.
 
     Raises
     ------
@@ -51,19 +52,28 @@ def check(
         With every mistake at once: those of the file itself and those that only the catalogue, the
         registry and the geometry can show.
     """
-    from collections.abc import Mapping
+    from lambda_core.case.case_io import is_machine
+    from lambda_core.system.resolve_machine import check_shaft
 
-    from lambda_core.case.case import Case
-    from lambda_core.case.case_io import apply_overrides, validate_case
+    if is_machine(source):
+        return check_shaft(source, overrides, folder=folder, catalogue=catalogue)
+    return check_bearing(source, overrides, folder=folder, catalogue=catalogue, is_static=is_static)
+
+
+def check_bearing(
+    source: Source,
+    overrides: Iterable[str] = (),
+    *,
+    folder: Path | None = None,
+    catalogue: Catalogue | None = None,
+    is_static: bool = False,
+) -> BearingModel:
+    """Read and resolve the case of one bearing; as :func:`check`, which takes machines, too."""
+    from lambda_core.case.case_io import load_case
     from lambda_core.case.salvage import InvalidCase
 
-    changes = list(overrides)
     try:
-        if isinstance(source, Mapping):
-            loaded = validate_case(source, str(source.get("name", "case")), folder)
-        else:
-            loaded = source if isinstance(source, Case) else case(source)
-        return resolve(apply_overrides(loaded, changes) if changes else loaded, catalogue, is_static=is_static)
+        return resolve(load_case(source, overrides, folder), catalogue, is_static=is_static)
     except InvalidCase as error:
         if error.remainder is None:
             raise
@@ -108,13 +118,13 @@ def resolve(case: Case, catalogue: Catalogue | None = None, *, is_static: bool =
         return freeze(case, models, opened, is_static=is_static)
 
 
-def problems(source: Mapping[str, Any] | Case) -> tuple[Problem, ...]:
+def problems(source: Source) -> tuple[Problem, ...]:
     """Return every mistake of a case or of plain tables; for forms that check while one types.
 
     Parameters
     ----------
-    source : mapping or Case
-        Plain tables as they stand in a file, or a case.
+    source : mapping or case
+        Plain tables as they stand in a file, or a case; of one bearing or of a machine.
 
     Returns
     -------
@@ -147,16 +157,16 @@ def describe(model: BearingModel) -> CaseReport:
 
 
 def model_of(
-    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    source: Source | BearingModel,
     overrides: Iterable[str] = (),
     *,
     is_static: bool = False,
 ) -> BearingModel:
-    """Return the resolved model of whatever a function of this package takes as a case."""
+    """Return the resolved model of whatever a function of this package takes as the case of one bearing."""
     from lambda_core.system.bearing import BearingModel
 
     if not isinstance(source, BearingModel):
-        return check(source, overrides, is_static=is_static)
+        return check_bearing(source, overrides, is_static=is_static)
     if list(overrides):
         raise UsageError("a resolved model takes no overrides: change the case and resolve it")
     return source

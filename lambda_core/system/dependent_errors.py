@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from lambda_core.case.case_io import STAND_IN
 from lambda_core.case.salvage import related
-from lambda_core.case.shaft_io import STAND_IN
 from lambda_core.domain.errors import Problem
 
 _REFERENCES = ("at", "outer", "to", "body")  # options of parts that name a marker or a body

@@ -12,11 +12,10 @@ from typing import Any
 import numpy as np
 
 from lambda_core.case.case import merged
-from lambda_core.case.case_io import overridden, shaft_tables
+from lambda_core.case.case_io import Source, read_tables, validate
 from lambda_core.case.case_writer import tables_toml
 from lambda_core.case.salvage import InvalidCase, related
 from lambda_core.case.shaft import OWN, ShaftCase, bearing_tables
-from lambda_core.case.shaft_io import validate_shaft
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread
@@ -28,7 +27,7 @@ from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import Disc, ElasticBody, shaft_body, with_discs
 from lambda_core.elastic.sections import BodyMaterial, RoundSection
 from lambda_core.system.bearing import BearingModel
-from lambda_core.system.checking import check
+from lambda_core.system.checking import check_bearing
 from lambda_core.system.dependent_errors import independent, is_shape_known
 from lambda_core.system.elastic_housing import elastic_housing
 from lambda_core.system.fitting import fitting_warnings
@@ -51,7 +50,6 @@ from lambda_core.system.time_functions import initial, planned_speed, time_funct
 from lambda_core.system.time_laws import refuse_laws
 
 _SLENDEREST = 200  # diameters; elements are as long as thick, and matrices of more take minutes
-Source = str | Path | Mapping[str, Any] | ShaftCase
 
 
 @one_blas_thread()
@@ -88,17 +86,14 @@ def check_shaft(
     """
     from lambda_core.discovery.manager import registry
 
-    if isinstance(source, ShaftCase):
-        tables, name, folder = source.written(), source.name, source.folder
-    elif isinstance(source, Mapping):
-        tables, name = merged({}, source), str(source.get("name", "shaft"))
-    else:
-        tables, name, folder = shaft_tables(source), Path(source).name, Path(source).resolve().parent
-    tables = overridden(tables, overrides, ShaftCase)
+    read = read_tables(source, folder).changed(overrides)
+    tables, name, folder = merged({}, read.data), read.name, read.folder
+    if read.root is not ShaftCase:
+        raise CaseError(name, [Problem("bearing", "is one bearing; this question is about a machine with a shaft")])
     found: list[Problem] = []
     case: ShaftCase | None = None
     try:
-        case = validate_shaft(tables, name, folder)
+        case = validate(ShaftCase, tables, name, folder)
     except InvalidCase as error:
         found += error.problems
         case = error.remainder
@@ -131,7 +126,9 @@ def _bearings(
     tables_of = given if isinstance(given, Mapping) else {}
     for name in (key for key, value in tables_of.items() if isinstance(value, Mapping)):
         try:
-            models[name] = check(bearing_tables(tables, name), folder=folder, catalogue=catalogue, is_static=True)
+            models[name] = check_bearing(
+                bearing_tables(tables, name), folder=folder, catalogue=catalogue, is_static=True
+            )
         except CaseError as error:
             for problem in error.problems:
                 where = problem.where.replace("bodies.cage", f"bearings.{name}.cage")

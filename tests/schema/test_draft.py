@@ -201,7 +201,7 @@ def test_replacing_everything_can_be_undone(file: Path) -> None:
 )
 def test_tables_that_go_on_further_down_are_changed_too(changes: dict[tuple[str, ...], object]) -> None:
     """[bearing.fits] of a machine stands behind [operation]: the file says what the draft does, comments stay."""
-    draft = api.draft(machine="electric-motor")
+    draft = api.draft(template="electric-motor")
     for keys, value in changes.items():
         draft.set(*keys, value=value)
     assert tomllib.loads(draft.text()) == draft.tables
