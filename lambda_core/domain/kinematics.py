@@ -9,6 +9,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+
 
 @dataclass(frozen=True)
 class FrequencyOrders:
@@ -31,12 +35,42 @@ def cage_speed(inner_speed: float, outer_speed: float, gamma: float) -> float:
     return 0.5 * (inner_speed * (1.0 - gamma) + outer_speed * (1.0 + gamma))
 
 
-def epicyclic_ratio(ball_diameter: float, pitch_diameter: float, cos_angle: float) -> float:
-    """Cage speed over inner ring speed without slip, both against the outer ring: (1 - D_w cos(alpha)/d_m)/2.
+def rolling_ratio(
+    load: FloatArray, angle: FloatArray, radius: FloatArray, spin: FloatArray, orbit: FloatArray, ball_diameter: float
+) -> float:
+    """Cage speed over inner ring speed of balls that roll at both raceways, both against the outer ring.
 
-    Harris ch. 10; `cos_angle` is the mean over the loaded contacts.
+    A ball whose own axis leans by b against the shaft rolls where R omega_b cos(a - b) is the speed of the raceway
+    past it: omega_c/omega = r_i cos(a_o - b)/[r_i cos(a_o - b) + r_o cos(a_i - b)], r_i = r - R cos(a_i),
+    r_o = r + R cos(a_o) (Jones 1959, J. Basic Eng. 81, 1; Harris and Kotzalas 2006, vol. 2, ch. 2, with b of the ball
+    itself in place of one raceway's control). With equal angles b drops out and Harris's (1 - D_w cos(a)/d_m)/2 is
+    left. Mean over balls, weighted by the load at the inner ring; NaN without load.
+
+    Parameters
+    ----------
+    load, angle : float64[..., Z, 2]
+        Contact loads [N] and angles [rad], inner then outer.
+    radius : float64[..., Z]
+        Distance of the balls' centres from the shaft axis [m].
+    spin : float64[..., Z, 3]
+        Angular velocity of the balls: axial, radial, tangential [rad/s].
+    orbit : float64[..., Z]
+        Orbital speed of the balls [rad/s].
+    ball_diameter : float
+        D_w [m].
     """
-    return cage_speed(1.0, 0.0, ball_diameter * cos_angle / pitch_diameter)
+    inner, outer, R = angle[..., 0], angle[..., 1], 0.5 * ball_diameter
+    axial, radial = orbit - spin[..., 0], spin[..., 1]
+    # the axis has no direction of its own: between -90 and 90 degrees, whichever way the ball turns
+    lean = np.arctan2(np.where(axial < 0.0, -radial, radial), np.abs(axial))
+    at_inner = (radius - R * np.cos(inner)) * np.cos(outer - lean)
+    at_outer = (radius + R * np.cos(outer)) * np.cos(inner - lean)
+    weight = np.where(load.min(axis=-1) > 0.0, load[..., 0], 0.0)
+    carried = weight > 0.0
+    if not carried.any():
+        return math.nan
+    ratio = at_inner[carried] / (at_inner[carried] + at_outer[carried])
+    return float(weight[carried] @ ratio / weight[carried].sum())
 
 
 def ball_speed(

@@ -13,7 +13,6 @@ from pydantic import Field
 
 from lambda_core.domain.channels import RINGS, SHORTED
 from lambda_core.domain.errors import UsageError
-from lambda_core.domain.kinematics import epicyclic_ratio
 from lambda_core.domain.loading import CARRYING, Ring, carries, largest_contact, loaded_balls
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.averages import Interval, finite
@@ -25,6 +24,7 @@ from lambda_core.results.followed import FOURTH_POWERS, ITERATION_WORK, Followed
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, tolerance_warning, warnings, worst
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
+from lambda_core.results.rolling import ROLLING, rolling_of
 from lambda_core.results.watched import events_seen, observed_numbers
 from lambda_core.system.bearing import kind_of
 
@@ -85,7 +85,10 @@ class Summary(Record):
     friction_breakdown_Nmm: dict[str, float | None] = Field(description="parts of friction_torque_Nmm; they add up")
     cage_speed_ratio: float | None = Field(description="mean cage speed over inner ring speed")
     cage_speed_over_epicyclic: float | None
-    epicyclic_ratio: float | None = Field(description="cage speed over inner ring speed without slip")
+    epicyclic_ratio: float | None = Field(
+        description="cage speed over inner ring speed without slip: of balls that roll at both raceways at their "
+        "contact angles about their own axes, weighted by load"
+    )
     contacts: list[Contact] = Field(description="every ball - raceway contact at the end state")
     inner_ring_displacement_um: list[float | None] = Field(description="mean position x, y, z")
     inner_ring_tilt_mrad: list[float | None] = Field(description="mean tilt about y and z")
@@ -139,9 +142,7 @@ def summarise(result: Result, together: float = 0.0) -> Summary:
     residual = whole.energy_residual()
     reasons = _reasons(status.state, status.message, shortfalls(settings, chosen, residual, together))
     extremes = _Span.of(result, float(chosen.interval.first[0]))
-    geometry = result.model["geometry"]
-    sizes = float(geometry["ball_diameter"]), float(geometry["pitch_diameter"])
-    epicyclic = epicyclic_ratio(*sizes, extremes.cos_angle)
+    epicyclic = extremes.rolling
     ratio = chosen.interval.ratio("cage_angle", "inner_angle")
     end = _sample(result, -1)
     edges = _edges(result)
@@ -234,7 +235,7 @@ class _Span:
 
     pressure: float  # largest [Pa]
     film: float  # smallest minimum film [m]
-    cos_angle: float  # mean cosine of the contact angle, weighted by load
+    rolling: float  # cage speed over inner ring speed of rolling balls, weighted by load
     tilt: tuple[float, float]  # mean tilt of the inner ring about y and z [rad]
     largest_tilt: float  # between the axes of the rings [rad]
 
@@ -242,7 +243,7 @@ class _Span:
     def of(result: Result, start: float) -> _Span:
         pressure, film, weighted, total = 0.0, math.inf, 0.0, 0.0
         tilts, largest, count = np.zeros(2), 0.0, 0
-        names = ("load", "max_pressure", "film_minimum", "contact_angle", "body_tilt")
+        names = (*ROLLING, "max_pressure", "film_minimum", "body_tilt")
         for block in result.blocks(names, start):
             inner, outer = (block["body_tilt"][:, body] for body in (0, 1))
             largest = max(largest, float(np.hypot(*(inner - outer).T).max()))
@@ -253,8 +254,10 @@ class _Span:
                 continue
             pressure = max(pressure, float(block["max_pressure"][loaded].max()))
             film = min(film, float(block["film_minimum"][loaded].min()))
-            weighted += float((load[loaded] * np.cos(block["contact_angle"][loaded])).sum())
-            total += float(load[loaded].sum())
+            carried = float(load[..., 0].sum())
+            rolling = rolling_of(block, float(result.model["geometry"]["ball_diameter"]))
+            if math.isfinite(rolling):
+                weighted, total = weighted + carried * rolling, total + carried
         about_y, about_z = (float(angle) / count if count else math.nan for angle in tilts)
         return _Span(pressure, film, weighted / total if total > 0.0 else math.nan, (about_y, about_z), largest)
 

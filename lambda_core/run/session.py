@@ -13,12 +13,12 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import PartialResultError, SolverError
-from lambda_core.domain.kinematics import epicyclic_ratio
 from lambda_core.results.averages import COLUMNS, Interval, boundaries, finite, row
 from lambda_core.results.checkpoint import Checkpoint, Position
 from lambda_core.results.convergence import Window, is_converged, revolutions_wanted, window
 from lambda_core.results.file_format import never, soon
 from lambda_core.results.reader import Result
+from lambda_core.results.rolling import rolling_of
 from lambda_core.results.run_status import Rows, State, Status, this_process
 from lambda_core.results.writer import ResultWriter
 from lambda_core.run.progress import Progress, Report, StopRequest, stop_request
@@ -198,7 +198,7 @@ class Session:
         samples = self._engine.samples()
         if len(samples["time"]):
             self._loads = tuple(samples["load"][-1, :, RINGS.index("inner")].tolist())
-            self._epicyclic = self._without_slip(samples["load"], samples["contact_angle"])
+            self._epicyclic = rolling_of(samples, self._geometry.ball_diameter)
             if self._watch.any:
                 seen = self._watch.take(samples)
                 samples = {**samples, **seen.channels}
@@ -206,12 +206,6 @@ class Session:
         self._writer.add_samples(samples)
         if self._live is not None:
             self._writer.add_circuit(self._live.take(samples))
-
-    def _without_slip(self, load: FloatArray, angle: FloatArray) -> float:
-        """Return cage speed over inner ring speed without slip; contact angles are weighted by load."""
-        carried = float(load.sum())
-        mean = float((load * np.cos(angle)).sum()) / carried if carried > 0.0 else math.nan
-        return epicyclic_ratio(self._geometry.ball_diameter, self._geometry.pitch_diameter, mean)
 
     def _flush(self, state: State, message: str) -> None:
         self._collect()

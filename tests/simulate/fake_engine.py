@@ -107,6 +107,7 @@ class FakeEngine:
         found["time"] = times
         found["load"][:, ::2] = 0.0  # every other ball is unloaded
         found["contact_angle"][:] = 0.0
+        found["ball_radius"][:] = 73.75e-3  # pitch circle of the 6319
         found["ball_azimuth"] *= 10.0
         return found
 
