@@ -79,10 +79,7 @@ def member_numbers(machine: Machine, shaft: LumpedShaft) -> MemberNumbers:
 
 def with_free_bodies(model: BearingModel) -> BearingModel:
     """Return a bearing whose rings and cage are free in every direction, without force elements of its own."""
-    free = dict.fromkeys(DOFS, _FREE)
-    bodies = {
-        name: dataclasses.replace(getattr(model, name), dofs=free) for name in ("inner_ring", "outer_ring", "cage_body")
-    }
+    bodies = {name: getattr(model, name).freed(DOFS) for name in ("inner_ring", "outer_ring", "cage_body")}
     return dataclasses.replace(model, **bodies, links={})
 
 

@@ -7,9 +7,11 @@ Frames: x is the shaft axis, y horizontal, z up; gravity acts along -z; azimuth 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal
+
+from lambda_core.domain.elements import SPIN
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -156,6 +158,11 @@ class Body:
     # about x, y, z through the body's centre; about x it drives a free spin [N m]
     moment: tuple[TimeFunction, TimeFunction, TimeFunction] = (ZERO, ZERO, ZERO)
     unbalance: float = 0.0  # mass times eccentricity [kg m]
+
+    def freed(self, names: Iterable[str]) -> Body:
+        """Return the body free in some directions, its spin with the speed planned for it: laws are set up for that."""
+        free = {name: DofState("free", self.dofs[name].motion if name == SPIN else ZERO) for name in names}
+        return replace(self, dofs={**self.dofs, **free})
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,6 @@ from lambda_core.solver.core import core
 from lambda_core.solver.drivers.dynamics import initial_state
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
-from lambda_core.system.bearing import DofState
 
 DIRECTIONS = ("x", "y", "z", "tilt_x", "tilt_y", "tilt_z")
 _FREED = ("x", "y", "z", "tilt_y", "tilt_z", "spin")
@@ -69,8 +68,7 @@ def damping_matrix(equilibrium: Equilibrium, frequency: float) -> FloatArray:
 
 def _freed(found: SolverContext) -> SolverContext:
     """Return the context of the same bearing whose inner ring is free, also to turn, without other force elements."""
-    ring = found.model.inner_ring
-    free = dataclasses.replace(ring, dofs={**ring.dofs, **dict.fromkeys(_FREED, DofState("free"))})
+    free = found.model.inner_ring.freed(_FREED)
     return assemble(dataclasses.replace(found.model, inner_ring=free, links={}), found.kernels, found.frame, found.oils)
 
 

@@ -13,7 +13,6 @@ from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.core import core
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence
 from lambda_core.solver.drivers.solver_context import SolverContext, assemble
-from lambda_core.system.bearing import DofState
 
 _FREED = ("x", "y", "z", "tilt_y", "tilt_z")
 # State that each displacement moves, and the sign: turning about +y moves a_z towards -, about +z moves a_y towards +.
@@ -50,9 +49,7 @@ def stiffness_matrix(equilibrium: Equilibrium) -> tuple[tuple[float, ...], ...]:
 
 def freed(found: SolverContext) -> SolverContext:
     """Return the context of the same bearing whose inner ring is free, without supports and other force elements."""
-    model = found.model
-    dofs = {**model.inner_ring.dofs, **dict.fromkeys(_FREED, DofState("free"))}
-    free = dataclasses.replace(model, inner_ring=dataclasses.replace(model.inner_ring, dofs=dofs), links={})
+    free = dataclasses.replace(found.model, inner_ring=found.model.inner_ring.freed(_FREED), links={})
     return assemble(free, found.kernels, found.frame, found.oils)
 
 
