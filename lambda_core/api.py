@@ -30,6 +30,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.fit.band import model_band
     from lambda_core.fit.fit_case import fit
     from lambda_core.fit.fitted_case import fitted_case
+    from lambda_core.fit.measured import compare_measured, measured_series
     from lambda_core.fmu.unit_file import export_fmu
     from lambda_core.report.pictures import animate, draw, report, view, view_all, view_stem, views
     from lambda_core.run.answers import cite, compare, result, side_by_side, summary

@@ -1,0 +1,53 @@
+"""The commands measured list and measured compare: measured series next to the program."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated
+
+import typer
+
+from lambda_cli.options import JsonOption
+from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
+from lambda_core.domain.wrapping import wrapped
+
+app = typer.Typer(no_args_is_help=True, help="Measured series, and how far the program is from each of them.")
+
+NamesArgument = Annotated[
+    list[str] | None, typer.Argument(metavar="[SERIES]...", help="Names, or TOML files of your own; default: all.")
+]
+
+
+@app.command("list")
+def list_(as_json: JsonOption = False) -> None:
+    """List the measured series with source, licence and uncertainty."""
+    from lambda_core import api
+
+    found = api.measured_series()
+    if as_json:
+        typer.echo(json.dumps([series.model_dump() for series in found], indent=2))
+        return
+    lines = []
+    for series in found:
+        lines += [f"{series.name}: {series.title}", f"  {series.source} ({series.licence})"]
+        lines += [f"  {series.how_read}; {series.uncertainty}"]
+    typer.echo("\n".join(wrapped(lines, columns())))
+
+
+@app.command()
+def compare(
+    names: NamesArgument = None,
+    band: Annotated[bool, typer.Option("--band/--no-band", help="Compute the 90 % model band.")] = True,
+    as_json: JsonOption = False,
+    quiet: QuietOption = False,
+    progress: ProgressOption = Style.AUTO,
+) -> None:
+    """Compare measured series with quasi-static solutions. Nothing is fitted."""
+    from lambda_core import api
+
+    with talk(progress, quiet) as speaker:
+        found = api.compare_measured(names or (), band=band, announce=speaker.say)
+    if as_json:
+        typer.echo(found.model_dump_json(indent=2))
+    else:
+        typer.echo("\n".join(wrapped(found.text().splitlines(), columns())))

@@ -1,0 +1,57 @@
+"""The measured series: their data, and the comparison without any fit."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from lambda_cli.main import main
+from lambda_syla2026.published import MEASURED, TABLE_4
+
+from lambda_core import api
+from lambda_core.domain.errors import UsageError
+
+
+def test_every_series_names_source_licence_and_uncertainty() -> None:
+    found = {series.name: series for series in api.measured_series()}
+    assert {"6319-friction", "32216-axial", "32216-combined", "32008-axial", "lm12700-axial"} <= set(found)
+    for series in found.values():
+        assert all((series.title, series.source, series.licence, series.how_read, series.uncertainty))
+        assert series.case or series.bearing
+
+
+def test_the_6319_is_the_printed_table_and_near_it() -> None:
+    (one,) = api.compare_measured(["6319-friction"], band=False).compared
+    assert [point.measured for point in one.points] == list(TABLE_4[MEASURED])
+    assert one.mean_absolute_error_pct is not None
+    assert one.mean_absolute_error_pct < 10.0
+
+
+def test_series_of_bearings_without_a_model_have_the_reason() -> None:
+    found = api.compare_measured(["32216-axial"]).compared[0]
+    assert found.reason == "tapered roller bearing 32216 cannot be simulated yet"
+    assert found.mean_error_pct is None
+
+
+def test_a_series_of_ones_own_is_compared_with_its_band(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "rig.toml").write_text(
+        'title = "rig"\ncase = "6319-cp10-1500"\nsource = "us"\nlicence = "CC0"\n'
+        'how_read = "sensor"\nuncertainty = "2 %"\n'
+    )
+    (tmp_path / "rig.csv").write_text("speed [1/min],friction torque [N mm]\n1500,1250\n1500,9999\n")
+    assert main(["measured", "compare", str(tmp_path / "rig.toml"), "--json", "-q"]) == 0
+    (one,) = json.loads(capsys.readouterr().out)["compared"]
+    assert one["inside"] == 1
+    assert one["interval_score"] > 1.0
+
+
+def test_an_unknown_series_is_refused() -> None:
+    with pytest.raises(UsageError, match="nearest: 32216-axial"):
+        api.compare_measured(["32216-axail"])
+
+
+def test_the_list_has_every_series(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["measured", "list"]) == 0
+    text = capsys.readouterr().out
+    assert all(series.name in text for series in api.measured_series())
