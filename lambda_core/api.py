@@ -71,6 +71,7 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.results.summary import Summary
     from lambda_core.run.duty_cycle import DutyCycle
     from lambda_core.run.estimate import Estimate, MachineEstimate
+    from lambda_core.run.machine_duty import MachineDutyCycle
     from lambda_core.run.progress import Progress
     from lambda_core.shaft.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
     from lambda_core.shaft.machine_modes import MachineModes

@@ -83,4 +83,4 @@ class ShaftScreen(BuilderScreen):
 
     def action_one_bearing(self) -> None:
         """Say what a shaft has not."""
-        self.notify("studies and duty cycles are those of one bearing", severity="warning", timeout=4)
+        self.notify("of a machine: lambda-bearing study, lambda-bearing duty", severity="warning", timeout=4)

@@ -213,7 +213,7 @@ def chosen(names: Sequence[str], mode: str, source: str, bearings: tuple[str, ..
         if name.endswith(BREAKDOWN) and any(part.startswith(f"{name}.") for part in known):
             found += [part for part in known if part.startswith(f"{name}.")]
         elif "/" in name:
-            if bearings and name.partition(".")[0] not in bearings:
+            if bearings and not any(name.startswith(f"{bearing}.") for bearing in bearings):
                 words = f'"{name}": name the bearing that is meant, "{bearings[0]}.{name}"'
                 wrong.append(Problem("responses", words))
             found.append(name)

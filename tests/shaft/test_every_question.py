@@ -18,7 +18,15 @@ QUESTIONS = {
     "compare": (["compare", "box.toml", "--bearing", "right", "--json", "-q"], "methods"),
     "cross-check": (["cross-check", "box.toml", "--bearing", "right", "--duration", "1 ms", "--json", "-q"], "agree"),
     "study": (["study", "run", "study.toml", "--executor", "here", "--json", "-q"], "done"),
+    "duty": (["duty", "day.toml", "--json", "-q"], "system_life_h"),
 }  # fmt: skip
+DAY = """
+name = "day"
+case = "box.toml"
+[[phases]]
+name = "all day"
+time = "8 h"
+"""
 STUDY = """
 name = "power"
 case = "box.toml"
@@ -36,6 +44,7 @@ def box(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     assert main(["init", "box", "--template", "geared-shaft"]) == 0
     (tmp_path / "study.toml").write_text(STUDY)
+    (tmp_path / "day.toml").write_text(DAY)
     return tmp_path / "box.toml"
 
 
