@@ -57,7 +57,10 @@ class Step(Section):
 
 
 class Series(Section):
-    """Measured common-mode voltage, repeated from its start when it is over."""
+    """Measured common-mode voltage, repeated.
+
+    The period is the last time where the last voltage equals the first; otherwise one median step more.
+    """
 
     points: list[str] | None = option(None, 'times and voltages in place of a file, ["0 s, 0 V", "1 us, 5 V", ...]')
     file: str | None = option(None, 'CSV file whose header is "time [s],voltage [V]"', min_length=1)

@@ -206,11 +206,14 @@ def read_table(path: Path, quantity: str) -> tuple[tuple[float, float], ...]:
 def read_numbered(path: Path, quantity: str) -> tuple[tuple[tuple[float, float], ...], tuple[int, ...]]:
     """Read a CSV file as :func:`read_table` does; return its rows, and the line of the file that each stands in."""
     try:
-        reader = csv.reader(read_text(path, _LARGEST_TABLE).splitlines())
+        lines = read_text(path, _LARGEST_TABLE).splitlines()
+        reader = csv.reader(lines)
         numbered = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "is not UTF-8 text"
         raise ValueError(f'cannot read "{path}": {reason}') from None
+    except csv.Error as error:  # a stray quote makes one cell of the rest of the file
+        raise ValueError(f'"{path}" line {reader.line_num}: {error}; is there a quote too many?') from None
     headers = [_HEADER.match(cell) for cell in numbered[0][1]] if numbered else []
     if len(headers) != 2 or headers[0] is None or headers[1] is None:
         raise ValueError(f'"{path}": the first line must name both columns with units, like "time [s],value [N]"')

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.gap_capacitance import VACUUM_PERMITTIVITY
-from lambda_core.electric.circuit_integrator import Circuit, Films
+from lambda_core.electric.circuit_integrator import Circuit, Films, Surroundings
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from lambda_core.case.electric import Electric
 
@@ -27,7 +27,7 @@ def bearing_capacitance(films: Films) -> FloatArray:
     return np.asarray((inner * outer / (inner + outer)).sum(axis=1))
 
 
-def impedance(films: Films, circuit: Circuit, frequency: FloatArray) -> NDArray[np.complex128]:
+def impedance(films: Films, around: Surroundings, frequency: FloatArray) -> NDArray[np.complex128]:
     """Return the impedance between the rings, as a meter sees it while the bearing turns, shape (n, frequencies) [Ohm].
 
     Each film is a capacitance in parallel with a conductance, the films of a ball are in series, balls and the direct
@@ -36,11 +36,11 @@ def impedance(films: Films, circuit: Circuit, frequency: FloatArray) -> NDArray[
     """
     omega = 2.0 * math.pi * np.asarray(frequency)
     shape = (films.time.size, omega.size)
-    total = np.zeros(shape, dtype=np.complex128) + 1j * omega * circuit.rings
-    pocket = 1j * omega * circuit.pocket
+    total = np.zeros(shape, dtype=np.complex128) + 1j * omega * around.rings
+    pocket = 1j * omega * around.pocket
     # With the outer ring at 0 and the inner at 1 V: charge balance of each ball, then of the cage.
-    onto_cage = np.zeros(shape, dtype=np.complex128) + 1j * omega * circuit.cage_inner
-    from_cage = np.zeros(shape, dtype=np.complex128) + 1j * omega * (circuit.cage_inner + circuit.cage_outer)
+    onto_cage = np.zeros(shape, dtype=np.complex128) + 1j * omega * around.cage_inner
+    from_cage = np.zeros(shape, dtype=np.complex128) + 1j * omega * (around.cage_inner + around.cage_outer)
     for ball in range(films.capacitance.shape[1]):
         each = films.conductance[:, ball, :, None] + 1j * omega * films.capacitance[:, ball, :, None]
         inner, outer = each[:, 0], each[:, 1]
@@ -48,8 +48,8 @@ def impedance(films: Films, circuit: Circuit, frequency: FloatArray) -> NDArray[
         total += inner * (outer + pocket) / node
         onto_cage += pocket * inner / node
         from_cage += pocket * (inner + outer) / node
-    if circuit.pocket > 0.0:
-        total += 1j * omega * circuit.cage_inner - onto_cage * onto_cage / from_cage
+    if around.pocket > 0.0:
+        total += 1j * omega * around.cage_inner - onto_cage * onto_cage / from_cage
     return np.asarray(1.0 / total)
 
 
@@ -62,41 +62,73 @@ def shoulders_capacitance(geometry: Mapping[str, float]) -> float:
     return 2.0 * math.pi * VACUUM_PERMITTIVITY * geometry["width"] / math.log(outer / inner)
 
 
-def circuit_of(options: Electric, geometry: Mapping[str, float]) -> Circuit:
-    """Return the circuit that a bearing stands in; another bearing like it counts with this one's capacitance."""
-    machine, grounding = options.machine, options.grounding
+def surroundings(options: Electric, geometry: Mapping[str, float]) -> Surroundings:
+    """Return what surrounds the films of a bearing."""
+    grounding, cage = options.grounding, options.cage
     rings = options.film.surroundings
     rings = (shoulders_capacitance(geometry) if rings is None else rings) + options.film.seals
     bridge = math.inf
     if grounding.insulation is not None:
         bridge = 1.0 / grounding.insulation_resistance
         bridge += 1.0 / grounding.shunt if grounding.shunt is not None else 0.0
-    cage = options.cage
-    return Circuit(
-        winding=machine.winding_rotor,
-        rotor=machine.rotor_frame + (machine.other_bearings or 0.0),
+    return Surroundings(
         rings=rings,
-        brush=1.0 / grounding.brush if grounding.brush is not None else 0.0,
         coating=grounding.insulation or 0.0,
         bridge=bridge,
-        twins=1.0 if machine.other_bearings is None else 0.0,
         pocket=cage.pocket if cage is not None else 0.0,
         cage_inner=cage.inner if cage is not None else 0.0,
         cage_outer=cage.outer if cage is not None else 0.0,
     )
 
 
-def voltage_ratio(circuit: Circuit, capacitance: float) -> float:
-    """Return BVR = C_wr/(C_wr + C_rf + C_b1 + C_b2), bearing over common-mode voltage without leaks (Muetze, Binder).
+def circuit_of(options: Electric, bearings: Sequence[Surroundings]) -> Circuit:
+    """Return the circuit that the bearings of a shaft stand in.
+
+    For a bearing alone, another one like it counts with this one's capacitance where the case does not give the other
+    bearings' (short form of a machine with two).
+    """
+    machine, grounding = options.machine, options.grounding
+    alone = len(bearings) == 1
+    return Circuit(
+        winding=machine.winding_rotor,
+        rotor=machine.rotor_frame + (machine.other_bearings or 0.0),
+        bearings=tuple(bearings),
+        brush=1.0 / grounding.brush if grounding.brush is not None else 0.0,
+        twins=1.0 if alone and machine.other_bearings is None else 0.0,
+    )
+
+
+def voltage_ratio(circuit: Circuit, capacitances: Sequence[float], bearing: int = 0) -> float:
+    """Return BVR = C_wr/(C_wr + C_rf + sum C_b), bearing over common-mode voltage without leaks (Muetze, Binder 2007).
 
     Parameters
     ----------
-    capacitance : float
-        Of this bearing's balls [F]; an insulation is in series with the bearing. A cage is left out.
+    capacitances : sequence of float
+        Of the balls of each bearing [F]; an insulation is in series with its bearing. A cage is left out.
+    bearing : int
+        Whose voltage is asked for.
     """
-    whole = capacitance + circuit.rings
-    rotor = circuit.rotor + circuit.twins * whole
-    if not circuit.insulated:
-        return circuit.winding / (circuit.winding + rotor + whole)
-    series = whole * circuit.coating / (whole + circuit.coating)
-    return circuit.winding / (circuit.winding + rotor + series) * circuit.coating / (whole + circuit.coating)
+    around, bare, behind = circuit.bearings[bearing], *_seen(circuit.bearings[bearing], capacitances[bearing])
+    rotor = circuit.rotor + circuit.twins * bare
+    for k, (other, capacitance) in enumerate(zip(circuit.bearings, capacitances, strict=True)):
+        rotor += _seen(other, capacitance)[1] if k != bearing else 0.0
+    ratio = circuit.winding / (circuit.winding + rotor + behind)
+    return ratio * around.coating / (bare + around.coating) if around.insulated else ratio
+
+
+def _seen(around: Surroundings, capacitance: float) -> tuple[float, float]:
+    """Return the capacitance of a bearing, and of it in series with its insulation [F]."""
+    bare = capacitance + around.rings
+    return bare, bare * around.coating / (bare + around.coating) if around.insulated else bare
+
+
+def rotor_capacitance(circuit: Circuit, capacitances: Sequence[float]) -> float:
+    """Return everything between the rotor and its surroundings [F]; `capacitances` are those of the balls.
+
+    An insulation is in series with its bearing; a cage is left out.
+    """
+    total = circuit.winding + circuit.rotor
+    for around, capacitance in zip(circuit.bearings, capacitances, strict=True):
+        bare, behind = _seen(around, capacitance)
+        total = total + circuit.twins * bare + behind
+    return total

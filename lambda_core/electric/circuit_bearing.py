@@ -31,6 +31,8 @@ class CircuitBearing:
 
     Attributes
     ----------
+    name : str
+        Of the bearing in its machine.
     case : str
         Name of the case.
     options : Electric
@@ -45,6 +47,7 @@ class CircuitBearing:
         Composite rms roughness [m].
     """
 
+    name: str
     case: str
     options: Electric
     laws: Mapping[str, ChosenLaw]
@@ -73,7 +76,7 @@ def of_model(model: BearingModel) -> CircuitBearing:
     """Return a resolved model with its circuit; a case without the section gets the defaults."""
     chosen = model.electric or electric_model(None, model.name)
     materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
-    return _electrified(model.name, chosen, model.geometry, materials, model.oil, model.roughness)
+    return _circuit_bearing("bearing", model.name, chosen, model.geometry, materials, model.oil, model.roughness)
 
 
 def of_run(result: Result, options: Electric | None) -> CircuitBearing:
@@ -91,11 +94,17 @@ def of_run(result: Result, options: Electric | None) -> CircuitBearing:
         name: value if name in ("name", "base_type") else float(value) for name, value in model["oil"].items()
     }
     chosen = electric_model(options, str(result.path))
-    return _electrified(result.case, chosen, geometry, materials, Oil(**oil), float(model["roughness"]))
+    return _circuit_bearing("bearing", result.case, chosen, geometry, materials, Oil(**oil), float(model["roughness"]))
 
 
-def _electrified(
-    case: str, chosen: ElectricModel, geometry: Geometry, materials: Mapping[str, Material], oil: Oil, roughness: float
+def _circuit_bearing(
+    name: str,
+    case: str,
+    chosen: ElectricModel,
+    geometry: Geometry,
+    materials: Mapping[str, Material],
+    oil: Oil,
+    roughness: float,
 ) -> CircuitBearing:
     plain: dict[str, Any] = {
         name: float(value) for name, value in dataclasses.asdict(geometry).items() if not isinstance(value, str)
@@ -123,4 +132,4 @@ def _electrified(
     options, film = chosen.options, chosen.options.film
     if film.ball_permittivity is None and _SILICON_NITRIDE.search(materials["ball"].name):
         options = options.model_copy(update={"film": film.model_copy(update={"ball_permittivity": _PERMITTIVITY})})
-    return CircuitBearing(case, options, chosen.laws, plain, (inner, outer), roughness)
+    return CircuitBearing(name, case, options, chosen.laws, plain, (inner, outer), roughness)

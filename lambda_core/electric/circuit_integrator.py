@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from itertools import pairwise
 from pathlib import Path
@@ -18,7 +19,7 @@ from lambda_core.laws.pack import pack
 
 @dataclass(frozen=True)
 class Films:
-    """Electrical contacts of one bearing over time, SI; arrays of shape (n, Z, 2), inner then outer.
+    """Electrical contacts of one bearing or several over time, SI; arrays of shape (n, Z, 2), inner then outer.
 
     Attributes
     ----------
@@ -47,35 +48,33 @@ class Films:
         return Films(**{f.name: getattr(self, f.name)[rows] for f in fields(self)})
 
 
+def joined(films: Sequence[Films]) -> Films:
+    """Return the contacts of several bearings at the same times, the balls of each behind those before."""
+    parts = {
+        f.name: np.concatenate([getattr(each, f.name) for each in films], axis=1)
+        for f in fields(Films)
+        if f.name != "time"
+    }
+    return Films(time=films[0].time, **parts)
+
+
 @dataclass(frozen=True)
-class Circuit:
-    """Everything around the films, SI.
+class Surroundings:
+    """Everything around the films of one bearing, SI.
 
     Attributes
     ----------
-    winding : float
-        C_wr, winding to rotor [F].
-    rotor : float
-        Rotor to frame: air gap and the other bearings of the machine [F].
     rings : float
-        Inner to outer ring past the balls: rings, cage, seals [F].
-    brush : float
-        Conductance from the rotor to the frame [S].
+        Inner to outer ring past the balls: rings, seals [F].
     coating, bridge : float
         Outer ring to frame: capacitance [F] and conductance [S]; an infinite conductance joins them.
-    twins : float
-        Further bearings of the machine that are like this one, rotor to frame, by their capacitance alone.
     pocket, cage_inner, cage_outer : float
         Of a cage that conducts against each ball, the inner and the outer ring [F]; pocket 0: there is none.
     """
 
-    winding: float
-    rotor: float
     rings: float = 0.0
-    brush: float = 0.0
     coating: float = 0.0
     bridge: float = np.inf
-    twins: float = 0.0
     pocket: float = 0.0
     cage_inner: float = 0.0
     cage_outer: float = 0.0
@@ -85,21 +84,52 @@ class Circuit:
         """Whether the outer ring has a potential of its own."""
         return bool(np.isfinite(self.bridge))
 
+
+@dataclass(frozen=True)
+class Circuit:
+    """Everything around the films of a shaft's bearings, SI.
+
+    Attributes
+    ----------
+    winding : float
+        C_wr, winding to rotor [F].
+    rotor : float
+        Rotor to frame: air gap, and bearings that are given by their capacitance alone [F].
+    bearings : tuple of Surroundings
+        Between the rotor and the frame.
+    brush : float
+        Conductance from the rotor to the frame [S].
+    twins : float
+        For each bearing, further ones that are like it, rotor to frame, by their capacitance alone.
+    """
+
+    winding: float
+    rotor: float
+    bearings: tuple[Surroundings, ...] = (Surroundings(),)
+    brush: float = 0.0
+    twins: float = 0.0
+
     def constants(self) -> L.CircuitConstants:
-        """Return what the compiled integrator reads."""
-        bridge = self.bridge if self.insulated else 0.0
-        return L.CircuitConstants(
-            self.winding,
-            self.rotor,
-            self.rings,
-            self.brush,
-            self.coating,
-            float(bridge),
-            self.twins,
-            self.pocket,
-            self.cage_inner,
-            self.cage_outer,
-        )
+        """Return what the compiled integrator reads of rotor and frame."""
+        return L.CircuitConstants(self.winding, self.rotor, self.brush, self.twins)
+
+    def bearing_constants(self, strengths: Sequence[Strength]) -> L.BearingConstants:
+        """Return what the compiled integrator reads of the bearings."""
+        values: dict[str, list[float]] = {name: [] for name in L.BearingConstants._fields}
+        for bearing, strength in zip(self.bearings, strengths, strict=True):
+            for name in ("rings", "coating", "pocket", "cage_inner", "cage_outer"):
+                values[name].append(getattr(bearing, name))
+            values["bridge"].append(bearing.bridge if bearing.insulated else 0.0)
+            values["roughness"].append(strength.roughness)
+            values["least"].append(strength.least_voltage)
+        return L.BearingConstants(**{name: np.array(row, dtype=np.float64) for name, row in values.items()})
+
+    def wiring(self, balls: Sequence[int]) -> L.Wiring:
+        """Return the nodes of the bearings; `balls` are theirs."""
+        insulated = np.array([b.insulated for b in self.bearings])
+        ring = np.append(np.where(insulated, np.cumsum(insulated), L.GROUND), L.GROUND)
+        bearing = np.repeat(np.arange(len(balls)), balls)
+        return L.Wiring(*(a.astype(np.int64) for a in (bearing, ring[bearing], ring)))
 
 
 @dataclass(frozen=True)
@@ -121,8 +151,8 @@ class Strength:
 
 
 @dataclass(frozen=True)
-class CircuitSolution:
-    """Result of an integration.
+class BearingSolution:
+    """What an integration says of one of the bearings.
 
     Attributes
     ----------
@@ -133,13 +163,55 @@ class CircuitSolution:
     trace : float64[:, :], shape (m, 4)
         Time [s], source [V], bearing voltage [V], arc current [A] at every corner inside the window.
     total : float64[:], shape (N_TOTAL,)
-        Sums over this stretch (columns.T_*).
+        Sums over this stretch of the whole circuit (columns.T_*).
+    arc_energy : float
+        Heat of the arcs in this bearing [J].
     """
 
     events: FloatArray
     extremes: FloatArray
     trace: FloatArray
     total: FloatArray
+    arc_energy: float
+
+
+@dataclass(frozen=True)
+class CircuitSolution:
+    """Result of an integration.
+
+    Attributes
+    ----------
+    events : float64[:, :], shape (n, N_EVENT)
+        As of one bearing, but balls are counted through all bearings.
+    extremes : float64[:, :, :], shape (samples - 1, bearings + 1, 2)
+        Smallest and largest voltage between samples: of each bearing, and behind them of the shaft [V].
+    trace : float64[:, :], shape (m, N_TRACE + bearings + 1)
+        Time [s], source [V], arc current [A], then voltages [V] in the order of `extremes`.
+    total : float64[:], shape (N_TOTAL,)
+        Sums over this stretch (columns.T_*).
+    balls : tuple of int
+        Of each bearing.
+    """
+
+    events: FloatArray
+    extremes: FloatArray
+    trace: FloatArray
+    total: FloatArray
+    balls: tuple[int, ...]
+
+    def of(self, bearing: int, times: FloatArray | None = None) -> BearingSolution:
+        """Return what it says of one of the bearings, by number; `times` are its samples where they are its own."""
+        first = sum(self.balls[:bearing])
+        ball = self.events[:, L.E_BALL]
+        own = (ball >= first) & (ball < first + self.balls[bearing])
+        events = self.events[own].copy()
+        events[:, L.E_BALL] -= first
+        if times is not None:
+            interval = np.searchsorted(times, events[:, L.E_TIME], side="right") - 1
+            events[:, L.E_SAMPLE] = np.clip(interval, 0, times.size - 2)
+        trace = self.trace[:, [0, 1, L.N_TRACE + bearing, 2]]
+        heat = self.total[L.T_ARC] if len(self.balls) == 1 else events[:, L.E_ENERGY].sum()
+        return BearingSolution(events, self.extremes[:, bearing], trace, self.total, float(heat))
 
 
 Corners = tuple[FloatArray, FloatArray]  # times [s], volts
@@ -152,7 +224,7 @@ _loaded: list[Any] = []
 
 
 class Network:
-    """Network of one bearing: integrated stretch by stretch, as samples come.
+    """Network of a shaft's bearings: integrated stretch by stretch, as samples come.
 
     Between corners of the source and changes of the capacitances the network is solved exactly by its modes. Charges
     are conserved where capacitances change (d(Cv)/dt, not C dv/dt). However the samples are cut into stretches, what
@@ -160,9 +232,12 @@ class Network:
 
     Parameters
     ----------
-    circuit, strength
-        What surrounds the films, and when they break down.
-    balls : int
+    circuit : Circuit
+        What surrounds the films.
+    strengths : sequence of Strength
+        When the films of each bearing break down; all by the same two laws.
+    balls : sequence of int
+        Of each bearing.
     seed : int
         Key of the random numbers: the same seed gives the same discharges, bit for bit.
     substeps : int
@@ -174,35 +249,47 @@ class Network:
     def __init__(
         self,
         circuit: Circuit,
-        strength: Strength,
-        balls: int,
+        strengths: Sequence[Strength],
+        balls: Sequence[int],
         *,
         seed: int = 0,
         substeps: int = 2,
         announce: Any = None,
     ) -> None:
         self._run = integrator_code(announce)
-        self._circuit, self._strength, self._seed, self._substeps = circuit, strength, seed, substeps
-        size = balls + 2
+        self._circuit, self._strength, self._seed, self._substeps = circuit, strengths[0], seed, substeps
+        self._balls, count = tuple(balls), sum(balls)
+        self._bearings, self._wiring = circuit.bearing_constants(strengths), circuit.wiring(balls)
+        self._breaks, self._arcs = (
+            np.ascontiguousarray(np.concatenate([law.par for law in laws]))
+            for laws in zip(*((s.breakdown, s.discharge) for s in strengths), strict=True)
+        )
+        size = count + 1 + len(self._balls)
         self._nodes = L.Nodes(*np.zeros((len(L.Nodes._fields), size)))
         self._total = np.zeros(L.N_TOTAL)
         self._workspace = (
             L.Part(*np.zeros((len(L.Part._fields), size, size))),
             L.PartNodes(*np.zeros((len(L.PartNodes._fields), size))),
-            L.Held(*np.zeros((len(L.Held._fields), balls, 2))),
+            L.Held(*np.zeros((len(L.Held._fields), count, 2))),
             L.Channels(*np.zeros((len(L.Channels._fields), 2))),
-            np.zeros((balls, 2), dtype=np.int64),  # known
-            np.zeros((balls, 2)),  # drawn
+            np.zeros((count, 2), dtype=np.int64),  # known
+            np.zeros((count, 2)),  # drawn
             np.zeros(1),  # break_out
             np.zeros(3),  # arc_out
             np.zeros((2, L.N_EVENT)),  # rows
-            np.zeros(2),  # stand
+            np.zeros(2 + len(self._balls)),  # stand, and the voltages that a discharge began at
             np.zeros((2, size), dtype=np.int64),  # members
         )
-        self._place = np.zeros(2, dtype=np.int64)  # on the source, and whether a discharge watches other films
+        # On the source; whether a discharge watches other films; rings of its ball; bearings whose voltage has risen.
+        self._place = np.zeros(4 + len(self._balls), dtype=np.int64)
         self._full = L.FullNetwork(*np.zeros((len(L.FullNetwork._fields), size, size)))
         self._room = _FIRST_ROOM
         self._began = False
+
+    @property
+    def circuit(self) -> Circuit:
+        """What surrounds the films."""
+        return self._circuit
 
     @property
     def substeps(self) -> int:
@@ -214,8 +301,8 @@ class Network:
         names = ["part", "own", "held", "state", "known", "drawn", "break_out", "arc_out", "rows", "stand", "members"]
         breaks, arcs = self._strength.breakdown, self._strength.discharge
         return {
-            "break_law": breaks.kernel.pointer, "break_par": breaks.par,
-            "arc_law": arcs.kernel.pointer, "arc_par": arcs.par,
+            "break_law": breaks.kernel.pointer, "break_par": self._breaks,
+            "arc_law": arcs.kernel.pointer, "arc_par": self._arcs, "bearings": self._bearings, "wiring": self._wiring,
             "full": self._full, "nodes": self._nodes, "place": self._place, "total": self._total,
             **dict(zip(names, self._workspace, strict=True)),
         }  # fmt: skip
@@ -237,7 +324,7 @@ class Network:
         Parameters
         ----------
         films : Films
-            Of the first stretch, or from the last sample of the stretch before on.
+            Of all bearings (:func:`joined`). Of the first stretch, or from the last sample of the stretch before on.
         source : tuple of float64[:]
             Corners of the common-mode voltage, times [s] increasing, and volts.
         window : tuple of float
@@ -264,7 +351,7 @@ class Network:
         total[L.T_EVENTS], total[L.T_TRACE] = events.shape[0], trace.shape[0]
         if before[L.T_TIME] > 0.0 or before[L.T_SEGMENTS] > 0.0:
             total[L.T_STORED_0], total[L.T_CHARGE_0] = before[L.T_STORED], before[L.T_CHARGE]
-        return CircuitSolution(events, extremes, trace, total)
+        return CircuitSolution(events, extremes, trace, total, self._balls)
 
     def _stretch(
         self, films: Films, source: Corners, window: FloatArray, rest: Corners, first: int
@@ -272,8 +359,9 @@ class Network:
         """Integrate through few samples, again where there was too little room; return events, extremes, record."""
         before, charge, potential = self._total.copy(), self._nodes.charge.copy(), self._nodes.potential.copy()
         while True:
-            events, extremes = np.empty((self._room, L.N_EVENT)), np.empty((films.time.size - 1, 2))
-            trace = np.empty((_TRACE_ROOM if window[0] <= window[1] else 0, L.N_TRACE))
+            voltages = len(self._balls) + 1
+            events, extremes = np.empty((self._room, L.N_EVENT)), np.empty((films.time.size - 1, voltages, 2))
+            trace = np.empty((_TRACE_ROOM if window[0] <= window[1] else 0, L.N_TRACE + voltages))
             self._total[:], self._nodes.charge[:], self._nodes.potential[:] = before, charge, potential
             self._total[L.T_EVENTS] = self._total[L.T_TRACE] = 0.0
             self._place[0] = np.searchsorted(source[0][1:-1], self.time if self._began else films.time[0], side="right")
@@ -294,14 +382,14 @@ class Network:
         trace: FloatArray, window: FloatArray,
     ) -> int:  # fmt: skip
         """Call the compiled integrator; return its status."""
-        strength, circuit = self._strength, self._circuit
+        strength = self._strength
         corners = (np.ascontiguousarray(a, dtype=np.float64) for a in (*rest, *source, films.time))
         tables = L.Tables(*(np.ascontiguousarray(getattr(films, name), dtype=np.float64) for name in L.Tables._fields))
         breaks, arcs = strength.breakdown, strength.discharge
         status = self._run(
-            int(not self._began), *corners, tables, circuit.constants(), strength.roughness, strength.least_voltage,
-            breaks.kernel.pointer, breaks.par, arcs.kernel.pointer, arcs.par,
-            int(circuit.insulated), self._seed, self._substeps, self._full, self._nodes, *self._workspace, self._place,
+            int(not self._began), *corners, tables, self._circuit.constants(), self._bearings, self._wiring,
+            breaks.kernel.pointer, self._breaks, arcs.kernel.pointer, self._arcs,
+            self._seed, self._substeps, self._full, self._nodes, *self._workspace, self._place,
             extremes, events, trace, window, self._total,
         )  # fmt: skip
         return int(status)
@@ -320,9 +408,9 @@ class Network:
 
 
 def integrate(
-    films: Films,
+    films: Sequence[Films],
     circuit: Circuit,
-    strength: Strength,
+    strengths: Sequence[Strength],
     source: Corners,
     *,
     seed: int = 0,
@@ -332,8 +420,9 @@ def integrate(
     announce: Any = None,
 ) -> CircuitSolution:
     """Integrate a network through the times of the films; see :class:`Network`."""
-    network = Network(circuit, strength, films.film.shape[1], seed=seed, substeps=substeps, announce=announce)
-    return network.advance(films, source, window, rest)
+    balls = [each.film.shape[1] for each in films]
+    network = Network(circuit, strengths, balls, seed=seed, substeps=substeps, announce=announce)
+    return network.advance(joined(films), source, window, rest)
 
 
 def integrator_code(announce: Any) -> Any:

@@ -4,23 +4,49 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-# Nodes: 0 the rotor (inner ring), 1 the outer ring where it is insulated, then the balls. Ground is the frame.
-ROTOR, RING = 0, 1
+# Nodes: the rotor with all inner rings, the outer rings that are insulated, the balls of all bearings. Ground is the
+# frame.
+ROTOR = 0
+GROUND = -1  # in place of a node
 
 
 class CircuitConstants(NamedTuple):
-    """Constants of what surrounds the films; capacitances [F], conductances [S]."""
+    """Constants of rotor and frame; capacitances [F], conductance [S]."""
 
     winding: float  # against the rotor
     rotor: float  # against the frame
-    rings: float  # against each other
     brush: float  # from the rotor to the frame
-    coating: float  # of the outer ring against the frame
-    bridge: float  # conductance across it
-    twins: float  # further bearings of the machine that are like this one
-    pocket: float  # of a conducting cage against each ball, 0: there is none
-    cage_inner: float  # against the inner ring
-    cage_outer: float
+    twins: float  # for each bearing, further ones that are like it
+
+
+class BearingConstants(NamedTuple):
+    """Constants of every bearing, arrays of shape (bearings,)."""
+
+    rings: Any  # capacitance against each other [F]
+    coating: Any  # of the outer ring against the frame [F]
+    bridge: Any  # conductance across it [S]
+    pocket: Any  # of a conducting cage against each ball, 0: there is none [F]
+    cage_inner: Any  # of it against the inner ring [F]
+    cage_outer: Any  # and against the outer ring [F]
+    roughness: Any  # composite, rms [m]
+    least: Any  # voltage below which nothing breaks down [V]
+
+
+class Wiring(NamedTuple):
+    """Numbers of nodes, arrays of integers."""
+
+    bearing: Any  # of each ball, shape (balls,)
+    outer: Any  # node of the outer ring of each ball, or GROUND
+    ring: Any  # of each bearing, and behind them GROUND: the shaft against the frame, shape (bearings + 1,)
+
+
+class Net(NamedTuple):
+    """The wiring with the number of nodes before the balls."""
+
+    shared: Any
+    bearing: Any
+    outer: Any
+    ring: Any
 
 
 class Held(NamedTuple):
@@ -108,9 +134,10 @@ class Standing(NamedTuple):
     """What films stand: the law of the role breakdown, and what it said last."""
 
     law: Any
-    par: Any  # per ring
+    par: Any  # per ring of each bearing
     out: Any
-    roughness: Any  # composite, rms [m]
+    bearing: Any  # of each ball
+    roughness: Any  # of each bearing: composite, rms [m]
     least: Any  # voltage below which nothing breaks down [V]
     seed: Any
     known: Any  # patch of each contact that `drawn` was found for
@@ -121,11 +148,14 @@ class Arcs(NamedTuple):
     """What burns: the law of the role discharge, and the arcs of one discharge."""
 
     law: Any
-    par: Any  # per ring
+    par: Any  # per ring of each bearing
     out: Any
     state: Any  # Channels
     rows: Any  # what they did, (2, N_EVENT)
     stand: Any  # voltages that the films of the ball stand [V]
+    opened: Any  # voltages of the bearings when the discharge began [V]
+    terminal: Any  # nodes of the rings of the ball, GROUND for the frame
+    raised: Any  # of each bearing: 1 where its voltage is above that
     members: Any  # nodes of the full network that take part
     place: Any  # of each node among them, -1: it keeps its charge
     watched: Any  # 1 where what other films stand is known, (1,)
@@ -147,6 +177,7 @@ class Accumulators(NamedTuple):
     extremes: Any
     events: Any  # E_*
     trace: Any
+    ring: Any  # node of the outer ring of each bearing, and GROUND
     window: Any  # times between which the trace is kept [s]
 
 
@@ -184,7 +215,7 @@ N_TOTAL = 18
 ) = range(11)
 N_EVENT = 11
 # One row per moment of the record, `trace[...]`.
-N_TRACE = 4  # time [s], source [V], inner against outer ring [V], current of arcs [A]
+N_TRACE = 3  # time [s], source [V], current of arcs [A]; behind them inner against outer rings, shaft against frame [V]
 
 # Status of the integration; from NO_VOLTAGE on a law is to blame.
 OK, EVENTS_FULL, NOT_POSITIVE, ENDLESS, NO_VOLTAGE, NO_ARC, ARC_STARVED = range(1, 8)

@@ -14,7 +14,7 @@ from lambda_core.domain.channels import RINGS
 from lambda_core.electric import columns as L
 
 if TYPE_CHECKING:
-    from lambda_core.electric.circuit_integrator import CircuitSolution
+    from lambda_core.electric.circuit_integrator import BearingSolution
     from lambda_core.electric.contacts import Contacts
 
 IntArray = NDArray[np.int64]
@@ -86,7 +86,7 @@ class Events:
         ]
 
 
-def events_of(solution: CircuitSolution, contacts: Contacts) -> Events:
+def events_of(solution: BearingSolution, contacts: Contacts) -> Events:
     """Return the discharges of an integration with the state of the contacts that it went through."""
     table = solution.events
     ball, ring = table[:, L.E_BALL].astype(np.int64), table[:, L.E_RACEWAY].astype(np.int64)

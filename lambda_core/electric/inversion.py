@@ -14,7 +14,7 @@ from lambda_core.case.signals import read_numbered
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import RINGS
 from lambda_core.domain.errors import SolverError, UsageError
-from lambda_core.electric.circuit import circuit_of
+from lambda_core.electric.circuit import surroundings
 from lambda_core.electric.circuit_bearing import of_model
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.solver.records import CONTACT_CHANNELS
@@ -176,7 +176,7 @@ def film_from_series(
     film = bearing.options.film
     if film.ball_permittivity is not None or film.roughness != "smooth" or bearing.options.cage is not None:
         raise UsageError("the film is found for balls that conduct, smooth films and no cage: leave out their options")
-    films = FilmModel(found, circuit_of(bearing.options, bearing.geometry).rings)
+    films = FilmModel(found, surroundings(bearing.options, bearing.geometry).rings)
     quantiles = np.quantile(values, (0.16, 0.5, 0.84))
     high, middle, low = (films.scale(float(value)) for value in quantiles)
     slope = films.slope(middle)

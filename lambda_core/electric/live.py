@@ -10,13 +10,13 @@ import numpy as np
 
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.section_roles import FILMS
-from lambda_core.electric.circuit import bearing_capacitance, circuit_of
+from lambda_core.electric.circuit import bearing_capacitance
 from lambda_core.electric.circuit_bearing import of_model
-from lambda_core.electric.circuit_integrator import UNCHARGED, Network
+from lambda_core.electric.circuit_integrator import UNCHARGED
 from lambda_core.electric.contacts import CHANNELS, Contacts, contacts_of_samples, films, turned
 from lambda_core.electric.events import events_of
 from lambda_core.electric.film_laws import film_laws
-from lambda_core.electric.simulation import integrated_until, strength_of
+from lambda_core.electric.simulation import integrated_until, network_of
 from lambda_core.electric.voltage_sources import corners, one_period, reach
 from lambda_core.laws.kernels import sources_key
 from lambda_core.results.circuit_rows import CIRCUIT, DISCHARGES, CircuitRows
@@ -50,13 +50,7 @@ class Live:
         self._options = bearing.options
         self._laws = film_laws(bearing.laws, bearing.contexts, announce)
         self._roughness = bearing.roughness
-        self._network = Network(
-            circuit_of(self._options, bearing.geometry),
-            strength_of(self._laws, self._options, bearing.roughness),
-            model.geometry.balls,
-            seed=self._options.seed,
-            announce=announce,
-        )
+        self._network = network_of([bearing], [model.geometry.balls], announce)
         self._waiting: Contacts | None = None  # from the last sample that was integrated to
         self._known: FloatArray = np.zeros((2, 0))  # times and angles of the rotor from the start, for the source
         self._rolled: FloatArray | None = None
@@ -106,7 +100,7 @@ class Live:
 
         source = corners(options, float(part.time[0]), float(waiting.time[-1]), angles, origin=origin)
         rest = one_period(options, origin, angles) if self._rolled is None else UNCHARGED
-        solution = self._network.advance(parts, source, rest=rest)
+        solution = self._network.advance(parts, source, rest=rest).of(0)
         events = events_of(solution, part)
         self._rolled, self._waiting = parts.rolled[-1], waiting.part(slice(last, None))
         self._broken += events.time.size

@@ -12,9 +12,10 @@ from pydantic import Field
 from lambda_core.case.electric import Electric, Inverter, Sine, Step
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.electric import columns as L
-from lambda_core.electric.circuit import bearing_capacitance, impedance, voltage_ratio
+from lambda_core.electric.circuit import bearing_capacitance, impedance, rotor_capacitance, voltage_ratio
 from lambda_core.electric.current_limits import LIMITS, Limit
 from lambda_core.electric.events import discharges_of, sector_shares
+from lambda_core.electric.voltage_sources import period_of
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.text import line
 from lambda_core.system.resolve_electric import assumed
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from lambda_core.electric.circuit_bearing import CircuitBearing
-    from lambda_core.electric.circuit_integrator import Circuit
     from lambda_core.electric.events import Events
     from lambda_core.electric.simulation import Simulation
 
@@ -94,7 +94,8 @@ def outcome_of(simulation: Simulation) -> Outcome:
     films, circuit, contacts = simulation.films, simulation.circuit, simulation.contacts
     capacitance = bearing_capacitance(films)
     area = 1e6 * float(contacts.area.sum(axis=1).mean())  # [mm2]
-    meter = impedance(films, circuit, np.array(_FREQUENCIES)).mean(axis=0)
+    around = circuit.bearings[simulation.number]
+    meter = impedance(films, around, np.array(_FREQUENCIES)).mean(axis=0)
     names = [f"{frequency:g} Hz" for frequency in _FREQUENCIES]
     total, length = simulation.solution.total, simulation.duration
     some = bool(through.any())
@@ -106,10 +107,10 @@ def outcome_of(simulation: Simulation) -> Outcome:
         speed_rpm=simulation.speed * 30.0 / math.pi,
         bearing_capacitance_pF=[1e12 * float(f(capacitance)) for f in (np.min, np.median, np.max)],
         unloaded_share=unloaded_share(simulation),
-        rings_capacitance_pF=1e12 * circuit.rings,
-        rotor_capacitance_pF=1e12 * rotor_capacitance(circuit, float(capacitance.mean())),
+        rings_capacitance_pF=1e12 * around.rings,
+        rotor_capacitance_pF=1e12 * rotor_capacitance(circuit, simulation.capacitances),
         shorted_share=float(contacts.shorted.mean()),
-        bearing_voltage_ratio=voltage_ratio(circuit, float(capacitance.mean())),
+        bearing_voltage_ratio=voltage_ratio(circuit, simulation.capacitances, simulation.number),
         bearing_voltage_V=voltage_range(simulation),
         impedance_kOhm=dict(zip(names, (1e-3 * np.abs(meter)).tolist(), strict=True)),
         impedance_phase_deg=dict(zip(names, np.degrees(np.angle(meter)).tolist(), strict=True)),
@@ -119,7 +120,7 @@ def outcome_of(simulation: Simulation) -> Outcome:
         breakdown_voltage_V=_quantiles(voltage) if some else None,
         peak_current_A=_quantiles(peak) if some else None,
         energy_nJ=_quantiles(1e9 * energy) if some else None,
-        arc_power_mW=1e3 * float(total[L.T_ARC]) / length,
+        arc_power_mW=1e3 * simulation.solution.arc_energy / length,
         hertz_area_mm2=area,
         current_density_A_per_mm2=float(np.median(peak)) / area if some else None,
         power_density_VA_per_mm2=float(np.median(voltage * peak)) / area if some else None,
@@ -134,16 +135,6 @@ def outcome_of(simulation: Simulation) -> Outcome:
         limits=list(LIMITS),
         assumptions=assumptions(simulation.bearing, simulation.events),
     )
-
-
-def rotor_capacitance(circuit: Circuit, capacitance: float) -> float:
-    """Return everything between the rotor and its surroundings [F]; `capacitance` is that of the balls.
-
-    An insulation is in series with the bearing; a cage is left out.
-    """
-    whole = circuit.rings + capacitance
-    behind = whole * circuit.coating / (whole + circuit.coating) if circuit.insulated else whole
-    return circuit.winding + circuit.rotor + circuit.twins * whole + behind
 
 
 def voltage_range(simulation: Simulation) -> list[float]:
@@ -194,7 +185,7 @@ def source_words(options: Electric) -> str:
         return f"sine, {source.amplitude:g} V, {source.frequency:g} Hz"
     if isinstance(source, Step):
         return f"step to {source.amplitude:g} V in {1e9 * source.rise_time:g} ns"
-    return f"measured series, {len(source.rows)} rows"
+    return f"measured series, {len(source.rows)} rows, repeated every {1e3 * period_of(np.array(source.rows)):.6g} ms"
 
 
 def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[str]:

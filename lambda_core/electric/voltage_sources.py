@@ -56,6 +56,16 @@ def corners(
     return t + origin, v
 
 
+def period_of(rows: FloatArray) -> float:
+    """Return after how long a measured series begins again [s].
+
+    A series that ends at the voltage that it began with is one whole period. Otherwise its last row is one of the
+    period, and the first row follows after the median distance of rows.
+    """
+    length = float(rows[-1, 0] - rows[0, 0])
+    return length if rows[-1, 1] == rows[0, 1] else length + float(np.median(np.diff(rows[:, 0])))
+
+
 def _rate(source: Inverter | Sine | Step | Series) -> float:
     """Return corners per second."""
     if isinstance(source, Inverter):
@@ -64,7 +74,7 @@ def _rate(source: Inverter | Sine | Step | Series) -> float:
         return source.frequency * source.points
     if isinstance(source, Step):
         return 0.0
-    return len(source.rows) / (source.rows[-1][0] - source.rows[0][0])
+    return len(source.rows) / period_of(np.array(source.rows))
 
 
 def one_period(source: Inverter | Sine | Step | Series, origin: float, turned: Turned) -> tuple[FloatArray, FloatArray]:
@@ -130,9 +140,10 @@ def _ramps(instant: FloatArray, change: FloatArray, rise: float) -> tuple[FloatA
 
 
 def _repeated(rows: FloatArray, start: float, stop: float) -> tuple[FloatArray, FloatArray]:
-    """Return a measured series, repeated over start..stop; its end joins its start over one more row's step."""
-    t = rows[:, 0] - rows[0, 0]
-    period = t[-1] + float(np.median(np.diff(t)))
+    """Return a measured series, repeated over start..stop; where it does not close, a straight line joins its ends."""
+    t, period = rows[:, 0] - rows[0, 0], period_of(rows)
+    if rows[-1, 1] == rows[0, 1]:
+        t, rows = t[:-1], rows[:-1]
     turn = np.arange(math.floor(start / period), max(math.ceil(stop / period), math.floor(start / period) + 1))
     found = (t[None, :] + period * turn[:, None]).ravel()
     return np.append(found, period * (turn[-1] + 1)), np.append(np.tile(rows[:, 1], turn.size), rows[0, 1])

@@ -16,11 +16,9 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
 from lambda_core.electric import columns as L
-from lambda_core.electric.circuit import circuit_of
 from lambda_core.electric.circuit_bearing import of_model
-from lambda_core.electric.circuit_integrator import Network, compiled
-from lambda_core.electric.film_laws import film_laws
-from lambda_core.electric.simulation import strength_of
+from lambda_core.electric.circuit_integrator import compiled
+from lambda_core.electric.simulation import network_of
 from lambda_core.laws.jit.machine_code import Pointer
 from lambda_core.laws.jit.portable import Entry
 
@@ -38,8 +36,8 @@ NUMBERS = (
     "given", "rate", "since", "last", "voltage", "lowest", "highest", "current", "arc_current", "peak",
 )  # fmt: skip
 # Arguments of the integrator that are no arrays: places among `words` and `sizes`, behind which `machine` stands.
-_WORDS = ("first", "insulated", "seed", "substeps")
-_SIZES = ("roughness", "least", "machine")
+_WORDS = ("first", "seed", "substeps")
+_SIZES = ("machine",)
 
 
 @dataclass(frozen=True)
@@ -110,24 +108,21 @@ def circuit(model: BearingModel, contacts: int, announce: Announce = None) -> Ci
         raise UsageError("the circuit of four-point contacts is not exported: leave [electric] out of the case")
     bearing = of_model(model)
     options = bearing.options
-    laws = film_laws(bearing.laws, bearing.contexts, announce)
-    around = circuit_of(options, bearing.geometry)
-    strength = strength_of(laws, options, bearing.roughness)
-    network = Network(around, strength, balls, seed=options.seed, announce=announce)
+    network = network_of([bearing], [balls], announce)
     arguments = network.held() | {
         "rest_t": np.zeros(0), "rest_v": np.zeros(0),  # it begins with what the source charges
         "source_t": np.zeros(2), "source_v": np.zeros(2), "t": np.zeros(2),
         "tables": L.Tables(*np.zeros((len(L.Tables._fields), 2, balls, 2))),
-        "extremes": np.zeros((1, 2)), "events": np.zeros((_ROOM, L.N_EVENT)),
-        "trace": np.zeros((0, L.N_TRACE)), "window": np.array([np.inf, -np.inf]),
+        "extremes": np.zeros((1, 2, 2)), "events": np.zeros((_ROOM, L.N_EVENT)),
+        "trace": np.zeros((0, L.N_TRACE + 2)), "window": np.array([np.inf, -np.inf]),
     }  # fmt: skip
     from lambda_core.electric.compiled.switching import integrate
 
     return Circuit(
         arguments={name: arguments.get(name) for name in inspect.signature(integrate).parameters},
         numbers=np.zeros(len(NUMBERS)),
-        sizes=np.array([bearing.roughness, options.breakdown.least_voltage, *around.constants()]),
-        words=np.array([1, int(around.insulated), options.seed, network.substeps], dtype=np.int64),
+        sizes=np.array(network.circuit.constants()),
+        words=np.array([1, options.seed, network.substeps], dtype=np.int64),
         rate=np.zeros((2, balls, 2)),
         film=options.film,
     )

@@ -10,8 +10,9 @@ import numpy as np
 
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.arrays import FloatArray
+from lambda_core.electric import circuit_integrator
 from lambda_core.electric import columns as L
-from lambda_core.electric.circuit_integrator import Circuit, CircuitSolution, Films, Strength
+from lambda_core.electric.circuit_integrator import BearingSolution, Circuit, Films, Strength, Surroundings
 from lambda_core.electric.film_laws import FilmLaw, film_laws
 from lambda_core.laws.probe import trial_context
 from lambda_core.system.bearing import ChosenLaw
@@ -35,6 +36,18 @@ def strength(
     """Return laws of the films by name, with parameters as a case writes them."""
     laws = _laws(breakdown, json.dumps(breaks or {}), discharge, json.dumps(arcs))
     return Strength(*laws, roughness, 0.5)
+
+
+def one_bearing(
+    winding: float, rotor: float, rings: float = 0.0, *, brush: float = 0.0, twins: float = 0.0, **around: float
+) -> Circuit:
+    """Return the circuit of one bearing."""
+    return Circuit(winding, rotor, (Surroundings(rings, **around),), brush, twins)
+
+
+def integrate(films: Films, circuit: Circuit, law: Strength, source: Any, **options: Any) -> BearingSolution:
+    """Integrate the circuit of one bearing."""
+    return circuit_integrator.integrate([films], circuit, [law], source, **options).of(0)
 
 
 SMOOTH, ROUGH = strength("field"), strength()
@@ -72,7 +85,7 @@ def switching(
     return times, np.append(levels[0], np.column_stack([before, after]).ravel())
 
 
-def residuals(found: CircuitSolution, circuit: Circuit, source: tuple[FloatArray, FloatArray]) -> tuple[float, float]:
+def residuals(found: BearingSolution, circuit: Circuit, source: tuple[FloatArray, FloatArray]) -> tuple[float, float]:
     """Return what energy and charge do not add up to, relative to what flowed."""
     t = found.total
     stored = t[L.T_STORED] - t[L.T_STORED_0]

@@ -16,14 +16,14 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from electric.networks import switching
+from electric.networks import one_bearing, switching
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.electric.circuit_integrator import Circuit, Films
+from lambda_core.electric.circuit_integrator import Films
 
 RECORDED = Path(__file__).with_name("ngspice_nine_balls.csv")
 STOP, TURN, RISE = 1e-3, 1e-3, 5e-7  # span; in which the balls pass the load zone once; of an edge [s]
-CIRCUIT = Circuit(50e-12, 800e-12, 5e-12, brush=1e-7, coating=300e-12, bridge=2e-7)
+CIRCUIT = one_bearing(50e-12, 800e-12, 5e-12, brush=1e-7, coating=300e-12, bridge=2e-7)
 LEAK, METAL = 2e-8, 1e-5  # conductance of a film; of the outer film of ball 4, which metal bridges [S]
 _SCALE = 1e6
 
@@ -43,12 +43,12 @@ def deck(out: Path) -> str:
     """Return the deck; `out` gets time, potential of the inner and of the outer ring."""
     points = " ".join(f"{t:.12g} {v:.12g}" for t, v in zip(*switching(STOP, rise=RISE), strict=True))
     lines = ["* nine balls between two rings", f"Vcm cm 0 PWL({points})"]
-    fixed = (("cm", "u", CIRCUIT.winding), ("u", "0", CIRCUIT.rotor), ("u", "o", CIRCUIT.rings))
-    fixed += (("o", "0", CIRCUIT.coating),)
+    fixed = (("cm", "u", CIRCUIT.winding), ("u", "0", CIRCUIT.rotor), ("u", "o", CIRCUIT.bearings[0].rings))
+    fixed += (("o", "0", CIRCUIT.bearings[0].coating),)
     lines += [f"C{i} {a} {b} {value * _SCALE:.12g}" for i, (a, b, value) in enumerate(fixed)]
     lines += [
         f"Rbrush u 0 {1.0 / (CIRCUIT.brush * _SCALE):.12g}",
-        f"Rbridge o 0 {1.0 / (CIRCUIT.bridge * _SCALE):.12g}",
+        f"Rbridge o 0 {1.0 / (CIRCUIT.bearings[0].bridge * _SCALE):.12g}",
     ]
     for ball in range(9):
         for ring, offset in (("u", 0.0), ("o", 5.0)):

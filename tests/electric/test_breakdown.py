@@ -6,15 +6,14 @@ import math
 
 import numpy as np
 import pytest
-from electric.networks import AREA, ROUGH, SMOOTH, residuals, steady, strength
+from electric.networks import AREA, ROUGH, SMOOTH, integrate, one_bearing, residuals, steady, strength
 from electric.rough_film import breakdown_probability, breakdown_voltage
 from lambda_plugins.normal_tail import upper_quantile
 from scipy.special import ndtri
 
 from lambda_core.electric import columns as L
-from lambda_core.electric.circuit_integrator import Circuit, integrate
 
-CIRCUIT = Circuit(50e-12, 1000e-12)
+CIRCUIT = one_bearing(50e-12, 1000e-12)
 
 
 @pytest.mark.parametrize(
@@ -101,7 +100,7 @@ def test_other_films_break_down_while_an_edge_feeds_an_arc() -> None:
     films.film[:, 0] = films.thinnest[:, 0] = 0.01e-6, 5e-6
     films.film[:, 1] = films.thinnest[:, 1] = 1.0 / 30.0 * 1e-6
     source = np.array([0.0, 1e-4, 1e-4 + 50e-9, 1.0]), np.array([0.0, 0.0, 200.0, 200.0])
-    circuit = Circuit(50e-12, 800e-12)
+    circuit = one_bearing(50e-12, 800e-12)
     found = integrate(films, circuit, SMOOTH, source, window=(0.0, 1.0))
     assert set(found.events[:, L.E_BALL]) == {0.0, 1.0}
     assert np.abs(found.events[:, L.E_BEARING_VOLTAGE]).max() < 2.5

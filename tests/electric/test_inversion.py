@@ -28,7 +28,7 @@ def test_own_film_is_found_again(law: str, scale: float) -> None:
 def test_starved_bearing_is_recognised(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The capacitance of a bearing with 60 % of the film, given to the flooded case."""
     starved = FilmModel(equilibria(api.check("6208-axial-1300", ["lubricant.starvation=0.6"]), 1), 0.0)
-    rings = api.electric("6208-axial-1300", ["electric.duration=2 ms"]).circuit.rings
+    rings = api.electric("6208-axial-1300", ["electric.duration=2 ms"]).circuit.bearings[0].rings
     value = 1e12 * (starved.capacitance(1.0) + rings)
     (tmp_path / "m.csv").write_text("time [s],capacitance [pF]\n" + "".join(f"{i},{value!r}\n" for i in range(5)))
     arguments = ["electric-film", "6208-axial-1300", str(tmp_path / "m.csv"), "--quiet"]

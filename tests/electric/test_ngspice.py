@@ -6,11 +6,10 @@ import shutil
 
 import numpy as np
 import pytest
-from electric.networks import SMOOTH, switching
+from electric.networks import SMOOTH, integrate, switching
 from electric.ngspice import CIRCUIT, RECORDED, RISE, STOP, nine_balls, run
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.electric.circuit_integrator import integrate
 
 
 def own(time: FloatArray) -> FloatArray:

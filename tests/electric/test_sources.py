@@ -14,6 +14,7 @@ from lambda_core.case.case_writer import standalone_toml
 from lambda_core.case.electric import Inverter, Series, Sine, Step
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import CaseError
+from lambda_core.electric.outcome import source_words
 from lambda_core.electric.voltage_sources import corners
 
 
@@ -112,6 +113,17 @@ def test_mistakes_are_named(electric: dict[str, object], where: str, words: str)
     assert words in problem.message
 
 
+def test_a_series_that_ends_where_it_began_is_one_period() -> None:
+    """Corners that end at 100 us repeat every 100 us; a series that does not close gets one more step."""
+    closed = case_with({"series": {"points": ["0 us, 0 V", "25 us, 9 V", "75 us, -9 V", "100 us, 0 V"]}}).electric
+    times, volts = corners(closed.source, 0.0, 2e-4, lambda t: t)
+    np.testing.assert_allclose(times, [0.0, 25e-6, 75e-6, 100e-6, 125e-6, 175e-6, 200e-6], atol=1e-12)
+    np.testing.assert_allclose(volts, [0.0, 9.0, -9.0, 0.0, 9.0, -9.0, 0.0])
+    assert "repeated every 0.1 ms" in source_words(closed)
+    opened = case_with({"series": {"points": ["0 us, 0 V", "25 us, 9 V", "50 us, 3 V"]}}).electric
+    assert corners(opened.source, 0.0, 1e-5, lambda t: t)[0][-1] == pytest.approx(75e-6)
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -123,6 +135,7 @@ def test_mistakes_are_named(electric: dict[str, object], where: str, words: str)
         ("time,voltage\n0,1\n1,2\n2,3\n", "must name both columns with units"),
         ("time [s],voltage [A]\n0,1\n1,2\n2,3\n", "is not a unit of voltage"),
         ("time [s],voltage [V]\n0,1\n1,\n2,3\n", "line 3"),
+        ('time [s],voltage [V]\n0,1\n"1,2\n' + 20000 * "2.0000,3\n", "is there a quote too many?"),
     ],
 )
 def test_mistakes_in_a_series_are_named(text: str, words: str, tmp_path: Path) -> None:

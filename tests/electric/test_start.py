@@ -9,12 +9,11 @@ import math
 
 import numpy as np
 import pytest
-from electric.networks import ROUGH, SMOOTH, residuals, steady, switching, turning
+from electric.networks import ROUGH, SMOOTH, integrate, one_bearing, residuals, steady, switching, turning
 
 from lambda_core import api
 from lambda_core.case.electric import Inverter, Series, Sine, Step
 from lambda_core.electric import columns as L
-from lambda_core.electric.circuit_integrator import Circuit, integrate
 from lambda_core.electric.voltage_sources import corners, one_period
 
 STOP = 6e-3
@@ -31,7 +30,7 @@ def test_begins_in_the_steady_state(leak: float, brush: float) -> None:
     inverter = Inverter()
     source, rest = (f(inverter, 0.0, *t, at_rest) for f, t in ((corners, (STOP,)), (one_period, ())))
     films = steady(100e-12, 80e-12, leak=leak, stop=STOP)
-    found = integrate(films, Circuit(50e-12, 800e-12, brush=brush), SMOOTH, source, window=(0.0, 1.0), rest=rest)
+    found = integrate(films, one_bearing(50e-12, 800e-12, brush=brush), SMOOTH, source, window=(0.0, 1.0), rest=rest)
     time, volts = found.trace[:, 0], found.trace[:, 2]
     first, late = (volts[(time > 1e-4 * (k + 0.001)) & (time < 1e-4 * (k + 0.999))] for k in (0, 40))
     assert first.size == 12
@@ -43,7 +42,7 @@ def test_grounded_rotor_has_no_voltage_at_the_start() -> None:
     inverter = Inverter()
     source, rest = corners(inverter, 0.0, STOP, at_rest), one_period(inverter, 0.0, at_rest)
     films = steady(400e-12, 400e-12, stop=STOP)
-    circuit = Circuit(50e-12, 800e-12, brush=1.0)
+    circuit = one_bearing(50e-12, 800e-12, brush=1.0)
     edge = 50e-12 * 2.0 * 800.0 / 3.0 / 50e-9  # C_wr dV/dt of two phases at once through 1 Ohm [V]
     kept = integrate(films, circuit, SMOOTH, source, rest=rest).extremes
     assert np.abs(kept).max() < 1.01 * edge
@@ -57,7 +56,7 @@ def test_offset_of_a_measured_series_leaks_away() -> None:
     series = Series(points=points)
     source, rest = corners(series, 0.0, STOP, at_rest), one_period(series, 0.0, at_rest)
     films = steady(400e-12, 400e-12, leak=1e-12, stop=STOP)
-    found = integrate(films, Circuit(50e-12, 800e-12), SMOOTH, source, rest=rest)
+    found = integrate(films, one_bearing(50e-12, 800e-12), SMOOTH, source, rest=rest)
     ratio = 50.0 / (50.0 + 800.0 + 200.0)
     assert found.extremes[:, 1].max() == pytest.approx(50.0 * ratio, rel=0.02)
     assert found.extremes[:, 0].min() == pytest.approx(-50.0 * ratio, rel=0.02)
@@ -76,7 +75,7 @@ def test_periods_close() -> None:
 def test_films_that_do_not_stand_the_start() -> None:
     """What breaks down because of the start alone is no event, and its voltage no largest one; all still adds up."""
     source, rest = switching(0.021), switching(1e-4)
-    films, circuit = turning(film=0.5e-6), Circuit(50e-12, 1000e-12, 5e-12)
+    films, circuit = turning(film=0.5e-6), one_bearing(50e-12, 1000e-12, 5e-12)
     found = integrate(films, circuit, ROUGH, source, seed=1, rest=rest)
     assert found.events[0, 0] > 0.0
     begun = found.total[L.T_BEGAN]

@@ -10,12 +10,9 @@ import numpy as np
 import pytest
 
 from lambda_core import api
-from lambda_core.electric.circuit import circuit_of
 from lambda_core.electric.circuit_bearing import of_model
-from lambda_core.electric.circuit_integrator import Network
 from lambda_core.electric.contacts import CHANNELS, contacts_of_samples, films
-from lambda_core.electric.film_laws import film_laws
-from lambda_core.electric.simulation import strength_of
+from lambda_core.electric.simulation import network_of
 
 CASE = "6208-axial-1300"
 CHANGES = ("solver.duration=0.2 s", "electric.seed=3", "electric.grounding.insulation=2 nF")
@@ -40,10 +37,7 @@ def of_the_program(steps: int) -> tuple[list[list[float]], Any]:
     """Return voltages and largest currents step by step, and the events, of an integration through the same samples."""
     stepping = api.iterate(CASE, CHANGES, exact=True)
     bearing = of_model(stepping.model)
-    laws = film_laws(bearing.laws, bearing.contexts)
-    around = circuit_of(bearing.options, bearing.geometry)
-    strength = strength_of(laws, bearing.options, bearing.roughness)
-    network = Network(around, strength, stepping.model.geometry.balls, seed=bearing.options.seed)
+    network = network_of([bearing], [stepping.model.geometry.balls])
     before, rolled, volts = stepping._engine.now(), None, 0.0
     found, events = [], []
     for k in range(steps):
@@ -51,7 +45,7 @@ def of_the_program(steps: int) -> tuple[list[list[float]], Any]:
         pair = {name: np.stack([before[name], now[name]]) for name in CHANNELS}
         parts = films(contacts_of_samples(pair, bearing.roughness, ""), bearing.options, rolled)
         after = volts + slopes(k) * (now["time"] - before["time"])
-        solution = network.advance(parts, (parts.time, np.array([volts, after])))
+        solution = network.advance(parts, (parts.time, np.array([volts, after]))).of(0)
         peak = float(solution.events[:, 8].max(initial=0.0))
         potential = network.held()["nodes"].potential
         found.append([float(potential[0] - potential[1]), *solution.extremes[0].tolist(), peak])

@@ -46,17 +46,19 @@ def is_recorded(sums, now):
 
 
 @shared_helper
-def record(sums, now, volt, bearing, current):
+def record(sums, now, volt, v, current):
     """Write one row of the record while it is inside its window and there is room."""
     row = int(sums.total[L.T_TRACE])
     if row < sums.trace.shape[0] and is_recorded(sums, now):
         trace = sums.trace[row]
-        trace[0], trace[1], trace[2], trace[3] = now, volt, bearing, current
+        trace[0], trace[1], trace[2] = now, volt, current
+        for b in range(sums.ring.size):
+            trace[L.N_TRACE + b] = across_bearing(sums.ring[b], v)
         sums.total[L.T_TRACE] += 1.0
 
 
 @shared_helper
-def begin_sums(n, shared, winding, volt, q, v, sums):
+def begin_sums(n, winding, volt, q, v, sums):
     """Begin to count, once the films stand the voltages that they have.
 
     The start is that of films which never break down. One that does not stand it breaks down at once, at a voltage
@@ -68,7 +70,7 @@ def begin_sums(n, shared, winding, volt, q, v, sums):
         total[k] = 0.0
     total[L.T_STORED_0] = _stored(n, winding, volt, q, v)
     total[L.T_CHARGE_0] = _sum(n, q)
-    record(sums, total[L.T_TIME], volt, across_bearing(shared, v), 0.0)
+    record(sums, total[L.T_TIME], volt, v, 0.0)
 
 
 @helper

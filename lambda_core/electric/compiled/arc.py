@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from lambda_core.electric import columns as L
 from lambda_core.electric.compiled.array_types import helper, shared_helper
-from lambda_core.electric.compiled.matrices import across_bearing
+from lambda_core.electric.compiled.matrices import across_bearing, potential
 from lambda_core.electric.compiled.modes import charges
 
 SHORT = 1e-6  # a film that leaks slower than this does nothing during a discharge [s]
@@ -73,9 +73,9 @@ def give_back(n, m, shared, full, nodes, part, own, members, place):
 
 
 @helper
-def channel_voltage(ring, shared, v):
+def channel_voltage(ring, shared, v, arcs):
     """Return the voltage of a contact of the ball: potential of the ring less that of the ball [V]."""
-    return (v[ring] if ring < shared else 0.0) - v[shared]
+    return potential(arcs.terminal[ring], v) - v[shared]
 
 
 @helper
@@ -85,10 +85,11 @@ def channel_current(voltage, ring, state):
 
 
 @shared_helper
-def open_channel(ring, ball, now, shared, v, held, arcs):
+def open_channel(ring, ball, now, net, v, held, arcs):
     """Let a channel conduct, in the direction that its voltage drives; return the status of its law, 0: it cannot."""
-    voltage, out, state, row = channel_voltage(ring, shared, v), arcs.out, arcs.state, arcs.rows[ring]
-    status = arcs.law(abs(voltage), held.film[ball, ring], held.area[ball, ring], arcs.par[ring], out)
+    voltage, out = channel_voltage(ring, net.shared, v, arcs), arcs.out
+    state, row, par = arcs.state, arcs.rows[ring], arcs.par[2 * net.bearing[ball] + ring]
+    status = arcs.law(abs(voltage), held.film[ball, ring], held.area[ball, ring], par, out)
     if status != 1:
         return status
     if not abs(voltage) > out[1] + out[0] * out[2]:
@@ -99,7 +100,7 @@ def open_channel(ring, ball, now, shared, v, held, arcs):
     if row[L.E_CONTACT_VOLTAGE] == 0.0:
         row[L.E_TIME] = now
         row[L.E_CONTACT_VOLTAGE] = voltage
-        row[L.E_BEARING_VOLTAGE] = across_bearing(shared, v)
+        row[L.E_BEARING_VOLTAGE] = across_bearing(arcs.terminal[1], v)
     return 1
 
 
@@ -110,7 +111,7 @@ def quench(ring, now, shared, v, arcs):
     for which in range(2):
         if state.burns[which] == 0.0:
             continue
-        current = abs(channel_current(channel_voltage(which, shared, v), which, state))
+        current = abs(channel_current(channel_voltage(which, shared, v, arcs), which, state))
         if which == ring or current < _AS_WEAK * state.least[which]:
             state.burns[which] = 0.0
             arcs.rows[which, L.E_DURATION] = now - arcs.rows[which, L.E_TIME]
@@ -118,8 +119,9 @@ def quench(ring, now, shared, v, arcs):
 
 
 @helper
-def conduct(m, shared, state, part, own):
+def conduct(m, shared, arcs, part, own):
     """Write the conductances with the open channels, and the currents of their falls into the nodes [A]."""
+    state = arcs.state
     for i in range(m):
         own.fall[i] = 0.0
         for k in range(m):
@@ -131,8 +133,9 @@ def conduct(m, shared, state, part, own):
         fall = state.sign[ring] * state.fall[ring] * conductance
         part.opened[shared, shared] += conductance
         own.fall[shared] -= fall
-        if ring < shared:
-            part.opened[ring, ring] += conductance
-            part.opened[ring, shared] -= conductance
-            part.opened[shared, ring] -= conductance
-            own.fall[ring] += fall
+        node = arcs.terminal[ring]
+        if node >= 0:
+            part.opened[node, node] += conductance
+            part.opened[node, shared] -= conductance
+            part.opened[shared, node] -= conductance
+            own.fall[node] += fall

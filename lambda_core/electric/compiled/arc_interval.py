@@ -12,9 +12,9 @@ from lambda_core.electric import columns as L
 from lambda_core.electric.compiled.accumulators import dot, is_recorded, record
 from lambda_core.electric.compiled.arc import channel_current, is_joined
 from lambda_core.electric.compiled.array_types import helper
-from lambda_core.electric.compiled.matrices import across_bearing
+from lambda_core.electric.compiled.matrices import across_bearing, potential
 from lambda_core.electric.compiled.modes import amplitudes, decay_functions, products, propagate, voltages
-from lambda_core.electric.compiled.secondary_breakdown import breakdown_ahead, first_moment, watch
+from lambda_core.electric.compiled.secondary_breakdown import first_moment, past_breakdown, watch
 from lambda_core.electric.compiled.source_segment import slope_at, source_work, voltage_at
 
 NOTHING, OTHER, NEVER = -1, -2, -3  # in place of a ring: no change; the film of another ball; no end
@@ -105,25 +105,32 @@ def _decay_to(m, own, dt):
 
 
 @helper
-def _others(low, at, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held, films, arcs):
+def _others(low, at, m, n, net, ball, alone, elapsed, full, nodes, part, own, held, films, arcs):
     """Return when between two times the film of another ball breaks down [s], -1: none does.
 
-    Where the bearing has no more voltage than the discharge began at, nothing can have happened.
+    Where no bearing has more voltage than the discharge began at, nothing can have happened. While an arc leads through
+    an insulated bearing, only the others without insulation keep a voltage that the arc does not bound.
     """
-    past = breakdown_ahead(m, n, shared, at, full, nodes, part, own, arcs.place)
-    if abs(across_bearing(shared, own.ahead)) <= opened:
+    propagate(m, own.decay, own.amplitude, own.drive, at, own.after, own.area)
+    voltages(m, part.shape, own.after, own.ahead)
+    any_raised = 0
+    for b in range(arcs.opened.size):
+        watched = alone or net.ring[b] < 0
+        arcs.raised[b] = int(watched and abs(across_bearing(net.ring[b], own.ahead)) > arcs.opened[b])
+        any_raised = max(any_raised, arcs.raised[b])
+    if any_raised == 0:
         return -1.0
     if arcs.watched[0] == 0:
         arcs.watched[0] = 1
         watch(ball, elapsed, held, films, part.limit)
-        past = breakdown_ahead(m, n, shared, at, full, nodes, part, own, arcs.place)
-    return -1.0 if past < 0.0 else first_moment(m, n, shared, low, at, past, full, nodes, part, own, arcs.place)
+    past = past_breakdown(n, net, full, nodes, part.limit, own.ahead, arcs)
+    return -1.0 if past < 0.0 else first_moment(m, n, net, low, at, past, full, nodes, part, own, arcs)
 
 
 @helper
 def _until_change(
-    first, limit, now, volt, slope, spent, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held, films,
-    arcs, sums,
+    first, limit, now, volt, slope, spent, m, n, net, ball, alone, elapsed, full, nodes, part, own, held, films, arcs,
+    sums,
 ):  # fmt: skip
     """Return the part of `limit` until something changes [s], and what (NOTHING: nothing does).
 
@@ -147,7 +154,7 @@ def _until_change(
         past, ring = _worst(m, part, own.after, arcs)
         at, ring = _moment(m, part, own, arcs, low, high, past, ring) if past >= 0.0 else (high, NOTHING)
         if low > spent:
-            sooner = _others(low, at, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held, films, arcs)
+            sooner = _others(low, at, m, n, net, ball, alone, elapsed, full, nodes, part, own, held, films, arcs)
             if sooner >= 0.0:
                 return sooner, OTHER
         if ring != NOTHING or at == limit:
@@ -155,7 +162,7 @@ def _until_change(
         current = _peak(m, part, own.after, arcs)
         if is_recorded(sums, now + high):
             voltages(m, part.shape, own.after, own.ahead)
-            record(sums, now + high, volt + slope * high, across_bearing(shared, own.ahead), current)
+            record(sums, now + high, volt + slope * high, own.ahead, current)
         low = high
         if 2.0 * high >= limit:
             high = limit
@@ -169,7 +176,7 @@ def _until_change(
 
 
 @helper
-def _accumulate(m, shared, dt, part, own, arcs, total):
+def _accumulate(m, dt, part, own, arcs, total):
     """Add up heat, arc energies and charges over dt, at whose end the amplitudes are `own.after`."""
     state, rows = arcs.state, arcs.rows
     products(m, own.decay, own.amplitude, own.drive, dt, own.after, own.area, own.middle, part.product)
@@ -186,7 +193,7 @@ def _accumulate(m, shared, dt, part, own, arcs, total):
         rows[ring, L.E_ENERGY] += heat
         rows[ring, L.E_CHARGE] += abs(charge)
         total[L.T_ARC] += heat
-        if ring >= shared:
+        if arcs.terminal[ring] < 0:
             total[L.T_ARC_CHARGE] -= charge
     for a in range(m):
         for i in range(m):
@@ -197,15 +204,15 @@ def _accumulate(m, shared, dt, part, own, arcs, total):
 
 
 @helper
-def _channels(m, shared, part):
+def _channels(m, shared, part, arcs):
     """Write the voltage of both contacts of the ball per amplitude of each mode."""
     for ring in range(2):
         for a in range(m):
-            part.channel[ring, a] = (part.shape[a, ring] if ring < shared else 0.0) - part.shape[a, shared]
+            part.channel[ring, a] = potential(arcs.terminal[ring], part.shape[a]) - part.shape[a, shared]
 
 
 @helper
-def burn(now, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held, films, arcs, source, sums):
+def burn(now, m, n, net, ball, elapsed, full, nodes, part, own, held, films, arcs, source, sums):
     """Integrate with the same channels open until something changes.
 
     Parameters
@@ -214,8 +221,6 @@ def burn(now, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held,
         Nodes that take part; the ball is the one behind the rings.
     elapsed : float
         Time since `held` began that says which patches films are on [s].
-    opened : float
-        Voltage of the bearing that the discharge began at [V].
 
     Returns
     -------
@@ -227,11 +232,13 @@ def burn(now, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held,
     fastest = 0.0
     for a in range(m):
         fastest = max(fastest, own.decay[a])
-    _channels(m, shared, part)
+    shared = net.shared
+    _channels(m, shared, part, arcs)
     # Where metal bridges the other film, the rotor's charge flows: such an arc is no partial one.
     node = shared + ball
     alone = arcs.state.burns[0] + arcs.state.burns[1] == 1.0 and not is_joined(node, full)
-    spent = now + _SPENT / fastest if alone else math.inf
+    insulated = arcs.terminal[1] >= 0 and arcs.opened.size > 1
+    spent = now + _SPENT / fastest if alone or insulated else math.inf
     first, arcs.watched[0] = _FIRST / fastest, 0
     _peak(m, part, own.amplitude, arcs)
     for _ in range(_MOST_CORNERS):
@@ -241,11 +248,11 @@ def burn(now, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held,
         for a in range(m):
             own.drive[a] += part.shape[a, L.ROTOR] * source.winding * slope
         dt, ring = _until_change(
-            first, end - now, now, volt, slope, spent - now, m, n, shared, ball, elapsed, opened, full, nodes, part,
-            own, held, films, arcs, sums,
+            first, end - now, now, volt, slope, spent - now, m, n, net, ball, alone, elapsed, full, nodes, part, own,
+            held, films, arcs, sums,
         )  # fmt: skip
         propagate(m, own.decay, own.amplitude, own.drive, dt, own.after, own.area)
-        _accumulate(m, shared, dt, part, own, arcs, sums.total)
+        _accumulate(m, dt, part, own, arcs, sums.total)
         for a in range(m):
             own.amplitude[a] = own.after[a]
         voltages(m, part.shape, own.amplitude, own.potential)
@@ -254,7 +261,7 @@ def burn(now, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held,
         )
         now += dt
         current = _peak(m, part, own.amplitude, arcs)
-        record(sums, now, volt + slope * dt, across_bearing(shared, own.potential), current)
+        record(sums, now, volt + slope * dt, own.potential, current)
         if ring != NOTHING:
             return now, ring
         first = _CORNER / fastest

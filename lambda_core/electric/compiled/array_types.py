@@ -5,7 +5,18 @@ from __future__ import annotations
 import numba
 
 from lambda_core.domain.roles import ROLES
-from lambda_core.electric.columns import Channels, CircuitConstants, FullNetwork, Held, Nodes, Part, PartNodes, Tables
+from lambda_core.electric.columns import (
+    BearingConstants,
+    Channels,
+    CircuitConstants,
+    FullNetwork,
+    Held,
+    Nodes,
+    Part,
+    PartNodes,
+    Tables,
+    Wiring,
+)
 from lambda_core.laws.jit import inlined
 from lambda_core.laws.jit.machine_code import OPTIONS, role_signature
 
@@ -16,6 +27,8 @@ iarray1 = numba.types.int64[::1]
 iarray2 = numba.types.int64[:, ::1]
 i8, f8 = numba.types.int64, numba.types.float64
 machine_t = numba.types.NamedUniTuple(f8, len(CircuitConstants._fields), CircuitConstants)
+bearings_t = numba.types.NamedUniTuple(array1, len(BearingConstants._fields), BearingConstants)
+wiring_t = numba.types.NamedUniTuple(iarray1, len(Wiring._fields), Wiring)
 held_t = numba.types.NamedUniTuple(array2, len(Held._fields), Held)
 tables_t = numba.types.NamedUniTuple(array3, len(Tables._fields), Tables)
 full_network_t = numba.types.NamedUniTuple(array2, len(FullNetwork._fields), FullNetwork)

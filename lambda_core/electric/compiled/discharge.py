@@ -2,9 +2,9 @@
 
 The first film that breaks down lets the ball's voltage collapse within a nanosecond; the other film of the ball then
 carries the full bearing voltage. Where it breaks down too, the rotor's charge flows through both: both contacts of a
-ball make one discharge. Balls are followed one at a time: after the first the voltage is gone. Where the other film of
-the ball holds, an edge of the source may drive the voltage on: the discharge ends when a film of another ball breaks
-down, which is the next one.
+ball make one discharge. Balls are followed one at a time: after the first the voltage of the bearing is gone. Where the
+other film of the ball holds, or another bearing keeps its voltage, an edge of the source may drive that on: the
+discharge ends when a film of another ball breaks down, which is the next one.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def _cut(now, arcs):
 
 
 @helper
-def discharge(n, shared, ball, ring, elapsed, everyone, full, nodes, part, own, held, films, arcs, source, sums):
+def discharge(n, net, ball, ring, elapsed, everyone, full, nodes, part, own, held, films, arcs, source, sums):
     """Follow a discharge that begins now in one contact; return a status of the integration.
 
     Parameters
@@ -47,29 +47,29 @@ def discharge(n, shared, ball, ring, elapsed, everyone, full, nodes, part, own, 
     sums : Accumulators
         With the time, which is moved on.
     """
-    total = sums.total
+    total, shared = sums.total, net.shared
     now = total[L.T_TIME]
     m = take_part(n, shared, ball, everyone, full, nodes, part, own, arcs.members, arcs.place)
     if factorise(m, part.capacitance, part.factor) == 0:
         return L.NOT_POSITIVE
-    opened = abs(across_bearing(shared, own.potential))
+    arcs.terminal[0], arcs.terminal[1] = L.ROTOR, net.outer[ball]
+    for b in range(arcs.opened.size):
+        arcs.opened[b] = abs(across_bearing(net.ring[b], own.potential))
     arcs.rows[:, :] = 0.0
     arcs.state.burns[:] = 0.0
     for _ in range(_MOST_CHANGES):
         if arcs.state.burns[ring] == 0.0:
-            status = open_channel(ring, ball, now, shared, own.potential, held, arcs)
+            status = open_channel(ring, ball, now, net, own.potential, held, arcs)
             if status != 1:
                 total[L.T_STATUS] = status
                 return L.ARC_STARVED if status == 0 else L.NO_ARC
         elif quench(ring, now, shared, own.potential, arcs):
             break
-        conduct(m, shared, arcs.state, part, own)
+        conduct(m, shared, arcs, part, own)
         modes(m, part.factor, part.opened, part.turned, part.shape, own.decay)
         charges(m, part.capacitance, own.potential, own.charge)
         amplitudes(m, part.shape, own.charge, own.amplitude)
-        now, ring = burn(
-            now, m, n, shared, ball, elapsed, opened, full, nodes, part, own, held, films, arcs, source, sums
-        )
+        now, ring = burn(now, m, n, net, ball, elapsed, full, nodes, part, own, held, films, arcs, source, sums)
         if ring == NEVER:
             return L.ENDLESS
         if ring == OTHER:

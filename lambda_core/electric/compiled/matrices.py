@@ -1,63 +1,85 @@
-"""Matrices of the network: nodes are the rotor, the outer ring where it is insulated, and the balls."""
+"""Assemble the network: rotor, insulated outer rings and the balls of all bearings are its nodes."""
 
 from __future__ import annotations
 
-from lambda_core.electric.columns import RING, ROTOR
+from lambda_core.electric.columns import ROTOR
 from lambda_core.electric.compiled.array_types import helper
 
 
 @helper
-def assemble(insulated, machine, cap, cond, c, g):
-    """Write the capacitance and conductance matrices [F], [S] and return the number of nodes."""
-    balls = cap.shape[0]
-    shared = 2 if insulated == 1 else 1
-    n = shared + balls
+def assemble(net, machine, bearings, cap, cond, c, g):
+    """Write the capacitance and conductance matrices [F], [S]."""
+    balls, n = cap.shape[0], net.shared + cap.shape[0]
     for i in range(n):
         for k in range(n):
             c[i, k] = 0.0
             g[i, k] = 0.0
-    c[ROTOR, ROTOR] = machine.winding + machine.rotor + machine.rings
+    c[ROTOR, ROTOR] = machine.winding + machine.rotor
     g[ROTOR, ROTOR] = machine.brush
-    if insulated == 1:
-        c[RING, RING] = machine.rings + machine.coating
-        c[ROTOR, RING] = -machine.rings
-        c[RING, ROTOR] = -machine.rings
-        g[RING, RING] = machine.bridge
-    for j in range(balls):
-        node = shared + j
-        c[node, node] = cap[j, 0] + cap[j, 1]
-        g[node, node] = cond[j, 0] + cond[j, 1]
-        for ring in range(shared):
-            c[ring, ring] += cap[j, ring]
-            c[ring, node] = -cap[j, ring]
-            c[node, ring] = -cap[j, ring]
-            g[ring, ring] += cond[j, ring]
-            g[ring, node] = -cond[j, ring]
-            g[node, ring] = -cond[j, ring]
-        c[ROTOR, ROTOR] += machine.twins * cap[j, 0] * cap[j, 1] / (cap[j, 0] + cap[j, 1])
-    c[ROTOR, ROTOR] += machine.twins * machine.rings
-    if machine.pocket > 0.0:
-        _cage(n, shared, machine, c)
-    return n
+    for b in range(bearings.rings.size):
+        _rings(b, net, bearings, c, g)
+        for j in range(balls):
+            if net.bearing[j] == b:
+                _ball(j, net, machine.twins, cap, cond, c, g)
+        c[ROTOR, ROTOR] += machine.twins * bearings.rings[b]
+        if bearings.pocket[b] > 0.0:
+            _cage(b, n, net, bearings, c)
 
 
 @helper
-def _to_cage(node, shared, machine):
-    """Return the capacitance of a node against the cage [F]."""
+def _rings(b, net, bearings, c, g):
+    """Add what lies between the rings of a bearing past its balls, and its outer ring and the frame."""
+    rings, node = bearings.rings[b], net.ring[b]
+    c[ROTOR, ROTOR] += rings
+    if node >= 0:
+        c[node, node] = rings + bearings.coating[b]
+        c[ROTOR, node] = -rings
+        c[node, ROTOR] = -rings
+        g[node, node] = bearings.bridge[b]
+
+
+@helper
+def _ball(j, net, twins, cap, cond, c, g):
+    """Add a ball with its two contacts."""
+    node = net.shared + j
+    c[node, node] = cap[j, 0] + cap[j, 1]
+    g[node, node] = cond[j, 0] + cond[j, 1]
+    for side in range(2):
+        ring = ROTOR if side == 0 else net.outer[j]
+        if ring < 0:
+            continue
+        c[ring, ring] += cap[j, side]
+        c[ring, node] = -cap[j, side]
+        c[node, ring] = -cap[j, side]
+        g[ring, ring] += cond[j, side]
+        g[ring, node] = -cond[j, side]
+        g[node, ring] = -cond[j, side]
+    c[ROTOR, ROTOR] += twins * cap[j, 0] * cap[j, 1] / (cap[j, 0] + cap[j, 1])
+
+
+@helper
+def _to_cage(node, b, net, bearings):
+    """Return the capacitance of a node against the cage of a bearing [F]."""
     if node == ROTOR:
-        return machine.cage_inner
-    return machine.cage_outer if node < shared else machine.pocket
+        return bearings.cage_inner[b]
+    if node < net.shared:
+        return bearings.cage_outer[b] if node == net.ring[b] else 0.0
+    return bearings.pocket[b] if net.bearing[node - net.shared] == b else 0.0
 
 
 @helper
-def _cage(n, shared, machine, c):
+def _cage(b, n, net, bearings, c):
     """Add a cage that conducts and touches nothing: its node, without charge, is eliminated (star to mesh)."""
-    full = machine.cage_inner + machine.cage_outer + (n - shared) * machine.pocket
+    balls = 0
+    for j in range(n - net.shared):
+        if net.bearing[j] == b:
+            balls += 1
+    total = bearings.cage_inner[b] + bearings.cage_outer[b] + balls * bearings.pocket[b]
     for i in range(n):
-        own = _to_cage(i, shared, machine)
+        own = _to_cage(i, b, net, bearings)
         c[i, i] += own
         for k in range(n):
-            c[i, k] -= own * _to_cage(k, shared, machine) / full
+            c[i, k] -= own * _to_cage(k, b, net, bearings) / total
 
 
 @helper
@@ -82,13 +104,18 @@ def leaks(n, g, s, workspace, out):
 
 
 @helper
-def across(shared, v, ball, ring):
-    """Return the voltage of a contact: potential of the ring less that of the ball [V]."""
-    potential = v[ring] if ring < shared else 0.0
-    return potential - v[shared + ball]
+def potential(node, v):
+    """Return the potential of a node; that of the frame is 0 [V]."""
+    return v[node] if node >= 0 else 0.0
 
 
 @helper
-def across_bearing(shared, v):
-    """Return the potential of the inner ring less that of the outer ring [V]."""
-    return v[ROTOR] - v[RING] if shared == 2 else v[ROTOR]
+def across(net, v, ball, side):
+    """Return the voltage of a contact: potential of the ring less that of the ball [V]."""
+    return potential(ROTOR if side == 0 else net.outer[ball], v) - v[net.shared + ball]
+
+
+@helper
+def across_bearing(ring, v):
+    """Return the potential of the inner ring less that of an outer ring [V], GROUND: less that of the frame."""
+    return v[ROTOR] - v[ring] if ring >= 0 else v[ROTOR]

@@ -17,15 +17,16 @@ def _draw(ball, ring, patch, held, films):
 
     It gets two random numbers of the patch, keyed by seed, ball, ring and patch.
     """
+    b = films.bearing[ball]
     status = films.law(
-        held.film[ball, ring], held.thinnest[ball, ring], films.roughness, held.area[ball, ring],
-        uniform(films.seed, ball, ring, patch, 0), uniform(films.seed, ball, ring, patch, 1), films.par[ring],
-        films.out,
+        held.film[ball, ring], held.thinnest[ball, ring], films.roughness[b], held.area[ball, ring],
+        uniform(films.seed, ball, ring, patch, 0), uniform(films.seed, ball, ring, patch, 1),
+        films.par[2 * b + ring], films.out,
     )  # fmt: skip
     if status != 1:
         return -float(status) - 1.0
     films.known[ball, ring] = patch
-    films.drawn[ball, ring] = max(films.out[0], films.least)
+    films.drawn[ball, ring] = max(films.out[0], films.least[b])
     return films.drawn[ball, ring]
 
 
@@ -45,7 +46,7 @@ def threshold(ball, ring, elapsed, held, films):
 
 
 @helper
-def first_breakdown(shared, v, v1, held, elapsed, films):
+def first_breakdown(net, v, v1, held, elapsed, films):
     """Return the part of the step after which a film breaks down (2: none does, < 0: refused), its ball and its ring.
 
     Between the ends of a step the voltages are straight lines.
@@ -53,8 +54,8 @@ def first_breakdown(shared, v, v1, held, elapsed, films):
     best, at_ball, at_ring = 2.0, -1, -1
     for j in range(held.film.shape[0]):
         for ring in range(2):
-            end = across(shared, v1, j, ring)
-            if held.film[j, ring] <= 0.0 or abs(end) < films.least:
+            end = across(net, v1, j, ring)
+            if held.film[j, ring] <= 0.0 or abs(end) < films.least[films.bearing[j]]:
                 continue
             stands = threshold(j, ring, elapsed, held, films)
             if stands < 0.0:
@@ -62,7 +63,7 @@ def first_breakdown(shared, v, v1, held, elapsed, films):
             if abs(end) < stands:
                 continue
             sign = 1.0 if end > 0.0 else -1.0
-            begin = sign * across(shared, v, j, ring)
+            begin = sign * across(net, v, j, ring)
             part = 0.0 if begin >= stands else (stands - begin) / (abs(end) - begin)
             if part < best:
                 best, at_ball, at_ring = part, j, ring

@@ -5,7 +5,9 @@ The voltage that continues while an arc burns in one film of a ball may break th
 
 from __future__ import annotations
 
+from lambda_core.electric import columns as L
 from lambda_core.electric.compiled.array_types import helper, shared_helper
+from lambda_core.electric.compiled.matrices import potential
 from lambda_core.electric.compiled.modes import propagate, voltages
 from lambda_core.electric.compiled.patches import threshold
 
@@ -23,54 +25,56 @@ def watch(ball, elapsed, held, films, limit):
 
 
 @shared_helper
-def past_breakdown(n, shared, full, nodes, limit, v, place):
+def past_breakdown(n, net, full, nodes, limit, v, arcs):
     """Return how far the film of another ball is past its breakdown, relative: >= 0 past it.
+
+    Only bearings count whose voltage is above that at which the discharge began.
 
     Parameters
     ----------
     v : float64[:]
         Potentials of the nodes that take part [V]; other balls keep their charge.
     """
-    worst = -1.0
+    worst, shared, place = -1.0, net.shared, arcs.place
     for other in range(shared, n):
-        if place[other] == shared:
+        if place[other] == shared or arcs.raised[net.bearing[other - shared]] == 0:
             continue
         if place[other] >= 0:
-            potential = v[place[other]]
+            own = v[place[other]]
         else:
-            potential = nodes.charge[other] / full.capacitance[other, other]
+            own = nodes.charge[other] / full.capacitance[other, other]
             for i in range(shared):
-                potential -= full.share[i, other] * v[i]
+                own -= full.share[i, other] * v[i]
         for ring in range(2):
             stands = limit[ring, other - shared]
             if stands > 0.0:
-                voltage = (v[ring] if ring < shared else 0.0) - potential
+                voltage = potential(L.ROTOR if ring == 0 else net.outer[other - shared], v) - own
                 worst = max(worst, abs(voltage) / stands - 1.0)
     return worst
 
 
 @helper
-def breakdown_ahead(m, n, shared, dt, full, nodes, part, own, place):
+def breakdown_ahead(m, n, net, dt, full, nodes, part, own, arcs):
     """Return how far the film of another ball is past its breakdown after dt."""
     propagate(m, own.decay, own.amplitude, own.drive, dt, own.after, own.area)
     voltages(m, part.shape, own.after, own.ahead)
-    return past_breakdown(n, shared, full, nodes, part.limit, own.ahead, place)
+    return past_breakdown(n, net, full, nodes, part.limit, own.ahead, arcs)
 
 
 @shared_helper
-def first_moment(m, n, shared, low, high, high_past, full, nodes, part, own, place):
+def first_moment(m, n, net, low, high, high_past, full, nodes, part, own, arcs):
     """Return when between two times the film of another ball breaks down [s], on the far side.
 
     False position after the Illinois rule; `high_past` is how far it is past its breakdown at the later time.
     """
-    low_past, side = breakdown_ahead(m, n, shared, low, full, nodes, part, own, place), 0
+    low_past, side = breakdown_ahead(m, n, net, low, full, nodes, part, own, arcs), 0
     if low_past >= 0.0:
         return low
     for _ in range(_ROOT):
         if high - low <= _PLACE * high or high_past < _PLACE:
             break
         at = (low * high_past - high * low_past) / (high_past - low_past)
-        found = breakdown_ahead(m, n, shared, at, full, nodes, part, own, place)
+        found = breakdown_ahead(m, n, net, at, full, nodes, part, own, arcs)
         if found >= 0.0:
             high, high_past = at, found
             low_past *= 0.5 if side == 1 else 1.0

@@ -9,8 +9,9 @@ from lambda_core.electric.compiled.accumulators import begin_sums, dot, end_sums
 from lambda_core.electric.compiled.array_types import (
     array1,
     array2,
+    array3,
+    bearings_t,
     channels_t,
-    f8,
     full_network_t,
     held_t,
     helper,
@@ -23,6 +24,7 @@ from lambda_core.electric.compiled.array_types import (
     part_nodes_t,
     part_t,
     tables_t,
+    wiring_t,
 )
 from lambda_core.electric.compiled.discharge import discharge
 from lambda_core.electric.compiled.initial_charge import periodic
@@ -33,21 +35,21 @@ from lambda_core.electric.compiled.patches import first_breakdown, stood_by
 from lambda_core.electric.compiled.source_segment import slope_at, source_work, voltage_at
 
 integrate_sig = i8(
-    i8, array1, array1, array1, array1, array1, tables_t, machine_t, f8, f8,
-    law_of("breakdown"), array2, law_of("discharge"), array2, i8, i8, i8,
+    i8, array1, array1, array1, array1, array1, tables_t, machine_t, bearings_t, wiring_t,
+    law_of("breakdown"), array2, law_of("discharge"), array2, i8, i8,
     full_network_t, nodes_t, part_t, part_nodes_t, held_t, channels_t, iarray2, array2, array1, array1, array2, array1,
-    iarray2, iarray1, array2, array2, array2, array1, array1,
+    iarray2, iarray1, array3, array2, array2, array1, array1,
 )  # fmt: skip
 
 
 @helper
-def _prepare(n, shared, insulated, machine, full, nodes, held):
+def _prepare(n, net, machine, bearings, full, nodes, held):
     """Find the modes of the full network; return 0 when a node has no capacitance."""
-    assemble(insulated, machine, held.capacitance, held.conductance, full.capacitance, full.conductance)
+    assemble(net, machine, bearings, held.capacitance, held.conductance, full.capacitance, full.conductance)
     if factorise(n, full.capacitance, full.factor) == 0:
         return 0
     modes(n, full.factor, full.conductance, full.turned, full.shape, nodes.decay)
-    shares(n, shared, full.capacitance, full.share)
+    shares(n, net.shared, full.capacitance, full.share)
     leaks(n, full.conductance, full.shape, nodes.ahead, nodes.leak)
     return 1
 
@@ -75,7 +77,7 @@ def _enter(n, machine, rest_t, rest_v, full, nodes, source, total):
 
 
 @helper
-def _accept(n, shared, volt, slope, dt, full, nodes, source, sums, i):
+def _accept(n, volt, slope, dt, full, nodes, source, sums, i):
     """Take a step whose end is known, and write down what it did."""
     total, winding = sums.total, source.winding
     total[L.T_OHMIC] += heat(n, nodes.decay, nodes.amplitude, nodes.drive, dt, nodes.after)
@@ -85,11 +87,12 @@ def _accept(n, shared, volt, slope, dt, full, nodes, source, sums, i):
     for a in range(n):
         nodes.amplitude[a], nodes.potential[a] = nodes.after[a], nodes.ahead[a]
     total[L.T_TIME] += dt
-    bearing = across_bearing(shared, nodes.potential)
     if total[L.T_SETTLING] == 0.0:
-        sums.extremes[i, 0] = min(sums.extremes[i, 0], bearing)
-        sums.extremes[i, 1] = max(sums.extremes[i, 1], bearing)
-    record(sums, total[L.T_TIME], volt + slope * dt, bearing, 0.0)
+        for b in range(sums.ring.size):
+            bearing = across_bearing(sums.ring[b], nodes.potential)
+            sums.extremes[i, b, 0] = min(sums.extremes[i, b, 0], bearing)
+            sums.extremes[i, b, 1] = max(sums.extremes[i, b, 1], bearing)
+    record(sums, total[L.T_TIME], volt + slope * dt, nodes.potential, 0.0)
 
 
 @helper
@@ -100,9 +103,7 @@ def _move(n, dt, full, nodes):
 
 
 @helper
-def _segment(
-    i, n, shared, begin, stop, step, settles, everyone, full, nodes, part, own, held, films, arcs, source, sums
-):
+def _segment(i, n, net, begin, stop, step, settles, everyone, full, nodes, part, own, held, films, arcs, source, sums):
     """Integrate to the next corner of the source, change of the contacts or breakdown, and through the discharge there.
 
     Parameters
@@ -124,17 +125,17 @@ def _segment(
         nodes.drive[a] = full.shape[a, L.ROTOR] * source.winding * slope
     _move(n, dt, full, nodes)
     elapsed = now + dt - begin
-    best, ball, ring = first_breakdown(shared, nodes.potential, nodes.ahead, held, elapsed, films)
+    best, ball, ring = first_breakdown(net, nodes.potential, nodes.ahead, held, elapsed, films)
     if best < 0.0:
         total[L.T_STATUS] = -best - 1.0
         return L.NO_VOLTAGE
     if total[L.T_SETTLING] == 1.0 and (best != 0.0 or settles == 0):
         charges(n, full.capacitance, nodes.potential, nodes.charge)
-        begin_sums(n, shared, source.winding, volt, nodes.charge, nodes.potential, sums)
+        begin_sums(n, source.winding, volt, nodes.charge, nodes.potential, sums)
     if best <= 1.0:
         dt *= best
         _move(n, dt, full, nodes)
-    _accept(n, shared, volt, slope, dt, full, nodes, source, sums, i)
+    _accept(n, volt, slope, dt, full, nodes, source, sums, i)
     if best > 1.0:
         return L.OK
     charges(n, full.capacitance, nodes.potential, nodes.charge)
@@ -142,9 +143,7 @@ def _segment(
     if refused < 0.0:
         total[L.T_STATUS] = -refused - 1.0
         return L.NO_VOLTAGE
-    status = discharge(
-        n, shared, ball, ring, elapsed, everyone, full, nodes, part, own, held, films, arcs, source, sums
-    )
+    status = discharge(n, net, ball, ring, elapsed, everyone, full, nodes, part, own, held, films, arcs, source, sums)
     if status != L.OK:
         return status
     if total[L.T_SETTLING] == 0.0 and store(sums, arcs.rows, ball, float(i)) == 0:
@@ -166,12 +165,12 @@ def _begin(first, n, nodes, source, total, t):
 
 
 def integrate(
-    first, rest_t, rest_v, source_t, source_v, t, tables, machine, roughness, least,
-    break_law, break_par, arc_law, arc_par, insulated, seed, substeps,
+    first, rest_t, rest_v, source_t, source_v, t, tables, machine, bearings, wiring,
+    break_law, break_par, arc_law, arc_par, seed, substeps,
     full, nodes, part, own, held, state, known, drawn, break_out, arc_out, rows, stand,
     members, place, extremes, events, trace, window, total,
 ):  # fmt: skip
-    """Integrate the network of one bearing through a stretch of time; an entry point.
+    """Integrate the network of the bearings of a shaft through a stretch of time; an entry point.
 
     Parameters
     ----------
@@ -186,19 +185,21 @@ def integrate(
     tables : Tables
         The contacts at these times; `film` is the central one where it may break down (0: none).
     machine : CircuitConstants
-        What surrounds the films.
-    roughness, least : float
-        Composite rms roughness [m]; voltage below which nothing breaks down [V].
+        What stands between winding, rotor and frame.
+    bearings : BearingConstants
+        What surrounds the films of each bearing.
+    wiring : Wiring
+        The nodes of balls and bearings.
     break_law, break_par, arc_law, arc_par
-        Laws of the roles breakdown and discharge, and their parameters per ring.
-    insulated, seed, substeps : int
-        Whether the outer ring is a node; key of the random numbers; intervals of constant capacitance per sample.
+        Laws of the roles breakdown and discharge, and their parameters per ring of each bearing.
+    seed, substeps : int
+        Key of the random numbers; intervals of constant capacitance per sample.
     nodes : Nodes
         Charges and potentials are kept between stretches.
     full, part, own, held, state, known, drawn, break_out, arc_out, rows, stand, members, place
         Workspace.
-    extremes : float64[:, :], shape (n - 1, 2)
-        Smallest and largest bearing voltage between samples [V].
+    extremes : float64[:, :, :], shape (n - 1, bearings + 1, 2)
+        Smallest and largest voltage of each bearing, and of the shaft, between samples [V].
     events, trace : float64[:, :]
         Discharges (E_*); moments inside `window` [s].
     total : float64[:]
@@ -209,15 +210,33 @@ def integrate(
     int
         OK, EVENTS_FULL, NOT_POSITIVE, ENDLESS, or of a law: NO_VOLTAGE, NO_ARC, ARC_STARVED.
     """
-    shared = 2 if insulated == 1 else 1
-    n, everyone, settles = shared + held.film.shape[0], int(machine.pocket > 0.0), int(rest_t.size > 1)
-    films = L.Standing(break_law, break_par, break_out, roughness, least, seed, known, drawn)
-    arcs = L.Arcs(arc_law, arc_par, arc_out, state, rows, stand, members[0], members[1], place[1:])
+    shared, everyone, settles = 1, 0, int(rest_t.size > 1)
+    for b in range(bearings.rings.size):
+        shared += int(wiring.ring[b] >= 0)
+        everyone = max(everyone, int(bearings.pocket[b] > 0.0))
+    n, net = shared + held.film.shape[0], L.Net(shared, wiring.bearing, wiring.outer, wiring.ring)
+    films = L.Standing(
+        break_law, break_par, break_out, wiring.bearing, bearings.roughness, bearings.least, seed, known, drawn
+    )
+    arcs = L.Arcs(
+        arc_law,
+        arc_par,
+        arc_out,
+        state,
+        rows,
+        stand[:2],
+        stand[2:],
+        place[2:4],
+        place[4:],
+        members[0],
+        members[1],
+        place[1:2],
+    )
     source = L.Source(source_t, source_v, place[:1], machine.winding)
-    sums = L.Accumulators(total, extremes, events, trace, window)
+    sums = L.Accumulators(total, extremes, events, trace, wiring.ring, window)
     _begin(first, n, nodes, source, total, t)
     for i in range(t.size - 1):
-        extremes[i, 0], extremes[i, 1] = math.inf, -math.inf
+        extremes[i, :, 0], extremes[i, :, 1] = math.inf, -math.inf
         length = (t[i + 1] - t[i]) / substeps
         for k in range(substeps):
             begin = t[i] + k * length
@@ -225,13 +244,13 @@ def integrate(
             if stop <= total[L.T_TIME]:
                 continue  # a discharge went on beyond this part
             hold(i, k, substeps, t, tables, held, known)
-            if _prepare(n, shared, insulated, machine, full, nodes, held) == 0:
+            if _prepare(n, net, machine, bearings, full, nodes, held) == 0:
                 return L.NOT_POSITIVE
             _enter(n, machine, rest_t, rest_v, full, nodes, source, total)
             step = longest(held)
             while total[L.T_TIME] < stop:
                 status = _segment(
-                    i, n, shared, begin, stop, step, settles, everyone, full, nodes, part, own, held, films, arcs,
+                    i, n, net, begin, stop, step, settles, everyone, full, nodes, part, own, held, films, arcs,
                     source, sums,
                 )  # fmt: skip
                 if status != L.OK:

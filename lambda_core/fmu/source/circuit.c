@@ -80,7 +80,7 @@ static void keep(lb_bearing *b) {
 static double source(lb_bearing *b, double time) { return NUMBER(GIVEN) + NUMBER(RATE) * (time - NUMBER(SINCE)); }
 
 static double across(lb_bearing *b) {
-  return WORD(b, LB_CIRCUIT_INSULATED) ? AT(POTENTIAL, 0) - AT(POTENTIAL, 1) : AT(POTENTIAL, 0);
+  return LB_CIRCUIT_INSULATED ? AT(POTENTIAL, 0) - AT(POTENTIAL, 1) : AT(POTENTIAL, 0);
 }
 
 static int failed(lb_bearing *b, int64_t status) {

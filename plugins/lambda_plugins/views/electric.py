@@ -47,14 +47,14 @@ def voltage(run: Any, options: Seed) -> ViewData:
     """Voltage between the rings edge by edge, and its range over the whole span with every discharge."""
     found = _simulation(run, f"electric.seed={options.seed}", window=True)
     trace, events = found.solution.trace, found.events
-    begin = found.films.time[0]
+    begin = found.time[0]
     close = Panel(
         "edge by edge",
         Axis("time", "us"),
         Axis("bearing voltage", "V"),
         (Series("inner against outer ring", 1e6 * (trace[:, 0] - begin), trace[:, 2], "line", "total"),),
     )
-    middle = 1e3 * 0.5 * (found.films.time[1:] + found.films.time[:-1])
+    middle = 1e3 * 0.5 * (found.time[1:] + found.time[:-1])
     low, high = found.solution.extremes.T
     step = max(1, events.time.size // 3000)
     whole = Panel(
@@ -99,7 +99,7 @@ def impedance(run: Any, options: Options) -> ViewData:
     from lambda_core.electric.circuit import impedance as meter
 
     found = _simulation(run)
-    values = meter(found.films, found.circuit, _FREQUENCIES)
+    values = meter(found.films, found.circuit.bearings[found.number], _FREQUENCIES)
     size, phase = 1e-3 * np.abs(values), np.degrees(np.angle(values))
     frequency = Axis("frequency", "Hz", log=True)
     magnitude = Series(
