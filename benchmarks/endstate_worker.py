@@ -45,13 +45,32 @@ def bearing_run(entry: dict[str, Any], folder: Path) -> dict[str, str]:
     api.run(bearing_case(entry), [f"solver.duration={entry.get('stop', entry['duration'])}"], out=path)
     if "stop" in entry:
         api.resume(path, [f"solver.duration={entry['duration']}"])
-    return _result(path)
+    return _result(api.result(path))
 
 
 def shaft_run(entry: dict[str, Any], folder: Path) -> dict[str, str]:
-    """Return the hash of every channel and table of the run of a shaft and of each of its bearings."""
-    out, case = folder / "run", {"name": "endstate"} | entry["case"]
+    """Return the hash of every channel and table of the run of a machine and of each of its bearings."""
+    case = {"name": "endstate"} | entry["case"]
     case = case if has_one_notation() else older_notation(case)
+    if hasattr(api, "shaft_run"):  # a version whose machines write a folder
+        return _folder_run(case, entry, folder / "run")
+    path = folder / "run.h5"
+    api.run(case, [f"solver.duration={entry.get('stop', entry['duration'])}"], out=path)
+    if "stop" in entry:
+        api.resume(path, [f"solver.duration={entry['duration']}"])
+    result = api.result(path)
+    found = {}
+    for bearing, own in result.bearings.items():
+        found |= {f"{bearing}/{name}": value for name, value in _result(own).items()}
+    machine = result.whole()
+    found |= {f"shaft/{channel.name}": _hash(machine[channel.name]) for channel in machine.channels}
+    seats = result.machine["bearings"]
+    found["shaft/bearing_positions"] = _hash([seats[name]["position"] for name in result.bearings])
+    return found | {"shaft/lump_positions": _hash(machine.labels("lump"))}
+
+
+def _folder_run(case: dict[str, Any], entry: dict[str, Any], out: Path) -> dict[str, str]:
+    """Return the same of a version whose machines write a folder."""
     stop, end = (_seconds(entry[name]) if name in entry else None for name in ("stop", "duration"))
     api.shaft_run(case, out=out, duration=stop or end)
     if stop:
@@ -59,7 +78,7 @@ def shaft_run(entry: dict[str, Any], folder: Path) -> dict[str, str]:
     found = {}
     for path in sorted(out.glob("*.h5")):
         if path.name != "shaft.h5":
-            found |= {f"{path.stem}/{name}": value for name, value in _result(path).items()}
+            found |= {f"{path.stem}/{name}": value for name, value in _result(api.result(path)).items()}
     with h5py.File(out / "shaft.h5") as file:
         for name, values in file.items():
             if isinstance(values, h5py.Dataset) and values.dtype.kind == "f":
@@ -91,9 +110,8 @@ def _seconds(text: str) -> float:
     return float(number) * {"s": 1.0, "ms": 1e-3}[unit]
 
 
-def _result(path: Path) -> dict[str, str]:
+def _result(result: Any) -> dict[str, str]:
     """Return the hash of all samples of every channel, of the integrals and of the circuit's tables."""
-    result = api.result(path)
     found = {channel.name: _hash(result[channel.name]) for channel in result.channels}
     found |= {"integrals": _hash(result.integrals()), "revolutions": _hash(result.revolutions())}
     for table in ("circuit", "discharges"):

@@ -10,10 +10,9 @@ from collections.abc import Callable, Mapping
 
 from benchmarks.tables import Cell, Section, Table, Target
 from benchmarks.timing import Effort, now, sum_of_minima
-from lambda_core.run.whole_provenance import bearing_alone
+from lambda_core.shaft.bearing_alone import alone_under_load
 from lambda_core.shaft.machine_motion import MachineEngine, machine_engine
 from lambda_core.solver.drivers.dynamics import BearingEngine
-from lambda_core.system.checking import check
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
 
@@ -34,7 +33,7 @@ def starts(changes: tuple[str, ...] = CHANGES) -> dict[str, Callable[[], Engine]
     first = machine_engine(model)
     found: dict[str, Callable[[], Engine]] = {WHOLE: lambda: machine_engine(model)}
     for i, part in enumerate(first.bearings):
-        alone = check(tomllib.loads(bearing_alone(first, i).case_toml))
+        alone = alone_under_load(model, first.start.state, i)
         found[part.name] = lambda alone=alone: BearingEngine(alone)  # type: ignore[misc]
     return found
 

@@ -35,7 +35,6 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.report.pictures import animate, draw, report, view, view_all, view_stem, views
     from lambda_core.run.answers import cite, compare, result, side_by_side, summary
     from lambda_core.run.duty_cycle import duty
-    from lambda_core.run.shaft_motion import is_shaft_run, shaft_motion_pictures, shaft_result, shaft_resume, shaft_run
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.run.speed_curve import stribeck, stribeck_picture
     from lambda_core.shaft.export import stiffness_target, write_stiffness
@@ -68,14 +67,13 @@ if TYPE_CHECKING:  # what the faces build on, and the classes that calls take an
     from lambda_core.results.reader import Result
     from lambda_core.results.run_status import Status, process_identity, this_process
     from lambda_core.results.side_by_side import SideBySide
-    from lambda_core.results.summary import Summary
+    from lambda_core.results.summary import BearingSummary, Summary
     from lambda_core.run.duty_cycle import DutyCycle
     from lambda_core.run.estimate import Estimate, MachineEstimate
     from lambda_core.run.machine_duty import MachineDutyCycle
     from lambda_core.run.progress import Progress
     from lambda_core.shaft.machine_equilibrium import BearingEquilibrium, MachineEquilibrium
     from lambda_core.shaft.machine_modes import MachineModes
-    from lambda_core.shaft.whole_summary import WholeSummary
     from lambda_core.system.bearing import BearingModel, Geometry
     from lambda_core.system.describe import ValueReport, value_reports
     from lambda_core.system.machine import Machine, MountedBearing

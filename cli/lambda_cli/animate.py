@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import ForceOption
+from lambda_cli.options import BearingOption, ForceOption
 from lambda_cli.talk import QuietOption
 
 
@@ -24,6 +24,7 @@ def animate(
     ] = None,
     frames: Annotated[int, typer.Option("--frames", metavar="N", help="Number of frames.")] = 120,
     fps: Annotated[float, typer.Option("--fps", metavar="N", help="Frames per second when played.")] = 25.0,
+    bearing: BearingOption = None,
     force: ForceOption = False,
     quiet: QuietOption = False,
 ) -> None:
@@ -39,8 +40,9 @@ def animate(
     def progress(done: int, total: int) -> None:
         typer.echo(f"\r{done} of {total} frames", err=True, nl=done == total)
 
+    found = api.result(source, bearing).of_bearing()
     path = api.animate(
-        source, out, turns=turns, start=start, frames=frames, fps=fps, overwrite=force,
+        found, out, turns=turns, start=start, frames=frames, fps=fps, overwrite=force,
         progress=progress if shown else None,
     )  # fmt: skip
     typer.echo(str(path))

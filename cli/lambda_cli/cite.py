@@ -7,12 +7,13 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import JsonOption
+from lambda_cli.options import BearingOption, JsonOption
 
 
 def cite(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="Result file.")],
     as_json: JsonOption = False,
+    bearing: BearingOption = None,
     bibtex: Annotated[bool, typer.Option("--bibtex", help="Print BibTeX entries instead of text.")] = False,
 ) -> None:
     """Print the references of exactly the laws and data that a result used, and of the program."""
@@ -21,7 +22,7 @@ def cite(
 
     if as_json and bibtex:
         raise UsageError("--json and --bibtex exclude each other")
-    found = api.cite(file)
+    found = api.cite(api.result(file, bearing))
     if bibtex:
         typer.echo(found.bibtex())
     else:

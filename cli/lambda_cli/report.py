@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import ForceOption, Units, UnitsOption
+from lambda_cli.options import BearingOption, ForceOption, Units, UnitsOption
 
 
 def report(
@@ -27,6 +27,7 @@ def report(
             "or none; may be repeated; default: all.",
         ),
     ] = None,
+    bearing: BearingOption = None,
     units: UnitsOption = Units.SI,
     force: ForceOption = False,
 ) -> None:
@@ -39,6 +40,13 @@ def report(
 
     parts = None if not appendices else [name for name in appendices if name != "none"]
     written = api.report(
-        source, out, overwrite=force, project=project, author=author, appendices=parts, units=units.value
+        source,
+        out,
+        overwrite=force,
+        project=project,
+        author=author,
+        appendices=parts,
+        units=units.value,
+        bearing=bearing,
     )
     typer.echo(str(written))

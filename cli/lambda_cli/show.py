@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from lambda_cli.options import JsonOption, Units, UnitsOption
+from lambda_cli.options import BearingOption, JsonOption, Units, UnitsOption
 from lambda_cli.talk import columns
 from lambda_core.domain.wrapping import wrapped
 
@@ -18,30 +18,28 @@ def show(
         list[Path],
         typer.Argument(
             metavar="FILE...",
-            help="Result file, also of a run that still goes on; or several; or a folder of a shaft's run.",
+            help="Result file, also of a run that still goes on; or several.",
         ),
     ],
     as_json: JsonOption = False,
+    bearing: BearingOption = None,
     assumptions: Annotated[bool, typer.Option("--assumptions", help="List what was assumed.")] = False,
     units: UnitsOption = Units.SI,
 ) -> None:
     """Show the summary of a result: finished, still growing, or left behind by a killed run.
 
+    Of a machine of several bearings: its motion and a column for each bearing; with --bearing that one in full.
     With several results: what their cases say differently, and their key numbers side by side.
     """
     from lambda_core import api
 
-    if len(files) == 1 and api.is_shaft_run(files[0]) and not assumptions:
-        whole = api.shaft_result(files[0])
-        typer.echo(whole.model_dump_json(indent=2) if as_json else whole.text(columns()))
-        return
     if len(files) > 1 and not assumptions:
-        found = api.side_by_side(files)
+        found = api.side_by_side([api.result(file, bearing) for file in files])
         typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))
         return
     if len(files) > 1:
         raise api.UsageError("--assumptions are those of one result")
-    result = api.result(files[0])
+    result = api.result(files[0], bearing)
     if assumptions:
         lines = list(result.assumptions)
         typer.echo(

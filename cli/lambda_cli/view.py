@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from lambda_cli.options import JsonOption, Units, UnitsOption
+from lambda_cli.options import BearingOption, JsonOption, Units, UnitsOption
 from lambda_cli.pictures import picture_kind, print_picture
 from lambda_core.domain.files import check_folder
 
@@ -32,6 +32,7 @@ def view(
     options: Annotated[
         list[str] | None, typer.Option("--set", metavar="OPTION=VALUE", help="Option of the view (see --list).")
     ] = None,
+    bearing: BearingOption = None,
     shown: Annotated[
         bool, typer.Option("--show", help="Print the pictures in a terminal with kitty's graphics or sixel; no files.")
     ] = False,
@@ -53,7 +54,7 @@ def view(
     kind = picture_kind() if shown and not as_json else None
     if not (as_json or kind or out.is_file()):  # of a file the drawing says what it would write instead
         check_folder(out, made=True)
-    data = [api.view(sources, name, chosen)] if name else list(_all(sources))
+    data = [api.view(sources, name, chosen, bearing=bearing)] if name else list(_all(sources, bearing))
     if as_json:
         plain = [one.as_dict() for one in data]
         typer.echo(json.dumps(plain[0] if name else {"version": 1, "views": plain}, indent=2, allow_nan=False))
@@ -85,11 +86,11 @@ def _drawn(data: ViewData, out: Path, stem: str, formats: tuple[str, ...], alone
         return []
 
 
-def _all(sources: list[str]) -> Iterable[ViewData]:
+def _all(sources: list[str], bearing: str | None) -> Iterable[ViewData]:
     """Yield the data of every view that applies; say why others do not."""
     from lambda_core import api
 
-    for name, data in api.view_all(sources):
+    for name, data in api.view_all(sources, bearing=bearing):
         if isinstance(data, api.LambdaError):
             typer.echo(f"{name}: {data}", err=True)
         else:

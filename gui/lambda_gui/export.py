@@ -32,6 +32,7 @@ class ExportScreen(Screen[None]):
         self._folder = folder
         self._helper = Helper(self.say, lambda: is_here(self))
         self._view = SUMMARY
+        self._bearing: str | None = None  # of a machine; None: the machine
 
     @property
     def _units(self) -> UnitSystem:
@@ -94,7 +95,7 @@ class ExportScreen(Screen[None]):
         figure = {"name": self._view, "folder": target, "units": self._units.name, "formats": ["svg", "png"]}
         more: Mapping[str, object] = figure if what == "draw" else {"target": target}
         try:
-            written: Sequence[str] = await self._helper.ask(what, sources=paths, **more)
+            written: Sequence[str] = await self._helper.ask(what, sources=paths, bearing=self._bearing, **more)
         except LambdaError as error:
             self.notify(str(error), severity="error", timeout=10)
             return

@@ -33,18 +33,18 @@ def shaft(say: Say, tables: dict[str, Any], folder: str | None) -> Any:
     return api.estimate(api.check_shaft(tables, folder=Path(folder) if folder else None), announce=say)
 
 
-def summary(say: Say, path: str) -> Any:
-    """Return the summary of a result."""
+def summary(say: Say, path: str, bearing: str | None = None) -> Any:
+    """Return the summary of a result, or of one bearing of it."""
     from lambda_core import api
 
-    return api.summary(path)
+    return api.summary(api.result(path, bearing))
 
 
-def shaft_summary(say: Say, path: str) -> Any:
-    """Return the summary of the run of a shaft."""
+def bearings(say: Say, path: str) -> tuple[str, ...]:
+    """Return the names of the bearings of a result."""
     from lambda_core import api
 
-    return api.shaft_result(path)
+    return api.result(path).bearing_names
 
 
 def case_text(say: Say, path: str) -> str:
@@ -61,33 +61,35 @@ def views(say: Say, subject: str) -> Any:
     return api.views(subject)  # type: ignore[arg-type]
 
 
-def view(say: Say, sources: list[str], name: str) -> Any:
+def view(say: Say, sources: list[str], name: str, bearing: str | None = None) -> Any:
     """Return what a view shows."""
     from lambda_core import api
 
     say(f"reading {', '.join(Path(source).name for source in sources)} ...")
-    return api.view(sources if len(sources) > 1 else sources[0], name)
+    return api.view(sources if len(sources) > 1 else sources[0], name, bearing=bearing)
 
 
-def draw(say: Say, sources: list[str], name: str, folder: str, units: str, formats: list[str]) -> list[str]:
+def draw(
+    say: Say, sources: list[str], name: str, folder: str, units: str, formats: list[str], bearing: str | None = None
+) -> list[str]:
     """Draw a view into files."""
     from lambda_core import api
     from lambda_core.domain.unit_systems import unit_system
     from lambda_core.views.other_units import in_units
 
     say("drawing ...")
-    data = in_units(api.view(sources if len(sources) > 1 else sources[0], name), unit_system(units))
+    data = in_units(api.view(sources if len(sources) > 1 else sources[0], name, bearing=bearing), unit_system(units))
     return [str(path) for path in api.draw(data, folder, api.view_stem(sources), formats)]
 
 
-def report(say: Say, sources: list[str], target: str) -> list[str]:
+def report(say: Say, sources: list[str], target: str, bearing: str | None = None) -> list[str]:
     """Write a report of each result; several are numbered."""
     from lambda_core import api
 
     say("writing the report ...")
     whole = Path(target)
     names = [whole if n == 0 else whole.with_stem(f"{whole.stem}-{n + 1}") for n in range(len(sources))]
-    return [str(api.report(source, name)) for source, name in zip(sources, names, strict=True)]
+    return [str(api.report(source, name, bearing=bearing)) for source, name in zip(sources, names, strict=True)]
 
 
 def study_cost(say: Say, study: dict[str, Any], case_toml: str) -> str:
@@ -130,7 +132,7 @@ def differences(say: Say, sources: list[str]) -> Any:
 
 
 _DOES = (
-    estimate, shaft, summary, shaft_summary, case_text, views, view, draw, report, study_cost, duty, study_summary,
+    estimate, shaft, summary, bearings, case_text, views, view, draw, report, study_cost, duty, study_summary,
     differences,
 )  # fmt: skip
 _WORK: dict[str, Callable[..., Any]] = {work.__name__: work for work in _DOES}

@@ -22,11 +22,12 @@ from lambda_gui.dialogs import AskText
 from lambda_gui.export import DIFFERENCES, SUMMARY, ExportScreen
 from lambda_gui.pictures import NONE_HERE
 from lambda_gui.presence import is_here
-from lambda_gui.result_files import is_shaft_run, is_study, named, results_in, stamp_of
+from lambda_gui.result_files import is_study, named, results_in, stamp_of
 from lambda_gui.summary_view import summary_view
 from lambda_gui.table_views import differences_view, study_view
 
 if TYPE_CHECKING:
+    from lambda_core.api import Summary
     from lambda_core.views.chart import ViewData
 
 _LIVE = 2.0  # how often a result that grows is read again [s]
@@ -50,6 +51,7 @@ class ResultsScreen(ExportScreen):
         Binding("e", "figure", "Figure"),
         Binding("t", "report", "Report"),
         Binding("c", "case", "Case"),
+        Binding("b", "bearing", "Bearing", show=False),
         Binding("o", "other", "Open", show=False),
         Binding("p", "pictures", "Pictures or text", show=False),
         Binding("tab", "switch", "Results or views", show=False, priority=True),
@@ -79,6 +81,7 @@ class ResultsScreen(ExportScreen):
         self._more: list[Path] = [shown] if shown is not None else []
         self._marked: set[Path] = set()
         self._stamp: object = None
+        self._of_path: Path | None = None  # the result whose bearing is chosen
         self._subject = ""  # what the listed views are of
         self._data: ViewData | None = None  # of the text charts that are shown
         self._drawn: TemporaryDirectory[str] | None = None  # where pictures are drawn; none: text charts are shown
@@ -123,6 +126,7 @@ class ResultsScreen(ExportScreen):
         if not is_here(self):
             return
         names = "  ".join(path.name for path in self.chosen())
+        names += f"  {self._bearing}" if names and self._bearing else ""
         text = Text(names or "no result files here", style="bold")
         self.query_one("#title", Static).update(text.append(f"\n{words}", style="dim not bold"))
 
@@ -151,6 +155,8 @@ class ResultsScreen(ExportScreen):
 
     def on_data_table_row_highlighted(self, event: DataTable.RowHighlighted) -> None:
         """Show the result under the cursor; a study has other views."""
+        if self.current() != self._of_path:
+            self._of_path, self._bearing = self.current(), None
         if self._subject not in ("", self._of()):
             self._fill_views()
         else:
@@ -161,8 +167,6 @@ class ResultsScreen(ExportScreen):
         chosen = self.chosen()
         if len(chosen) > 1:
             return "results"
-        if chosen and is_shaft_run(chosen[0]):
-            return "shaft"
         return "study" if chosen and is_study(chosen[0]) else "result"
 
     def action_mark(self) -> None:
@@ -172,9 +176,6 @@ class ResultsScreen(ExportScreen):
             return
         if is_study(path):
             self.notify("a study cannot be compared with results; its views compare its points", timeout=4)
-            return
-        if is_shaft_run(path):
-            self.notify("a shaft is looked at by itself; its bearings can be marked", timeout=4)
             return
         self._marked ^= {path}
         was_many = len(self._marked - {path}) > 1 or len(self._marked) > 1
@@ -189,7 +190,7 @@ class ResultsScreen(ExportScreen):
             if text is None:
                 return
             path = Path(text).expanduser()
-            if path.is_dir() and not (is_study(path) or is_shaft_run(path)):
+            if path.is_dir() and not is_study(path):
                 self._folder = path
             elif path.exists():
                 self._more.append(path)
@@ -218,7 +219,7 @@ class ResultsScreen(ExportScreen):
         """List the views of one result, of several, or of a study."""
         subject = self._subject = self._of()
         try:
-            cards = await self._helper.ask("views", subject=subject) if subject != "shaft" else []
+            cards = await self._helper.ask("views", subject=subject)
         except LambdaError as error:
             self.notify(str(error), severity="error")
             return
@@ -267,7 +268,8 @@ class ResultsScreen(ExportScreen):
                 self._data = None
                 await self._show_picture(paths, self._drawn.name)
                 return
-            data = await self._helper.ask("view", sources=[str(path) for path in paths], name=self._view)
+            sources = [str(path) for path in paths]
+            data = await self._helper.ask("view", sources=sources, name=self._view, bearing=self._bearing)
             self._data = in_units(data, self._units)
         except LambdaError as error:
             self._data = None
@@ -292,7 +294,7 @@ class ResultsScreen(ExportScreen):
         """Show the view as it is drawn for files, as large as there is room."""
         (drawn,) = await self._helper.ask(
             "draw", sources=[str(path) for path in paths], name=self._view, folder=folder, units=self._units.name,
-            formats=["png"],
+            formats=["png"], bearing=self._bearing,
         )  # fmt: skip
         shown: Widget = self.app.picture(drawn)  # type: ignore[attr-defined]
         room = self.query_one("#content", VerticalScroll).size
@@ -308,18 +310,40 @@ class ResultsScreen(ExportScreen):
             beside = await self._helper.ask("differences", sources=[str(path) for path in paths])
             await self._put(*map(Static, differences_view(beside, width, self._units)))
             self.say()
-        elif is_shaft_run(paths[0]):
-            whole = await self._helper.ask("shaft_summary", path=str(paths[0]))
-            await self._put(Static(Text(self._units.sentence(whole.text(width)))))
-            self.say(whole.state)
         elif is_study(paths[0]):
             status, points = await self._helper.ask("study_summary", path=str(paths[0]))
             await self._put(*map(Static, study_view(status, points, width, self._units)))
             self.say(f"{status.points} points, {status.mode}")
         else:
-            found = [await self._helper.ask("summary", path=str(path)) for path in paths]
-            await self._put(*(Static(summary_view(s, self.app.theme_variables, self._units)) for s in found))
-            self.say("   ".join(summary.state for summary in found))
+            found = [await self._helper.ask("summary", path=str(path), bearing=self._bearing) for path in paths]
+            await self._put(*(Static(self._summary(one, width)) for one in found))
+            several = any(len(one.bearings) > 1 for one in found) or self._bearing
+            self.say("   ".join(summary.state for summary in found) + ("   b: next bearing" if several else ""))
+
+    def _summary(self, found: Summary, width: int) -> Text:
+        """Lay out a summary: of a machine a column for each bearing."""
+        if len(found.bearings) > 1:
+            return Text(found.text(width, self._units))
+        return summary_view(found, self.app.theme_variables, self._units)
+
+    @work(exclusive=True, group="bearing")
+    async def action_bearing(self) -> None:
+        """Go from a machine to its first bearing, to the next one, and back to the machine."""
+        path = self.current()
+        if path is None or is_study(path):
+            return
+        try:
+            names = await self._helper.ask("bearings", path=str(path))
+        except LambdaError as error:
+            self.notify(str(error), severity="error")
+            return
+        if len(names) < 2:
+            self.notify("this result has one bearing", timeout=4)
+            return
+        choices = [None, *names]
+        at = choices.index(self._bearing) if self._bearing in choices else 0
+        self._of_path, self._bearing = path, choices[(at + 1) % len(choices)]
+        self._show()
 
     def _show_data(self, data: ViewData) -> None:
         self.say(f"{data.title}   {data.source}")

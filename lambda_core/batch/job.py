@@ -327,14 +327,14 @@ def _run(model: BearingModel | Machine, path: Path) -> Result:
             if before.status().state in ("finished", "stopped"):
                 return before
             if before.status().state != "failed":
-                return relaunch(path, model)  # type: ignore[arg-type]
+                return relaunch(path, model)
         except NothingLeftError:  # another process has brought it to its end since
             return Result(path)
         except BeingWrittenError:
             raise
         except ResultError:  # damaged, or of another program: begun anew
             pass
-    return launch(model, path, force=True)  # type: ignore[arg-type]
+    return launch(model, path, force=True)
 
 
 def _left_by_others(result: Result) -> Result:

@@ -35,7 +35,7 @@ _WORK: dict[RunKind, tuple[list[str], list[str]]] = {
 }
 _COMPLETE: dict[RunKind, str] = {"run": "converged", "study": "every point has a result", "shaft": "converged"}
 _SHORT: dict[RunKind, str] = {"run": "not converged", "study": "not every point has a result", "shaft": "not converged"}
-_ENDING: dict[RunKind, str] = {"run": ".h5", "study": "", "shaft": "-run"}
+_ENDING: dict[RunKind, str] = {"run": ".h5", "study": "", "shaft": ".h5"}
 
 
 @dataclass
@@ -43,7 +43,7 @@ class QueuedRun:
     """One run of a bearing or of a shaft, or one study: waiting, going on, or ended."""
 
     name: str
-    result: Path  # the file, or the folder of a study or of the run of a shaft
+    result: Path  # the file, or the folder of a study
     folder: Path  # of its own files: the case as it was, what it says
     command: Sequence[str] = ()  # of the program that runs cases
     kind: RunKind = "run"
@@ -167,10 +167,9 @@ class QueuedRun:
 
 def _code_of_run(result: Path) -> int:
     from lambda_core.run.answers import summary
-    from lambda_core.run.shaft_motion import is_shaft_run, shaft_result
 
     try:
-        found = shaft_result(result) if is_shaft_run(result) else summary(result)
+        found = summary(result)
     except LambdaError:
         return 1
     if found.converged:

@@ -200,8 +200,8 @@ def case_inputs(model: Any, units: UnitSystem = SI) -> Inputs:
     from lambda_core.results.citation import citation
     from lambda_core.results.provenance import Provenance
 
-    origin = Provenance(model, {})
-    laws, versions = origin.laws(), origin.versions()
+    origin = Provenance.alone(model, {})
+    laws, versions = next(iter(origin.bearings.values())).laws(), origin.versions()
     source: Any = SimpleNamespace(path=model.name, laws=laws, values=model.values, versions=versions)
     return Inputs(
         value_tables(model.values, units),

@@ -43,7 +43,11 @@ def views(subject: Subject | None = None) -> list[ViewCard]:
 
 
 def view(
-    source: str | PathLike[str] | Sequence[str | PathLike[str]], name: str, options: Mapping[str, Any] | None = None
+    source: str | PathLike[str] | Sequence[str | PathLike[str]],
+    name: str,
+    options: Mapping[str, Any] | None = None,
+    *,
+    bearing: str | None = None,
 ) -> ViewData:
     """Return what one view shows, as data with units.
 
@@ -55,6 +59,8 @@ def view(
         View (:func:`views`).
     options : mapping, optional
         Options of the view by name.
+    bearing : str, optional
+        Which bearing of a machine; may be left out where there is one, and for views of the machine.
 
     Returns
     -------
@@ -71,19 +77,21 @@ def view(
     from lambda_core.discovery.manager import registry
     from lambda_core.discovery.shown import data_of, view_of
 
-    subject, kind = subject_of(source)
+    subject, kind = subject_of(source, bearing)
     return data_of(view_of(registry(), name, kind), subject, options or {})
 
 
 def view_all(
     source: str | PathLike[str] | Sequence[str | PathLike[str]],
+    *,
+    bearing: str | None = None,
 ) -> Iterator[tuple[str, ViewData | LambdaError]]:
     """Show every view of a source, one after the other.
 
     Parameters
     ----------
-    source : path-like or sequence of them
-        As for :func:`view`.
+    source, bearing
+        As for :func:`view`; of a machine without `bearing` only the views of the machine.
 
     Yields
     ------
@@ -98,7 +106,7 @@ def view_all(
     from lambda_core.discovery.manager import registry
     from lambda_core.report.gallery import every
 
-    subject, kind = subject_of(source)
+    subject, kind = subject_of(source, bearing)
     for found, data in every(registry(), subject, kind):
         yield found.name, data
 
@@ -202,7 +210,7 @@ def animate(
     check_format(path)
     check_pace(turns, frames, fps)
     _refuse_existing(path, overwrite)
-    scene = scene_of(result(source), start=start, turns=turns, frames=frames)
+    scene = scene_of(result(source).of_bearing(), start=start, turns=turns, frames=frames)
     return write_animation(registry(), scene, path, fps, progress)
 
 
@@ -215,6 +223,7 @@ def report(
     author: str = "",
     appendices: Sequence[str] | None = None,
     units: str = "si",
+    bearing: str | None = None,
 ) -> Path:
     """Write one self-contained page about a run or a study, as HTML or PDF.
 
@@ -234,6 +243,8 @@ def report(
         ``references``, ``origin``; default: all of it.
     units : str
         ``si`` or ``us``: in which numbers are shown; the case stands as it was written.
+    bearing : str, optional
+        Which bearing of a machine; may be left out where there is one.
 
     Returns
     -------
@@ -258,7 +269,7 @@ def report(
         raise UsageError(f"{path}: a report is written as {', '.join(_PAGES)} or .pdf")
     if is_pdf:
         check_printer()
-    subject, kind = subject_of(source)
+    subject, kind = subject_of(source, bearing)
     if kind == "study":
         from lambda_core.batch.studies import files
         from lambda_core.case.case_io import parse_case
@@ -267,7 +278,7 @@ def report(
         inputs = case_inputs(resolve(parse_case(case_toml, str(source))), cover.units)
         text = study_report(registry(), subject, study_status(Path(source)), inputs, definition, cover)
     else:
-        text = run_report(registry(), subject, cover)
+        text = run_report(registry(), subject.of_bearing(), cover)
     return write_pdf(text, path) if is_pdf else write_page(text, path)
 
 
@@ -291,23 +302,19 @@ def _refuse_existing(path: Path, overwrite: bool) -> None:
         check_folder(path.absolute().parent, path)
 
 
-def subject_of(source: str | PathLike[str] | Sequence[str | PathLike[str]]) -> tuple[Any, Subject]:
+def subject_of(
+    source: str | PathLike[str] | Sequence[str | PathLike[str]], bearing: str | None = None
+) -> tuple[Any, Subject]:
     """Return what a view looks at, and what kind of thing it is."""
     from lambda_core.batch.studies import is_study, table
-    from lambda_core.results.reader import Result
 
-    if isinstance(source, Result):
-        return _begun(source), "result"
     if not isinstance(source, str | PathLike):
         if len(source) != 1:
-            return [_begun(one if isinstance(one, Result) else result(one)) for one in source], "results"
+            return [_begun(result(one, bearing)) for one in source], "results"
         source = source[0]
-        if isinstance(source, Result):
-            return _begun(source), "result"
-    path = Path(source)
-    if is_study(path):
-        return table(path), "study"
-    return _begun(result(path)), "result"
+    if is_study(Path(source)):
+        return table(Path(source)), "study"
+    return _begun(result(source, bearing)), "result"
 
 
 def _begun(found: Result) -> Result:

@@ -60,7 +60,7 @@ def latest(slots: Iterable[bytes]) -> Checkpoint | None:
 def _read(body: bytes) -> Checkpoint:
     stream = io.BytesIO(body)
     fields = json.loads(stream.readline())
-    counts = {name: Rows(**fields[name]) for name in ("rows", "summed") if name in fields}
+    counts = {name: Rows.read(fields[name]) for name in ("rows", "summed") if name in fields}
     position = Position(**{**fields, **counts})
     with np.load(io.BytesIO(stream.read()), allow_pickle=False) as arrays:
         return Checkpoint(position, {name: arrays[name] for name in arrays.files})

@@ -130,7 +130,9 @@ def shortfalls_together(windows: Sequence[Window]) -> list[str]:
     Their half-widths are added up, not their squares: bearings on one shaft swing together, and how much so is not
     known (JCGM 100:2008, 5.2.2, note 1, for inputs that are correlated altogether).
     """
-    width, torque = sum(w.torque.half_width for w in windows), abs(torque_together(windows))
+    if len(windows) < 2:
+        return []
+    width, torque = half_width_together(windows), abs(torque_together(windows))
     if width <= TORQUE_TOLERANCE * torque or not math.isfinite(width):  # who has none says so
         return []
     return [
@@ -152,15 +154,14 @@ def revolutions_wanted(solver: Solver, chosen: Window, together: float = 0.0) ->
     return max(DISCARDED_AT_LEAST, math.ceil(solver.discard_revolutions)) + average
 
 
-def is_converged(solver: Solver, known: Sequence[FloatArray], last: FloatArray) -> bool:
-    """Tell whether nothing is short of what the solver's options want, from the integrals kept and the last ones."""
-    chosen = window(solver, np.stack(known), last)
-    return not shortfalls(solver, chosen, Interval(known[0], last).energy_residual())
-
-
 def torque_together(windows: Sequence[Window]) -> float:
     """Return the torque of several bearings together [N m]."""
     return sum(chosen.interval.torque() for chosen in windows)
+
+
+def half_width_together(windows: Sequence[Window]) -> float:
+    """Return the half-width of the torque of all bearings together [N m], added up as :func:`shortfalls_together`."""
+    return sum(chosen.torque.half_width for chosen in windows)
 
 
 def are_converged(
@@ -169,9 +170,18 @@ def are_converged(
     known: Sequence[Sequence[FloatArray]],
     last: Sequence[FloatArray],
 ) -> bool:
-    """Tell whether nothing is short of what options want of several bearings on a shaft, each in its window."""
-    together = torque_together(windows)
+    """Tell whether nothing is short of what options want of the bearings of a machine, each in its window."""
+    together = torque_together(windows) if len(windows) > 1 else 0.0
     return not shortfalls_together(windows) and not any(
         shortfalls(solver, chosen, Interval(rows[0], now).energy_residual(), together)
         for solver, chosen, rows, now in zip(solvers, windows, known, last, strict=True)
     )
+
+
+def are_converged_by(
+    solvers: Sequence[Solver], known: Sequence[Sequence[FloatArray]], last: Sequence[FloatArray]
+) -> bool:
+    """Tell the same from the integrals kept and the last ones alone."""
+    each = zip(solvers, known, last, strict=True)
+    windows = [window(solver, np.stack(rows), now) for solver, rows, now in each]
+    return are_converged(solvers, windows, known, last)

@@ -1,4 +1,7 @@
-"""The layout of a result file: what stands where (the table for people is docs/results.md).
+"""Lay out a result file: what stands where (the table for people is docs/results.md).
+
+``/time`` and ``/machine`` are of the machine, ``/bearings/NAME`` of each bearing; with one bearing everything of it is
+also linked at the root, so that readers of HDF5 find ``/load``.
 
 Everything is created before the first sample is written: HDF5 allows no new objects once
 a file is written in SWMR mode, the mode that keeps it readable at every moment. Every
@@ -8,17 +11,18 @@ and labels.
 
 from __future__ import annotations
 
+import json
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
+from numpy.typing import NDArray
 
-from lambda_core.domain.channels import DIMENSIONS, Channel
-from lambda_core.domain.printable import printable
+from lambda_core.domain.channels import CHANNELS, DIMENSIONS, Channel
 from lambda_core.results.averages import INTEGRALS
 from lambda_core.results.circuit_rows import CIRCUIT, CIRCUIT_GROUP, DISCHARGES, DISCHARGES_GROUP
 from lambda_core.results.event_rows import (
@@ -33,14 +37,14 @@ from lambda_core.results.objects import attach, describe, scales_along, scales_i
 from lambda_core.results.run_status import Rows
 
 if TYPE_CHECKING:
-    from lambda_core.results.provenance import Provenance
-    from lambda_core.system.bearing import BearingModel
+    from lambda_core.results.provenance import BearingOrigin, MachineOrigin, Provenance
+    from lambda_core.results.samples import RunChannels
 
-LAYOUT = 1
+LAYOUT = 2
 LAYOUT_ATTRIBUTE = "lambda_bearing_layout"
 STATUS = "status"
-STATUS_BYTES = 8192
-SHAFT_RUN, SHAFT_BEARING = "shaft_run", "shaft_bearing"  # attributes of a bearing's result in a shaft's run
+STATUS_BYTES = 16384
+BEARINGS, MACHINE = "bearings", "machine"  # groups; the first is also the attribute with the names in order
 SLOTS = "restart/slots"
 INTEGRALS_GROUP = "integrals"
 REVOLUTIONS_GROUP = "revolutions"
@@ -49,6 +53,7 @@ INPUTS_GROUP = "inputs"
 ROWS = 1024  # of one chunk
 _SLOT_CHUNK = 65536
 _TEXT = h5py.string_dtype()
+_TIME = CHANNELS[0]
 _LAW_COLUMNS = (
     "element",
     "role",
@@ -63,58 +68,116 @@ _LAW_COLUMNS = (
 _VALUE_COLUMNS = ("path", "value", "type", "quantity", "source", "grade", "status")
 
 
-def create(file: h5py.File, provenance: Provenance, channels: Sequence[Channel]) -> None:
+def create(file: h5py.File, provenance: Provenance, channels: RunChannels) -> None:
     """Create every object and attribute of a result in an empty file."""
     from lambda_core.system.describe import headline
 
-    model = provenance.model
+    machine = provenance.machine
     file.attrs[LAYOUT_ATTRIBUTE] = LAYOUT
-    file.attrs["title"] = model.title
-    file.attrs["case"] = model.name
-    file.attrs["headline"] = "\n".join(headline(model))
+    file.attrs["title"] = provenance.title
+    file.attrs["case"] = provenance.name
     file.attrs["created"] = provenance.created()
-    if provenance.part_of is not None:
-        file.attrs[SHAFT_RUN], file.attrs[SHAFT_BEARING] = provenance.part_of
     file.attrs["frames"] = "x shaft axis, y horizontal, z up; azimuth from +y towards +z; SI units"
-    _dimensions(file, model, channels)
-    _series(file, channels, "time")
-    _series(file.create_group(INTEGRALS_GROUP), INTEGRALS, "time")
-    revolutions = file.create_group(REVOLUTIONS_GROUP)
-    number = Channel("revolution", (), "-", "whole cage revolutions completed")
-    _series(revolutions, (number, *INTEGRALS), "revolution")
-    if model.events:
-        _series(file.create_group(EVENTS_GROUP), EVENTS, "time")
-    if model.electric is not None:
+    file.attrs[BEARINGS] = np.array(list(provenance.bearings), dtype=object)
+    _dimensions(file, channels)
+    _series(file, (_TIME,), "time")
+    inputs = file.create_group(INPUTS_GROUP)
+    inputs.attrs["case_toml"] = "the case, complete: it runs again as it stands"
+    inputs.create_dataset("case_toml", data=provenance.case_toml, dtype=_TEXT)
+    _sentences(inputs, "plugins", provenance.plugins)
+    _pairs(inputs, "versions", provenance.versions())
+    if machine is not None:
+        _machine(file.create_group(MACHINE), machine, channels.machine)
+    for name, origin in provenance.bearings.items():
+        group = file.create_group(f"{BEARINGS}/{name}")
+        group.attrs["title"] = origin.model.title
+        group.attrs["headline"] = origin.headline or "\n".join(headline(origin.model))
+        _bearing(group, origin, channels.bearings[name])
+    first = next(iter(provenance.bearings))
+    file.attrs["headline"] = file[f"{BEARINGS}/{first}"].attrs["headline"] if machine is None else machine.headline
+    if any(model.electric is not None for model in provenance.models):
         _series(file.create_group(CIRCUIT_GROUP), CIRCUIT, "time")
         _series(file.create_group(DISCHARGES_GROUP), DISCHARGES, "time")
-    _inputs(file.create_group(INPUTS_GROUP), provenance)
     file.create_dataset(SLOTS, (2, 0), np.uint8, maxshape=(2, None), chunks=(1, _SLOT_CHUNK)).attrs["long_name"] = (
         "checkpoints, written in turn; bytes with a checksum"
     )
     status = file.create_dataset(STATUS, (), f"S{STATUS_BYTES}")
     status.attrs["long_name"] = "state of the run, rows that are complete, statistics, wall time; JSON"
+    _link_alone(file)
 
 
-def part_of(file: h5py.File) -> tuple[str, str] | None:
-    """Return the mark of the shaft's run that a result is part of, and its bearing there; None of one bearing's own."""
-    run, bearing = (printable(str(file.attrs.get(name, ""))) for name in (SHAFT_RUN, SHAFT_BEARING))
-    return (run, bearing) if run else None
+def _machine(group: h5py.Group, origin: MachineOrigin, channels: Sequence[Channel]) -> None:
+    """Create what shaft and bodies of a machine write, and where they come from."""
+    for dim, labels in origin.labels.items():
+        _scale(group, dim, labels)
+    _series(group, [c for c in channels if all(dim not in origin.labels or len(origin.labels[dim]) for dim in c.dims)])
+    inputs = group.create_group(INPUTS_GROUP)
+    inputs.create_dataset("model_json", data=json.dumps(origin.model, ensure_ascii=False), dtype=_TEXT)
+    inputs.create_dataset("numbers_json", data=json.dumps(dict(origin.numbers)), dtype=_TEXT)
+    for name, lines in (("assumptions", origin.assumptions), ("warnings", origin.warnings)):
+        _sentences(inputs, name, lines)
 
 
-def _dimensions(file: h5py.File, model: BearingModel, channels: Sequence[Channel]) -> None:
-    """Create the labels of every dimension that a channel has."""
-    ball = file.create_dataset("ball", data=np.arange(1, model.geometry.balls + 1))
-    ball.attrs["long_name"] = "number of the ball"
-    ball.make_scale("ball")
-    known = {**DIMENSIONS, "marker": tuple(model.markers)}
-    for name in dict.fromkeys(dim for channel in (*channels, *INTEGRALS) for dim in channel.dims if dim != "ball"):
-        file.create_dataset(name, data=np.array(known[name], dtype=object), dtype=_TEXT).make_scale(name)
+def _bearing(group: h5py.Group, origin: BearingOrigin, channels: Sequence[Channel]) -> None:
+    """Create what one bearing writes, and where it comes from."""
+    model = origin.model
+    _scale(group, "ball", np.arange(1, model.geometry.balls + 1))
+    group["ball"].attrs["long_name"] = "number of the ball"
+    if any("marker" in channel.dims for channel in channels):
+        _scale(group, "marker", tuple(model.markers))
+    _series(group, channels)
+    _series(group.create_group(INTEGRALS_GROUP), INTEGRALS, "time")
+    number = Channel("revolution", (), "-", "whole cage revolutions completed")
+    _series(group.create_group(REVOLUTIONS_GROUP), (number, *INTEGRALS), "revolution")
+    if model.events:
+        _series(group.create_group(EVENTS_GROUP), EVENTS, "time")
+    _inputs(group.create_group(INPUTS_GROUP), origin)
 
 
-def _series(group: h5py.Group, channels: Sequence[Channel], along: str) -> None:
-    """Create one growing dataset per channel; the one called `along` is the growing dimension."""
-    root, first = group.file, None
-    dims = {dim: root[dim] for dim in dict.fromkeys(dim for channel in channels for dim in channel.dims)}
+def bearing_names(file: h5py.File) -> tuple[str, ...]:
+    """Return the bearings of a result, in the order of the machine; KeyError where one is missing."""
+    names = tuple(str(name) for name in file.attrs[BEARINGS])
+    if set(names) != set(file[BEARINGS]) or not names:
+        raise KeyError("the list of its bearings is not that of its groups")
+    return names
+
+
+def _linked(file: h5py.File) -> set[str]:
+    """Return the paths at the root that are the objects of the only bearing by another name."""
+    groups = list(file.get(BEARINGS, ()))
+    if len(groups) != 1:
+        return set()
+    own = file[BEARINGS][groups[0]]
+    inputs = {f"{INPUTS_GROUP}/{name}" for name in own[INPUTS_GROUP]} if INPUTS_GROUP in own else set()
+    return {name for name in own if name != INPUTS_GROUP} | inputs
+
+
+def _link_alone(file: h5py.File) -> None:
+    """Make everything of the only bearing reachable at the root, too."""
+    for path in _linked(file):
+        file[path] = file[f"{BEARINGS}/{next(iter(file[BEARINGS]))}/{path}"]
+
+
+def _dimensions(file: h5py.File, channels: RunChannels) -> None:
+    """Create the labels of every dimension that bearings share."""
+    every = (*channels.machine, *INTEGRALS, *(c for own in channels.bearings.values() for c in own))
+    for name in dict.fromkeys(dim for channel in every for dim in channel.dims if dim in DIMENSIONS):
+        _scale(file, name, DIMENSIONS[name])
+
+
+def _scale(group: h5py.Group, name: str, labels: Sequence[str] | NDArray[Any]) -> None:
+    """Create the labels of one dimension."""
+    if isinstance(labels, np.ndarray):
+        group.create_dataset(name, data=labels).make_scale(name)
+    else:
+        group.create_dataset(name, data=np.array(labels, dtype=object), dtype=_TEXT).make_scale(name)
+
+
+def _series(group: h5py.Group, channels: Sequence[Channel], along: str = "") -> None:
+    """Create one growing dataset per channel; `along` is the growing dimension, without one the samples' time."""
+    root = group.file
+    first = None if along else root["time"]
+    dims = {dim: group[dim] if dim in group else _nearest(group, dim) for c in channels for dim in c.dims}
     sizes = {dim: labels.size for dim, labels in dims.items()}
     for channel in sorted(channels, key=lambda channel: channel.name != along):
         shape = tuple(sizes[dim] for dim in channel.dims)
@@ -130,27 +193,37 @@ def _series(group: h5py.Group, channels: Sequence[Channel], along: str) -> None:
             attach(data, axis, scale)
 
 
-def _inputs(group: h5py.Group, provenance: Provenance) -> None:
+def _nearest(group: h5py.Group, dim: str) -> h5py.Dataset:
+    """Return the labels of a dimension of this group, or of the nearest one above that has them."""
+    while dim not in group and group.name != "/":
+        group = group.parent
+    return group[dim]
+
+
+def _inputs(group: h5py.Group, origin: BearingOrigin) -> None:
     from lambda_core.system.operating_limits import operating_warnings
 
-    model = provenance.model
-    group.attrs["case_toml"] = "the case, complete: it runs again as it stands"
-    for name, text in (("case_toml", model.case_toml), ("model_json", provenance.model_json())):
-        group.create_dataset(name, data=text, dtype=_TEXT)
-    if provenance.rating is not None:
-        group.create_dataset("rating_json", data=provenance.rating.model_dump_json(), dtype=_TEXT)
-    texts = (("assumptions", model.assumptions), ("plugins", model.plugins), ("warnings", operating_warnings(model)))
-    for name, lines in texts:
-        group.create_dataset(name, data=np.array(lines, dtype=object), dtype=_TEXT).make_scale(name)
-    _table(group, "values", _VALUE_COLUMNS, provenance.values())
-    _table(group, "laws", _LAW_COLUMNS, provenance.laws())
+    model = origin.model
+    group.create_dataset("model_json", data=origin.model_json(), dtype=_TEXT)
+    if origin.rating is not None:
+        group.create_dataset("rating_json", data=origin.rating.model_dump_json(), dtype=_TEXT)
+    _sentences(group, "assumptions", model.assumptions)
+    _sentences(group, "warnings", operating_warnings(model, on_shaft=bool(origin.headline)))
+    _table(group, "values", _VALUE_COLUMNS, origin.values())
+    _table(group, "laws", _LAW_COLUMNS, origin.laws())
     if model.observers:
-        _table(group, "observers", OBSERVER_COLUMNS, observer_rows(model, provenance.kernel_keys))
+        _table(group, "observers", OBSERVER_COLUMNS, observer_rows(model, origin.kernel_keys))
     if model.events:
-        _table(group, "events", EVENT_COLUMNS, event_rows(model, provenance.kernel_keys))
-    for name, pairs in (("versions", provenance.versions()), ("kernel_keys", dict(provenance.kernel_keys))):
-        rows = [{"name": key, "value": value} for key, value in pairs.items()]
-        _table(group, name, ("name", "value"), rows)
+        _table(group, "events", EVENT_COLUMNS, event_rows(model, origin.kernel_keys))
+    _pairs(group, "kernel_keys", origin.kernel_keys)
+
+
+def _sentences(group: h5py.Group, name: str, lines: Sequence[str]) -> None:
+    group.create_dataset(name, data=np.array(lines, dtype=object), dtype=_TEXT).make_scale(name)
+
+
+def _pairs(group: h5py.Group, name: str, pairs: Mapping[str, str]) -> None:
+    _table(group, name, ("name", "value"), [{"name": key, "value": value} for key, value in pairs.items()])
 
 
 def _table(group: h5py.Group, name: str, columns: Sequence[str], rows: Sequence[dict[str, str]]) -> None:
@@ -169,16 +242,17 @@ def read_table(group: h5py.Group) -> list[dict[str, str]]:
     return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
 
 
-def rows_of(name: str, rows: Rows) -> int:
-    """Return how many rows of a growing dataset (path in the file) count."""
-    by_group = {
-        INTEGRALS_GROUP: rows.records,
-        REVOLUTIONS_GROUP: rows.revolutions,
-        CIRCUIT_GROUP: rows.circuit,
-        DISCHARGES_GROUP: rows.discharges,
-        EVENTS_GROUP: rows.events,
-    }
-    return by_group.get(name.rpartition("/")[0], rows.samples)
+def rows_of(path: str, rows: Rows) -> int:
+    """Return how many rows of a growing dataset (its path in the file, as of :func:`objects`) count."""
+    place = path.strip("/").rpartition("/")[0]
+    whole = {CIRCUIT_GROUP: rows.circuit, DISCHARGES_GROUP: rows.discharges}
+    if not place.startswith(f"{BEARINGS}/"):
+        return whole.get(place, rows.samples)
+    name, _, group = place.removeprefix(f"{BEARINGS}/").partition("/")
+    if group == INTEGRALS_GROUP:
+        return rows.records
+    each = {REVOLUTIONS_GROUP: rows.revolutions, EVENTS_GROUP: rows.events}
+    return each[group].get(name, 0) if group in each else rows.samples
 
 
 def grows(item: object) -> bool:
@@ -194,7 +268,7 @@ def chunk_bytes(item: h5py.Dataset) -> int:
 def size(source: h5py.File, rows: Rows) -> int:
     """Return an upper bound of the bytes that a copy with the first `rows` rows takes, metadata aside."""
     total = 0
-    for name, item in _objects(source).items():
+    for name, item in objects(source).items():
         if grows(item):
             total += math.ceil(rows_of(name, rows) / ROWS) * chunk_bytes(item)
         elif isinstance(item, h5py.Dataset):
@@ -202,10 +276,22 @@ def size(source: h5py.File, rows: Rows) -> int:
     return total + total // 100
 
 
-def _objects(file: h5py.File) -> dict[str, Any]:
-    """Return every group and dataset of a file by its path."""
-    found: dict[str, Any] = {}
-    file.visititems(found.__setitem__)
+def objects(file: h5py.File) -> dict[str, Any]:
+    """Return every group and dataset of a file by its path; what stands at the root by another name, once."""
+    linked, found = _linked(file), dict[str, Any]()
+    seen = {h5py.h5o.get_info(file["/"].id).addr}  # a damaged file may have a group that contains itself
+
+    def look(group: h5py.Group, above: str) -> None:
+        for name in group:
+            path = f"{above}{name}"
+            if path in linked:
+                continue
+            item = found[path] = group[name]
+            if isinstance(item, h5py.Group) and (address := h5py.h5o.get_info(item.id).addr) not in seen:
+                seen.add(address)
+                look(item, f"{path}/")
+
+    look(file, "")
     return found
 
 
@@ -244,19 +330,20 @@ def copy(source: h5py.File, target: h5py.File, rows: Rows, compress: bool, stop:
         When `stop` says so.
     """
     target.attrs.update(source.attrs)
-    objects, copies = _objects(source), {}
-    for name, item in objects.items():
+    originals, copies = objects(source), {}
+    for name, item in originals.items():
         if isinstance(item, h5py.Group):
             target.require_group(name).attrs.update(item.attrs)
         else:
             copies[name] = _copy_dataset(name, item, target, rows, compress, stop)
-    scales = scales_in(objects)
+    scales = scales_in(originals)
     for name in scales.values():
         copies[name].make_scale(Path(name).name)
     for name, copied in copies.items():
-        for axis, scale in enumerate(scales_along(objects[name], scales)):
+        for axis, scale in enumerate(scales_along(originals[name], scales)):
             if scale:
                 attach(copied, axis, copies[scale])
+    _link_alone(target)
 
 
 def _copy_dataset(

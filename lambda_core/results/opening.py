@@ -82,22 +82,26 @@ def check_alone(file: h5py.File) -> None:
         raise ResultError(f"{file.filename} is no result of a run: {printable(name)} stands somewhere else")
 
 
-def channels_of(file: h5py.File) -> Iterator[Channel]:
-    """Yield the channels of a file: everything in its root that grows."""
-    items = dict(file.items())
-    scales = scales_in(items)
-    for name, item in items.items():
+def channels_of(group: h5py.Group) -> Iterator[tuple[Channel, dict[str, str]]]:
+    """Yield the channels of a group, and the path of the labels of each dimension: everything there that grows."""
+    root = group.file
+    items = {f"{group.name}/{name}": item for name, item in group.items()}
+    scales = scales_in({f"/{name}": item for name, item in root.items()} | items)
+    for path, item in items.items():
         if layout.grows(item):
             item.id.get_num_chunks()  # a damaged index raises here; read through, it would fill the memory
-            dims = tuple(dim for dim in scales_along(item, scales) if dim not in ("", "time"))
-            yield Channel(name, dims, item.attrs["units"], item.attrs["long_name"])
+            along = [scale for scale in scales_along(item, scales) if scale.rpartition("/")[2] not in ("", "time")]
+            paths = {scale.rpartition("/")[2]: scale for scale in along}
+            dims = tuple(scale.rpartition("/")[2] for scale in along)
+            yield Channel(path.rpartition("/")[2], dims, item.attrs["units"], item.attrs["long_name"]), paths
 
 
-def labels_of(data: h5py.Dataset) -> tuple[int, ...] | tuple[str, ...]:
-    """Return the labels of a dimension."""
+def labels_of(data: h5py.Dataset) -> tuple[int, ...] | tuple[float, ...] | tuple[str, ...]:
+    """Return the labels of a dimension: names, numbers of balls, places [m]."""
     if h5py.check_string_dtype(data.dtype):
-        return tuple(data.asstr()[()])
-    return tuple(int(number) for number in data[()])
+        return tuple(printable(label) for label in data.asstr()[()])
+    numbers = data[()]
+    return tuple(numbers.tolist())
 
 
 def integral_table(group: h5py.Group, rows: int) -> FloatArray:

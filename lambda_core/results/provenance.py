@@ -8,22 +8,29 @@ from __future__ import annotations
 import json
 import math
 import platform
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, fields, is_dataclass
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import BaseModel
 
 from lambda_core import __version__
+from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.section_roles import FILMS
 from lambda_core.laws.law import Law
 from lambda_core.results.rating import Rating
+from lambda_core.results.samples import ALONE
 from lambda_core.system.bearing import BearingModel
 from lambda_core.views.observer import Event, Observer
+
+if TYPE_CHECKING:
+    from lambda_core.system.machine import Machine
 
 _LIBRARIES = ("numpy", "scipy", "numba", "llvmlite", "h5py", "pydantic")
 # Of the model these stand in datasets of their own, or follow from the case and are part of the geometry.
@@ -41,18 +48,13 @@ def _of_libraries() -> dict[str, str]:
 
 
 @dataclass(frozen=True)
-class Provenance:
-    """The fixed part of a result file."""
+class BearingOrigin:
+    """The fixed part of a result that one bearing has for itself."""
 
     model: BearingModel
     kernel_keys: Mapping[str, str]  # "element/role/model", or a part of the core -> hash of the code
     rating: Rating | None = None  # what standards and catalogues say of the equilibrium that it starts from
-    part_of: tuple[str, str] | None = None  # of a shaft's run: its mark, and the bearing's name there
-
-    def versions(self) -> dict[str, str]:
-        """Return versions of the program, Python, the libraries, and the platform."""
-        ours = {"lambda-bearing": __version__, "python": platform.python_version(), "platform": platform.platform()}
-        return ours | _of_libraries()
+    headline: str = ""  # of a bearing in a machine: under the load that it carries there; otherwise that of its model
 
     def laws(self) -> list[dict[str, str]]:
         """Return one row per force element, or film of the circuit, and role: the model and its parameters."""
@@ -86,9 +88,96 @@ class Provenance:
         """Return the resolved model as JSON (see :func:`model_data`)."""
         return json.dumps(model_data(self.model), ensure_ascii=False)
 
+
+@dataclass(frozen=True)
+class MachineOrigin:
+    """The fixed part of a result that shaft and bodies of a machine have.
+
+    Attributes
+    ----------
+    headline : str
+        Lines that say what the machine is.
+    model : mapping
+        The machine as plain data, without its bearings (see :func:`machine_data`).
+    numbers : mapping
+        Further numbers of the equilibrium that the run starts from, SI.
+    labels : mapping
+        Dimension -> names or places [m] of the bodies, markers and lumps.
+    assumptions, warnings : tuple of str
+        One sentence each.
+    """
+
+    headline: str
+    model: Mapping[str, Any]
+    numbers: Mapping[str, float]
+    labels: Mapping[str, Sequence[str] | FloatArray]
+    assumptions: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """The fixed part of a result file.
+
+    Attributes
+    ----------
+    name, title : str
+        Of the case.
+    case_toml : str
+        The case, complete: it runs again as it stands.
+    bearings : mapping
+        Name of the bearing -> what it has for itself, in the order of the machine.
+    machine : MachineOrigin, optional
+        Of a case that is a machine; None: one bearing alone.
+    """
+
+    name: str
+    title: str
+    case_toml: str
+    bearings: Mapping[str, BearingOrigin]
+    machine: MachineOrigin | None = None
+
+    @classmethod
+    def alone(cls, model: BearingModel, kernel_keys: Mapping[str, str], rating: Rating | None = None) -> Provenance:
+        """Return that of a run of one bearing."""
+        return cls(model.name, model.title, model.case_toml, {ALONE: BearingOrigin(model, kernel_keys, rating)})
+
+    @property
+    def models(self) -> list[BearingModel]:
+        """Models of the bearings."""
+        return [origin.model for origin in self.bearings.values()]
+
+    @property
+    def plugins(self) -> tuple[str, ...]:
+        """Distribution and version of every plugin that a bearing was resolved with."""
+        return tuple(dict.fromkeys(name for model in self.models for name in model.plugins))
+
+    def versions(self) -> dict[str, str]:
+        """Return versions of the program, Python, the libraries, and the platform."""
+        ours = {"lambda-bearing": __version__, "python": platform.python_version(), "platform": platform.platform()}
+        return ours | _of_libraries()
+
     def created(self) -> str:
         """Return the time now, ISO 8601, UTC."""
         return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+def machine_data(model: Machine) -> dict[str, Any]:
+    """Return a machine without its bearings as plain data, SI.
+
+    Of each array there stand its shape and two sums over its numbers: enough to tell whether it has changed.
+    """
+    apart = ("bearings", "case_toml", "assumptions", "warnings")
+    found = {field.name: plain(getattr(model, field.name)) for field in fields(model) if field.name not in apart}
+    seats = {one.name: {**vars(one), "model": one.name} for one in model.bearings}
+    return {**found, "bearings": plain(seats)}
+
+
+def _sums(values: NDArray[Any]) -> dict[str, Any]:
+    """Return shape and sums of an array, to the digits that do not depend on the order of additions."""
+    flat = np.abs(values.astype(np.float64).ravel())
+    weights = 1.0 + np.arange(flat.size) % 997 / 997.0
+    return {"shape": list(values.shape), "sum": f"{flat.sum():.9g}", "weighted": f"{(flat * weights).sum():.9g}"}
 
 
 def model_data(model: BearingModel) -> dict[str, Any]:
@@ -127,6 +216,8 @@ def plain(value: Any) -> Any:
         return {"name": value.name, "distribution": value.distribution}
     if isinstance(value, BaseModel):
         return {name: plain(getattr(value, name)) for name in type(value).model_fields}
+    if isinstance(value, np.ndarray):
+        return _sums(value)
     if is_dataclass(value):
         return {field.name: plain(getattr(value, field.name)) for field in fields(value)}
     if isinstance(value, Mapping):

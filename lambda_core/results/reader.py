@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.channels import Channel
+from lambda_core.domain.channels import CHANNELS, Channel
 from lambda_core.domain.errors import UsageError, unknown_name
 from lambda_core.domain.printable import printable
 from lambda_core.results import checkpoint
@@ -32,12 +32,14 @@ from lambda_core.results.opening import (
     resolved_value,
 )
 from lambda_core.results.run_status import Status
+from lambda_core.results.samples import TIME
 from lambda_core.system.bearing import ResolvedValue
 
 if TYPE_CHECKING:
     from lambda_core.results.rating import Rating
     from lambda_core.results.summary import Summary
 
+_TIME = CHANNELS[0]
 _BLOCK = 4096  # rows read at a time where a whole channel need not be in memory
 
 
@@ -52,20 +54,31 @@ class Result:
     ----------
     path : path-like
         A result file.
+    bearing : str, optional
+        Look at this bearing of a machine; default: at the only one, or where there are several at the machine, which
+        is also what "" stands for.
+
+    Attributes
+    ----------
+    bearing : str
+        Name of the bearing that is looked at; empty where the result is of the whole machine.
 
     Raises
     ------
     ResultError
         When the file does not exist, is not a result, or is damaged.
+    UsageError
+        When it has no such bearing.
 
     Examples
     --------
     >>> result = Result("6319-cp10-1500.h5")  # doctest: +SKIP
     >>> result["load"].shape  # (time, ball, ring), N  # doctest: +SKIP
     (1000, 9, 2)
+    >>> result.bearings["left"].plot("film")  # doctest: +SKIP
     """
 
-    def __init__(self, path: str | PathLike[str]) -> None:
+    def __init__(self, path: str | PathLike[str], bearing: str | None = None) -> None:
         self.path = Path(path)
         with opened(self.path) as file:
             if not heaps_are_whole(self.path):
@@ -74,11 +87,64 @@ class Result:
             self.title, self.headline, self.case, self.created = (
                 printable(str(file.attrs[name])) for name in ("title", "headline", "case", "created")
             )
-            self.part_of = layout.part_of(file)
-            self._channels = {channel.name: channel for channel in channels_of(file)}
-            dims = dict.fromkeys(dim for channel in self._channels.values() for dim in channel.dims)
-            self._labels = {dim: labels_of(file[dim]) for dim in dims}
+            self.bearing_names = tuple(map(printable, layout.bearing_names(file)))
+            self.is_machine = layout.MACHINE in file
+            if bearing is None:
+                bearing = self.bearing_names[0] if len(self.bearing_names) == 1 else ""
+            elif bearing not in self.bearing_names and (bearing or not self.is_machine):
+                raise UsageError(f"{self.path}: {unknown_name('bearing', bearing, self.bearing_names)}")
+            self.bearing = bearing
+            group = file[self._place]
+            if bearing and len(self.bearing_names) > 1:
+                self.title, self.headline = (printable(str(group.attrs[name])) for name in ("title", "headline"))
+            found = [(_TIME, {}), *channels_of(group)]
+            self._channels = {channel.name: channel for channel, _ in found}
+            paths = {dim: path for _, own in found for dim, path in own.items()}
+            self._labels = {dim: labels_of(file[path]) for dim, path in paths.items()}
         self.status()
+
+    # -- bearings of a machine --
+
+    @cached_property
+    def bearings(self) -> dict[str, Result]:
+        """Results of the bearings by name: each is used like that of a bearing alone."""
+        return {name: self if name == self.bearing else Result(self.path, name) for name in self.bearing_names}
+
+    def whole(self) -> Result:
+        """Return the result of the machine: motion of shaft and bodies, forces of the bearings."""
+        return self if not self.bearing else Result(self.path, "")
+
+    def of_bearing(self, name: str | None = None) -> Result:
+        """Return the result of one bearing.
+
+        Parameters
+        ----------
+        name : str, optional
+            Which one; may be left out where there is one only.
+
+        Raises
+        ------
+        UsageError
+            When there are several and none is named, or none of that name.
+        """
+        if name is not None:
+            return self if name == self.bearing else Result(self.path, name)
+        self._chosen()
+        return self
+
+    def _chosen(self) -> str:
+        """Return the bearing that is looked at; UsageError where none was chosen."""
+        if not self.bearing:
+            raise UsageError(
+                f"{self.path} has {len(self.bearing_names)} bearings: choose one, {' or '.join(self.bearing_names)} "
+                f'(--bearing {self.bearing_names[0]}, in Python result.bearings["{self.bearing_names[0]}"])'
+            )
+        return self.bearing
+
+    @property
+    def _place(self) -> str:
+        """Where what is looked at stands in the file."""
+        return f"{layout.BEARINGS}/{self.bearing}" if self.bearing else layout.MACHINE
 
     # -- what the run wrote --
 
@@ -91,7 +157,7 @@ class Result:
         """Return one channel, first axis time, SI."""
         self._known(name)
         with opened(self.path) as file:
-            return np.asarray(file[name][: self._status(file).rows.samples])
+            return np.asarray(self._data(file, name)[: self._status(file).rows.samples])
 
     def blocks(self, names: Sequence[str], start: float = 0.0) -> Iterator[dict[str, NDArray[np.float64]]]:
         """Yield several channels in blocks of rows, from time `start` [s]: for results larger than memory."""
@@ -102,7 +168,7 @@ class Result:
             first = int(np.searchsorted(file["time"][:rows], start))
             for begin in range(first, rows, _BLOCK):
                 stop = min(begin + _BLOCK, rows)
-                yield {name: file[name][begin:stop] for name in names}
+                yield {name: self._data(file, name)[begin:stop] for name in names}
 
     def sample(self, row: int, names: Sequence[str]) -> dict[str, NDArray[np.float64]]:
         """Return several channels at one instant; negative rows count from the end."""
@@ -110,10 +176,10 @@ class Result:
             self._known(name)
         with opened(self.path) as file:
             at = range(self._status(file).rows.samples)[row]
-            return {name: np.asarray(file[name][at]) for name in names}
+            return {name: np.asarray(self._data(file, name)[at]) for name in names}
 
-    def labels(self, dim: str) -> tuple[int, ...] | tuple[str, ...]:
-        """Return the labels along one dimension; balls count from 1."""
+    def labels(self, dim: str) -> tuple[int, ...] | tuple[float, ...] | tuple[str, ...]:
+        """Return the labels along one dimension: names, balls from 1, lumps of a shaft by their place [m]."""
         if dim not in self._labels:
             raise UsageError(f"{self.path}: {unknown_name('dimension', dim, self._labels)}")
         return self._labels[dim]
@@ -126,12 +192,14 @@ class Result:
     def integrals(self) -> FloatArray:
         """Return the running integrals, shape (records, len(averages.COLUMNS)), SI."""
         with opened(self.path) as file:
-            return integral_table(file[layout.INTEGRALS_GROUP], self._status(file).rows.records)
+            group = file[layout.BEARINGS][self._chosen()][layout.INTEGRALS_GROUP]
+            return integral_table(group, self._status(file).rows.records)
 
     def revolutions(self) -> FloatArray:
         """Return the running integrals at whole cage revolutions, the first row is t = 0."""
         with opened(self.path) as file:
-            return integral_table(file[layout.REVOLUTIONS_GROUP], self._status(file).rows.revolutions)
+            group = file[layout.BEARINGS][self._chosen()][layout.REVOLUTIONS_GROUP]
+            return integral_table(group, self._status(file).rows.revolutions.get(self.bearing, 0))
 
     def checkpoint(self) -> checkpoint.Checkpoint | None:
         """Return the newest whole checkpoint, None when there is none."""
@@ -140,21 +208,21 @@ class Result:
 
     def circuit(self) -> dict[str, NDArray[np.float64]]:
         """Return what the run wrote of its electric circuit: columns of circuit_rows.CIRCUIT, empty without one."""
-        return self._circuit_table(CIRCUIT_GROUP, "circuit")
+        return self._table(CIRCUIT_GROUP)
 
     def discharges(self) -> dict[str, NDArray[np.float64]]:
         """Return every film that broke down in the run, column -> values, SI; empty where it has no circuit."""
-        return self._circuit_table(DISCHARGES_GROUP, "discharges")
+        return self._table(DISCHARGES_GROUP)
 
     def events(self) -> dict[str, NDArray[np.float64]]:
         """Return when events of the case began: ``time`` [s], ``event``, the row of :attr:`watched_events`."""
-        return self._circuit_table(EVENTS_GROUP, "events")
+        return self._table(f"{layout.BEARINGS}/{self._chosen()}/{EVENTS_GROUP}")
 
-    def _circuit_table(self, group: str, kind: str) -> dict[str, NDArray[np.float64]]:
+    def _table(self, group: str) -> dict[str, NDArray[np.float64]]:
         with opened(self.path) as file:
             if group not in file:
                 return {}
-            count = getattr(self._status(file).rows, kind)
+            count = layout.rows_of(f"{group}/time", self._status(file).rows)
             return {name: data[:count] for name, data in file[group].items()}
 
     # -- where it comes from --
@@ -163,14 +231,33 @@ class Result:
     def model(self) -> dict[str, Any]:
         """The resolved model as plain data, SI (geometry, materials, oil, bodies, laws, solver)."""
         with opened(self.path) as file:
-            found: dict[str, Any] = json.loads(printable(str(file[layout.INPUTS_GROUP]["model_json"].asstr()[()])))
+            found: dict[str, Any] = json.loads(printable(str(self._inputs(file)["model_json"].asstr()[()])))
             check_model(found)
+        return found
+
+    @cached_property
+    def machine(self) -> dict[str, Any]:
+        """The machine without its bearings as plain data, SI; empty for one bearing alone."""
+        return self._machine_json("model_json")
+
+    @cached_property
+    def machine_numbers(self) -> dict[str, float]:
+        """Numbers of the machine's equilibrium at the start; empty for one bearing alone."""
+        return {name: float(value) for name, value in self._machine_json("numbers_json").items()}
+
+    def _machine_json(self, name: str) -> dict[str, Any]:
+        with opened(self.path) as file:
+            if layout.MACHINE not in file:
+                return {}
+            text = str(file[layout.MACHINE][layout.INPUTS_GROUP][name].asstr()[()])
+            found: dict[str, Any] = dict(json.loads(printable(text)))
         return found
 
     @cached_property
     def case_toml(self) -> str:
         """The case, complete: it runs again as it stands."""
-        return self._text("case_toml")
+        with opened(self.path) as file:
+            return printable(str(file[layout.INPUTS_GROUP]["case_toml"].asstr()[()]))
 
     @cached_property
     def values(self) -> tuple[ResolvedValue, ...]:
@@ -195,7 +282,9 @@ class Result:
     @cached_property
     def versions(self) -> dict[str, str]:
         """Versions of the program, Python and the libraries that ran."""
-        return {row["name"]: row["value"] for row in self._input_table("versions")}
+        with opened(self.path) as file:
+            rows = layout.read_table(file[layout.INPUTS_GROUP]["versions"])
+        return {printable(row["name"]): printable(row["value"]) for row in rows}
 
     @cached_property
     def kernel_keys(self) -> dict[str, str]:
@@ -209,24 +298,23 @@ class Result:
 
     @cached_property
     def rating(self) -> Rating | None:
-        """Life, safety and catalogue friction at the start; None in results of earlier versions."""
+        """Life, safety and catalogue friction at the start."""
         from lambda_core.results.rating import Rating
 
         with opened(self.path) as file:
-            text = file[layout.INPUTS_GROUP].get("rating_json")
+            text = self._inputs(file).get("rating_json")
             return Rating.model_validate_json(text.asstr()[()]) if text is not None else None
 
     @cached_property
     def case_warnings(self) -> tuple[str, ...]:
         """Where the case leaves what bearing, oil and laws are made for, one sentence each."""
-        with opened(self.path) as file:
-            lines = file[layout.INPUTS_GROUP].get("warnings")  # results of earlier versions have none
-            return tuple(lines.asstr()[()]) if lines is not None else ()
+        return self._lines("warnings")
 
     @cached_property
     def plugins(self) -> tuple[str, ...]:
         """Distribution and version of each plugin that was loaded."""
-        return self._lines("plugins")
+        with opened(self.path) as file:
+            return tuple(printable(line) for line in file[layout.INPUTS_GROUP]["plugins"].asstr()[()])
 
     # -- for people and for other programs --
 
@@ -237,24 +325,25 @@ class Result:
         return summarise(self)
 
     def __getattr__(self, name: str) -> Any:
-        from lambda_core.results.summary import Summary
+        from lambda_core.results.summary import field_names
 
-        if name in Summary.model_fields:
+        if name in field_names():
             return getattr(self.summary(), name)
         raise AttributeError(f"a result has no {name}")
 
     def __dir__(self) -> list[str]:
         """Return the names that a notebook completes: methods, and the numbers of the summary."""
-        from lambda_core.results.summary import Summary
+        from lambda_core.results.summary import field_names
 
-        return sorted({*super().__dir__(), *Summary.model_fields})
+        return sorted({*super().__dir__(), *field_names()})
 
     def __fspath__(self) -> str:
         """Return the file: a result is taken wherever a path is."""
         return str(self.path)
 
     def __repr__(self) -> str:
-        return f"<Result {self.path}: {self.title}, {self.status().state}>"
+        of = f" ({self.bearing})" if self.bearing and len(self.bearing_names) > 1 else ""
+        return f"<Result {self.path}{of}: {self.title}, {self.status().state}>"
 
     def _repr_html_(self) -> str:
         """Return what a notebook shows: the headline and the summary, as the command `show` prints them."""
@@ -312,7 +401,7 @@ class Result:
             data = {
                 channel.name: (
                     ("time", *channel.dims),
-                    file[channel.name][:rows],
+                    self._data(file, channel.name)[:rows],
                     {"units": channel.unit, "long_name": channel.meaning},
                 )
                 for channel in self.channels
@@ -340,21 +429,30 @@ class Result:
 
     def _known(self, name: str) -> None:
         if name not in self._channels:
+            if not self.bearing and len(self.bearing_names) > 1:
+                with opened(self.path) as file:
+                    if name in file[layout.BEARINGS][self.bearing_names[0]]:
+                        self._chosen()
             raise UsageError(f"{self.path}: {unknown_name('channel', name, self._channels)}")
+
+    def _data(self, file: h5py.File, name: str) -> h5py.Dataset:
+        """Return the dataset of a channel."""
+        return file[name] if name == TIME else file[self._place][name]
+
+    def _inputs(self, file: h5py.File) -> h5py.Group:
+        """Return where the bearing that is looked at comes from."""
+        return file[layout.BEARINGS][self._chosen()][layout.INPUTS_GROUP]
 
     def _status(self, file: h5py.File) -> Status:
         return Status.from_bytes(bytes(file[layout.STATUS][()]))
 
-    def _text(self, name: str) -> str:
-        with opened(self.path) as file:
-            return printable(str(file[layout.INPUTS_GROUP][name].asstr()[()]))
-
     def _lines(self, name: str) -> tuple[str, ...]:
+        """Return sentences about what is looked at."""
         with opened(self.path) as file:
-            return tuple(printable(line) for line in file[layout.INPUTS_GROUP][name].asstr()[()])
+            return tuple(printable(line) for line in file[self._place][layout.INPUTS_GROUP][name].asstr()[()])
 
     def _input_table(self, name: str) -> list[dict[str, str]]:
         with opened(self.path) as file:
-            table = file[layout.INPUTS_GROUP].get(name)  # a case without observers or events has no such table
+            table = self._inputs(file).get(name)  # a case without observers or events has no such table
             rows = layout.read_table(table) if table is not None else []
         return [{key: printable(text) for key, text in row.items()} for row in rows]

@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import os
 import socket
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from lambda_core.domain.printable import printable
 
@@ -16,16 +17,25 @@ from lambda_core.domain.printable import printable
 class Rows:
     """How many rows of the growing datasets count.
 
-    Samples, running integrals, boundaries of cage revolutions; of an electric circuit its own samples and discharges;
-    events.
+    Samples and running integrals; of an electric circuit its own samples and discharges; by name of the bearing the
+    boundaries of cage revolutions, and the events.
     """
 
     samples: int = 0
     records: int = 0
-    revolutions: int = 0
     circuit: int = 0
     discharges: int = 0
-    events: int = 0
+    revolutions: Mapping[str, int] = field(default_factory=dict)
+    events: Mapping[str, int] = field(default_factory=dict)
+
+    @staticmethod
+    def read(fields: Mapping[str, Any]) -> Rows:
+        """Return rows from plain data; ValueError where that is none."""
+        counts = {name: fields[name] for name in ("samples", "records", "circuit", "discharges")}
+        each = {name: {str(key): n for key, n in fields[name].items()} for name in ("revolutions", "events")}
+        if not all(type(n) is int and n >= 0 for group in (counts, *each.values()) for n in group.values()):
+            raise ValueError("its counts of rows are no numbers")
+        return Rows(**counts, revolutions=each["revolutions"], events=each["events"])
 
 
 State = Literal["running", "finished", "stopped", "interrupted", "failed"]
@@ -82,7 +92,7 @@ class Status:
             fields["message"] = printable(str(fields["message"]))
             fields["faults"] = tuple(printable(str(fault)) for fault in fields.get("faults", ()))
             fields["modes"] = tuple((float(f), float(damping)) for f, damping in fields.get("modes", ()))
-            return Status(**{**fields, "rows": Rows(**fields["rows"])})
+            return Status(**{**fields, "rows": Rows.read(fields["rows"])})
         except (KeyError, TypeError, AttributeError) as error:
             raise ValueError(str(error)) from None
 

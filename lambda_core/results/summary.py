@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,14 +17,29 @@ from lambda_core.domain.loading import CARRYING, Ring, carries, largest_contact,
 from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.averages import Interval, finite
 from lambda_core.results.bent import Bent, bent_parts
-from lambda_core.results.convergence import settings_of, shortfalls, window_of
+from lambda_core.results.convergence import (
+    settings_of,
+    shortfalls,
+    shortfalls_together,
+    torque_together,
+    window_of,
+)
 from lambda_core.results.currents import Currents, currents_of
 from lambda_core.results.event_rows import EventSeen, ObserverNumber
 from lambda_core.results.followed import FOURTH_POWERS, ITERATION_WORK, Followed, followed
 from lambda_core.results.limits import Grooves, Shoulder, shoulders, tolerance_warning, warnings, worst
+from lambda_core.results.machine_numbers import (
+    Swing,
+    machine_numbers,
+    machine_warnings,
+    reactions,
+    said_once,
+    total,
+)
 from lambda_core.results.rating import Rating
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.rolling import ROLLING, rolling_of
+from lambda_core.results.run_status import Status
 from lambda_core.results.watched import events_seen, observed_numbers
 from lambda_core.system.bearing import kind_of
 
@@ -60,23 +75,18 @@ class Equilibrium(Record):
     max_pressure_GPa: float
 
 
-class Summary(Record):
-    """Averages over whole cage revolutions, and the end state.
+class BearingSummary(Record):
+    """Averages of one bearing over whole cage revolutions, and its end state.
 
-    The names are stable under one number of `interface`. A number that does not exist
-    yet (an average before the first whole cage revolution) is null.
+    A number that does not exist yet (an average before the first whole cage revolution) is null.
     """
 
-    interface: int = INTERFACE
-    case: str
     title: str
     headline: str = Field(
         description="lines: bearing and oil; loads, speed and depth; laws of plugins, where there are any"
     )
-    file: str
-    state: Literal["running", "finished", "stopped", "interrupted", "failed"]
-    converged: bool
-    reasons: list[str] = Field(description="why the run is not converged; empty when it is")
+    converged: bool = Field(description="whether its averages are known as well as the run needs them")
+    reasons: list[str] = Field(description="why they are not; empty when they are")
 
     friction_torque_Nmm: float | None = Field(description="dissipated power over |Omega_i - Omega_o|")
     friction_torque_ci_Nmm: float | None = Field(description="95 % confidence half-width of friction_torque_Nmm")
@@ -100,61 +110,164 @@ class Summary(Record):
     contact_capacitance_pF: list[float] = Field(description="smallest and largest under load at the end state")
     bearing_capacitance_nF: float | None = Field(description="at the end state")
     capacitance_note: str = Field(description="which contacts asperities short, where they do", default="")
-    currents: Currents | None = Field(description="of a case with a circuit; null without one", default=None)
     observed: list[ObserverNumber] = Field(description="numbers of the observers of the case", default=[])
     events: list[EventSeen] = Field(description="events that the case looks out for", default=[])
-    plugin_faults: list[str] = Field(description="observers and events that failed, and why", default=[])
     rating: Rating | None = Field(description="life, safety and catalogue friction of the case at its start")
     shoulders: list[Shoulder] = Field(description="how near contacts came to the shoulders, the worst on each ring")
-    warnings: list[str] = Field(description="where case or run left what bearing, oil and laws are made for")
-    energy_residual: float | None = Field(description="(input - dissipated - stored) over integral of |input power|")
-    iteration_residual: float | None = Field(
-        description="work of early ends of Newton's iteration, counted positive, over the same; null of older results",
-        default=None,
+    force_N: list[float] = Field(description="mean force of a machine's bearing on the shaft: x, y, z", default=[])
+    force_swing_N: list[float] = Field(
+        description="half of what lies between the smallest and largest value of that force: x, y, z", default=[]
     )
-
+    moment_Nm: list[float] = Field(
+        description="mean moment of a machine's bearing on the shaft about y and z", default=[]
+    )
+    warnings: list[str] = Field(description="where case or run left what bearing, oil and laws are made for")
     revolutions_discarded: int = Field(description="whole cage revolutions before averaging")
     revolutions_averaged: int = Field(description="whole cage revolutions averaged")
-    simulated_s: float
-    wall_s: float = Field(description="wall time of the integration")
-    wall_per_simulated_second: float | None
-    wall_per_revolution_s: float | None = Field(description="per revolution of the inner ring against the outer")
-    vibrations: Followed | None = Field(description="how far vibrations can be believed; null of an older result")
-    solver_statistics: dict[str, float]
+    wall_per_revolution_s: float | None = Field(
+        description="wall time per revolution of the inner ring against the outer"
+    )
     equilibrium: Equilibrium
     assumptions: list[str]
 
+
+class Summary(Record):
+    """Averages of a run and its end state: of the machine, and of each bearing.
+
+    With one bearing, the numbers of that bearing are also attributes of the summary: ``summary.min_film_um``.
+    The names are stable under one number of `interface`. A number that does not exist
+    yet (an average before the first whole cage revolution) is null.
+    """
+
+    interface: int = INTERFACE
+    case: str
+    title: str
+    headline: str = Field(description="lines that say what was run")
+    file: str
+    state: Literal["running", "finished", "stopped", "interrupted", "failed"]
+    converged: bool
+    reasons: list[str] = Field(description="why the run is not converged; empty when it is")
+
+    friction_torque_Nmm: float | None = Field(description="of all bearings: dissipated power over |Omega_i - Omega_o|")
+    friction_torque_ci_Nmm: float | None = Field(
+        description="95 % confidence half-width of friction_torque_Nmm; of several bearings the sum of theirs"
+    )
+    power_loss_W: float | None = Field(description="mean dissipated power of all bearings")
+    bearings: dict[str, BearingSummary] = Field(description="each bearing by its name")
+    speed_rpm: float | None = Field(description="of a machine's shaft at t = 0", default=None)
+    drive_torque_Nm: float | None = Field(
+        description="of the coupling on a machine's shaft, with friction; null where torques change", default=None
+    )
+    system_life_h: float | None = Field(
+        description="of all bearings of a machine by their reference rating lives at the start, 90 %", default=None
+    )
+    orbit: list[Swing] = Field(description="of a machine's shaft at every lump", default=[])
+    bodies: dict[str, Swing] = Field(description="bodies of a machine other than the shaft", default={})
+    markers: dict[str, Swing] = Field(description="named places of a machine", default={})
+    currents: Currents | None = Field(description="of a case with a circuit; null without one", default=None)
+    plugin_faults: list[str] = Field(description="observers and events that failed, and why", default=[])
+    warnings: list[str] = Field(description="where case or run left what bearings, oil and laws are made for")
+    energy_residual: float | None = Field(description="(input - dissipated - stored) over integral of |input power|")
+    iteration_residual: float | None = Field(
+        description="work of early ends of Newton's iteration, counted positive, over the same", default=None
+    )
+
+    simulated_s: float
+    wall_s: float = Field(description="wall time of the integration")
+    wall_per_simulated_second: float | None
+    vibrations: Followed | None = Field(description="how far vibrations can be believed")
+    solver_statistics: dict[str, float]
+    assumptions: list[str]
+
+    def __getattr__(self, name: str) -> Any:
+        if name in BearingSummary.model_fields:
+            each = self.__dict__.get("bearings", {})
+            if len(each) == 1:
+                return getattr(next(iter(each.values())), name)
+            raise AttributeError(f"{name} is of one bearing: summary.bearings[NAME].{name}, of {', '.join(each)}")
+        raise AttributeError(f"a summary has no {name}")
+
     def text(self, width: int | None = None, units: UnitSystem = SI) -> str:
         """Return the lines for people in some units, none longer than `width` where one is given."""
+        if self.orbit:
+            from lambda_core.results.machine_text import machine_text
+
+            return machine_text(self, width, units)
         from lambda_core.results.text import summary_text
 
         return summary_text(self, width, units)
 
 
-def summarise(result: Result, together: float = 0.0) -> Summary:
-    """Compute the summary of a result from its file; `together` is that of :func:`.convergence.shortfalls`."""
+def field_names() -> dict[str, str]:
+    """Return the names of all numbers of a summary, of the machine's first, and what they mean."""
+    every = BearingSummary.model_fields | Summary.model_fields
+    return {name: every[name].description or "" for name in (*Summary.model_fields, *every)}
+
+
+def summarise(result: Result) -> Summary:
+    """Compute the summary of a result from its file: of a machine, or of the bearing that the result looks at."""
     status = result.status()
     if not status.rows.samples or not status.rows.records:
         raise UsageError(f"{result.path} holds no samples yet")
-    integrals = result.integrals()
-    settings, last = settings_of(result), integrals[-1]
-    whole, chosen = Interval(integrals[0], last), window_of(result)
-    residual = whole.energy_residual()
-    reasons = _reasons(status.state, status.message, shortfalls(settings, chosen, residual, together))
-    extremes = _Span.of(result, float(chosen.interval.first[0]))
-    epicyclic = extremes.rolling
-    ratio = chosen.interval.ratio("cage_angle", "inner_angle")
-    end = _sample(result, -1)
-    edges = _edges(result)
-    carrying = end["load"] > CARRYING * end["load"].max()
+    of_machine = result.is_machine and (not result.bearing or len(result.bearing_names) == 1)
+    each = result.bearings if of_machine else {result.bearing: result}
+    # A bearing of a machine need not be known better than all of them together.
+    windows = [window_of(one) for one in result.bearings.values()]
+    together = torque_together(windows) if len(windows) > 1 else 0.0
+    bearings = {name: _of_bearing(one, status, together) for name, one in each.items()}
+    first = next(iter(each.values()))
+    alone = next(iter(bearings.values()))
+    integrals = first.integrals()
+    whole = Interval(integrals[0], integrals[-1])  # energy is balanced for the machine
     time = whole.change("time")
-    revolutions = whole.change("relative_angle") / (2.0 * math.pi)
+    known = list(bearings.values())
+    shortfalls = [*shortfalls_together(windows), *said_once({name: one.reasons for name, one in bearings.items()})]
+    reasons = _reasons(status.state, status.message, shortfalls if of_machine else alone.reasons)
+    start = max(float(window_of(one).interval.first[0]) for one in each.values())
     return Summary(
         case=result.case,
         title=result.title,
         headline=result.headline,
         file=str(result.path),
         state=status.state,
+        converged=not reasons,
+        reasons=reasons,
+        friction_torque_Nmm=total(one.friction_torque_Nmm for one in known),
+        friction_torque_ci_Nmm=total(one.friction_torque_ci_Nmm for one in known),
+        power_loss_W=total(one.power_loss_W for one in known),
+        bearings=bearings,
+        currents=currents_of(result, start),
+        plugin_faults=list(status.faults),
+        warnings=alone.warnings if not of_machine else machine_warnings(result, bearings),
+        energy_residual=finite(whole.energy_residual()),
+        iteration_residual=_iteration_residual(status.statistics, whole),
+        simulated_s=time,
+        wall_s=status.wall,
+        wall_per_simulated_second=finite(_quotient(status.wall, time)),
+        vibrations=followed(settings_of(first), status, time),
+        solver_statistics={name: count for name, count in status.statistics.items() if name not in _NO_COUNTS},
+        assumptions=list(result.whole().assumptions) if of_machine else alone.assumptions,
+        **(machine_numbers(result, bearings, start) if of_machine else {}),
+    )
+
+
+def _of_bearing(result: Result, status: Status, together: float) -> BearingSummary:
+    """Return the summary of one bearing; `together` is that of :func:`.convergence.shortfalls`."""
+    integrals = result.integrals()
+    settings, last = settings_of(result), integrals[-1]
+    whole, chosen = Interval(integrals[0], last), window_of(result)
+    reasons = shortfalls(settings, chosen, whole.energy_residual(), together)
+    start = float(chosen.interval.first[0])
+    extremes = _Span.of(result, start)
+    epicyclic = extremes.rolling
+    ratio = chosen.interval.ratio("cage_angle", "inner_angle")
+    end = _sample(result, -1)
+    edges = _edges(result)
+    carrying = end["load"] > CARRYING * end["load"].max()
+    revolutions = whole.change("relative_angle") / (2.0 * math.pi)
+    return BearingSummary(
+        title=result.title,
+        headline=result.headline,
         converged=not reasons,
         reasons=reasons,
         friction_torque_Nmm=finite(1e3 * chosen.interval.torque()),
@@ -168,7 +281,7 @@ def summarise(result: Result, together: float = 0.0) -> Summary:
         contacts=contact_list(end),
         inner_ring_displacement_um=[finite(1e6 * value) for value in chosen.interval.position()],
         inner_ring_tilt_mrad=[finite(1e3 * angle) for angle in extremes.tilt],
-        bent=bent_parts(result, float(chosen.interval.first[0])),
+        bent=bent_parts(result, start),
         max_pressure_GPa=finite(1e-9 * extremes.pressure),
         min_film_um=finite(1e6 * extremes.film),
         film_um=span(1e6 * end["film_central"][carrying]),
@@ -176,12 +289,11 @@ def summarise(result: Result, together: float = 0.0) -> Summary:
         contact_capacitance_pF=span(1e12 * end["capacitance"][carrying]),
         bearing_capacitance_nF=finite(1e9 * float(end["bearing_capacitance"])),
         capacitance_note=capacitance_note(end["load"], end["capacitance"]),
-        currents=currents_of(result, float(chosen.interval.first[0])),
-        observed=observed_numbers(result, float(chosen.interval.first[0])),
+        observed=observed_numbers(result, start),
         events=events_seen(result),
-        plugin_faults=list(status.faults),
         rating=result.rating,
         shoulders=edges,
+        **(reactions(result, start) if result.is_machine else {}),
         warnings=[
             *result.case_warnings,
             *tolerance_warning(settings.tolerance),
@@ -190,19 +302,12 @@ def summarise(result: Result, together: float = 0.0) -> Summary:
                 edges,
                 extremes.largest_tilt,
                 kind_of(result.model["geometry"]),
-                on_shaft=result.part_of is not None,
+                on_shaft=result.is_machine,
             ),
         ],
-        energy_residual=finite(residual),
-        iteration_residual=_iteration_residual(status.statistics, whole),
         revolutions_discarded=chosen.discarded,
         revolutions_averaged=chosen.revolutions,
-        simulated_s=time,
-        wall_s=status.wall,
-        wall_per_simulated_second=finite(_quotient(status.wall, time)),
         wall_per_revolution_s=finite(_quotient(status.wall, revolutions)),
-        vibrations=followed(settings, status, time),
-        solver_statistics={name: count for name, count in status.statistics.items() if name not in _NO_COUNTS},
         equilibrium=_equilibrium(result),
         assumptions=list(result.assumptions),
     )

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from lambda_core.results.limits import Shoulder
     from lambda_core.results.quasistatic import QuasiStatic, RingShape
     from lambda_core.results.rating import Rating
-    from lambda_core.results.summary import Summary
+    from lambda_core.results.summary import BearingSummary, Summary
 
 _PER_RING = ("sliding", "spin", "rolling", "hysteresis", "boundary", "damping")
 _REST = ("cage", "drag", "support")
@@ -64,8 +64,9 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
         *([line("", summary.capacitance_note)] if summary.capacitance_note else []),
         *_currents(summary.currents),
         *watched_lines(summary),
+        *(line("failed" if index == 0 else "", fault) for index, fault in enumerate(summary.plugin_faults)),
         line("shoulders", *(_margin(edge, units) for edge in summary.shoulders)),
-        line("energy residual", f"{_small(summary.energy_residual)} of input", _iteration(summary)),
+        line("energy residual", f"{small(summary.energy_residual)} of input", _iteration(summary)),
         *([line("vibrations", summary.vibrations.sentence())] if summary.vibrations else []),
         line("wall time", *_wall(summary)),
         *assumption_lines(summary.assumptions, summary.file),
@@ -78,7 +79,7 @@ def summary_text(summary: Summary, width: int | None = None, units: UnitSystem =
 def _iteration(summary: Summary) -> str:
     """Return what early ends of Newton's iteration put in or took, where it is known."""
     found = summary.iteration_residual
-    return "" if found is None else f"ends of iterations {_small(found)}"
+    return "" if found is None else f"ends of iterations {small(found)}"
 
 
 def _currents(found: Currents | None) -> list[str]:
@@ -96,8 +97,8 @@ def _currents(found: Currents | None) -> list[str]:
     return lines
 
 
-def watched_lines(summary: Summary) -> list[str]:
-    """Return the numbers of observers, the events, and which of them failed."""
+def watched_lines(summary: Summary | BearingSummary) -> list[str]:
+    """Return the numbers of observers, and the events."""
     lines = [
         line("observed" if index == 0 else "", f"{each.observer} {each.name} {_four(each.value)} {each.unit}".rstrip())
         for index, each in enumerate(summary.observed)
@@ -105,7 +106,7 @@ def watched_lines(summary: Summary) -> list[str]:
     for index, event in enumerate(summary.events):
         said = "did not happen" if not event.count else f"began {event.count} times, first at {_four(event.first_s)} s"
         lines.append(line("events" if index == 0 else "", f"{event.event} {said}"))
-    return lines + [line("failed" if index == 0 else "", fault) for index, fault in enumerate(summary.plugin_faults)]
+    return lines
 
 
 def _four(value: float | None) -> str:
@@ -225,7 +226,8 @@ def assumption_lines(assumptions: Sequence[str], file: str = "") -> list[str]:
     return [line("assumed", f"{len(assumptions)} thing{'s' * (len(assumptions) != 1)}: {where}")]
 
 
-def _small(value: float | None) -> str:
+def small(value: float | None) -> str:
+    """Write a small number."""
     return NONE if value is None else f"{value:.1e}"
 
 

@@ -8,14 +8,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import h5py
 import numpy as np
 from numpy.typing import NDArray
 
 from lambda_core.domain.arrays import FloatArray
-from lambda_core.domain.channels import Channel
 from lambda_core.domain.errors import PartialResultError, UsageError
 from lambda_core.domain.files import check_target, taken
 from lambda_core.results import file_format as layout
@@ -27,7 +25,9 @@ from lambda_core.results.event_rows import EVENTS_GROUP
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.row_sums import RowSums, sums_of
 from lambda_core.results.run_status import Rows, Status
+from lambda_core.results.samples import TIME, RunChannels, Samples
 
+_SAMPLES, _MACHINE, _CIRCUIT, _DISCHARGES = "", layout.MACHINE, CIRCUIT_GROUP, DISCHARGES_GROUP  # places in the file
 # Bytes of chunks kept in memory per dataset: rows are only added at the end, HDF5's own 8 MiB would fill up in vain.
 _CACHE = 2**17
 
@@ -49,39 +49,38 @@ class ResultWriter:
     there are, in this order, so that whatever the status counts is whole.
     """
 
-    def __init__(self, file: h5py.File, path: Path, channels: Sequence[Channel], status: Status) -> None:
+    def __init__(self, file: h5py.File, path: Path, status: Status) -> None:
         self.path, self.closed = path, False
         self._file = file
         self._identity = _identity(Path(file.filename))
-        self._channels = tuple(channels)
         self._status = status
         self._written = status.rows
+        self._bearings = layout.bearing_names(file)
+        groups = {_SAMPLES: "/", _MACHINE: layout.MACHINE, _CIRCUIT: CIRCUIT_GROUP, _DISCHARGES: DISCHARGES_GROUP}
+        own = ("", layout.INTEGRALS_GROUP, layout.REVOLUTIONS_GROUP, EVENTS_GROUP)
+        paths = [f"{layout.BEARINGS}/{name}/{group}".rstrip("/") for name in self._bearings for group in own]
+        groups |= {path: path for path in paths}
         self._growing = {
-            kind: {name: item for name, item in file[group].items() if layout.grows(item)}
-            for kind, group in (
-                ("samples", "/"),
-                ("records", layout.INTEGRALS_GROUP),
-                ("revolutions", layout.REVOLUTIONS_GROUP),
-                ("circuit", CIRCUIT_GROUP),
-                ("discharges", DISCHARGES_GROUP),
-                ("events", EVENTS_GROUP),
-            )
+            key: {name: item for name, item in file[group].items() if layout.grows(item)}
+            for key, group in groups.items()
             if group in file
         }
+        self._growing[_SAMPLES] = {TIME: file[TIME]}  # the only bearing's channels are linked there, too
         # What one more chunk of everything that grows together takes on disk.
-        self._chunk = {kind: sum(map(layout.chunk_bytes, items.values())) for kind, items in self._growing.items()}
-        self._samples: list[Mapping[str, NDArray[np.float64]]] = []
-        self._records: list[FloatArray] = []
-        self._revolutions: list[FloatArray] = []
+        self._chunk = {key: sum(map(layout.chunk_bytes, items.values())) for key, items in self._growing.items()}
+        self._samples: list[Samples] = []
+        self._records: list[Mapping[str, FloatArray]] = []
+        self._revolutions: dict[str, list[FloatArray]] = {name: [] for name in self._bearings}
         self._sums = RowSums()
-        self._tables: dict[str, list[Mapping[str, FloatArray]]] = {"circuit": [], "discharges": [], "events": []}
+        tables = (_CIRCUIT, _DISCHARGES, *(self._place(name, EVENTS_GROUP) for name in self._bearings))
+        self._tables: dict[str, list[Mapping[str, FloatArray]]] = {key: [] for key in tables}
         with self._guard():
             file.swmr_mode = True
         self._put_status(status)
 
     @classmethod
     def create(
-        cls, path: Path, provenance: Provenance, channels: Sequence[Channel], status: Status, *, force: bool = False
+        cls, path: Path, provenance: Provenance, channels: RunChannels, status: Status, *, force: bool = False
     ) -> ResultWriter:
         """Create a result with everything but samples in it.
 
@@ -96,7 +95,7 @@ class ResultWriter:
                 hdf5.reserve(file, 0)
                 layout.create(file, provenance, channels)
             # Under its name only when SWMR is on: from its first moment it can be read, whatever happens.
-            writer = cls(h5py.File(made, "r+", libver="latest", rdcc_nbytes=_CACHE), path, channels, status)
+            writer = cls(h5py.File(made, "r+", libver="latest", rdcc_nbytes=_CACHE), path, status)
             _publish(made, path, force)
             return writer
         except (OSError, RuntimeError) as error:
@@ -104,45 +103,48 @@ class ResultWriter:
             raise UsageError(f"cannot write {path}: {hdf5.reason(error)}") from None
 
     @classmethod
-    def continued(cls, path: Path, channels: Sequence[Channel], status: Status) -> ResultWriter:
-        """Go on writing a result, from the rows that `status` counts; what came after them is dropped.
+    def continued(cls, path: Path, status: Status, kept: Rows) -> ResultWriter:
+        """Go on writing a result behind the rows that `status` counts.
 
-        The file is copied first: one whose writer was killed can be read, not written.
+        The file is copied first: one whose writer was killed can be read, not written. `kept` are the rows that come
+        along, those that the checksums of the checkpoint stand for; what came after them is dropped. Rows behind those
+        of `status` are written over.
         """
-        made = hdf5.copy(path, status.rows, compress=False)
+        made = hdf5.copy(path, kept, compress=False)
         file = h5py.File(made, "r+", libver="latest", rdcc_nbytes=_CACHE)
         sums = sums_of(file, status.rows)
-        writer = cls(file, path, channels, status)
+        writer = cls(file, path, status)
         writer._sums = sums
         os.replace(made, path)
         return writer
 
-    def add_samples(self, samples: Mapping[str, NDArray[np.float64]]) -> None:
-        """Take samples, channel -> array."""
-        if len(samples["time"]):
+    def add_samples(self, samples: Samples) -> None:
+        """Take samples."""
+        if len(samples.time):
             self._samples.append(samples)
 
-    def add_record(self, record: FloatArray, revolutions: Sequence[FloatArray]) -> None:
-        """Take running integrals, and those at the cage revolutions that were completed since the last."""
+    def add_record(self, record: Mapping[str, FloatArray], revolutions: Mapping[str, Sequence[FloatArray]]) -> None:
+        """Take running integrals by bearing, and those at the cage revolutions that were completed since the last."""
         self._records.append(record)
-        self._revolutions.extend(revolutions)
+        for name, rows in revolutions.items():
+            self._revolutions[name].extend(rows)
 
     def add_circuit(self, rows: CircuitRows) -> None:
         """Take what the electric circuit did."""
-        for kind, table in (("circuit", rows.circuit), ("discharges", rows.discharges)):
-            self._add_table(kind, table)
+        for key, table in ((_CIRCUIT, rows.circuit), (_DISCHARGES, rows.discharges)):
+            self._add_table(key, table)
 
-    def add_events(self, rows: Mapping[str, FloatArray]) -> None:
+    def add_events(self, bearing: str, rows: Mapping[str, FloatArray]) -> None:
         """Take the events that began, columns of event_rows.EVENTS."""
-        self._add_table("events", rows)
+        self._add_table(self._place(bearing, EVENTS_GROUP), rows)
 
-    def _add_table(self, kind: str, table: Mapping[str, FloatArray]) -> None:
+    def _add_table(self, key: str, table: Mapping[str, FloatArray]) -> None:
         if len(table["time"]):
-            self._tables[kind].append(table)
+            self._tables[key].append(table)
 
     def pending(self) -> int:
         """Return how many samples wait in memory."""
-        return sum(len(samples["time"]) for samples in self._samples)
+        return sum(len(samples.time) for samples in self._samples)
 
     def written(self) -> Rows:
         """Return what was flushed."""
@@ -202,41 +204,65 @@ class ResultWriter:
         if not self._samples:
             return
         start = self._written.samples
-        count = self.pending()
-        for channel in self._channels:
-            values = np.concatenate([samples[channel.name] for samples in self._samples])
-            self._append(self._growing["samples"][channel.name], start, values)
-        self._written = replace(self._written, samples=start + count)
+        stretches = self._samples
+        self._append(_SAMPLES, TIME, start, np.concatenate([one.time for one in stretches]))
+        for name in self._growing.get(_MACHINE, {}):
+            self._append(_MACHINE, name, start, np.concatenate([one.machine[name] for one in stretches]))
+        for bearing in self._bearings:
+            place = self._place(bearing)
+            for name in self._growing[place]:
+                self._append(place, name, start, np.concatenate([one.bearings[bearing][name] for one in stretches]))
+        self._written = replace(self._written, samples=start + self.pending())
         self._samples.clear()
 
     def _append_records(self) -> None:
-        for kind, rows in (("records", self._records), ("revolutions", self._revolutions)):
+        if self._records:
+            start = self._written.records
+            for bearing in self._bearings:
+                table = np.stack([record[bearing] for record in self._records])
+                self._append_integrals(self._place(bearing, layout.INTEGRALS_GROUP), start, table)
+            self._written = replace(self._written, records=start + len(self._records))
+            self._records.clear()
+        for bearing, rows in self._revolutions.items():
             if not rows:
                 continue
-            group = self._growing[kind]
-            table = np.stack(rows)
-            start = getattr(self._written, kind)
-            for channel in INTEGRALS:
-                data = group[channel.name]
-                self._append(data, start, table[:, spans()[channel.name]].reshape(-1, *data.shape[1:]))
-            if kind == "revolutions":
-                self._append(group["revolution"], start, np.arange(start, start + len(rows), dtype=np.float64))
-            self._written = replace(self._written, **{kind: start + len(rows)})
+            place, start = self._place(bearing, layout.REVOLUTIONS_GROUP), self._written.revolutions.get(bearing, 0)
+            self._append_integrals(place, start, np.stack(rows))
+            self._append(place, "revolution", start, np.arange(start, start + len(rows), dtype=np.float64))
+            counts = {**self._written.revolutions, bearing: start + len(rows)}
+            self._written = replace(self._written, revolutions=counts)
             rows.clear()
 
+    def _append_integrals(self, place: str, start: int, table: FloatArray) -> None:
+        for channel in INTEGRALS:
+            self._append(place, channel.name, start, table[:, spans()[channel.name]])
+
     def _append_tables(self) -> None:
-        for kind, tables in self._tables.items():
-            start = getattr(self._written, kind)
+        for key, tables in self._tables.items():
+            if not tables:
+                continue
+            start = layout.rows_of(f"{key}/time", self._written)
             count = sum(len(table["time"]) for table in tables)
-            for name, data in self._growing[kind].items() if tables else ():
-                self._append(data, start, np.concatenate([table[name] for table in tables]))
-            self._written = replace(self._written, **{kind: start + count})
+            for name in self._growing[key]:
+                self._append(key, name, start, np.concatenate([table[name] for table in tables]))
+            if key == _CIRCUIT:
+                self._written = replace(self._written, circuit=start + count)
+            elif key == _DISCHARGES:
+                self._written = replace(self._written, discharges=start + count)
+            else:
+                bearing = key.split("/")[1]
+                self._written = replace(self._written, events={**self._written.events, bearing: start + count})
             tables.clear()
 
-    def _append(self, data: Any, start: int, values: NDArray[np.float64]) -> None:
+    def _append(self, place: str, name: str, start: int, values: NDArray[np.float64]) -> None:
+        data = self._growing[place][name]
         data.resize(start + len(values), axis=0)
         data[start:] = values.reshape(len(values), *data.shape[1:])
-        self._sums.add(data.name, values)
+        self._sums.add(f"{place}/{name}".lstrip("/"), values)
+
+    def _place(self, bearing: str, group: str = "") -> str:
+        """Return where a bearing's rows stand in the file."""
+        return f"{layout.BEARINGS}/{bearing}/{group}".rstrip("/")
 
     def _put_status(self, status: Status) -> None:
         with self._guard():
@@ -246,13 +272,17 @@ class ResultWriter:
 
     def _growth(self) -> int:
         """Return the bytes of the chunks that the waiting rows will open."""
-        waiting = {"samples": self.pending(), "records": len(self._records), "revolutions": len(self._revolutions)}
-        waiting |= {kind: sum(len(table["time"]) for table in tables) for kind, tables in self._tables.items()}
+        samples, records = self.pending(), len(self._records)
+        waiting = {_SAMPLES: samples, _MACHINE: samples}
+        for bearing, rows in self._revolutions.items():
+            waiting |= {self._place(bearing): samples, self._place(bearing, layout.INTEGRALS_GROUP): records}
+            waiting[self._place(bearing, layout.REVOLUTIONS_GROUP)] = len(rows)
+        waiting |= {key: sum(len(table["time"]) for table in tables) for key, tables in self._tables.items()}
         total = 0
-        for kind, count in waiting.items():
-            start = getattr(self._written, kind)
+        for key, count in waiting.items():
+            start = layout.rows_of(f"{key}/{TIME}", self._written)
             opened = math.ceil((start + count) / layout.ROWS) - math.ceil(start / layout.ROWS)
-            total += opened * self._chunk.get(kind, 0)
+            total += opened * self._chunk.get(key, 0)
         return total
 
     def _reserve(self, growth: int) -> None:

@@ -25,13 +25,15 @@ if TYPE_CHECKING:
     from lambda_core.views.method import Method
 
 
-def result(path: str | PathLike[str]) -> Result:
+def result(path: str | PathLike[str], bearing: str | None = None) -> Result:
     """Open a result file: finished, still growing, or left behind by a killed process.
 
     Parameters
     ----------
     path : path-like
-        The file.
+        The file, or a result.
+    bearing : str, optional
+        Look at this bearing of a machine; default: at the only one, or at the machine.
 
     Returns
     -------
@@ -45,7 +47,9 @@ def result(path: str | PathLike[str]) -> Result:
     """
     from lambda_core.results.reader import Result
 
-    return Result(path)
+    if isinstance(path, Result):
+        return path if bearing is None else path.of_bearing(bearing)
+    return Result(path, bearing)
 
 
 def side_by_side(paths: Sequence[str | PathLike[str]]) -> SideBySide:
@@ -170,7 +174,7 @@ def compare(
         return _compare_in_machine(source, overrides, bearing, chosen, contamination, announce)
     refuse_bearing(bearing)
     model = ready_model(source, overrides, announce, is_static=True)  # type: ignore[arg-type]
-    simulated = None if result is None else Result(result)
+    simulated = result if result is None or isinstance(result, Result) else Result(result)
     return comparison_of(model, ask(model, chosen, contamination=contamination, announce=announce), simulated)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,29 +11,43 @@ from typing import TYPE_CHECKING, Any
 from lambda_core.discovery.manager import registry
 from lambda_core.domain.errors import UsageError
 from lambda_core.domain.files import check_folder, check_new, check_target
+from lambda_core.domain.units import show
 from lambda_core.laws.kernels import sources_key
 from lambda_core.laws.pack import NATIVE, code, other_code
 from lambda_core.results.opening import ResultError
-from lambda_core.results.provenance import Provenance, differences, model_data
+from lambda_core.results.provenance import (
+    BearingOrigin,
+    MachineOrigin,
+    Provenance,
+    differences,
+    machine_data,
+    model_data,
+)
 from lambda_core.results.quasistatic import QuasiStatic, quasistatic_of
 from lambda_core.results.reader import Result
 from lambda_core.run.engineering import rating_of
-from lambda_core.run.law_blame import BlamingBearingEngine, naming_laws
+from lambda_core.run.law_blame import BlamingBearingEngine, BlamingMachineEngine, naming_laws
 from lambda_core.run.loop import resume, run
 from lambda_core.run.progress import Report
-from lambda_core.run.watch import Watch
+from lambda_core.run.run_engine import OneBearing, RunEngine, SeveralBearings
+from lambda_core.run.session import Attachments
+from lambda_core.shaft.bearing_alone import alone_under_load
+from lambda_core.shaft.machine_motion import machine_start
 from lambda_core.solver.code_files import physics_sources
 from lambda_core.solver.drivers.equilibrium import solve
 from lambda_core.system.bearing import BearingModel
+from lambda_core.system.describe import headline
+from lambda_core.system.machine import Machine
+from lambda_core.system.resolve_solver import MOST_TIME
 
 if TYPE_CHECKING:
     from lambda_core.electric.live import Live
-
 Announce = Callable[[str], None]
+Runnable = BearingModel | Machine
 
 
 def launch(
-    model: BearingModel,
+    model: Runnable,
     out: Path | None = None,
     *,
     force: bool = False,
@@ -51,15 +67,12 @@ def launch(
         Called with the progress of the run; with a sentence before what takes a while.
     """
     path = destination(model, out, force)
-    live = _live(model, announce)
-    watch = Watch(model)
-    engine, provenance = _engine(model, announce, live, watch)
-    return run(engine, provenance, path, force=force, report=report, live=live, watch=watch)
+    _check_end(model)
+    engine, provenance, attached = _prepared(model, announce)
+    return run(engine, provenance, path, force=force, report=report, attached=attached)
 
 
-def relaunch(
-    path: Path, model: BearingModel, *, report: Report | None = None, announce: Announce | None = None
-) -> Result:
+def relaunch(path: Path, model: Runnable, *, report: Report | None = None, announce: Announce | None = None) -> Result:
     """Go on with the run in `path`, whose case resolves to `model` today.
 
     Raises
@@ -68,28 +81,57 @@ def relaunch(
         When the catalogue, the models or the code have changed, so that it would not be the same run.
     """
     result = Result(path)
-    changed = differences(result.model, model_data(model))
+    _check_end(model)
+    _check_same(result, model)
+    keys = {name: own.kernel_keys for name, own in result.bearings.items()}
+    for known in keys.values():
+        if why := other_code(known.get("code", NATIVE)):
+            raise ResultError(f"{path} cannot go on: {why}")
+    engine, provenance, attached = _prepared(model, announce)
+    for name, origin in provenance.bearings.items():
+        other = sorted(part for part, key in origin.kernel_keys.items() if keys[name].get(part) != key)
+        if other:
+            raise ResultError(f"{path} cannot go on: the code has changed since: {_some(other)}")
+    return resume(engine, provenance, path, report=report, attached=attached)
+
+
+def _check_same(result: Result, model: Runnable) -> None:
+    """Refuse a case that resolves to other values than those of the run."""
+    models = {one.name: one.model for one in model.bearings} if isinstance(model, Machine) else {}
+    if isinstance(model, BearingModel):
+        models = dict.fromkeys(result.bearing_names[:1], model)
+    if tuple(models) != result.bearing_names:
+        raise ResultError(f"{result.path} is damaged: its case has other bearings than the result")
+    for name, own in result.bearings.items():
+        changed = differences(own.model, model_data(models[name]))
+        if changed:
+            moved = _moved(models[name], own.model)
+            of = f"{name}: " if result.is_machine else ""
+            why = (
+                f"its laws have changed: {_some(moved)}"
+                if moved
+                else f"the case now resolves to other values: {of}{_some(changed)}"
+            )
+            raise ResultError(f"{result.path} cannot go on: {why}")
+    changed = differences(result.machine, machine_data(model)) if isinstance(model, Machine) else []
     if changed:
-        moved = _moved(model, result.model)
-        why = (
-            f"its laws have changed: {_some(moved)}"
-            if moved
-            else f"the case now resolves to other values: {_some(changed)}"
-        )
-        raise ResultError(f"{path} cannot go on: {why}")
-    keys = result.kernel_keys
-    if why := other_code(keys.get("code", NATIVE)):
-        raise ResultError(f"{path} cannot go on: {why}")
-    live = _live(model, announce)
-    watch = Watch(model)
-    engine, provenance = _engine(model, announce, live, watch)
-    other = sorted(name for name, key in provenance.kernel_keys.items() if keys.get(name) != key)
-    if other:
-        raise ResultError(f"{path} cannot go on: the code has changed since: {_some(other)}")
-    return resume(engine, provenance, path, report=report, live=live, watch=watch)
+        raise ResultError(f"{result.path} cannot go on: the case now resolves to other values: {_some(changed)}")
 
 
-def destination(model: BearingModel, out: Path | None, force: bool) -> Path:
+def _check_end(model: Runnable) -> None:
+    """Refuse a run of a machine that has no end, or none that is reached."""
+    if not isinstance(model, Machine):
+        return
+    asked = model.solver.duration
+    end = asked or max(bearing.model.solver.max_duration for bearing in model.bearings)
+    if not end:
+        raise UsageError("where nothing turns a run needs a duration: --duration, or solver.duration in the file")
+    if end > MOST_TIME:
+        slow = "" if asked else ", 30 turns of a cage; give --duration"
+        raise UsageError(f"a duration of {show(end, 'time', 3)}{slow}: at most {show(MOST_TIME, 'time')} are simulated")
+
+
+def destination(model: Runnable, out: Path | None, force: bool) -> Path:
     """Return where the result goes; UsageError where that cannot be."""
     if out is None:
         path, number = Path(f"{model.name}.h5"), 1
@@ -105,29 +147,65 @@ def destination(model: BearingModel, out: Path | None, force: bool) -> Path:
     return path
 
 
-def _live(model: BearingModel, announce: Announce | None) -> Live | None:
-    """Return the electric circuit of the run, where the case has one."""
-    if model.electric is None:
-        return None
-    from lambda_core.electric.live import Live
+def _prepared(model: Runnable, announce: Announce | None) -> tuple[RunEngine, Provenance, Attachments]:
+    """Return the engine at t = 0, where it comes from, and what is computed from its samples."""
+    found = _machine(model, announce) if isinstance(model, Machine) else _one(model, announce)
+    engine, provenance, live = found
+    attached = Attachments.of(provenance, live)
+    shared = {"core": sources_key(*physics_sources()), "code": code(), **(live.keys() if live is not None else {})}
+    origins = {
+        name: dataclasses.replace(origin, kernel_keys={**origin.kernel_keys, **attached.watches[name].keys(), **shared})
+        for name, origin in provenance.bearings.items()
+    }
+    return engine, dataclasses.replace(provenance, bearings=origins), attached
 
-    return Live(model, announce)
 
+def _one(model: BearingModel, announce: Announce | None) -> tuple[RunEngine, Provenance, Live | None]:
+    """Prepare the run of one bearing alone."""
+    live = None
+    if model.electric is not None:
+        from lambda_core.electric.live import Live
 
-def _engine(
-    model: BearingModel, announce: Announce | None, live: Live | None, watch: Watch
-) -> tuple[BlamingBearingEngine, Provenance]:
+        live = Live(model, announce)
     with naming_laws(model):
         start = solve(model, announce=announce)
     if announce is not None:
         announce(_start_line(quasistatic_of(start)))
     engine = BlamingBearingEngine(model, announce, start)
-    core = sources_key(*physics_sources())
     rating = rating_of(start, registry().methods)
-    keys = live.keys() if live is not None else {}
-    return engine, Provenance(
-        model, {**engine.kernel_keys, **keys, **watch.keys(), "core": core, "code": code()}, rating
+    return OneBearing(engine), Provenance.alone(model, engine.kernel_keys, rating), live
+
+
+def _machine(model: Machine, announce: Announce | None) -> tuple[RunEngine, Provenance, Live | None]:
+    """Prepare the run of a machine."""
+    with naming_laws(*(one.model for one in model.bearings)):
+        engine = BlamingMachineEngine(machine_start(model, announce), announce)
+    start = engine.start
+    if announce is not None:
+        announce(
+            f"equilibrium of {len(engine.bearings)} bearings and {start.shaft.positions.size} lumps of the shaft: "
+            f"{engine.states} states"
+        )
+    bearings, methods = {}, registry().methods
+    for i, one in enumerate(model.bearings):
+        rating = rating_of(start.equilibria[i], methods)
+        keys = engine.bearings[i].context.kernels.keys()
+        lines = headline(alone_under_load(model, start.state, i))
+        bearings[one.name] = BearingOrigin(one.model, keys, rating, "\n".join(lines))
+    names = " + ".join(one.model.title.split(" (")[0] for one in model.bearings)
+    title = f"{model.name}: {names}"
+    origin = MachineOrigin(
+        headline=f"{title}\n{30.0 / math.pi * model.speed:.5g} 1/min   {model.body.total_mass:.4g} kg on the shaft",
+        model=machine_data(model),
+        numbers={"drive_torque": start.drive_torque},
+        labels={"lump": start.shaft.positions, **{_DIMS[what]: names for what, names in model.names.items()}},
+        assumptions=model.assumptions,
+        warnings=model.warnings,
     )
+    return SeveralBearings(engine), Provenance(model.name, title, model.case_toml, bearings, origin), None
+
+
+_DIMS = {"bearings": "bearing", "bodies": "body", "markers": "marker"}  # lists of names, and their dimensions
 
 
 def _start_line(start: QuasiStatic) -> str:

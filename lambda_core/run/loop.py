@@ -8,16 +8,14 @@ file is flushed, so a resumed run writes what an uninterrupted one would have wr
 from __future__ import annotations
 
 import glob
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.errors import UsageError
 from lambda_core.results import hdf5
-from lambda_core.results.averages import row
 from lambda_core.results.checkpoint import Position
-from lambda_core.results.convergence import is_converged
+from lambda_core.results.convergence import are_converged_by
 from lambda_core.results.opening import BeingWrittenError
 from lambda_core.results.provenance import Provenance
 from lambda_core.results.reader import Result
@@ -25,13 +23,9 @@ from lambda_core.results.row_sums import check_rows
 from lambda_core.results.run_status import Rows, Status, this_process
 from lambda_core.results.writer import ResultWriter
 from lambda_core.run.progress import Report
-from lambda_core.run.session import Beside, Session
-from lambda_core.run.watch import Watch
-from lambda_core.solver.drivers.engine import Engine
-from lambda_core.system.bearing import Solver
-
-if TYPE_CHECKING:
-    from lambda_core.electric.live import Live
+from lambda_core.run.run_engine import RunEngine
+from lambda_core.run.session import Attachments, Known, Last, Session, records_of
+from lambda_core.system.bearing import BearingModel
 
 
 class NothingLeftError(UsageError):
@@ -39,31 +33,28 @@ class NothingLeftError(UsageError):
 
 
 def run(
-    engine: Engine,
+    engine: RunEngine,
     provenance: Provenance,
     path: Path,
     *,
     force: bool = False,
     report: Report | None = None,
-    live: Live | None = None,
-    watch: Watch | None = None,
+    attached: Attachments | None = None,
 ) -> Result:
     """Simulate from the start until the end, into a new result file.
 
     Parameters
     ----------
-    engine : Engine
+    engine : RunEngine
         At t = 0.
     provenance : Provenance
-        The model and the keys of the code that `engine` runs.
+        The models and the keys of the code that `engine` runs.
     path : pathlib.Path
         Where the result goes; must not exist unless `force` is set.
     report : callable, optional
         Called with a :class:`Progress` some ten times a second.
-    live : Live, optional
-        The electric circuit of the run.
-    watch : Watch, optional
-        Observers and events.
+    attached : Attachments, optional
+        The electric circuit, observers and events of the run.
 
     Returns
     -------
@@ -77,32 +68,33 @@ def run(
     PartialResultError
         When the disk takes no more; the file keeps what there is.
     """
-    beside = Beside(live, watch or Watch(provenance.model))
-    channels = (*engine.channels, *beside.watch.channels)
+    attached = attached or Attachments.of(provenance, None)
+    channels = attached.channels(engine)
     writer = ResultWriter.create(path, provenance, channels, Status(process=this_process()), force=force)
-    return _begin(engine, provenance, writer, report, beside)
+    return _begin(engine, provenance, writer, report, attached)
 
 
 def _begin(
-    engine: Engine, provenance: Provenance, writer: ResultWriter, report: Report | None, beside: Beside
+    engine: RunEngine, provenance: Provenance, writer: ResultWriter, report: Report | None, attached: Attachments
 ) -> Result:
-    start = row(engine.time, engine.integrals())
-    writer.add_record(start, [start])
-    return Session(engine, provenance.model, writer, [start], start, Position(0, Rows(), 0.0), report, beside).drive()
+    start = records_of(engine)
+    known = {name: [row] for name, row in start.items()}
+    writer.add_record(start, known)
+    position = Position(0, Rows(), 0.0)
+    return Session(engine, _models(provenance), writer, known, start, position, report, attached).drive()
 
 
 def resume(
-    engine: Engine,
+    engine: RunEngine,
     provenance: Provenance,
     path: Path,
     *,
     report: Report | None = None,
-    live: Live | None = None,
-    watch: Watch | None = None,
+    attached: Attachments | None = None,
 ) -> Result:
     """Continue a run that was killed, stopped or finished, from its last checkpoint.
 
-    Parameters and errors as for :func:`run`; `engine` is new and its model's `solver` says
+    Parameters and errors as for :func:`run`; `engine` is new and its models' `solver` says
     when to end.
 
     Raises
@@ -120,29 +112,37 @@ def resume(
         raise BeingWrittenError(path, status.process["pid"])
     hdf5.sweep(path.absolute().parent, glob.escape(path.name))
     checkpoint = result.checkpoint()
-    beside = Beside(live, watch or Watch(provenance.model))
-    channels = (*engine.channels, *beside.watch.channels)
+    attached = attached or Attachments.of(provenance, None)
     if checkpoint is None:  # killed before the first one: the beginning is as good
-        writer = ResultWriter.continued(path, channels, Status(process=this_process()))
-        return _begin(engine, provenance, writer, report, beside)
+        writer = ResultWriter.continued(path, Status(process=this_process()), Rows())
+        return _begin(engine, provenance, writer, report, attached)
     position = checkpoint.position
     check_rows(path, position)
     engine.restore(checkpoint.state)
-    records = result.integrals()[: position.rows.records]
-    start, known = records[-1], list(result.revolutions()[: position.rows.revolutions])
-    if status.state == "finished" and not _left_to_do(provenance.model.solver, engine.time, known, start):
+    records, known = {}, {}
+    for name, own in result.bearings.items():
+        records[name] = own.integrals()[: position.rows.records]
+        known[name] = list(own.revolutions()[: position.rows.revolutions.get(name, 0)])
+    last = {name: rows[-1] for name, rows in records.items()}
+    if status.state == "finished" and not _left_to_do(_models(provenance), engine.time, known, last):
         raise NothingLeftError(f"{path} is finished: nothing is left to do; a longer --duration continues it")
     status = replace(status, state="running", message="", rows=position.rows, process=this_process())
-    beside.catch_up(result, position.rows)
-    writer = ResultWriter.continued(path, channels, status)
-    session = Session(engine, provenance.model, writer, known, start, position, report, beside)
+    attached.catch_up(result, position.rows)
+    writer = ResultWriter.continued(path, status, position.summed)
+    session = Session(engine, _models(provenance), writer, known, last, position, report, attached)
     # Convergence is looked at where a revolution ends: a run that was killed right behind that has nothing left to do.
-    if len(records) > 1 and known[-1][0] > records[-2][0]:
+    if any(len(rows) > 1 and known[name][-1][0] > rows[-2][0] for name, rows in records.items()):
         session.judge()
     return session.drive()
 
 
-def _left_to_do(solver: Solver, now: float, known: list[FloatArray], last: FloatArray) -> bool:
-    if solver.duration > 0.0:
-        return now < solver.duration
-    return now < solver.max_duration and not is_converged(solver, known, last)
+def _models(provenance: Provenance) -> dict[str, BearingModel]:
+    return {name: origin.model for name, origin in provenance.bearings.items()}
+
+
+def _left_to_do(models: Mapping[str, BearingModel], now: float, known: Known, last: Last) -> bool:
+    solvers = [model.solver for model in models.values()]
+    if solvers[0].duration > 0.0:
+        return now < solvers[0].duration
+    end = max(solver.max_duration for solver in solvers)
+    return now < end and not are_converged_by(solvers, list(known.values()), list(last.values()))

@@ -6,28 +6,33 @@ The grid depends on the case alone.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
-from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION, Engine
+from lambda_core.run.run_engine import RunEngine
+from lambda_core.solver.drivers.engine import SAMPLES_PER_REVOLUTION
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.time_functions import peak
 
 RECORDS_PER_REVOLUTION = 40
 
 
-def record_interval(engine: Engine, model: BearingModel) -> float:
+def record_interval(engine: RunEngine, models: Sequence[BearingModel]) -> float:
     """Return the simulated time between records [s]: 1/40 of a nominal cage revolution.
 
     The engine's default of SAMPLES_PER_REVOLUTION says how long that is; with an
-    interval of one's own, the inner ring's planned speed and D_w/d_m do.
+    interval of one's own, the inner ring's planned speed and D_w/d_m do, of the bearing whose cage turns fastest.
     """
-    if model.output.interval == 0.0:
+    if not any(model.output.interval for model in models):
         return engine.sample_interval * SAMPLES_PER_REVOLUTION / RECORDS_PER_REVOLUTION
-    speed = peak(model.inner_ring.dofs["spin"].motion)
-    if speed == 0.0:
-        return engine.sample_interval
-    geometry = model.geometry
-    cage = 0.5 * (1.0 - geometry.ball_diameter / geometry.pitch_diameter) * speed
-    return 2.0 * math.pi / cage / RECORDS_PER_REVOLUTION
+    found = []
+    for model in models:
+        speed = peak(model.inner_ring.dofs["spin"].motion)
+        if speed == 0.0:
+            return engine.sample_interval
+        geometry = model.geometry
+        cage = 0.5 * (1.0 - geometry.ball_diameter / geometry.pitch_diameter) * speed
+        found.append(2.0 * math.pi / cage / RECORDS_PER_REVOLUTION)
+    return min(found)
 
 
 def next_multiple(now: float, interval: float) -> float:

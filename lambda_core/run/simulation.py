@@ -110,7 +110,7 @@ def estimate(
 
 @one_blas_thread()
 def run(
-    source: str | Path | Mapping[str, Any] | Case | BearingModel,
+    source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine,
     overrides: Iterable[str] = (),
     *,
     out: str | Path | None = None,
@@ -118,7 +118,7 @@ def run(
     progress: Callable[[Progress], None] | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Result:
-    """Simulate a case into a result file.
+    """Simulate a case of one bearing or of a machine into a result file.
 
     Parameters
     ----------
@@ -146,7 +146,14 @@ def run(
     from lambda_core.run.launch import launch
 
     path = None if out is None else Path(out)
-    return launch(ready_model(source, overrides, announce), path, force=force, report=progress, announce=announce)
+    model: BearingModel | Machine
+    if is_machine(source):
+        from lambda_core.shaft.machine_answers import machine_of
+
+        model = machine_of(source, overrides)  # type: ignore[arg-type]
+    else:
+        model = ready_model(source, overrides, announce)  # type: ignore[arg-type]
+    return launch(model, path, force=force, report=progress, announce=announce)
 
 
 @one_blas_thread()
@@ -226,15 +233,13 @@ def resume(
     UsageError
         When the file is no result, nothing is left to do, or the case or the code has changed.
     """
-    from lambda_core.case.case_io import apply_overrides, parse_case
     from lambda_core.domain.errors import CaseError, Problem
     from lambda_core.domain.installed import OWN, project_of
     from lambda_core.run.launch import relaunch
 
     found = result(path)
-    case = parse_case(found.case_toml, str(path)).with_(solver={"max_wall": None})
     try:
-        model = resolve(apply_overrides(case, overrides))
+        model = _stored_model(found, overrides)
     except CaseError as error:
         others = [name for name in found.plugins if project_of(name) != OWN]
         if not others:
@@ -242,7 +247,21 @@ def resume(
         raise CaseError(
             error.source, [*error.problems, Problem("", f"its laws came from {', '.join(others)}")]
         ) from None
-    return relaunch(Path(path), model, report=progress, announce=announce)
+    return relaunch(found.path, model, report=progress, announce=announce)
+
+
+def _stored_model(found: Result, overrides: Iterable[str]) -> BearingModel | Machine:
+    """Return the model of the case in a result, without the limit of wall time that it began with."""
+    from lambda_core.case.case_io import apply_overrides, parse_case, toml_tables
+    from lambda_core.system.resolve_machine import check_shaft
+
+    if not found.is_machine:
+        case = parse_case(found.case_toml, str(found.path)).with_(solver={"max_wall": None})
+        return resolve(apply_overrides(case, overrides))
+    tables = toml_tables(found.case_toml, str(found.path))
+    if "solver" in tables:
+        tables["solver"].pop("max_wall", None)
+    return check_shaft(tables, overrides)
 
 
 @one_blas_thread()

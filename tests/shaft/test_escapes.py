@@ -37,9 +37,9 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a run of a tenth of a millisecond."""
     found = tmp_path_factory.mktemp("escapes")
     (found / "box.toml").write_text(geared_shaft("box") + MORE)
-    arguments = ["--quiet", "--out", str(found / "run"), "--duration", "0.1 ms"]
+    arguments = ["--quiet", "--out", str(found / "run.h5"), "--duration", "0.1 ms"]
     assert main(["run", str(found / "box.toml"), *arguments]) == 5
-    return found / "run"
+    return found / "run.h5"
 
 
 def texts(file: h5py.File) -> Iterator[tuple[str, str]]:
@@ -60,27 +60,29 @@ def spoil(file: h5py.File, name: str, key: str) -> None:
     elif item.dtype.kind == "S":
         changed = {"message": ESCAPE, "statistics": {ESCAPE: 1.0}, "faults": [ESCAPE]}
         item[()] = json.dumps(json.loads(item[()]) | changed, ensure_ascii=False).encode()
+    elif not item.shape:
+        item[()] = f"{item.asstr()[()]}{ESCAPE}"
     else:
         item[()] = np.array([f"{text}{ESCAPE}" for text in item.asstr()[()]], dtype=object)
 
 
 @pytest.mark.full
-@pytest.mark.parametrize("name", ["shaft.h5", "left.h5"])
-def test_no_text_of_a_shaft_s_result_drives_the_terminal(
-    name: str, made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def test_no_text_of_a_machine_s_result_drives_the_terminal(
+    made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Each text in turn, by every command that reads the run of a shaft: shown or refused, and written out."""
-    with h5py.File(made / name) as file:
-        found = [text for text in texts(file) if text[1] not in ("units", "long_name") and "inputs/" not in text[0]]
-    assert len(found) > 6
-    driven, run = [], tmp_path / "run"
+    """Each text in turn, by every command that reads the result of a machine: shown or refused, and written out."""
+    with h5py.File(made) as file:
+        names = dict.fromkeys(text for text in texts(file) if text[1] not in ("units", "long_name"))
+        found = [text for text in names if "inputs/" not in text[0] or "machine/" in text[0]]
+    assert len(found) > 12
+    driven, run = [], tmp_path / "run.h5"
+    commands = (["show"], ["show", "--json"], ["show", "--bearing", "left"], ["resume", "--quiet"], ["cite"])
     for text in found:
-        shutil.copytree(made, run)
-        with h5py.File(run / name, "r+") as file:
+        shutil.copy(made, run)
+        with h5py.File(run, "r+") as file:
             spoil(file, *text)
-        for command in (["show"], ["show", "--json"], ["resume", "--quiet", "--duration", "0.01 ms"]):
+        for command in commands:
             assert main([*command, str(run)]) in (0, 2, 3, 5), (text, command)
             said = "".join(capsys.readouterr())
             driven += [(text, command) for sign in set(ESCAPE) & set("\x1b\x07\x9b\u202e") if sign in said]
-        shutil.rmtree(run)
     assert not driven

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,6 @@ from lambda_core.case.case import merged
 from lambda_core.case.case_writer import tables_toml
 from lambda_core.domain.errors import Problem
 from lambda_core.results.limits import warnings
-from lambda_core.shaft.whole_file import WholeFile, WholeWriter
 from lambda_core.system.machine_templates import geared_shaft
 from lambda_core.system.resolve_machine import check_shaft
 
@@ -100,13 +100,10 @@ def test_it_is_said_everywhere(tmp_path: Path, capsys: pytest.CaptureFixture[str
 
 
 def test_it_is_said_of_a_run(tmp_path: Path) -> None:
-    """The file of a run keeps the sentences; files of old have none."""
-    arrays = {"lump_positions": np.zeros(2), "bearing_positions": np.zeros(1)}
-    names = {"bearings": ["left"], "bodies": [], "markers": []}
-    texts: dict[str, Any] = {"case": "box", "case_toml": "", "code": "", "speed": 1.0, "drive_torque": 0.0}
-    for name, more, said in (("new.h5", {"warnings": "one\ntwo"}, ["one", "two"]), ("old.h5", {}, [])):
-        WholeWriter.create(tmp_path / name, {**texts, **more}, arrays, names).close()
-        assert WholeFile(tmp_path / name).warnings == said
+    """The file of a run keeps the sentences."""
+    model = replace(check_shaft(tables()), warnings=("one", "two"))
+    found = api.run(model, out=tmp_path / "r.h5")
+    assert found.summary().warnings[:2] == ["one", "two"]
 
 
 def test_laws_are_tried_out(

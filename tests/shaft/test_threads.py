@@ -68,12 +68,12 @@ def seen(monkeypatch: pytest.MonkeyPatch) -> set[int]:
     "call",
     [
         lambda shaft, out: api.quasistatic(shaft),
-        lambda shaft, out: api.shaft_run(shaft, out=out, duration=1e-4),
+        lambda shaft, out: api.run(shaft, ["solver.duration=0.1 ms"], out=out),
         lambda shaft, out: api.quasistatic(CASE),
         lambda shaft, out: api.run(CASE, ["solver.duration=0.1 ms"], out=out),
         lambda shaft, out: api.thermal(CASE),
     ],
-    ids=["shaft", "shaft_run", "quasistatic", "run", "thermal"],
+    ids=["shaft", "run of a shaft", "quasistatic", "run", "thermal"],
 )
 def test_a_call_computes_with_one_thread_and_gives_the_others_back(
     call: Callable[[Any, Path], object], seen: set[int], tmp_path: Path
@@ -86,9 +86,9 @@ def test_a_call_computes_with_one_thread_and_gives_the_others_back(
 @pytest.mark.full
 def test_a_run_begun_from_python_is_gone_on_with_on_the_command_line(tmp_path: Path) -> None:
     """Whatever number of threads there are: what a run begins with has the same bits."""
-    api.shaft_run(tomllib.loads(geared_shaft("box")), out=tmp_path / "run", duration=1e-4)
+    api.run(tomllib.loads(geared_shaft("box")), ["solver.duration=0.1 ms"], out=tmp_path / "run.h5")
     with threadpool_limits(1, user_api="blas"):
-        assert main(["resume", str(tmp_path / "run"), "--quiet", "--duration", "0.5 ms"]) == 5
+        assert main(["resume", str(tmp_path / "run.h5"), "--quiet", "--duration", "0.5 ms"]) == 5
 
 
 @pytest.mark.clock

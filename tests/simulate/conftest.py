@@ -31,6 +31,6 @@ def provenance(resolved: BearingModel) -> MakeProvenance:
     """Make a provenance whose solver has some settings changed."""
 
     def make(**solver: float) -> Provenance:
-        return Provenance(replace(resolved, solver=replace(resolved.solver, **solver)), {"core": "abc"})
+        return Provenance.alone(replace(resolved, solver=replace(resolved.solver, **solver)), {"core": "abc"})
 
     return make

@@ -19,6 +19,8 @@ import numpy as np
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import CHANNELS, DIMENSIONS, LOSSES, Channel
 from lambda_core.results.provenance import Provenance
+from lambda_core.results.samples import ALONE, RunChannels, Samples
+from lambda_core.run.run_engine import without_time
 from lambda_core.solver.drivers.engine import Advance
 
 MakeProvenance = Callable[..., Provenance]
@@ -51,7 +53,7 @@ class Truth:
 class FakeEngine:
     """See the module."""
 
-    channels: tuple[Channel, ...] = CHANNELS
+    written: tuple[Channel, ...] = CHANNELS
 
     def __init__(self, truth: Truth | None = None) -> None:
         self.truth = truth or Truth()
@@ -93,13 +95,17 @@ class FakeEngine:
         if truth.slowness:
             time.sleep(truth.slowness)
 
-    def samples(self) -> dict[str, FloatArray]:
+    @property
+    def channels(self) -> RunChannels:
+        return RunChannels((), {ALONE: without_time(self.written)})
+
+    def samples(self) -> Samples:
         times = np.array([at for at, _ in self._buffer])
         chaos = np.array([value for _, value in self._buffer])
         self._buffer = []
         sizes = {"ball": self.truth.balls, **{name: len(labels) for name, labels in DIMENSIONS.items()}}
         found = {}
-        for number, channel in enumerate(self.channels):
+        for number, channel in enumerate(self.written):
             shape = (len(times), *(sizes[dim] for dim in channel.dims))
             pattern = np.arange(1.0, math.prod(shape[1:]) + 1.0).reshape(1, *shape[1:])
             column = (chaos + number).reshape(-1, *[1] * (len(shape) - 1))
@@ -109,14 +115,14 @@ class FakeEngine:
         found["contact_angle"][:] = 0.0
         found["ball_radius"][:] = 73.75e-3  # pitch circle of the 6319
         found["ball_azimuth"] *= 10.0
-        return found
+        return Samples(times, {}, {ALONE: found})
 
-    def integrals(self) -> dict[str, float]:
+    def integrals(self) -> dict[str, dict[str, float]]:
         truth, now = self.truth, self.time
         found = {f"loss.{name}": share * self._loss for name, share in zip(LOSSES, truth.shares, strict=True)}
         angle = truth.speed * now
         cage = truth.cage_share * angle
-        return found | {
+        found |= {
             "input": self._input,
             "input_abs": self._input,
             "drive": self._input,
@@ -128,6 +134,7 @@ class FakeEngine:
             "y": 2e-6 * now,
             "z": -3e-6 * now,
         }
+        return {ALONE: found}
 
     def statistics(self) -> dict[str, float]:
         return {"steps": float(self._steps)}
@@ -142,6 +149,3 @@ class FakeEngine:
     def restore(self, state: Mapping[str, FloatArray]) -> None:
         self.time, self._chaos, self._loss, self._input, samples, steps = state["numbers"].tolist()
         self._samples, self._steps, self._buffer = int(samples), int(steps), []
-
-    def equilibrium(self) -> Mapping[str, object]:
-        return {}

@@ -31,7 +31,7 @@ def main() -> int:
         resource.setrlimit(resource.RLIMIT_FSIZE, (wanted["limit"], wanted["limit"]))
     print("ready", flush=True)
     try:
-        (run if verb == "run" else resume)(engine, Provenance(model, {"core": "abc"}), Path(path))
+        (run if verb == "run" else resume)(engine, Provenance.alone(model, {"core": "abc"}), Path(path))
     except LambdaError as error:
         print(error, file=sys.stderr)
         return error.exit_code

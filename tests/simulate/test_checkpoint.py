@@ -56,7 +56,7 @@ def undisturbed(resolved, tmp_path_factory: pytest.TempPathFactory) -> dict[str,
 
     model = replace(resolved, solver=replace(resolved.solver, duration=DURATION))
     path = tmp_path_factory.mktemp("undisturbed") / "r.h5"
-    run(FakeEngine(replace(SLOW, slowness=0.0)), Provenance(model, {}), path)
+    run(FakeEngine(replace(SLOW, slowness=0.0)), Provenance.alone(model, {}), path)
     return growing(path)
 
 

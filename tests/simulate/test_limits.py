@@ -88,10 +88,11 @@ def test_a_run_says_it_in_text_and_as_data(capsys: pytest.CaptureFixture[str], t
     assert "OVER the edge" in capsys.readouterr().out
     main(["show", path, "--json"])
     data = json.loads(capsys.readouterr().out)
-    inner = next(edge for edge in data["shoulders"] if edge["ring"] == "inner")
+    bearing = data["bearings"]["bearing"]
+    inner = next(edge for edge in bearing["shoulders"] if edge["ring"] == "inner")
     assert inner["margin_um"] < 0.0
     assert any("over the inner ring's shoulder" in sentence for sentence in data["warnings"])
-    assert max(contact["load_N"] for contact in data["contacts"]) < 3000.0
+    assert max(contact["load_N"] for contact in bearing["contacts"]) < 3000.0
 
 
 def test_a_coarse_tolerance_is_said() -> None:

@@ -26,7 +26,7 @@ def content(resolved: BearingModel, tmp_path_factory: pytest.TempPathFactory) ->
     """Bytes of one finished result."""
     model = replace(resolved, solver=replace(resolved.solver, duration=0.12))
     path = tmp_path_factory.mktemp("content") / "r.h5"
-    return run(FakeEngine(Truth(noise=0.1)), Provenance(model, {"core": "abc"}), path).path.read_bytes()
+    return run(FakeEngine(Truth(noise=0.1)), Provenance.alone(model, {"core": "abc"}), path).path.read_bytes()
 
 
 @pytest.fixture
@@ -149,7 +149,7 @@ def test_an_hdf5_file_of_another_program(tmp_path: Path) -> None:
 def test_a_layout_of_another_version(result: Result) -> None:
     with h5py.File(result.path, "r+") as file:
         file.attrs["lambda_bearing_layout"] = 99
-    with pytest.raises(ResultError, match="has layout 99; this program reads layout 1"):
+    with pytest.raises(ResultError, match="has layout 99; this program reads layout 2"):
         Result(result.path)
 
 

@@ -22,6 +22,7 @@ def register_views(register: Callable[[View], None]) -> None:
         energy,
         friction,
         heat,
+        machine,
         ring,
         ring_shape,
         study,
@@ -41,6 +42,7 @@ def register_views(register: Callable[[View], None]) -> None:
         ring_shape,
         capacitance,
         electric,
+        machine,
         comparison,
         study,
     ):

@@ -1,0 +1,131 @@
+"""Write the summary of a machine in lines for people: a column for each bearing, then the machine."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from lambda_core.domain.number_text import NONE, hours
+from lambda_core.domain.unit_systems import SI, UnitSystem
+from lambda_core.domain.wrapping import wrapped
+from lambda_core.results.text import assumption_lines, line, small, warning_lines, watched_lines
+
+if TYPE_CHECKING:
+    from lambda_core.results.machine_numbers import Swing
+    from lambda_core.results.rating import Rating
+    from lambda_core.results.summary import Summary
+
+_HEAD, _COLUMN = 26, 14
+
+
+def machine_text(found: Summary, width: int | None = None, units: UnitSystem = SI) -> str:
+    """Return what the run of a machine says; `width` and `units` as for one bearing."""
+    each = list(found.bearings.values())
+    rows = [("bearing", [one.title.split(" (")[0] for one in each]), *_rows(found, units)]
+    wide = max(_COLUMN, *(2 + len(cell) for cells in (list(found.bearings), *(c for _, c in rows)) for cell in cells))
+    names = "".join(f"{name:>{wide}}" for name in found.bearings)
+    lines = [
+        f"{found.case}, {found.speed_rpm:.5g} 1/min",
+        "",
+        f"{'':<{_HEAD}}{names}",
+        *(f"{head:<{_HEAD}}" + "".join(f"{cell:>{wide}}" for cell in cells) for head, cells in rows),
+        "",
+    ]
+    largest = max(found.orbit, key=lambda one: math.hypot(*one.swing_um[1:]))
+    places = (*found.bodies.items(), *found.markers.items())
+    verdict = "converged" if found.converged else "NOT CONVERGED"
+    torque = units.plus_minus(found.friction_torque_Nmm, found.friction_torque_ci_Nmm, "N mm")
+    rest = [
+        line("friction torque", f"{torque} of all bearings", verdict),
+        *(line("not converged" if i == 0 else "", reason) for i, reason in enumerate(found.reasons)),
+        line("power loss", f"{units.text(found.power_loss_W, 'W', 2)} of all bearings"),
+        line("drive torque", units.text(found.drive_torque_Nm, "N m", 3)),
+        *([line("rating life", f"{hours(found.system_life_h)} of all bearings together (ISO/TS 16281, 90 %)")]
+          if found.system_life_h is not None and len(each) > 1 else []),
+        line(
+            "largest orbit", f"y ± {_length(largest.swing_um[1], units)}", f"z ± {_length(largest.swing_um[2], units)}",
+            f"at {units.text(largest.position_mm, 'mm', 2)}",
+        ),
+        *(line(name, *(f"{axis} {_swung(one, k, units)}" for k, axis in enumerate("xyz"))) for name, one in places),
+        *(text for one in each for text in watched_lines(one)),
+        *(line("failed" if i == 0 else "", fault) for i, fault in enumerate(found.plugin_faults)),
+        *warning_lines([units.sentence(warning) for warning in found.warnings], width),
+        line("energy residual", f"{small(found.energy_residual)} of input"),
+        *([line("vibrations", found.vibrations.sentence())] if found.vibrations else []),
+        line("wall time", f"{found.wall_s:.2f} s for {found.simulated_s:.4g} s"),
+        *assumption_lines(found.assumptions, found.file),
+        line("result", f"{found.file}; of one bearing: --bearing {next(iter(found.bearings))}"),
+    ]  # fmt: skip
+    return "\n".join([*lines, *wrapped(rest, width)])
+
+
+def _rows(found: Summary, units: UnitSystem) -> list[tuple[str, list[str]]]:
+    """Return a row for every number of the bearings: its name with unit, and a cell for each."""
+    each = list(found.bearings.values())
+
+    def of(unit: str, values: Sequence[float | None], digits: int = 4) -> list[str]:
+        return [_digits(None if value is None else units.value(value, unit), digits) for value in values]
+
+    ratings = [one.rating for one in each]
+    torque, power, force = units.unit("N mm"), units.unit("W"), units.unit("N")
+    rows = [
+        (f"friction torque {torque}",
+         [_pair(one.friction_torque_Nmm, one.friction_torque_ci_Nmm, "N mm", units) for one in each]),
+        (f"power loss {power}", of("W", [one.power_loss_W for one in each], 3)),
+        *_catalogues(ratings, units),
+        ("cage over inner ring", [_digits(one.cage_speed_ratio) for one in each]),
+        ("  over epicyclic", [_digits(one.cage_speed_over_epicyclic) for one in each]),
+        (f"smallest film {units.unit('um')}", of("um", [one.min_film_um for one in each], 2)),
+        (f"p_max {units.unit('GPa')}", of("GPa", [one.max_pressure_GPa for one in each], 3)),
+    ]  # fmt: skip
+    for k, axis in enumerate("xyz"):
+        head = f"{'force on shaft' if axis == 'x' else ' '} {axis} {force}"
+        rows.append((head, [_pair(one.force_N[k], one.force_swing_N[k], "N", units) for one in each]))
+    return rows
+
+
+def _catalogues(ratings: Sequence[Rating | None], units: UnitSystem) -> list[tuple[str, list[str]]]:
+    """Return the rows of catalogues and standards, without those that no bearing has."""
+    heads = {
+        "skf_torque_Nmm": f"  SKF {units.unit('N mm')}",
+        "schaeffler_torque_Nmm": f"  Schaeffler {units.unit('N mm')}",
+        "reference_life_h": "rating life (16281)",
+        "basic_life_h": "rating life (281)",
+        "static_safety": "static safety C0/P0",
+        "viscosity_ratio": "viscosity ratio kappa",
+    }
+    rows = []
+    for name, head in heads.items():
+        values = [None if one is None else getattr(one, name) for one in ratings]
+        if all(value is None for value in values):
+            continue
+        if name.endswith("_h"):
+            cells = [NONE if value is None else hours(value) for value in values]
+        elif name.endswith("Nmm"):
+            cells = [_digits(None if value is None else units.value(value, "N mm")) for value in values]
+        else:
+            cells = [_digits(value, 3) for value in values]
+        rows.append((head, cells))
+    return rows
+
+
+def _pair(value: float | None, width: float | None, unit: str, units: UnitSystem) -> str:
+    """Write a number and how far it swings or is known, without its unit."""
+    if value is None:
+        return NONE
+    text = _digits(units.value(value, unit))
+    return text if width is None else f"{text} ± {_digits(units.value(width, unit), 2)}"
+
+
+def _digits(value: float | None, digits: int = 4) -> str:
+    return NONE if value is None else f"{0.0 if abs(value) < 5e-5 else value:.{digits}g}"
+
+
+def _length(value: float, units: UnitSystem) -> str:
+    return f"{units.value(value, 'um'):.3g} {units.unit('um')}"
+
+
+def _swung(one: Swing, axis: int, units: UnitSystem) -> str:
+    mean, swing = (units.value(values[axis], "um") for values in (one.mean_um, one.swing_um))
+    return f"{_digits(mean, 3)} ± {_digits(swing, 2)} {units.unit('um')}"

@@ -1,0 +1,49 @@
+"""Hold the samples of a run between engine and file: of the machine, and of each of its bearings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from numpy import float64
+from numpy.typing import NDArray
+
+from lambda_core.domain.channels import Channel
+
+TIME = "time"
+ALONE = "bearing"  # name of the bearing of a case that has one bearing only
+
+
+@dataclass(frozen=True)
+class RunChannels:
+    """What every sample of a run carries.
+
+    Attributes
+    ----------
+    machine : tuple of Channel
+        Of the machine, except its time; empty for one bearing alone.
+    bearings : mapping
+        Name of the bearing -> its channels, except the time.
+    """
+
+    machine: tuple[Channel, ...]
+    bearings: Mapping[str, tuple[Channel, ...]]
+
+
+@dataclass(frozen=True)
+class Samples:
+    """A stretch of samples, channel -> array whose first axis is time.
+
+    Attributes
+    ----------
+    time : float64[:]
+        [s]
+    machine : mapping
+        Channels of the machine.
+    bearings : mapping
+        Name of the bearing -> its channels, the time among them.
+    """
+
+    time: NDArray[float64]
+    machine: Mapping[str, NDArray[float64]]
+    bearings: Mapping[str, Mapping[str, NDArray[float64]]]
