@@ -233,6 +233,15 @@ class Lubricant(Section):
     )
 
 
+class OwnLubricant(Lubricant):
+    """The oil of one bearing of a machine; what is left out is that of [lubricant]."""
+
+    name: str | None = option(None, "catalogue name; absent: that of [lubricant]", min_length=1)  # type: ignore[assignment]
+    temperature: Temperature | None = option(  # type: ignore[assignment]
+        None, "temperature of the oil bath and of the contact inlets; absent: that of [lubricant]"
+    )
+
+
 class Surface(Section):
     """Roughness of the rolling surfaces."""
 

@@ -10,10 +10,10 @@ from pydantic import ValidationInfo, field_validator, model_validator
 from lambda_core.case.case import Written
 from lambda_core.case.elastic import Elastic
 from lambda_core.case.holding import SeatTilt, SeatTranslation
-from lambda_core.case.modelling import Forces, Models, Parameters, Solver
+from lambda_core.case.modelling import Depth, Forces, Models, Parameters, Solver
 from lambda_core.case.motion import CageShape, Gravity
 from lambda_core.case.option import Section, option
-from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, Surface
+from lambda_core.case.parts import Bearing, Lubricant, MaterialChoice, Materials, OwnLubricant, Surface
 from lambda_core.case.shaft_parts import (
     Connection,
     Gear,
@@ -28,7 +28,7 @@ from lambda_core.domain.elements import POSE
 from lambda_core.domain.units import Force, Length, SmallLength, Temperature
 
 # tables of the case of every bearing
-SHARED = ("lubricant", "materials", "surface", "models", "parameters", "gravity", "solver")
+SHARED = ("lubricant", "materials", "surface", "depth", "models", "parameters", "gravity", "solver")
 OWN = ("elastic", "forces")  # tables of one of them
 NAMED = ("bearings", "markers", "bodies", "discs", "loads", "gears", "connections")  # tables of named parts
 # Names that are there already; a bearing's result stands beside that of the whole, shaft.h5
@@ -125,6 +125,7 @@ class ShaftBearing(Bearing, Placed):
     )
     preload_force: Force | None = option(None, "force of a spring on the outer ring, which slides in its seat", gt=0.0)
     support: Support = option({}, "how the housing holds the outer ring")
+    lubricant: OwnLubricant | None = option(None, "its own oil, or its temperature or amount")
     cage: CageShape = option({}, "cage, as bodies.cage in the case of one bearing")
     elastic: Elastic = option({}, "parts of the bearing that bend, as elastic in the case of one bearing")
     forces: Forces = option({}, "models of its own by force element, as forces in the case of one bearing: a defect")
@@ -159,8 +160,8 @@ class ShaftCase(Written):
     """What the file of a shaft says; values in SI, written as unit strings."""
 
     INSTEAD: ClassVar[Mapping[str, str]] = {
-        "springs": "write [connections.NAME]",
-        "elements": "write [connections.NAME]",
+        **dict.fromkeys(("springs", "elements"), "write [connections.NAME]"),
+        **dict.fromkeys(("observers", "events", "output"), "so far only the case of one bearing can have it"),
     }
 
     shaft: Shaft = option(description="the shaft")
@@ -180,20 +181,21 @@ class ShaftCase(Written):
     surface: Surface = option({}, "surfaces")
     gravity: Gravity = option({}, "acceleration of gravity")
     life: ShaftLife = option({}, "what modified rating lives need")
+    depth: Depth = option({}, "modelling depth, of every bearing")
     models: Models = option({}, "model by role, for every bearing")
     parameters: Parameters = option({}, "parameters by role, for every bearing")
     solver: Solver = option({}, "integrator and averages, in motion")
 
 
 def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """Return the plain tables of the case of one of the bearings alone, right or wrong as those of the shaft are."""
+    """Return the plain tables of the case of one of the bearings alone, right or wrong as those of the machine are."""
     given = tables["bearings"][name]
     operation = tables.get("operation")
     speed = operation.get("speed") if isinstance(operation, Mapping) else None
     # the shaft decides how the inner ring tilts: nothing is to be assumed of a ring that stands alone
     bodies = {"inner_ring": {"tilt_y": "locked", "tilt_z": "locked"}}
     bodies |= {"cage": given["cage"]} if "cage" in given else {}
-    return {
+    found = {
         "name": name,
         "bearing": {key: value for key, value in given.items() if key in Bearing.model_fields},
         "operation": {} if speed is None else {"speed": speed},
@@ -201,3 +203,26 @@ def bearing_tables(tables: Mapping[str, Any], name: str) -> dict[str, Any]:
         **{table: given[table] for table in OWN if table in given},
         **{table: tables[table] for table in SHARED if table in tables},
     }
+    return found | _own_oil(tables, given)
+
+
+def _own_oil(tables: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the table of a bearing's oil where it says something of its own; another oil has its own properties."""
+    shared, own = tables.get("lubricant", {}), given.get("lubricant")
+    if not isinstance(shared, Mapping) or not isinstance(own, Mapping):
+        return {}
+    is_other = "name" in own or "properties" in own
+    kept = {key: value for key, value in shared.items() if not (is_other and key in ("name", "properties"))}
+    return {"lubricant": {**kept, **own}}
+
+
+def place_in_machine(tables: Mapping[str, Any], name: str, where: str) -> str:
+    """Return where in the machine's file stands what stands at `where` in the tables of one of its bearings."""
+    own, (first, *rest) = tables["bearings"][name], where.split(".")
+    if first == "bearing":
+        return ".".join(("bearings", name, *rest))
+    if where.startswith("bodies.cage"):
+        return ".".join(("bearings", name, *where.split(".")[1:]))
+    oil = own.get("lubricant")
+    is_own_oil = first == "lubricant" and isinstance(oil, Mapping) and (not rest or rest[0] in oil)
+    return f"bearings.{name}.{where}" if first in OWN or is_own_oil else where

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lambda_core.domain.errors import CaseError, Problem, UsageError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from lambda_core.case.case import Case
     from lambda_core.case.case_io import Source
@@ -84,7 +84,13 @@ def check_bearing(
         raise
 
 
-def resolve(case: Case, catalogue: Catalogue | None = None, *, is_static: bool = False) -> BearingModel:
+def resolve(
+    case: Case,
+    catalogue: Catalogue | None = None,
+    *,
+    is_static: bool = False,
+    place: Callable[[str], str] = str,
+) -> BearingModel:
     """Freeze a case into the model of a run: every value in SI with its origin.
 
     Parameters
@@ -95,6 +101,8 @@ def resolve(case: Case, catalogue: Catalogue | None = None, *, is_static: bool =
         An open catalogue to look things up in; default: one is opened for this call.
     is_static : bool
         Whether only an equilibrium is wanted: a case in which nothing turns then needs no duration.
+    place : callable
+        Where in the file stands what stands at a path of the case: a machine has several bearings.
 
     Returns
     -------
@@ -113,9 +121,9 @@ def resolve(case: Case, catalogue: Catalogue | None = None, *, is_static: bool =
 
     models = registry()
     if catalogue is not None:
-        return freeze(case, models, catalogue, is_static=is_static)
+        return freeze(case, models, catalogue, is_static=is_static, place=place)
     with closing(models.catalogue()) as opened:
-        return freeze(case, models, opened, is_static=is_static)
+        return freeze(case, models, opened, is_static=is_static, place=place)
 
 
 def problems(source: Source) -> tuple[Problem, ...]:

@@ -23,6 +23,7 @@ class Ledger:
     assumptions: list[str] = field(default_factory=list)
     contradictions: list[str] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list)
+    place: Callable[[str], str] = str  # where in the file stands what the resolution calls so
 
     def record(
         self, path: str, value: float | str, quantity: str, source: str, status: Status, grade: str = ""
@@ -74,4 +75,4 @@ class Ledger:
     def check(self, source: str) -> None:
         """Raise one CaseError with everything that is wrong, if anything is."""
         if self.problems:
-            raise CaseError(source, self.problems)
+            raise CaseError(source, [Problem(self.place(one.where), one.message) for one in self.problems])

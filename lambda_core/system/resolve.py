@@ -9,7 +9,7 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Protocol
 
 from pydantic import BaseModel
@@ -72,7 +72,14 @@ class PluginSource(ModelSource, WatchSource, Protocol):
     """What the resolution needs of the registry."""
 
 
-def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_static: bool = False) -> BearingModel:
+def resolve(
+    case: Case,
+    registry: PluginSource,
+    catalogue: Catalogue,
+    *,
+    is_static: bool = False,
+    place: Callable[[str], str] = str,
+) -> BearingModel:
     """Freeze a case into the model that a run needs.
 
     Parameters
@@ -85,13 +92,15 @@ def resolve(case: Case, registry: PluginSource, catalogue: Catalogue, *, is_stat
         Bearings, lubricants, materials, cages, clearance classes.
     is_static : bool
         Whether the model is for an equilibrium alone, which needs no end in time.
+    place : callable
+        Where in the file stands what stands at a path of the case: a machine has several bearings.
 
     Raises
     ------
     CaseError
         With everything that is unknown, missing, contradictory or impossible.
     """
-    ledger, written = Ledger(assumptions=list(case.assumptions)), case
+    ledger, written = Ledger(assumptions=list(case.assumptions), place=place), case
     row, designation, case = resolve_designation(written, catalogue, ledger)
     known = row is not None or (case.bearing.designation is None and case.bearing.geometry is not None)
     bare = resolve_geometry(case.bearing, row, catalogue, ledger) if known else None

@@ -33,6 +33,7 @@ CAVITY_DRAG = "cavity-mixture"  # default law of drag where the balls run in a m
 SHARE_OF_OIL = "oil_share"  # its parameter that otherwise follows from the flow of oil
 PRESCRIBED = "film_factor"  # parameter of the supply laws that take lubricant.starvation
 # Element -> default model where the role's own default does not fit it.
+LAND = "land-guidance"  # contact of the cage with the ring that guides it
 LANDS = {"cage_inner": "inner ring", "cage_outer": "outer ring"}
 
 
@@ -101,6 +102,9 @@ class LawResolver:
         if plain == BALL_BALL and self.case.depth.cage:
             self.ledger.problem(where, f'"{name}" is the contact without a cage: it needs depth.cage = false')
             return None
+        if plain == LAND and self.guidance != LANDS.get(element):
+            self.ledger.problem(where, self._not_guided(element))
+            return None
         try:
             chosen = law_called(self.registry, role, name, given=self._chosen_by(element, role) == "given")
         except LambdaError as error:
@@ -144,6 +148,14 @@ class LawResolver:
                 origins[key] = "default"
         return ChosenLaw(chosen, parameters, origins)
 
+    def _not_guided(self, element: str) -> str:
+        """Say why no land guides the cage in a force element."""
+        if element in LANDS:
+            ring = LANDS[element]
+            return f'"{LAND}" needs a cage that the {ring} guides, not the {self.guidance}: bodies.cage.guidance'
+        lands = " or ".join(f"forces.{name}.models.cage_contact" for name in LANDS)
+        return f'"{LAND}" is a contact of cage and ring, not of ball and pocket: choose it under {lands}'
+
     def _prescribes(self, chosen: Law, case_texts: Mapping[str, tuple[Any, str]]) -> bool:
         """Say whether a supply law takes the film that the case prescribes, and what follows from it."""
         share, where = self.case.lubricant.starvation, "lubricant.starvation"
@@ -174,7 +186,7 @@ class LawResolver:
         if own is None and element in LANDS:
             # A general choice of the pocket's model says nothing about the lands.
             guided = self.guidance == LANDS[element]
-            return ("land-guidance" if guided else NONE), f"forces.{element}.models.{role}"
+            return (LAND if guided else NONE), f"forces.{element}.models.{role}"
         name = own or general
         if name is None:
             return self._default(role), where

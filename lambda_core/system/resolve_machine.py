@@ -6,16 +6,17 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from lambda_core.case.case import merged
+from lambda_core.case.case import Case, merged
 from lambda_core.case.case_io import Source, read_tables, validate
 from lambda_core.case.case_writer import tables_toml
 from lambda_core.case.salvage import InvalidCase, related
-from lambda_core.case.shaft import OWN, ShaftCase, bearing_tables
+from lambda_core.case.shaft import ShaftCase, bearing_tables, place_in_machine
 from lambda_core.catalogue.protocol import Catalogue
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.blas_threads import one_blas_thread
@@ -27,7 +28,7 @@ from lambda_core.elastic.beam import NODE
 from lambda_core.elastic.body import Disc, ElasticBody, shaft_body, with_discs
 from lambda_core.elastic.sections import BodyMaterial, RoundSection
 from lambda_core.system.bearing import BearingModel
-from lambda_core.system.checking import check_bearing
+from lambda_core.system.checking import resolve
 from lambda_core.system.dependent_errors import independent, is_shape_known
 from lambda_core.system.elastic_housing import elastic_housing
 from lambda_core.system.fitting import fitting_warnings
@@ -126,16 +127,16 @@ def _bearings(
     tables_of = given if isinstance(given, Mapping) else {}
     for name in (key for key, value in tables_of.items() if isinstance(value, Mapping)):
         try:
-            models[name] = check_bearing(
-                bearing_tables(tables, name), folder=folder, catalogue=catalogue, is_static=True
-            )
+            case = validate(Case, bearing_tables(tables, name), name, folder)
+        except InvalidCase as error:  # the mistakes are those of the machine's tables, which are known
+            case = error.remainder
+        if case is None:
+            continue
+        try:
+            models[name] = resolve(case, catalogue, is_static=True, place=partial(place_in_machine, tables, name))
         except CaseError as error:
-            for problem in error.problems:
-                where = problem.where.replace("bodies.cage", f"bearings.{name}.cage")
-                where = f"bearings.{name}{where[7:]}" if where.split(".")[0] == "bearing" else where
-                where = f"bearings.{name}.{where}" if where.split(".")[0] in OWN else where
-                if where != "name" and not any(related(where, known.where) for known in found):
-                    found.append(Problem(where, problem.message))
+            known = [problem.where for problem in found]
+            found += [one for one in error.problems if not any(related(one.where, where) for where in known)]
     return models
 
 
