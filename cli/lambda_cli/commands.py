@@ -49,6 +49,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
     "recent": ("lambda_cli.recent:recent", "List the case files worked on last."),
     "schema": ("lambda_cli.case:schema", "Print the JSON schema of case files, for editors."),
     "run": ("lambda_cli.run:run", "Run a case and write its result."),
+    "estimate": ("lambda_cli.estimate:estimate", "Processor time that a run will take."),
     "resume": ("lambda_cli.resume:resume", "Go on with an interrupted run."),
     "quasistatic": ("lambda_cli.quasistatic:quasistatic", "Equilibrium of a case without running it."),
     "modes": ("lambda_cli.quasistatic:modes", "Critical speeds and natural frequencies of a machine."),

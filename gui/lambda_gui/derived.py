@@ -190,8 +190,8 @@ def _numbers(estimate: Estimate) -> Iterable[Fact]:
         yield "M ≈", grouped(state.friction_torque_Nmm), "N mm"
     if rating.skf_torque_Nmm is not None:
         yield "SKF", grouped(rating.skf_torque_Nmm), "N mm"
-    if estimate.run_s is not None:
-        yield "run ≈", duration(estimate.run_s), ""
+    if estimate.processor_s is not None:
+        yield "run ≈", duration(estimate.processor_s), ""
 
 
 def grouped(value: float) -> str:

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 
 from rich.text import Text
 
-from lambda_gui.derived import Derived, grouped
+from lambda_gui.derived import Derived, duration, grouped
 from lambda_gui.shown_units import fact_in_units
 
 if TYPE_CHECKING:
-    from lambda_core.api import BearingEquilibrium, MachineEquilibrium, MachineEstimate, MachineModes
+    from lambda_core.api import BearingEquilibrium, MachineEquilibrium, MachineEstimate
     from lambda_core.domain.unit_systems import UnitSystem
 
 _LONG_LIFE = 1e6  # beyond, a rating life says no more than that [h]
@@ -85,7 +85,7 @@ class ShaftAnswer(Derived):
         state = "" if self.is_current else f"stale: {self._say or 'solving'}"
         warned = self.warnings()
         lines = _table(answer.equilibrium, units, width, style)
-        lines += [Text(line, style=style) for line in _of_the_shaft(answer.equilibrium, answer.modes, units)]
+        lines += [Text(line, style=style) for line in _of_the_shaft(answer, units)]
         head = [Text(state, style="italic", no_wrap=True, overflow="ellipsis")] if state else []
         if warned:
             words = units.sentence(warned[0]) if len(warned) == 1 else f"{len(warned)} warnings: F8"
@@ -120,8 +120,9 @@ def _table(report: MachineEquilibrium, units: UnitSystem, width: int, style: str
     return lines
 
 
-def _of_the_shaft(report: MachineEquilibrium, modes: MachineModes, units: UnitSystem) -> list[str]:
+def _of_the_shaft(answer: MachineEstimate, units: UnitSystem) -> list[str]:
     """Return the text about the complete shaft."""
+    report, modes = answer.equilibrium, answer.modes
     bends = ((math.hypot(y, z), x) for (_, y, z), x in zip(report.deflection_um, report.positions_mm, strict=True))
     bend, place = max(bends)
     told = [f"bends {bend:.3g} um at {place:.4g} mm"]
@@ -131,6 +132,8 @@ def _of_the_shaft(report: MachineEquilibrium, modes: MachineModes, units: UnitSy
         told.append(f"critical {grouped(float(f'{first:.4g}'))} 1/min{times}")
     if report.system_life_h is not None:
         told.append(f"all bearings {_life(report.system_life_h)} h")
+    if answer.processor_s is not None:
+        told.append(f"run ≈ {duration(answer.processor_s)}")
     told.append(f"drive torque {report.drive_torque_Nm:.4g} N m")
     told.append(f"friction torque {_number(report.friction_torque_Nmm)} N mm")
     return [units.sentence(line) for line in told]

@@ -288,9 +288,9 @@ def _probe(
     if study.mode == "quasi-static":
         return seconds, columns, 0.0
     run = estimate_run(resolved, {}, announce)
-    if run.run_s is None or run.simulated_s is None:
+    if run.processor_s is None or run.simulated_s is None:
         return math.nan, columns, math.nan
-    return seconds + run.run_s, columns, _file_size(resolved, run.simulated_s, found.orbit)
+    return seconds + run.processor_s, columns, _file_size(resolved, run.simulated_s, found.orbit)
 
 
 def _probe_machine(

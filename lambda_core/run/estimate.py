@@ -1,10 +1,11 @@
-"""Estimate equilibrium, rating life and run time of a case."""
+"""Estimate equilibrium, rating life and processor time of a case before it is run."""
 
 from __future__ import annotations
 
 import math
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 from pydantic import Field
 
@@ -15,10 +16,10 @@ from lambda_core.results.record import Record
 from lambda_core.run.engineering import rating_of
 from lambda_core.shaft.machine_equilibrium import MachineEquilibrium, equilibrium_of
 from lambda_core.shaft.machine_modes import MachineModes, modes_of
-from lambda_core.shaft.shaft_equilibrium import solve_shaft
+from lambda_core.shaft.machine_motion import MachineEngine, machine_start
 from lambda_core.solver.drivers.dynamics import BearingEngine
 from lambda_core.solver.drivers.equilibrium import Equilibrium, solve
-from lambda_core.system.bearing import BearingModel
+from lambda_core.system.bearing import BearingModel, Solver
 from lambda_core.system.machine import Machine
 from lambda_core.system.time_functions import initial
 from lambda_core.views.method import Method
@@ -28,6 +29,10 @@ _TRIAL = 0.05
 _TRIAL_WALL = 2.0  # [s] longest trial; slow bearings do not get as far
 
 
+SIMULATED = "simulated time of the run: what the case says, else the shortest in which it can converge"
+PROCESSOR = "processor time of the run on this machine, from a trial; null where there is none"
+
+
 class Estimate(Record):
     """Numbers for a case that is being set up; null where there is none."""
 
@@ -35,8 +40,17 @@ class Estimate(Record):
     rating_life_h: float | None = Field(description="basic rating life L_10h (ISO 281)")
     viscosity_ratio: float | None = Field(description="kappa = nu/nu_1 (ISO 281)")
     rating: Rating = Field(description="life, safety and catalogue friction")
-    simulated_s: float | None = Field(description="shortest simulated time of the run")
-    run_s: float | None = Field(description="wall time of the run, from a trial of 1/20 cage turn on this machine")
+    simulated_s: float | None = Field(description=SIMULATED)
+    processor_s: float | None = Field(description=PROCESSOR)
+    basis: str = Field(description="what both times follow from")
+
+    def text(self) -> str:
+        """Return the lines for people."""
+        return _text(self.equilibrium.case, self)
+
+    def __repr__(self) -> str:
+        """Return case and processor time."""
+        return f"<Estimate {self.equilibrium.case}, {_time(self.processor_s)} of processor time>"
 
 
 class MachineEstimate(Record):
@@ -44,6 +58,29 @@ class MachineEstimate(Record):
 
     equilibrium: MachineEquilibrium
     modes: MachineModes
+    simulated_s: float | None = Field(description=SIMULATED)
+    processor_s: float | None = Field(description=PROCESSOR)
+    basis: str = Field(description="what both times follow from")
+
+    def text(self) -> str:
+        """Return the lines for people."""
+        return _text(self.equilibrium.case, self)
+
+    def __repr__(self) -> str:
+        """Return case and processor time."""
+        return f"<MachineEstimate {self.equilibrium.case}, {_time(self.processor_s)} of processor time>"
+
+
+def _text(case: str, found: Estimate | MachineEstimate) -> str:
+    """Return what a run takes, and what that follows from."""
+    if found.processor_s is None:
+        return f"{case}: nothing is known of the time that a run takes\nbasis  {found.basis}"
+    simulated = f"{found.simulated_s:.3g} s"
+    return f"{case}: a run of {simulated} takes {_time(found.processor_s)} of processor time\nbasis  {found.basis}"
+
+
+def _time(seconds: float | None) -> str:
+    return "unknown" if seconds is None else f"{seconds:.2g} s" if seconds < 100.0 else f"{seconds / 60.0:.3g} min"
 
 
 def machine_estimate(model: Machine, announce: Callable[[str], None] | None = None) -> MachineEstimate:
@@ -54,8 +91,19 @@ def machine_estimate(model: Machine, announce: Callable[[str], None] | None = No
     SolverError
         When there is no equilibrium.
     """
-    state = solve_shaft(model, announce)
-    return MachineEstimate(equilibrium=equilibrium_of(model, state), modes=modes_of(model, state))
+    start = machine_start(model, announce)
+    bearings = [bearing.model for bearing in model.bearings]
+    turn = max(_cage_turn(one, found) for one, found in zip(bearings, start.equilibria, strict=True))
+    simulated = max(
+        (_simulated_time(one, found) for one, found in zip(bearings, start.equilibria, strict=True)),
+        key=lambda time: math.inf if time is None else time,
+    )
+    trial = None if simulated is None else _trial(MachineEngine(start, announce), turn, simulated)
+    return MachineEstimate(
+        equilibrium=equilibrium_of(model, start.state, start.equilibria), modes=modes_of(model, start.state),
+        simulated_s=simulated, processor_s=None if trial is None else trial.seconds,
+        basis=_basis(model.solver, simulated, turn, trial),
+    )  # fmt: skip
 
 
 def estimate(
@@ -75,14 +123,16 @@ def estimate(
     """
     found = solve(model, announce=announce)
     rating = rating_of(found, methods)
-    simulated = _simulated_time(model, found)
+    simulated, turn = _simulated_time(model, found), _cage_turn(model, found)
+    trial = None if simulated is None else _trial(BearingEngine(model, announce, found), turn, simulated)
     return Estimate(
         equilibrium=quasistatic_of(found),
         rating_life_h=rating.basic_life_h,
         viscosity_ratio=rating.viscosity_ratio,
         rating=rating,
         simulated_s=simulated,
-        run_s=None if simulated is None else _wall_time(model, found, simulated, announce),
+        processor_s=None if trial is None else trial.seconds,
+        basis=_basis(model.solver, simulated, turn, trial),
     )
 
 
@@ -96,20 +146,45 @@ def _simulated_time(model: BearingModel, found: Equilibrium) -> float | None:
     solver = model.solver
     if solver.duration > 0.0:
         return solver.duration
-    discard = max(DISCARDED_AT_LEAST, math.ceil(solver.discard_revolutions))
-    turns = discard + max(AVERAGED_AT_LEAST, math.ceil(solver.average_revolutions))
-    needed = min(turns * _cage_turn(model, found), solver.max_duration)
+    needed = min(_turns(solver) * _cage_turn(model, found), solver.max_duration)
     return needed if math.isfinite(needed) else None
 
 
-def _wall_time(
-    model: BearingModel, found: Equilibrium, simulated: float, announce: Callable[[str], None] | None
-) -> float | None:
-    """Return the wall time of a run from that of its first moments, None where these cannot be computed."""
-    engine = BearingEngine(model, announce, found)
-    begin = time.perf_counter()
-    advance = engine.advance(
-        min(_TRIAL * _cage_turn(model, found), simulated), lambda: time.perf_counter() - begin > _TRIAL_WALL
-    )
-    spent = time.perf_counter() - begin
-    return spent * simulated / engine.time if advance.ok and engine.time > 0.0 else None
+def _turns(solver: Solver) -> int:
+    """Return how many cage turns a run needs at least to converge."""
+    discard = max(DISCARDED_AT_LEAST, math.ceil(solver.discard_revolutions))
+    return discard + max(AVERAGED_AT_LEAST, math.ceil(solver.average_revolutions))
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """The first moments of a run: what of it was simulated [s], in what processor time, and that of the run [s]."""
+
+    simulated: float
+    spent: float
+    seconds: float
+
+
+def _trial(engine: BearingEngine | MachineEngine, turn: float, simulated: float) -> _Trial | None:
+    """Integrate the first moments of a run, None where these cannot be computed."""
+    wall, begin = time.perf_counter(), time.process_time()
+    advance = engine.advance(min(_TRIAL * turn, simulated), lambda: time.perf_counter() - wall > _TRIAL_WALL)
+    spent = time.process_time() - begin
+    if not advance.ok or not engine.time > 0.0:
+        return None
+    return _Trial(engine.time, spent, spent * simulated / engine.time)
+
+
+def _basis(solver: Solver, simulated: float | None, turn: float, trial: _Trial | None) -> str:
+    """Say what an estimate follows from."""
+    if simulated is None:
+        return "nothing turns and the case has no solver.duration: a run has no end of its own"
+    if trial is None:
+        return "the first moments of a run could not be computed"
+    if solver.duration > 0.0:
+        end = "solver.duration of the case"
+    elif simulated < _turns(solver) * turn:
+        end = "solver.max_duration"
+    else:
+        end = f"{_turns(solver)} turns of the slowest cage, the fewest after which a run can have converged"
+    return f"{end}; a trial of {1e3 * trial.simulated:.3g} ms took {1e3 * trial.spent:.3g} ms on this machine"

@@ -75,14 +75,15 @@ def quasistatic(
 @one_blas_thread()
 def estimate(
     source: str | Path | Mapping[str, Any] | Case | ShaftCase | BearingModel | Machine,
+    overrides: Iterable[str] = (),
     *,
     announce: Callable[[str], None] | None = None,
 ) -> Estimate | MachineEstimate:
-    """Estimate a case before it is run: equilibrium, rating life, wall time.
+    """Estimate a case before it is run: equilibrium, rating life, processor time of a run.
 
     Parameters
     ----------
-    source
+    source, overrides
         As for :func:`check`, or a resolved model.
     announce : callable, optional
         Called with a sentence before something is compiled.
@@ -104,8 +105,8 @@ def estimate(
         from lambda_core.run.estimate import machine_estimate
         from lambda_core.shaft.machine_answers import machine_of
 
-        return machine_estimate(machine_of(source), announce)  # type: ignore[arg-type]
-    return ask(ready_model(source, announce=announce), registry().methods, announce)  # type: ignore[arg-type]
+        return machine_estimate(machine_of(source, overrides), announce)  # type: ignore[arg-type]
+    return ask(ready_model(source, overrides, announce), registry().methods, announce)  # type: ignore[arg-type]
 
 
 @one_blas_thread()
