@@ -11,3 +11,8 @@ class Record(BaseModel):
     """Base of what the machine interface is made of."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    def __str__(self) -> str:
+        """Return the lines for people where there are any, else the short form."""
+        text = getattr(type(self), "text", None)
+        return str(text(self)) if callable(text) else repr(self)

@@ -1,0 +1,70 @@
+"""Machines built in Python: they are the case that they write, and every question takes them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import lambda_core as lb
+from lambda_core import api
+from lambda_core.domain.errors import CaseError, UsageError
+
+
+def gearbox() -> lb.Machine:
+    machine = lb.Machine("gearbox", speed="3000 rpm", oil=("FVA3", "70 degC"))
+    machine.shaft("30 mm x 40 mm", "110 mm x 48 mm", "30 mm x 30 mm x 10 mm")
+    machine.bearing("left", "SKF 6208", at="21 mm")
+    machine.bearing("right", "SKF 6206", at="148 mm", support={"x": "free"})
+    return machine.gear("wheel", at="85 mm", pitch_diameter="120 mm", power="15 kW", role="driven", mesh="90 deg")
+
+
+def test_a_machine_says_what_its_file_says(tmp_path: Path) -> None:
+    machine = gearbox()
+    file = machine.save(tmp_path / "gearbox.toml")
+    assert lb.Machine.from_case(file).tables == machine.tables
+    of_file, built = api.quasistatic(file), machine.quasistatic()
+    assert of_file.model_dump_json() == built.model_dump_json()
+    assert built.bearing("left").radial_load_N == pytest.approx(424.0, rel=0.05)
+    assert "left" in str(built)
+    assert "wheel" in str(built)
+
+
+def test_a_changed_copy_leaves_the_machine_as_it_was() -> None:
+    machine = gearbox()
+    before = machine.tables
+    stronger = machine.with_(gears={"wheel": {"power": "30 kW"}})
+    assert machine.tables == before
+    assert stronger.tables["gears"]["wheel"] == before["gears"]["wheel"] | {"power": "30 kW"}
+    loads = [made.quasistatic().bearing("right").radial_load_N for made in (machine, stronger)]
+    assert loads[1] == pytest.approx(2.0 * loads[0], rel=0.1)
+
+
+def test_one_bearing_is_two_lines_shorter() -> None:
+    machine = lb.Machine.of_bearing("SKF 6208", radial="3 kN", speed="3000 rpm", oil=("FVA3", "70 degC"))
+    found = machine.quasistatic()
+    assert found.friction_torque_Nmm > 50.0
+    assert found.max_load_N == pytest.approx(3000.0 * 5.0 / 9.0, rel=0.1)  # Stribeck: Q_max = 5 F / Z (no clearance)
+
+
+def test_mistakes_are_named_at_once_or_by_the_case() -> None:
+    machine = gearbox()
+    with pytest.raises(UsageError, match=r"bearings\.left exists already"):
+        machine.bearing("left", "SKF 6206", at="10 mm")
+    with pytest.raises(UsageError, match="length x diameter"):
+        machine.shaft("30 mm")
+    with pytest.raises(UsageError, match="name and temperature"):
+        lb.Machine(speed="3000 rpm", oil="FVA3")
+    machine.disc("flywheel", at="10 mm", mas="2 kg")
+    with pytest.raises(CaseError, match="mass"):
+        machine.quasistatic()
+
+
+def test_a_machine_shows_itself_in_one_line() -> None:
+    assert repr(gearbox()) == ("Machine('gearbox', speed='3000 rpm', bearings=['left', 'right'], gears=['wheel'])")
+
+
+def test_the_package_offers_the_class_and_nothing_else() -> None:
+    assert "Machine" in dir(lb)
+    with pytest.raises(AttributeError, match="Machin"):
+        _ = lb.Machin  # type: ignore[attr-defined]
