@@ -104,12 +104,15 @@ def usual_responses(bearings: tuple[str, ...], mode: str) -> tuple[str, ...]:
 
 def _of_machine() -> list[Response]:
     both = [("friction_torque_Nmm", "N mm", "friction torque of all bearings"),
+            ("system_life_h", "h", "life of all bearings, 90 %"),
             ("drive_torque_Nm", "N m", "torque of the coupling on the shaft")]  # fmt: skip
     dynamic = [("friction_torque_ci_Nmm", "N mm", "95 % confidence half-width of the friction torque"),
                ("energy_residual", "", "energy residual"), ("simulated_s", "s", "simulated time")]  # fmt: skip
     return [
         *(Response(name, unit, meaning, _number(name), _number(name)) for name, unit, meaning in both),
-        Response("system_life_h", "h", "life of all bearings, 90 %", _number("system_life_h")),
+        Response(
+            "system_life_h", "h", "life of all bearings, 90 %", _number("system_life_h"), _number("system_life_h")
+        ),
         Response("power_loss_W", "W", "power loss of all bearings", _power, _number("power_loss_W")),
         Response("max_deflection_um", "um", "largest deflection of the shaft across its axis", _deflection),
         Response("first_critical_speed_rpm", "rpm", "first critical speed", _critical),

@@ -297,12 +297,19 @@ def _probe_machine(
     study: Study, model: Machine, names: tuple[str, ...], announce: Announce
 ) -> tuple[float, dict[str, tuple[float | None, str, str]], float]:
     """Do for a machine what :func:`_probe` does for one bearing."""
+    from lambda_core.run.estimate import machine_estimate
     from lambda_core.shaft.shaft_equilibrium import solve_shaft
 
-    if study.mode == "dynamic":
-        raise UsageError("studies of machines are quasi-static: the runs of a machine have no responses yet")
     state = solve_shaft(model, announce)  # compiles or loads; not timed
-    columns = machine_columns(model, [ring.equilibrium() for ring in state.rings], names)
+    equilibria = [ring.equilibrium() for ring in state.rings]
+    columns = machine_columns(model, equilibria, names)
+    if study.mode == "dynamic":
+        run = machine_estimate(model, announce)
+        if run.processor_s is None or run.simulated_s is None:
+            return math.nan, columns, math.nan
+        each = zip(model.bearings, equilibria, strict=True)
+        size = sum(_file_size(bearing.model, run.simulated_s, found.orbit) for bearing, found in each)
+        return run.processor_s, columns, size
     static_values(model, names)
     start = time.perf_counter()
     static_values(point_model(model.case_toml, ()), names)

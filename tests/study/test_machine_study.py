@@ -56,3 +56,27 @@ def test_mistakes_of_a_study_of_a_machine_are_named(box: Path) -> None:
         api.study_check({**study, "parameters": [{"path": "gears.wheel.pover", "values": ["5 kW"]}]})
     with pytest.raises(api.CaseError, match=r"bearings\.left\.position"):
         api.study_check({**study, "set": {"bearings.left.position": "300 mm"}})
+
+
+def test_runs_of_a_machine_are_points(box: Path, tmp_path: Path) -> None:
+    """A run per point, one file each; responses are the numbers of its summary, of the machine and of a bearing."""
+    from lambda_core.batch.machine_responses import machine_responses
+
+    names = [name for name, one in machine_responses(("left", "right")).items() if one.dynamic is not None]
+    study = {
+        "name": "runs", "case": str(box), "mode": "dynamic", "responses": names,
+        "set": {"solver.duration": "2 ms"},
+        "parameters": [{"path": "discs.wheel.unbalance", "values": ["0 g mm", "50 g mm"]}],
+    }  # fmt: skip
+    estimate = api.study_check(study)
+    assert 0.0 < estimate.seconds_per_point < 10.0
+    assert estimate.disk_bytes > 0.0
+    status = api.study_run(study, tmp_path / "runs", executor="here")
+    assert (status.partial, status.failed) == (2, 0), status.reasons
+    first, second = api.study_table(tmp_path / "runs").rows()
+    summary = api.result(tmp_path / "runs" / first["file"]).summary()
+    assert first["friction_torque_Nmm"] == summary.friction_torque_Nmm
+    assert first["system_life_h"] == summary.system_life_h
+    assert first["right.max_pressure_GPa"] == summary.bearings["right"].max_pressure_GPa
+    assert first["left.min_film_um"] == summary.bearings["left"].min_film_um
+    assert first["left.max_load_N"] != second["left.max_load_N"]
