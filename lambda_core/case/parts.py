@@ -146,7 +146,9 @@ class Bearing(Section):
 
     @model_validator(mode="after")
     def _one_of_both(self) -> Bearing:
-        if self.contact_angle is not None and self.clearance is not None:
+        # rows on a sphere have both: the angle places the balls, the clearance the inner ring
+        spherical = self.geometry is not None and self.geometry.arrangement == "spherical"
+        if self.contact_angle is not None and self.clearance is not None and not spherical:
             raise ValueError("clearance and contact_angle say the same: give one of them")
         if self.axial_clearance is not None and self.clearance is not None:
             raise ValueError("clearance and axial_clearance say the same: give one of them")

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import re
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from functools import cache, lru_cache
@@ -139,6 +140,17 @@ def misread(text: str, unit: str = "") -> str:
     return ""
 
 
+_EVERYDAY = (1e-3, 1e5)  # sizes of numbers that people write in the first unit of a quantity
+
+
+def _unit_meant(value: float, units: Mapping[str, float]) -> str:
+    """Return the unit to propose for a number without one: of a very large or small number the SI unit."""
+    first = next(iter(units))
+    if value == 0.0 or _EVERYDAY[0] <= abs(value) < _EVERYDAY[1]:
+        return first
+    return next((unit for unit, factor in units.items() if factor == 1.0), first)
+
+
 def parse(text: object, quantity: str) -> float:
     """Read a unit string as an SI float.
 
@@ -167,7 +179,8 @@ def parse(text: object, quantity: str) -> float:
     if isinstance(text, int | float):
         if not abs(text) <= sys.float_info.max:
             raise ValueError(f'must be a finite number with its unit, for example "1 {first}"')
-        raise ValueError(f'{text:g} has no unit: write "{text:g} {first}" (allowed: {", ".join(units)})')
+        unit = _unit_meant(float(text), units)
+        raise ValueError(f'{text:g} has no unit: write "{text:g} {unit}" (allowed: {", ".join(units)})')
     if mistake := misread(text, first):
         raise ValueError(mistake)
     match = _VALUE.match(text)
@@ -175,7 +188,8 @@ def parse(text: object, quantity: str) -> float:
         raise ValueError(f'"{text}" is not a number with a unit, for example "1 {first}"')
     unit = _spelling(match[2])
     if not unit:
-        raise ValueError(f'"{text}" has no unit: write "{match[1]} {first}" (allowed: {", ".join(units)})')
+        unit = _unit_meant(float(match[1]), units)
+        raise ValueError(f'"{text}" has no unit: write "{match[1]} {unit}" (allowed: {", ".join(units)})')
     if unit not in units:
         close = nearest(unit, units)
         hint = f"; did you mean {close[0]}?" if close else ""

@@ -52,6 +52,25 @@ def case(*, radial: float = 0.0, axial: float = 0.0, tilt: float = 0.0, **bearin
     }
 
 
+def own_geometry(**bearing: Any) -> dict[str, Any]:
+    """Return a self-aligning bearing that no catalogue has."""
+    geometry = {
+        "ball_count": 15, "ball_diameter": "8.7 mm", "pitch_diameter": "60 mm", "conformity_inner": 0.52,
+        "bore_diameter": "40 mm", "outside_diameter": "80 mm", "width": "23 mm", "rows": 2, "arrangement": "spherical",
+    }  # fmt: skip
+    return {**case(radial=1000.0), "bearing": {"geometry": geometry, **bearing}}
+
+
+def test_a_bearing_of_own_geometry_takes_clearance_and_contact_angle() -> None:
+    """The angle places the balls on the sphere, the clearance is the inner ring's: they are independent."""
+    for angle, clearance in ((10.0, 20.0), (10.0, 40.0), (14.0, 20.0)):
+        g = api.check(own_geometry(contact_angle=f"{angle} deg", clearance=f"{clearance} um")).geometry
+        assert g.contact_angle == pytest.approx(math.radians(angle), rel=1e-12)
+        assert g.clearance == pytest.approx(1e-6 * clearance, rel=1e-9)
+        reach = (0.03 + 0.25e-6 * clearance) / math.cos(g.contact_angle)
+        assert g.row_distance == pytest.approx(2.0 * reach * math.sin(g.contact_angle), rel=1e-9)
+
+
 def equilibrium(**what: Any) -> Equilibrium:
     return solve(api.check(case(**what)))
 
