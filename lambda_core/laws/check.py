@@ -29,6 +29,7 @@ from lambda_core.laws.pack import compiled_here
 from lambda_core.laws.par import flat_kernel, make_par, par_layout
 from lambda_core.laws.probe import WRENCHES, draw, open_contact, trial_context
 from lambda_core.laws.runaway import runaways
+from lambda_core.laws.shear_limit import SHEAR_LIMIT, limitless_sentence, stress_ratio
 from lambda_core.laws.state import ROLE as STATES
 from lambda_core.laws.thresholds import trials_at_thresholds
 
@@ -119,6 +120,8 @@ def check_model(
     unit = "cell" if ROLES[model.role].elementwise else "call"
     slow = f"{model.label} is slow: {seconds * 1e6:.3g} us per {unit}, above {bound * 1e6:g} us"
     warnings = [slow] if seconds > bound else []
+    if model.role == "traction" and (ratio := stress_ratio(model, pars[0])) > SHEAR_LIMIT:
+        warnings.append(f"{model.label} {limitless_sentence(ratio)}")
     if model.states:
         states, generator = len(model.states), np.random.default_rng(20261)
         trials = [draw(ROLES[model.role], par, 1, generator, states) for par in pars for _ in range(_HELD)]

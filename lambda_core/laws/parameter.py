@@ -7,6 +7,8 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from lambda_core.domain.units import UNITS
+
 Bound = float | str
 
 
@@ -79,6 +81,19 @@ def kind_defaults(parameters: type[BaseModel], kind: str) -> dict[str, Bound]:
     return found  # type: ignore[return-value]
 
 
+def _fault_of_default(name: str, error: Any) -> str:
+    """Say what is wrong with a default; of a text with a unit how a parameter with a unit is declared."""
+    text = error.get("input")
+    if error["type"] == "float_parsing" and isinstance(text, str):
+        quantities = [key for key, units in UNITS.items() if text.strip().split(" ", 1)[-1] in units]
+        if quantities:
+            return (
+                f'"{text}" has a unit, and {name} is declared a plain number: declare '
+                f'{name}: Annotated[float, Quantity("{quantities[0]}")] with Quantity of lambda_core.plugins'
+            )
+    return str(error["msg"])
+
+
 def default_fault(parameters: type[BaseModel]) -> str:
     """Say which default is not valid, or is a text that would reach the kernel unread; nothing when all are."""
     try:
@@ -86,7 +101,8 @@ def default_fault(parameters: type[BaseModel]) -> str:
     except ValidationError as error:
         for each in error.errors():
             if each["type"] != "missing":
-                return f"the default of {'.'.join(map(str, each['loc']))} is not valid: {each['msg']}"
+                name = ".".join(map(str, each["loc"]))
+                return f"the default of {name} is not valid: {_fault_of_default(name, each)}"
     for name, info in parameters.model_fields.items():
         checked = info.validate_default or parameters.model_config.get("validate_default")
         if isinstance(info.default, str) and not checked and info.annotation is float:

@@ -17,6 +17,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.channels import SHORTED
 from lambda_core.domain.elements import INNER, LANDS, OUTER
 from lambda_core.domain.errors import EquilibriumError, SolverError
+from lambda_core.laws.shear_limit import SHEAR_LIMIT, limitless_sentence, stress_ratio
 from lambda_core.solver.arrays import bundle as L
 from lambda_core.solver.arrays.fault_roles import OUTSIDE, ROLES
 from lambda_core.solver.core import Core, core
@@ -190,7 +191,7 @@ def continue_static(compiled: Core, context: SolverContext, state: FloatArray, *
     if status == Status.REFUSED:
         raise SolverError(f"the quasi-static equilibrium failed: {fault_sentence(context)}")
     if status != Status.OK:
-        sentence = _no_equilibrium(context.model, report, friction=friction)
+        sentence = _no_equilibrium(context, report, friction=friction)
         raise EquilibriumError(sentence, float(report["last_change"][0]))
     return report
 
@@ -251,19 +252,29 @@ def _with_friction(compiled: Core, context: SolverContext, state: FloatArray, *,
         return report
 
 
-def _no_equilibrium(model: BearingModel, report: StaticReport, *, friction: bool) -> str:
+def _no_equilibrium(context: SolverContext, report: StaticReport, *, friction: bool) -> str:
     iterations, change = report["iterations"][0], report["last_change"][0]
     how_far = f"after {iterations:.0f} iterations (last step {change:.2e} of the states' scales)"
     if friction:
         return (
-            f"{operating_point(model)}: no quasi-static equilibrium with friction {how_far}: loads and contact angles "
-            "were found, a steady motion of the balls was not: try a speed or temperature nearby, or a run, which "
-            "needs none"
+            f"{operating_point(context.model)}: no quasi-static equilibrium with friction {how_far}: loads and contact "
+            "angles were found, a steady motion of the balls was not: "
+            f"{_limitless(context) or 'try a speed or temperature nearby, or a run, which needs none'}"
         )
     return (
         f"no quasi-static equilibrium without friction {how_far}: is every free degree of freedom of the ring held by "
         "a load or a support?"
     )
+
+
+def _limitless(context: SolverContext) -> str:
+    """Say which traction law gives shear stresses that no oil has, or nothing."""
+    for element in ("ball_inner", "ball_outer"):
+        law = context.model.laws[element]["traction"]
+        ratio = stress_ratio(law.model, context.parameters(element, "traction"))
+        if ratio > SHEAR_LIMIT:
+            return f"{law.model.label} {limitless_sentence(ratio)}"
+    return ""
 
 
 def contact_channels(compiled: Core, context: SolverContext, state: FloatArray) -> tuple[FloatArray, FloatArray]:

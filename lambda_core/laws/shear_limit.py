@@ -1,0 +1,36 @@
+"""Largest shear stress of a traction law over pressure: laws without a limit leave a bearing without equilibrium."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.laws.law import Law
+from lambda_core.laws.par import flat_kernel
+
+# Measured limits of oils are 0.03 to 0.12 of the pressure (Johnson and Tevaarwerk 1977, Proc. R. Soc. A 356, 215; Bair
+# and Winer 1979, J. Lubr. Technol. 101, 251): what exceeds this is no oil.
+SHEAR_LIMIT = 0.3
+_PRESSURE, _TEMPERATURE, _FILM, _LN_VISCOSITY = 1.5e9, 333.15, 0.5e-6, 15.0  # Pa, K, m, ln(Pa s): mineral oil, loaded
+
+
+def stress_ratio(law: Law, par: FloatArray) -> float:
+    """Return the largest shear stress over pressure in a loaded contact, slip of 1 mm/s to 10 m/s; 0 where refused.
+
+    Pressure 1.5 GPa, ln(eta) 15 (3 kPa s), film 0.5 um: usual contacts of loaded ball bearings.
+    """
+    slip = np.logspace(-3.0, 1.0, 41)
+    pressure, temperature = np.full(slip.size, _PRESSURE), np.full(slip.size, _TEMPERATURE)
+    stress = np.zeros(slip.size)
+    status = flat_kernel(law)(
+        slip, pressure, temperature, np.full(slip.size, _LN_VISCOSITY), np.float64(_FILM), par, stress
+    )
+    return float(np.abs(stress).max()) / _PRESSURE if status == 1 and np.all(np.isfinite(stress)) else 0.0
+
+
+def limitless_sentence(ratio: float) -> str:
+    """Say what is wrong with a law whose shear stress is so many times the pressure, and what to do."""
+    return (
+        f"gives shear stresses of up to {ratio:.3g} times the pressure, oils 0.03 to 0.12: hold them at a limiting "
+        "stress, as tau = newtonian limit/(newtonian + limit) does, limit = 0.07 p"
+    )
