@@ -118,7 +118,7 @@ def test_resumed_and_paused_runs_are_the_same_bits() -> None:
 
 def test_slopes_of_the_rates() -> None:
     """The block of a contact in the Newton matrix is the derivative of its rates: linear, so exact but for rounding."""
-    context = engine({"contact_state": spiral})._context
+    context = engine({"contact_state": spiral}).context
     y, rates = np.zeros(context.size), np.zeros(L.power_count(context.bundle))
     start = first_state(context)
     assert core().evaluate(0.0, start, context.bundle, y, rates, 0) == 1

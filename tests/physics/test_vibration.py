@@ -188,7 +188,7 @@ def decay(accuracy: str, amplitude: float) -> tuple[float, float]:
             )
         )  # fmt: skip
         tail = L.NB * engine.model.geometry.ball_count
-        x = tail + list(engine._context.bundle.active).index(L.SX)
+        x = tail + list(engine.context.bundle.active).index(L.SX)
         engine._memory.y[x] += side * amplitude
         assert engine.advance(20.0 / FREQUENCY).ok
         times, states = engine.buffered()
@@ -241,7 +241,7 @@ def kicked_across(*changes: str) -> FloatArray:
         engine = BearingEngine(
             api.check("6208-axial-1300", ["output.interval=0.05 ms", "solver.duration=1 s", *changes])
         )
-        across = L.NB * engine.model.geometry.ball_count + list(engine._context.bundle.active).index(L.SVX + 1)
+        across = L.NB * engine.model.geometry.ball_count + list(engine.context.bundle.active).index(L.SVX + 1)
         engine._memory.y[across] += kick
         assert engine.advance(20.1e-3).ok
         traces.append(engine.buffered()[1][40:400, across])
