@@ -15,7 +15,8 @@ from lambda_core.system.state_channels import result_channels
 if TYPE_CHECKING:
     from lambda_core.domain.channels import Channel
     from lambda_core.shaft.machine_motion import MachineEngine
-    from lambda_core.solver.drivers.engine import Advance, Engine
+    from lambda_core.solver.drivers.dynamics import BearingEngine
+    from lambda_core.solver.drivers.engine import Advance
 
 
 class RunEngine(Protocol):
@@ -44,7 +45,7 @@ class RunEngine(Protocol):
         """Return and clear the buffered samples."""
 
     def integrals(self) -> dict[str, dict[str, float]]:
-        """Return the running integrals of every bearing by its name (see :class:`Engine`)."""
+        """Return the running integrals of every bearing by its name (see :class:`BearingReadings`)."""
 
     def statistics(self) -> dict[str, float]:
         """Return counters of the integrator since the start, those of a restored state among them."""
@@ -62,7 +63,7 @@ class RunEngine(Protocol):
 class OneBearing:
     """The dynamics of one bearing alone, for the run loop."""
 
-    def __init__(self, engine: Engine) -> None:
+    def __init__(self, engine: BearingEngine) -> None:
         self._engine = engine
         self.channels = RunChannels((), {ALONE: without_time(engine.channels)})
         self.advance, self.statistics, self.modes = engine.advance, engine.statistics, engine.modes

@@ -315,3 +315,15 @@ def test_signs_of_the_tied_states() -> None:
     body.view(np.float64)[RING_STATES] = RING_SIGNS * [1.0, 2.0, 3.0, 0.1, 0.2]
     assert body["position"][0].tolist() == [1.0, 2.0, 3.0]
     assert (-body["tilt"][0, 1], body["tilt"][0, 0]) == (0.1, 0.2)
+
+
+def test_a_machine_without_cages_counts_the_turns_of_its_balls() -> None:
+    """The balls of the 6208 go round at 0.40 of the shaft's speed; without a cage they are what has turned."""
+    engine = machine_engine(check_shaft(tables(), ["depth.cage=false"]))
+    assert engine.advance(5e-3).ok
+    for one, row in zip(engine.machine.bearings, engine.integrals(), strict=True):
+        g = one.model.geometry
+        assert row["cage_angle"] / row["inner_angle"] == pytest.approx(
+            0.5 * (1.0 - g.ball_diameter / g.pitch_diameter), rel=0.02
+        )
+        assert row["loss.pocket"] >= 0.0

@@ -23,7 +23,6 @@ from lambda_core.solver.drivers.engine import (
     SMALLEST_STEP,
     WORK_PER_CALL,
     Advance,
-    drive,
     usual_interval,
 )
 from lambda_core.solver.drivers.equilibrium import Equilibrium, fault_sentence, solve
@@ -44,6 +43,7 @@ from lambda_core.solver.drivers.surface_steps import longest_step
 from lambda_core.solver.drivers.tables import running
 from lambda_core.solver.integrator.tableau import STAGES
 from lambda_core.solver.records import CONTACT_CHANNELS
+from lambda_core.solver.status import Status
 from lambda_core.system.bearing import BearingModel
 from lambda_core.system.state_channels import result_channels
 
@@ -158,12 +158,25 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         return self._readings.bearings
 
     def advance(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
-        """Integrate until `time` >= `until` [s] or `pause` says so; samples gather in the buffer meanwhile."""
+        """Integrate until `time` >= `until` [s] or `pause` says so; samples gather in the buffer meanwhile.
 
-        def integrate(end: float) -> int:
-            return int(self._core.integrate(self._handle, end, WORK_PER_CALL))
-
-        return drive(integrate, self, until, pause, self._drain, lambda: fault_sentence(self.context, self.time))
+        `pause` is called some ten times a second, between two steps on the way there; when it returns True, `advance`
+        returns early.
+        """
+        status: int = Status.UNFINISHED
+        while self.time < until:
+            status = int(self._core.integrate(self._handle, until, WORK_PER_CALL))
+            if status == Status.BUFFER_FULL:
+                self._drain()
+            elif status not in (Status.OK, Status.UNFINISHED):
+                break
+            if self.time < until and pause is not None and pause():
+                break
+        if status in (Status.OK, Status.UNFINISHED, Status.BUFFER_FULL):
+            return Advance(True, "")
+        if status == Status.REFUSED:
+            return Advance(False, fault_sentence(self.context, self.time))
+        return Advance(False, f"the time step fell below {SMALLEST_STEP:g} s at t = {self.time:.6g} s")
 
     def advance_exactly(self, until: float, pause: Callable[[], bool] | None = None) -> Advance:
         """Integrate until `time` == `until` [s]: steps on the way there are cut to end at it."""
@@ -220,13 +233,17 @@ class MotionEngine(Generic[Sampled, Summed_co]):
         return float(extra[0, 0])  # a records.TOTALS
 
     def integrals(self) -> Summed_co:
-        """Return the running integrals since the start (see the Engine protocol)."""
+        """Return the running integrals since the start, see :meth:`BearingReadings.integrals`."""
         if self._readings.adds_up_samples:
             self._drain()
         return self._readings.integrals(self._memory.integrals, self._memory.y, self._energy() - self._start_energy)
 
     def statistics(self) -> dict[str, float]:
-        """Return counters of the integrator."""
+        """Return counters of the integrator: steps, rejected, newton_iterations, rhs_calls, jacobians and so on.
+
+        With `steps_to_the_fourth`, the sum of the fourth powers of the steps [s4], and `iteration_work`, the work that
+        early ends of Newton's iteration put in or took, counted positive [J].
+        """
         counted = {name: float(self._memory.count[name][0]) for name in _COUNTERS}
         steps, rest = self._memory.control["fourth_powers"][0], running(self._memory.integrals)["iteration"]
         return {**counted, "steps_to_the_fourth": float(steps), "iteration_work": float(rest)}

@@ -125,7 +125,14 @@ class BearingReadings:
         return self.sampled(np.array([time]), y.reshape(1, -1))
 
     def integrals(self, values: FloatArray, y: FloatArray, stored: float) -> Sums:
-        """Return the running integrals since the start (see the Engine protocol)."""
+        """Return the running integrals since the start.
+
+        ``loss.<name>`` for each of LOSSES [J], ``input`` (all external work) [J], ``input_abs`` (its absolute value)
+        [J], ``drive`` (work of the spin drives) [J], ``stored`` (kinetic and elastic energy now minus at the start)
+        [J], ``relative_angle`` (integral of |Omega_i - Omega_o|) [rad], ``cage_angle`` (cage angle relative to the
+        outer ring; mean of the balls when the cage is off) [rad], ``inner_angle`` (inner ring spin angle relative to
+        the outer) [rad], ``x``, ``y``, ``z`` (integral of the inner ring's position) [m s].
+        """
         so_far, turned = running(values), self._angles(y) - self._start
         losses = losses_by_ring(self._context.model.geometry, values[: -L.BESIDE_LOSSES])
         return {
@@ -193,11 +200,16 @@ class MachineReadings:
         self._start, self._last_time = self._angles(y), time
 
     def _angles(self, y: FloatArray) -> FloatArray:
-        """Return the angles of all cages, then those of all inner rings [rad]."""
+        """Return the angles of all cages (means of the balls without cages), then those of all inner rings [rad]."""
         flat = np.zeros(self._context.bundle.shared.size)
         flat[self._context.bundle.active] = self._context.shared_part(y)
-        angles = flat.view(R.BODY_STATE)["angle"]
-        return np.array([float(angles[one.span.bodies[body]]) for body in (CAGE, INNER) for one in self.bearings])
+        angles, cages = flat.view(R.BODY_STATE)["angle"], []
+        for one in self.bearings:
+            first, last = one.span.first_ball, one.span.first_ball + one.span.balls
+            balls = y[L.NB * first : L.NB * last].view(R.BALL)
+            is_caged = one.context.model.depth.cage
+            cages.append(float(angles[one.span.bodies[CAGE]] if is_caged else np.mean(balls["azimuth"])))
+        return np.array([*cages, *(float(angles[one.span.bodies[INNER]]) for one in self.bearings)])
 
     def sampled(self, times: FloatArray, states: FloatArray) -> MachineSamples:
         """Return what is read at samples, which follow those of the last call."""
