@@ -37,6 +37,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.run.duty_cycle import duty
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.run.speed_curve import stribeck, stribeck_picture
+    from lambda_core.run.temperatures import thermal, thermal_pictures, warm_up
     from lambda_core.shaft.export import stiffness_target, write_stiffness
     from lambda_core.shaft.machine_answers import describe_machine, machine_pictures, modes
     from lambda_core.shaft.machine_text import machine_warnings
@@ -45,7 +46,6 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.system.checking import check, describe, problems, resolve
     from lambda_core.system.law_trials import law_problems
     from lambda_core.system.resolve_machine import check_shaft
-    from lambda_core.thermal.temperatures import thermal, thermal_pictures, warm_up
 if TYPE_CHECKING:  # what the faces build on, and the classes that calls take and return
     from lambda_core.batch.run_queue import QueuedRun, RunKind, RunQueue
     from lambda_core.batch.scheduler import StudyProgress

@@ -1,4 +1,4 @@
-"""The command thermal: temperatures that a bearing's own losses give it."""
+"""The command thermal: temperatures that the losses of bearings give them."""
 
 from __future__ import annotations
 
@@ -31,33 +31,32 @@ def thermal(
     quiet: QuietOption = False,
     progress: ProgressOption = Style.AUTO,
 ) -> None:
-    """Find the temperatures of a bearing and its surroundings under its own losses.
+    """Find the temperatures of a bearing or a machine under its own losses.
 
-    The network stands in the section thermal of the case. Clearance, viscosity and films follow the temperatures.
-    With a result file the losses are the averages of that run. Exit codes: 0 found, 3 invalid case, 4 no steady
+    The section thermal of the case describes the network: bearings, shaft, housing, surroundings. Clearance, preload,
+    viscosity and films follow the temperatures. With the result file of one bearing the losses are the averages of
+    that run. Exit codes: 0 found, 3 invalid case, 4 no steady
     temperatures (a runaway is named with the gain that caused it), 5 a warm-up that passed thermal.limit.
     """
     from lambda_core import api
     from lambda_core.domain.errors import PartialResultError
+    from lambda_core.views.other_units import in_units
 
     if draw is not None:
         check_folder(draw, made=True)
     with talk(progress, quiet) as speaker:
-        if transient is None:
-            steady = api.thermal(source, changes or (), announce=speaker.say)
-            views, shown = api.thermal_pictures(steady), steady.model_dump_json(indent=2) if as_json else steady.text()
-            reason = ""
-        else:
+        course = None
+        if transient is not None:
             course = api.warm_up(source, _seconds(transient), changes or (), announce=speaker.say)
-            views, shown = api.thermal_pictures(course), course.model_dump_json(indent=2) if as_json else course.text()
-            reason = course.reason
-    typer.echo(shown if as_json else units.system.sentence(shown))
+        found = course or api.thermal(source, changes or (), announce=speaker.say)
+        views = api.thermal_pictures(found)
+    typer.echo(found.model_dump_json(indent=2) if as_json else found.text(units.system))
     if draw is not None:
         for view in views:
-            for path in api.draw(view, draw, api.view_stem([source])):
+            for path in api.draw(in_units(view, units.system), draw, api.view_stem([source])):
                 typer.echo(str(path), err=True)
-    if reason:
-        raise PartialResultError(reason)
+    if course is not None and course.reason:
+        raise PartialResultError(course.reason)
 
 
 def _seconds(text: str) -> float:

@@ -85,8 +85,7 @@ def work(task: Task) -> Outcome:
         _be_ready(task.guests)
         model = point_model(task.case_toml, task.changes)
         hash_ = point_hash(model)
-        if not isinstance(model, Machine):
-            model = with_temperatures(model)
+        model = machine_with_temperatures(model) if isinstance(model, Machine) else with_temperatures(model)
         if task.mode == "quasi-static":
             state, values = "done", static_values(model, task.responses)
         else:
@@ -161,6 +160,13 @@ def with_temperatures(model: BearingModel) -> BearingModel:
     from lambda_core.thermal.operating import at_own_temperatures
 
     return at_own_temperatures(model, lambda case: resolve(case, registry(), _catalogue()))
+
+
+def machine_with_temperatures(model: Machine) -> Machine:
+    """Return the machine at its own temperatures, where the case wants them computed."""
+    from lambda_core.shaft.temperatures import ready_machine_of
+
+    return ready_machine_of(model)
 
 
 def point_hash(model: BearingModel | Machine) -> str:

@@ -24,6 +24,7 @@ from lambda_core.case.shaft_parts import (
     ShaftMarker,
 )
 from lambda_core.case.signals import SpeedSignal
+from lambda_core.case.thermal import BearingThermal, MachineThermal, PlaceTemperature, rising
 from lambda_core.domain.elements import POSE
 from lambda_core.domain.units import Force, Length, SmallLength, Temperature
 
@@ -61,6 +62,7 @@ class Shaft(Section):
     sections: list[ShaftSection] = option([], "pieces from left to right")
     material: MaterialChoice = option("100Cr6", "catalogue name or a table of properties")
     temperature: Temperature = option("20 degC", "mean temperature, for its growth in length")
+    temperatures: list[PlaceTemperature] = option([], "in place of the mean temperature: temperatures along the shaft")
     drive: Length | None = option(
         None,
         "where the coupling holds the shaft against turning, by the rest of the torque; absent: the left end",
@@ -68,6 +70,8 @@ class Shaft(Section):
     twists: bool = option(
         False, "in motion: whether the shaft twists; otherwise torques go to the coupling without delay"
     )
+
+    _rising = field_validator("temperatures")(rising)
 
     @field_validator("sections")
     @classmethod
@@ -78,6 +82,12 @@ class Shaft(Section):
         if sections and reduced is not None:
             raise ValueError("give either `sections` or `reduced`, not both")
         return sections
+
+    @model_validator(mode="after")
+    def _has_one_temperature(self) -> Shaft:
+        if self.temperatures and "temperature" in self.model_fields_set:
+            raise ValueError("give either `temperature` or `temperatures`, not both")
+        return self
 
 
 class Housing(Section):
@@ -126,6 +136,7 @@ class ShaftBearing(Bearing, Placed):
     preload_force: Force | None = option(None, "force of a spring on the outer ring, which slides in its seat", gt=0.0)
     support: Support = option({}, "how the housing holds the outer ring")
     lubricant: OwnLubricant | None = option(None, "its own oil, or its temperature or amount")
+    thermal: BearingThermal = option({}, "what differs from [thermal] in this bearing")
     cage: CageShape = option({}, "cage, as bodies.cage in the case of one bearing")
     elastic: Elastic = option({}, "parts of the bearing that bend, as elastic in the case of one bearing")
     forces: Forces = option({}, "models of its own by force element, as forces in the case of one bearing: a defect")
@@ -148,6 +159,9 @@ class ShaftOperation(Section):
     """What turns the shaft."""
 
     speed: SpeedSignal = option(description="speed of the shaft over time; the equilibrium is that of t = 0")
+    temperatures: Literal["given", "computed"] = option(
+        "given", 'of oil, bearings, shaft and housing: as the case says, or "computed" by [thermal] for t = 0'
+    )
 
 
 class ShaftLife(Section):
@@ -180,6 +194,7 @@ class ShaftCase(Written):
     materials: Materials = option({}, "materials of the bearings' parts")
     surface: Surface = option({}, "surfaces")
     gravity: Gravity = option({}, "acceleration of gravity")
+    thermal: MachineThermal = option({}, "thermal network of shaft, housing and all bearings")
     life: ShaftLife = option({}, "what modified rating lives need")
     depth: Depth = option({}, "modelling depth, of every bearing")
     models: Models = option({}, "model by role, for every bearing")

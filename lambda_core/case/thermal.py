@@ -1,10 +1,8 @@
-"""Declare the thermal network of a case.
-
-Nodes and conductances surround the bearing.
-"""
+"""Declare the thermal network of a bearing or a machine."""
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Literal
 
 from pydantic import field_validator
@@ -87,3 +85,39 @@ class Thermal(Section):
     oil_supply: Temperature | None = option(None, "temperature of the oil that flows in; absent: ambient")
     nodes: dict[str, ThermalNode] = option({}, "nodes by name, the bearing's own or further ones")
     links: dict[str, ThermalLink] = option({}, "conductances by any name")
+
+
+class MachineThermal(Thermal):
+    """Thermal network of a machine: shaft, housing and all bearings."""
+
+    enclosed: bool = option(
+        True,
+        "whether the housing encloses the shaft between its outermost bearings: the shaft then gives heat to the "
+        "housing there, otherwise to the surroundings",
+    )
+
+
+class BearingThermal(Section):
+    """What one bearing of a machine has of its own in the thermal network; absent: as in [thermal]."""
+
+    inlet: Literal["oil", "surfaces"] | None = option(None, "temperature of the oil that enters its contacts")
+    seat_conductance: HeatTransfer | None = option(None, "of its joints ring - shaft and ring - housing", gt=0.0)
+    oil_volume: Volume | None = option(None, "its oil that stores heat", gt=0.0)
+    oil_flow: VolumeFlow | None = option(None, "oil that flows through it", ge=0.0)
+    oil_supply: Temperature | None = option(None, "temperature of the oil that flows in")
+    nodes: dict[str, ThermalNode] = option({}, "its own nodes by name, without the bearing's name")
+
+
+class PlaceTemperature(Section):
+    """Temperature at a place of the shaft."""
+
+    at: Length = option(description="place along the shaft, from its left end")
+    temperature: Temperature = option(description="temperature there; linear between places, constant beyond them")
+
+
+def rising(places: list[PlaceTemperature]) -> list[PlaceTemperature]:
+    """Check that places follow each other along the shaft."""
+    at = [place.at for place in places]
+    if any(b <= a for a, b in pairwise(at)):
+        raise ValueError("places must rise from entry to entry")
+    return places

@@ -14,6 +14,8 @@ class BodyMaterial:
     poisson_ratio: float
     density: float  # [kg/m3]
     thermal_expansion: float = 0.0  # [1/K]
+    thermal_conductivity: float = 0.0  # [W/(m K)]
+    specific_heat: float = 0.0  # [J/(kg K)]
 
     @property
     def shear_modulus(self) -> float:

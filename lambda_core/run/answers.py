@@ -188,11 +188,11 @@ def _compare_in_machine(
     from lambda_core.run.compare_methods import comparison_inputs
     from lambda_core.run.comparison import comparison_of
     from lambda_core.shaft.bearing_alone import alone_under_load, bearing_number
-    from lambda_core.shaft.machine_answers import machine_of
     from lambda_core.shaft.shaft_equilibrium import solve_shaft
+    from lambda_core.shaft.temperatures import ready_machine_of
     from lambda_core.views.method import evaluate_methods
 
-    machine = machine_of(source, overrides)
+    machine = ready_machine_of(source, overrides, announce)
     number = bearing_number(machine, bearing)
     state = solve_shaft(machine, announce)
     given = machine.contamination if contamination is None else contamination

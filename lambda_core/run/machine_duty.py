@@ -18,7 +18,7 @@ from lambda_core.results.record import INTERFACE, Record
 from lambda_core.run.duty_cycle import YEAR, DutyCycle, PhaseResult, duty_table, summed_phases
 from lambda_core.shaft.machine_equilibrium import BearingEquilibrium, MachineEquilibrium, equilibrium_of
 from lambda_core.shaft.shaft_equilibrium import SharedKernels, solve_shaft
-from lambda_core.system.resolve_machine import check_shaft
+from lambda_core.shaft.temperatures import ready_machine_of
 
 SYSTEM = (
     "life of all bearings: (sum L_i^-e)^(-1/e), e = 10/9 for balls, from L_10rh of each over the cycle "
@@ -82,7 +82,7 @@ class MachinePhases:
 
     def solved_case(self, case: ShaftCase, changes: Sequence[str]) -> MachineEquilibrium:
         """Return the equilibrium of one phase; SolverError where there is none."""
-        model = check_shaft(case, changes)
+        model = ready_machine_of(case, changes, self.announce)
         return equilibrium_of(model, solve_shaft(model, self.announce, self.kernels))
 
 

@@ -59,9 +59,10 @@ def quasistatic(
     from lambda_core.run.law_blame import naming_laws
 
     if is_machine(source):
-        from lambda_core.shaft.machine_answers import machine_equilibrium, machine_of
+        from lambda_core.shaft.machine_answers import machine_equilibrium
+        from lambda_core.shaft.temperatures import ready_machine_of
 
-        machine = machine_of(source, overrides)  # type: ignore[arg-type]
+        machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
         with naming_laws(*(bearing.model for bearing in machine.bearings)):
             return machine_equilibrium(machine, announce=announce)
     from lambda_core.results.quasistatic import quasistatic_of
@@ -103,9 +104,9 @@ def estimate(
 
     if is_machine(source):
         from lambda_core.run.estimate import machine_estimate
-        from lambda_core.shaft.machine_answers import machine_of
+        from lambda_core.shaft.temperatures import ready_machine_of
 
-        return machine_estimate(machine_of(source, overrides), announce)  # type: ignore[arg-type]
+        return machine_estimate(ready_machine_of(source, overrides, announce), announce)  # type: ignore[arg-type]
     return ask(ready_model(source, overrides, announce), registry().methods, announce)  # type: ignore[arg-type]
 
 
@@ -149,9 +150,9 @@ def run(
     path = None if out is None else Path(out)
     model: BearingModel | Machine
     if is_machine(source):
-        from lambda_core.shaft.machine_answers import machine_of
+        from lambda_core.shaft.temperatures import ready_machine_of
 
-        model = machine_of(source, overrides)  # type: ignore[arg-type]
+        model = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
     else:
         model = ready_model(source, overrides, announce)  # type: ignore[arg-type]
     return launch(model, path, force=force, report=progress, announce=announce)
@@ -306,9 +307,10 @@ def cross_check(
 
     if is_machine(source):
         from lambda_core.shaft.bearing_alone import bearing_alone
-        from lambda_core.shaft.machine_answers import machine_of
+        from lambda_core.shaft.temperatures import ready_machine_of
 
-        model = bearing_alone(machine_of(source, overrides), bearing, announce)  # type: ignore[arg-type]
+        machine = ready_machine_of(source, overrides, announce)  # type: ignore[arg-type]
+        model = bearing_alone(machine, bearing, announce)
     else:
         refuse_bearing(bearing)
         model = ready_model(source, overrides, announce)  # type: ignore[arg-type]

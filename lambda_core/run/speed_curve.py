@@ -143,9 +143,9 @@ def _models(
     """Return what gives the model of the bearing at a speed [1/min]."""
     if is_machine(source):
         from lambda_core.shaft.bearing_alone import at_speed, bearing_alone
-        from lambda_core.shaft.machine_answers import machine_of
+        from lambda_core.shaft.temperatures import ready_machine_of
 
-        alone = bearing_alone(machine_of(source, changes), bearing, announce)
+        alone = bearing_alone(ready_machine_of(source, changes, announce), bearing, announce)
         return lambda speed: at_speed(alone, speed * _RPM)
     refuse_bearing(bearing)
     return lambda speed: ready_model(source, (*changes, f"operation.speed={speed!r} rpm"), announce)

@@ -23,8 +23,9 @@ def machine_equilibrium(
     """Solve a machine; :func:`lambda_core.api.quasistatic` for a machine of several bearings."""
     from lambda_core.shaft.machine_equilibrium import equilibrium_of
     from lambda_core.shaft.shaft_equilibrium import solve_shaft
+    from lambda_core.shaft.temperatures import ready_machine_of
 
-    model = machine_of(source, overrides)
+    model = ready_machine_of(source, overrides, announce)
     return equilibrium_of(model, solve_shaft(model, announce))
 
 
@@ -58,13 +59,14 @@ def modes(
     from lambda_core.case.case_io import is_machine
     from lambda_core.shaft.machine_modes import modes_of
     from lambda_core.shaft.shaft_equilibrium import solve_shaft
+    from lambda_core.shaft.temperatures import ready_machine_of
 
     if not is_machine(source):
         raise UsageError(
             "modes are those of a shaft in its bearings, and this case has one bearing without a shaft: "
             "lambda-bearing init NAME --template geared-shaft writes a machine to start from"
         )
-    model = machine_of(source, overrides)
+    model = ready_machine_of(source, overrides, announce)
     return modes_of(model, solve_shaft(model, announce))
 
 

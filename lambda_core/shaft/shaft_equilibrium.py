@@ -210,6 +210,8 @@ def solve_shaft(model: Machine, announce: Announce = None, kernels: SharedKernel
     SolverError
         When there is none: nothing holds the shaft, or a bearing falls apart.
     """
+    if model.awaits_temperatures:
+        raise SolverError(f"{model.name}: internal error: temperatures must be computed before the equilibrium")
     shared = kernels or SharedKernels(announce)
     rings = []
     for m, takes in ((bearing.model, bearing.takes) for bearing in model.bearings):

@@ -8,6 +8,7 @@ from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.gear_forces import GearForces
 from lambda_core.elastic.body import ElasticBody
 from lambda_core.system.bearing import ZERO, BearingModel, Solver, TimeFunction
+from lambda_core.system.machine_heat import MachineHeat
 from lambda_core.system.time_functions import initial
 
 PLACES = (0, 1, 2, 4, 5)  # of a pose (solver.drivers.held_ring) among the six rows of a node
@@ -144,6 +145,10 @@ class Machine:
         Beside the shaft.
     markers : tuple of (str, Place)
         Named places.
+    heat : MachineHeat
+        The thermal network.
+    awaits_temperatures : bool
+        Whether they are to be computed before anything else.
     warnings : tuple of str
         What cannot stand on the shaft as it is drawn.
     """
@@ -157,6 +162,7 @@ class Machine:
     housing: FloatArray | None
     gravity: tuple[float, float, float]  # [m/s2]
     drive: int
+    heat: MachineHeat
     speed: float  # at t = 0 [rad/s]
     contamination: float | None  # e_C of ISO 281
     gears: dict[str, GearForces]  # forces of each mesh, by name
@@ -173,6 +179,7 @@ class Machine:
     bodies: tuple[RigidBody, ...] = ()
     markers: tuple[tuple[str, Place], ...] = ()
     housing_damping: FloatArray | None = None
+    awaits_temperatures: bool = False
     warnings: tuple[str, ...] = ()
     case_toml: str = ""  # the case, complete: it runs again as it stands
 

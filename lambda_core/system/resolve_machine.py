@@ -36,6 +36,7 @@ from lambda_core.system.interpolation import say_overshoot
 from lambda_core.system.ledger import Ledger
 from lambda_core.system.locations import Places, places
 from lambda_core.system.machine import GROUND, SHAFT, Machine, MountedBearing, Unbalance
+from lambda_core.system.machine_heat import check_heat, resolve_heat, stretch
 from lambda_core.system.machine_solver import changing, refuse_settings, with_settings
 from lambda_core.system.mounting import mounted, refuse_motion
 from lambda_core.system.reduced_shaft import reduced_shaft
@@ -158,6 +159,7 @@ def _shaft(
     refuse_laws(changing(case), ledger)
     say_overshoot(changing(case), ledger)
     refuse_settings(case, ledger)
+    check_heat(case, ledger)
     material = body_material(case.shaft.material, "shaft.material", catalogue, ledger)
     around = body_material(case.housing.material, "housing.material", catalogue, ledger)
     gears = _gears(case, ledger)
@@ -184,6 +186,7 @@ def _shaft(
     if found or ledger.problems or material is None or around is None or len(bearings) < len(case.bearings):
         return None
     body = _body(case, stand, material, discs) if outside is None else with_discs(outside, discs)
+    heat = resolve_heat(case, [one.name for one in bearings], body, (material, around), ledger)
     shared: dict[str, list[str]] = {}
     for name, model in models.items():
         for sentence in model.assumptions:
@@ -208,6 +211,8 @@ def _shaft(
         weight=pulled,
         gravity=gravity,
         drive=body.rows(drive).start + 3,
+        heat=heat,
+        awaits_temperatures=case.operation.temperatures == "computed",
         speed=initial(time_function(case.operation.speed)),
         speed_over_time=time_function(case.operation.speed),
         varying=varying,
@@ -335,8 +340,14 @@ def _body(case: ShaftCase, stand: Places, material: BodyMaterial, discs: list[Di
 
 def _growth(case: ShaftCase, body: ElasticBody, material: BodyMaterial) -> FloatArray:
     """Return the nodal forces that stretch the shaft as its temperature does: those that would hold it stretched."""
-    strain = material.thermal_expansion * (case.shaft.temperature - REFERENCE_TEMPERATURE)
     stretched = np.zeros(body.mass.shape[0])
-    stretched[0 : NODE * body.positions.size : NODE] = strain * body.positions
+    along = case.shaft.temperatures
+    if along:
+        places = np.array([place.at for place in along])
+        moved = stretch(body.positions, places, np.array([place.temperature for place in along]), material)
+    else:
+        strain = material.thermal_expansion * (case.shaft.temperature - REFERENCE_TEMPERATURE)
+        moved = strain * body.positions
+    stretched[0 : NODE * body.positions.size : NODE] = moved
     found: FloatArray = body.stiffness @ stretched
     return found

@@ -169,14 +169,23 @@ def _inline_row(lubricant: Lubricant) -> LubricantRow | None:
     )
 
 
+_BODY = (
+    "youngs_modulus",
+    "poisson_ratio",
+    "density",
+    "thermal_expansion",
+    "thermal_conductivity",
+    "specific_heat",
+)
+
+
 def body_material(
     choice: str | InlineMaterial, where: str, catalogue: Catalogue, ledger: Ledger
 ) -> BodyMaterial | None:
     """Return the material of a shaft, wheel or body; a name that the catalogue lacks is noted at `where`."""
     if isinstance(choice, InlineMaterial):
-        return BodyMaterial(choice.youngs_modulus, choice.poisson_ratio, choice.density, choice.thermal_expansion)
+        return BodyMaterial(*(getattr(choice, name) for name in _BODY))
     row = ledger.ask(where, lambda: catalogue.material(choice))
     if row is None:
         return None
-    names = ("youngs_modulus", "poisson_ratio", "density", "thermal_expansion")
-    return BodyMaterial(*(getattr(row, name).value for name in names))
+    return BodyMaterial(*(getattr(row, name).value for name in _BODY))

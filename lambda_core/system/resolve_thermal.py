@@ -115,9 +115,9 @@ def check_thermal(case: Case, ledger: Ledger) -> None:
     """Note everything that makes the thermal network of a case impossible."""
     thermal = case.thermal
     names = node_names(thermal)
-    _check_surroundings(thermal, ledger)
-    _check_nodes(thermal, ledger)
-    fine = _check_links(thermal, names, ledger)
+    check_surroundings(thermal, ledger)
+    check_nodes(thermal.nodes, (SUPPLY,), ledger)
+    fine = check_links(thermal, names, ledger)
     if thermal.oil_supply is not None and thermal.oil_flow == 0.0:
         ledger.problem("thermal.oil_supply", "has no effect without thermal.oil_flow")
     if fine:
@@ -131,7 +131,21 @@ def check_thermal(case: Case, ledger: Ledger) -> None:
 
 
 def network_assumptions(thermal: Thermal) -> list[str]:
-    """Return what every network assumes, and what this one fills in where the case says nothing."""
+    """Return what the network of a bearing alone assumes, and what it fills in where the case says nothing."""
+    found = common_assumptions(thermal)
+    if thermal.conductances in ("harris", "palmgren"):
+        if thermal.housing_area is None:
+            found.append("housing: a cast-iron pillow block of height 1.5 D and width D: thermal.housing_area")
+        found.append(f"seats conduct {thermal.seat_conductance:g} W/(m2 K)")
+    if thermal.conductances == "harris" and "emissivity" not in thermal.model_fields_set:
+        found.append(f"the housing's surface has an emissivity of {thermal.emissivity:g}")
+    if thermal.conductances == "iso-15312":
+        found.append("shaft and housing take q_r A_r per 50 K, shared by the areas of the seats (ISO 15312)")
+    return found
+
+
+def common_assumptions(thermal: Thermal) -> list[str]:
+    """Return what every network assumes, and what it fills in of surroundings and oil."""
     given = thermal.model_fields_set
     found = [
         "heat of sheared films and of rolling goes into the two surfaces by their effusivities, of hysteresis by their "
@@ -146,18 +160,10 @@ def network_assumptions(thermal: Thermal) -> list[str]:
         found.append(f"oil flows in at the surroundings' {show(thermal.ambient, 'temperature', 6)}: thermal.oil_supply")
     if "conductances" not in given:
         found.append(f"conductances to the surroundings from the set {thermal.conductances}: thermal.conductances")
-    if thermal.conductances in ("harris", "palmgren"):
-        if thermal.housing_area is None:
-            found.append("housing: a cast-iron pillow block of height 1.5 D and width D: thermal.housing_area")
-        found.append(f"seats conduct {thermal.seat_conductance:g} W/(m2 K)")
-    if thermal.conductances == "harris" and "emissivity" not in given:
-        found.append(f"the housing's surface has an emissivity of {thermal.emissivity:g}")
-    if thermal.conductances == "iso-15312":
-        found.append("shaft and housing take q_r A_r per 50 K, shared by the areas of the seats (ISO 15312)")
     return found
 
 
-def _check_surroundings(thermal: Thermal, ledger: Ledger) -> None:
+def check_surroundings(thermal: Thermal, ledger: Ledger) -> None:
     """Refuse surroundings in which no bearing stands."""
     coldest, hottest = _SURROUNDINGS
     for name in ("ambient", "oil_supply"):
@@ -170,18 +176,19 @@ def _check_surroundings(thermal: Thermal, ledger: Ledger) -> None:
             )
 
 
-def _check_nodes(thermal: Thermal, ledger: Ledger) -> None:
-    ambient = thermal.nodes.get("ambient")
-    if ambient is not None:
+def check_nodes(nodes: Mapping[str, ThermalNode], supplies: Iterable[str], ledger: Ledger) -> None:
+    """Note nodes that the case cannot change, and starts of nodes that are held."""
+    if "ambient" in nodes:
         ledger.problem("thermal.nodes.ambient", "is held at thermal.ambient: change that")
-    if SUPPLY in thermal.nodes:
-        ledger.problem(f"thermal.nodes.{SUPPLY}", "is held at thermal.oil_supply: change that")
-    for name, node in thermal.nodes.items():
+    for supply in supplies:
+        if supply in nodes:
+            ledger.problem(f"thermal.nodes.{supply}", "is held at thermal.oil_supply: change that")
+    for name, node in nodes.items():
         if node.temperature is not None and node.start is not None:
             ledger.problem(f"thermal.nodes.{name}.start", "has no effect on a node that is held at a temperature")
 
 
-def _check_links(thermal: Thermal, names: tuple[str, ...], ledger: Ledger) -> bool:
+def check_links(thermal: Thermal, names: tuple[str, ...], ledger: Ledger) -> bool:
     fine, seen = True, dict[frozenset[str], str]()
     for key, link in thermal.links.items():
         path = f"thermal.links.{key}.between"

@@ -115,3 +115,26 @@ def in_series(*conductances: float) -> float:
     if min(conductances) <= 0.0:
         return 0.0
     return 1.0 / sum(1.0 / one for one in conductances)
+
+
+def rod(length: float, area: float, perimeter: float, coefficient: float, conductivity: float) -> tuple[float, float]:
+    """Return the conductance between both ends of a rod, and from each end to what surrounds it [W/K].
+
+    The exact two-port of a fin, k A T'' = h P (T - T_a): with m = sqrt(h P/(k A)) the ends exchange k A m/sinh(m L),
+    and each passes k A m tanh(m L/2) to the surroundings (Carslaw and Jaeger 1959, section 4.5; Harper and Brown 1922,
+    NACA report 158). Without convection it is k A/L. Valid where the temperature is even across the rod,
+    h A/(P k) < 0.1.
+
+    Parameters
+    ----------
+    length, area, perimeter : float
+        [m], [m2], [m].
+    coefficient : float
+        h [W/(m2 K)].
+    conductivity : float
+        k [W/(m K)].
+    """
+    if coefficient <= 0.0:
+        return conductivity * area / length, 0.0
+    m = math.sqrt(coefficient * perimeter / (conductivity * area))
+    return conductivity * area * m / math.sinh(m * length), conductivity * area * m * math.tanh(0.5 * m * length)

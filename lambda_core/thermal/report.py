@@ -8,14 +8,17 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from lambda_core.domain.arrays import FloatArray
+from lambda_core.domain.unit_systems import SI, UnitSystem
 from lambda_core.results.averages import finite
 from lambda_core.results.record import INTERFACE, Record
 from lambda_core.results.summary import merged_cage
 from lambda_core.system.describe import headline
 from lambda_core.system.resolve_clearance import CLEARANCE_HOLDS
 from lambda_core.system.resolve_thermal import network_assumptions
-from lambda_core.thermal.feedback import BearingLoop, Gain, Steady, runaway_sentence
+from lambda_core.thermal.feedback import BearingLoop, Gain, Loop, Steady, runaway_sentence
 from lambda_core.thermal.losses import Point
+from lambda_core.thermal.network import Network
 from lambda_core.thermal.transient import Course, rise_time
 
 _ZERO_CELSIUS = 273.15
@@ -83,11 +86,11 @@ class SteadyTemperatures(Record):
     network_assumptions: list[str] = Field(description="of the thermal network, and what it fills in")
     assumptions: list[str] = Field(description="other assumptions of the case")
 
-    def text(self) -> str:
+    def text(self, units: UnitSystem = SI) -> str:
         """Return the lines for people."""
         from lambda_core.thermal.temperature_lines import steady_text
 
-        return steady_text(self)
+        return units.sentence(steady_text(self))
 
 
 class TemperaturesOverTime(Record):
@@ -125,11 +128,11 @@ class TemperaturesOverTime(Record):
     network_assumptions: list[str] = Field(description="of the thermal network, and what it fills in")
     assumptions: list[str] = Field(description="other assumptions of the case")
 
-    def text(self) -> str:
+    def text(self, units: UnitSystem = SI) -> str:
         """Return the lines for people."""
         from lambda_core.thermal.temperature_lines import course_text
 
-        return course_text(self)
+        return units.sentence(course_text(self))
 
 
 def _assumptions(loop: BearingLoop) -> tuple[list[str], list[str]]:
@@ -151,9 +154,8 @@ def steady_of(loop: BearingLoop, found: Steady, losses_from: str = "quasi-static
     """Put steady temperatures into the units of the interface."""
     model, network = loop.model, found.network
     of_network, of_case = _assumptions(loop)
-    names, flows = loop.nodes.names, network.flows(found.temperatures)
+    names = loop.nodes.names
     heat = float(network.heat.sum())
-    pairs = [(i, j) for i in range(len(names)) for j in range(len(names)) if flows[i, j] > 0.0]
     return SteadyTemperatures(
         case=model.name,
         title=model.title,
@@ -162,17 +164,9 @@ def steady_of(loop: BearingLoop, found: Steady, losses_from: str = "quasi-static
         conductances=loop.thermal.conductances,
         temperatures_degC=dict(zip(names, (found.temperatures - _ZERO_CELSIUS).tolist(), strict=True)),
         heat_W=dict(zip(names, network.heat.tolist(), strict=True)),
-        losses_W=_by_mechanism(found.points[0].losses),
-        flows=[
-            HeatFlow(
-                source=names[i],
-                target=names[j],
-                heat_W=float(flows[i, j]),
-                conductance_W_per_K=float(network.conductance[i, j]),
-            )
-            for i, j in sorted(pairs, key=lambda pair: -flows[pair])
-        ],
-        state=_state(found),
+        losses_W=in_watts(found.points[0].losses),
+        flows=flows_of(network, found.temperatures),
+        state=state_of(found.points[0]),
         gain=LoopGain.of(found.gain),
         energy_residual=(heat - network.leaving(found.temperatures)) / heat if heat > 0.0 else 0.0,
         iterations=found.iterations,
@@ -181,12 +175,28 @@ def steady_of(loop: BearingLoop, found: Steady, losses_from: str = "quasi-static
     )
 
 
-def _by_mechanism(losses: dict[str, float]) -> dict[str, float | None]:
+def flows_of(network: Network, temperatures: FloatArray) -> list[HeatFlow]:
+    """Return the heat between all nodes of a network, the largest first."""
+    names, flows = network.names, network.flows(temperatures)
+    pairs = [(i, j) for i in range(len(names)) for j in range(len(names)) if flows[i, j] > 0.0]
+    return [
+        HeatFlow(
+            source=names[i],
+            target=names[j],
+            heat_W=float(flows[i, j]),
+            conductance_W_per_K=float(network.conductance[i, j]),
+        )
+        for i, j in sorted(pairs, key=lambda pair: -flows[pair])
+    ]
+
+
+def in_watts(losses: dict[str, float]) -> dict[str, float | None]:
+    """Return losses by mechanism, the contacts of the cage as one [W]."""
     return {name: None if value is None else 1e-3 * value for name, value in merged_cage(losses).items()}
 
 
-def _state(found: Steady) -> State:
-    point = found.points[0]
+def state_of(point: Point) -> State:
+    """Put a quasi-static point into the units of the interface."""
     return State(
         friction_torque_Nmm=finite(1e3 * point["torque"]),
         power_loss_W=point.power,
@@ -205,20 +215,13 @@ def course_of(loop: BearingLoop, course: Course) -> TemperaturesOverTime:
     points = [point for (point,) in course.points]
     of_network, of_case = _assumptions(loop)
     celsius = course.temperatures - _ZERO_CELSIUS
-    reason = ""
-    if course.beyond_limit:
-        hottest = names[int(np.argmax(np.where(np.isnan(loop.nodes.held), celsius[-1], -math.inf)))]
-        what = f"{hottest.replace('_', ' ')} passed thermal.limit = {loop.thermal.limit - _ZERO_CELSIUS:g} degC"
-        feeding = course.gain is not None and course.gain.loop >= 1.0
-        cause = f"{runaway_sentence(course.gain)}; " if feeding and course.gain else ""
-        reason = f"{cause}{what} after {course.time[-1]:.4g} s"
     return TemperaturesOverTime(
         case=model.name,
         title=model.title,
         headline=_headline(loop, points[-1]),
         conductances=loop.thermal.conductances,
         ended="limit" if course.beyond_limit else "finished",
-        reason=reason,
+        reason=reason_of(loop, course),
         time_s=course.time.tolist(),
         temperatures_degC={name: celsius[:, i].tolist() for i, name in enumerate(names)},
         friction_torque_Nmm=[finite(1e3 * point["torque"]) for point in points],
@@ -237,3 +240,15 @@ def course_of(loop: BearingLoop, course: Course) -> TemperaturesOverTime:
         network_assumptions=of_network,
         assumptions=of_case,
     )
+
+
+def reason_of(loop: Loop, course: Course) -> str:
+    """Say why a course ended before its time; empty when it did not."""
+    if not course.beyond_limit:
+        return ""
+    last = np.where(np.isnan(loop.nodes.held), course.temperatures[-1], -math.inf)
+    hottest = loop.nodes.names[int(np.argmax(last))]
+    what = f"{hottest.replace('_', ' ')} passed thermal.limit = {loop.thermal.limit - _ZERO_CELSIUS:g} degC"
+    feeding = course.gain is not None and course.gain.loop >= 1.0
+    cause = f"{runaway_sentence(course.gain)}; " if feeding and course.gain else ""
+    return f"{cause}{what} after {course.time[-1]:.4g} s"

@@ -43,7 +43,7 @@ def steady_text(found: SteadyTemperatures) -> str:
                 f"p_max {number(state.max_pressure_GPa, 3)} GPa",
             ),
             line("clearance", f"{number(state.clearance_um)} um in operation"),
-            line("loop gain", _gain(found.gain)),
+            line("loop gain", gain_text(found.gain)),
             line("energy residual", f"{found.energy_residual:.1e} of input"),
             *_assumed(found),
         ]
@@ -77,7 +77,7 @@ def course_text(found: TemperaturesOverTime) -> str:
         line("points", f"{found.points_solved} quasi-static points solved"),
     ]
     if found.gain is not None:
-        lines.append(line("loop gain", _gain(found.gain)))
+        lines.append(line("loop gain", gain_text(found.gain)))
     lines += _assumed(found)
     if found.reason:
         lines.append(line("ENDED EARLY", found.reason))
@@ -92,7 +92,8 @@ def _assumed(found: SteadyTemperatures | TemperaturesOverTime) -> list[str]:
     ]
 
 
-def _gain(gain: LoopGain) -> str:
+def gain_text(gain: LoopGain) -> str:
+    """Return the gain of the torque-temperature loop with its two parts."""
     # what rounds to nothing has no sign; a format of numbers would say -0.00
     clearance, viscosity, loop = (round(part, 2) + 0.0 for part in (gain.clearance, gain.viscosity, gain.loop))
     return f"{loop:.2f}   (clearance {clearance:+.2f}, viscosity {viscosity:+.2f}; from 1 on: runaway)"

@@ -1,4 +1,4 @@
-"""Temperatures: what a bearing's own losses make of them, steady and over time."""
+"""Find the temperatures of one bearing under its own losses, steady and over time."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.domain.blas_threads import one_blas_thread
 from lambda_core.domain.errors import UsageError
 from lambda_core.system.checking import model_of, resolve
 
@@ -16,42 +15,14 @@ if TYPE_CHECKING:
     from lambda_core.case.case import Case
     from lambda_core.system.bearing import BearingModel
     from lambda_core.thermal.report import SteadyTemperatures, TemperaturesOverTime
-    from lambda_core.views.chart import ViewData
 
 
-@one_blas_thread()
-def thermal(
+def steady_temperatures(
     source: str | Path | Mapping[str, Any] | Case | BearingModel,
     overrides: Iterable[str] = (),
-    *,
     announce: Callable[[str], None] | None = None,
 ) -> SteadyTemperatures:
-    """Find the steady temperatures of a bearing and its surroundings under its own losses.
-
-    Parameters
-    ----------
-    source : str, Path, mapping, Case or BearingModel
-        A case as for :func:`check`: the losses are those of its quasi-static point at t = 0, without a cage, which
-        follows the temperatures. Or the result file of a run: the losses are its averages, the cage's among them.
-    overrides : iterable of str
-        Changes ``path=value`` of a case.
-    announce : callable, optional
-        Called with a sentence before something is compiled.
-
-    Returns
-    -------
-    SteadyTemperatures
-        Temperatures, heat flows, the gain of the torque-temperature loop.
-
-    Raises
-    ------
-    UsageError
-        For overrides of a run, whose losses are what they are.
-    CaseError
-        With every mistake of the case.
-    SolverError
-        When there are no steady temperatures: a runaway is named with the gain that caused it.
-    """
+    """Find the steady temperatures of one bearing; see :func:`lambda_core.api.thermal`."""
     from lambda_core.thermal.feedback import BearingLoop
     from lambda_core.thermal.operating import of_run
     from lambda_core.thermal.report import steady_of
@@ -70,66 +41,20 @@ def thermal(
     return steady_of(loop, loop.steady())
 
 
-@one_blas_thread()
-def warm_up(
+def temperatures_over_time(
     source: str | Path | Mapping[str, Any] | Case | BearingModel,
     duration: float,
     overrides: Iterable[str] = (),
-    *,
     announce: Callable[[str], None] | None = None,
 ) -> TemperaturesOverTime:
-    """Follow the temperatures of a bearing from the start of its case, at the operation of t = 0.
-
-    Parameters
-    ----------
-    source, overrides
-        As for :func:`check`, or a resolved model.
-    duration : float
-        How long [s].
-    announce : callable, optional
-        Called with a sentence before something is compiled.
-
-    Returns
-    -------
-    TemperaturesOverTime
-        Also where a temperature passed ``thermal.limit``: then it ends there and says why.
-
-    Raises
-    ------
-    UsageError
-        When `duration` is not above zero.
-    CaseError
-        With every mistake of the case; a further node without a heat capacity is one.
-    SolverError
-        When a point on the way has no equilibrium, with the time reached.
-    """
+    """Follow the temperatures of one bearing; see :func:`lambda_core.api.warm_up`."""
     from lambda_core.thermal.feedback import BearingLoop
     from lambda_core.thermal.report import course_of
-    from lambda_core.thermal.transient import warm_up as integrate
+    from lambda_core.thermal.transient import warm_up
 
-    if not duration > 0.0:
-        raise UsageError(f"a warm-up takes more than 0 s, not {duration:g} s")
     model = model_of(source, overrides)
     loop = BearingLoop(model, _section(model), announce)
-    return course_of(loop, integrate(loop, duration))
-
-
-def thermal_pictures(found: SteadyTemperatures | TemperaturesOverTime) -> list[ViewData]:
-    """Return what there is to see of temperatures: over time, or where the heat goes.
-
-    Parameters
-    ----------
-    found : SteadyTemperatures or TemperaturesOverTime
-        From :func:`thermal` or :func:`warm_up`.
-
-    Returns
-    -------
-    list of ViewData
-        For :func:`draw`.
-    """
-    from lambda_core.thermal.charts import pictures
-
-    return pictures(found)
+    return course_of(loop, warm_up(loop, duration))
 
 
 def ready_model(

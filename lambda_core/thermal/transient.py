@@ -126,7 +126,8 @@ def _with_limit(found: Any) -> tuple[FloatArray, FloatArray]:
     """Return times and states of an integration, with those at which the limit was passed."""
     time, states = np.asarray(found.t), np.asarray(found.y).T
     if found.status == 1 and found.t_events and found.y_events:
-        time, states = np.append(time, found.t_events[0]), np.vstack([states, *found.y_events[0]])
+        kept = [states] if time.size else []  # none where the limit is passed before the first wanted time
+        time, states = np.append(time, found.t_events[0]), np.vstack([*kept, *found.y_events[0]])
     return time, states
 
 

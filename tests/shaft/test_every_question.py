@@ -18,6 +18,7 @@ QUESTIONS = {
     "compare": (["compare", "box.toml", "--bearing", "right", "--json", "-q"], "methods"),
     "cross-check": (["cross-check", "box.toml", "--bearing", "right", "--duration", "1 ms", "--json", "-q"], "agree"),
     "study": (["study", "run", "study.toml", "--executor", "here", "--json", "-q"], "done"),
+    "thermal": (["thermal", "box.toml", "--json", "-q"], "temperatures_degC"),
     "estimate": (["estimate", "box.toml", "--json", "-q"], "processor_s"),
     "duty": (["duty", "day.toml", "--json", "-q"], "system_life_h"),
 }  # fmt: skip

@@ -1,0 +1,298 @@
+"""The network of a shaft in several bearings: closed forms, balance, symmetry, one bearing as the case of one."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from warm_machines import pair
+
+from lambda_core import api
+from lambda_core.case.case import merged
+from lambda_core.domain.errors import CaseError
+from lambda_core.elastic.sections import BodyMaterial
+from lambda_core.shaft.temperature_report import MachineTemperatures, MachineTemperaturesOverTime
+from lambda_core.system.machine_heat import stretch
+from lambda_core.thermal.conductances import rod
+from lambda_core.thermal.network import Network
+from lambda_core.thermal.surroundings import long_fin
+
+AIR = 293.15
+STEEL = 46.0  # [W/(m K)], 100Cr6
+
+
+def temperatures(case: dict[str, Any]) -> MachineTemperatures:
+    found = api.thermal(case)
+    assert isinstance(found, MachineTemperatures)
+    return found
+
+
+def test_a_rod_with_two_sources_and_convection_has_its_closed_form() -> None:
+    """Three pieces with k A T'' = h P (T - T_a); held at both ends, heat q_1 and q_2 put in between them.
+
+    theta = T - T_a is c_i cosh(m s) + d_i sinh(m s) on each piece; the six numbers follow from the ends, from
+    continuity, and from the jumps k A [theta'] = -q at the sources.
+    """
+    lengths, heat, ends = (0.07, 0.11, 0.05), (40.0, 15.0), (30.0, 5.0)
+    diameter, h = 0.03, 35.0
+    area, perimeter = math.pi / 4.0 * diameter**2, math.pi * diameter
+    m, ka = math.sqrt(h * perimeter / (STEEL * area)), STEEL * area
+    matrix, right = np.zeros((6, 6)), np.zeros(6)
+    matrix[0, 0], right[0] = 1.0, ends[0]
+    for i in range(2):
+        c, s = math.cosh(m * lengths[i]), math.sinh(m * lengths[i])
+        matrix[1 + 2 * i, 2 * i : 2 * i + 3] = c, s, -1.0
+        matrix[2 + 2 * i, 2 * i : 2 * i + 4] = s, c, 0.0, -1.0
+        right[2 + 2 * i] = heat[i] / (ka * m)
+    matrix[5, 4:], right[5] = (math.cosh(m * lengths[2]), math.sinh(m * lengths[2])), ends[1]
+    expected = np.linalg.solve(matrix, right)[[2, 4]] + AIR
+    conductance = np.zeros((5, 5))  # left end, two sources, right end, air
+    for i, length in enumerate(lengths):
+        through, side = rod(length, area, perimeter, h, STEEL)
+        conductance[i, i + 1] = conductance[i + 1, i] = through
+        conductance[[i, i + 1], 4] += side
+        conductance[4, [i, i + 1]] += side
+    held = np.array([AIR + ends[0], math.nan, math.nan, AIR + ends[1], AIR])
+    network = Network(("a", "b", "c", "d", "air"), conductance, np.array([0.0, *heat, 0.0, 0.0]), held)
+    assert network.steady()[1:3] == pytest.approx(expected, rel=1e-12)
+    assert network.leaving(network.steady()) == pytest.approx(sum(heat), rel=1e-11)
+
+
+def test_a_long_rod_is_the_fin_of_a_bearing_alone() -> None:
+    d, h = 0.04, 20.0
+    through, side = rod(50.0, math.pi / 4.0 * d**2, math.pi * d, h, STEEL)
+    assert 2.0 * side == pytest.approx(long_fin(d, h, STEEL), rel=1e-12)
+    assert through < 1e-100
+    assert rod(0.2, 1e-3, 0.1, 0.0, STEEL) == (pytest.approx(STEEL * 1e-3 / 0.2), 0.0)
+    thin = rod(0.2, 1e-3, 0.1, 1e-9, STEEL)
+    assert thin == (pytest.approx(STEEL * 1e-3 / 0.2), pytest.approx(0.5 * 1e-9 * 0.1 * 0.2))
+
+
+def test_growth_is_the_integral_of_the_temperature() -> None:
+    steel = BodyMaterial(210e9, 0.3, 7850.0, 12e-6)
+    at, warm = np.array([0.1, 0.3]), np.array([20.0, 60.0]) + 273.15
+    found = stretch(np.array([0.0, 0.1, 0.2, 0.4]), at, warm, steel)
+    # 0 to 0.1 m at 20 degC; to 0.2 m the mean of 0 and 20 K; to 0.4 m the rest of the ramp and 0.1 m at 40 K
+    assert found == pytest.approx([0.0, 0.0, 12e-6 * 0.1 * 10.0, 12e-6 * (0.2 * 20.0 + 0.1 * 40.0)], abs=1e-15)
+
+
+def test_losses_that_leave_by_the_ends_of_the_shaft_have_their_closed_form() -> None:
+    """Nothing but the shaft joins the bearings: a rod with two point sources and held ends.
+
+    T = T_0 + (T_L - T_0) x/L + sum q_i/(k A) G(x, x_i), G = x (L - x_i)/L below x_i, x_i (L - x)/L above it.
+    """
+    joints = {
+        name: {"between": [f"{name}.inner_ring", f"{name}.shaft"], "conductance": "9 W/K"} for name in ("left", "right")
+    }
+    ends = {"shaft_begin": {"temperature": "25 degC"}, "shaft_end": {"temperature": "45 degC"}}
+    # what is lost in the belt's bearing differs from the other one's
+    case = pair(
+        loads={"belt": {"at": "80 mm", "force_z": "-600 N"}}, operation={"speed": "500 rpm"},
+        thermal={"conductances": "none", "links": joints, "nodes": ends},
+    )  # fmt: skip
+    found = temperatures(case)
+    q = [found.bearings[name].state.power_loss_W for name in ("left", "right")]
+    assert q[0] > 1.05 * q[1] > 0.1
+    length, places = 0.2, (0.05, 0.15)
+    ka = api.check_shaft(case).heat.material.thermal_conductivity * math.pi / 4.0 * 0.04**2
+
+    def green(x: float, source: float) -> float:
+        return min(x, source) * (length - max(x, source)) / length
+
+    for name, x in zip(("left", "right"), places, strict=True):
+        rise = sum(heat / ka * green(x, source) for heat, source in zip(q, places, strict=True))
+        expected = 25.0 + 20.0 * x / length + rise
+        assert found.temperatures_degC[f"{name}.shaft"] == pytest.approx(expected, abs=2e-3)  # the search ends at 1e-3
+    assert abs(found.energy_residual) < 1e-9
+
+
+def test_equal_bearings_have_equal_temperatures() -> None:
+    found = temperatures(pair())
+    at = found.temperatures_degC
+    for part in ("inner_ring", "outer_ring", "balls", "oil", "shaft"):
+        assert at[f"left.{part}"] == pytest.approx(at[f"right.{part}"], abs=0.01)
+    along = [place.temperature_degC for place in found.shaft]
+    assert along == pytest.approx(along[::-1], abs=0.01)
+    assert at["left.balls"] > at["left.inner_ring"] > at["left.shaft"] > at["shaft_begin"] > at["ambient"]
+    losses = sum(one.state.power_loss_W for one in found.bearings.values())
+    assert sum(found.heat_W.values()) == pytest.approx(losses, rel=1e-9)
+    assert abs(found.energy_residual) < 1e-9
+    out = sum(flow.heat_W for flow in found.flows if flow.target == "ambient")
+    assert out == pytest.approx(losses, rel=1e-9)
+
+
+def test_a_machine_of_one_bearing_is_the_bearing_alone() -> None:
+    """With no way out of the shaft the network of a machine is that of its one bearing."""
+    alone = api.thermal(
+        {
+            "name": "alone",
+            "bearing": {"designation": "SKF 6208", "clearance": "12 um"},
+            "lubricant": {"name": "FVA3A", "temperature": "50 degC"},
+            "loads": {"radial": "2 kN"},
+            "operation": {"speed": "3000 rpm"},
+            "depth": {"cage": False},
+            "thermal": {"conductances": "palmgren"},
+        }
+    )
+    case = {
+        "name": "one",
+        "shaft": {"sections": [{"length": "60 mm", "diameter": "40 mm"}]},
+        "bearings": {"only": {"designation": "SKF 6208", "at": "30 mm", "clearance": "12 um"}},
+        "loads": {"weight": {"at": "30 mm", "force_z": "-2 kN"}},
+        "connections": {"guide": {"at": "30 mm", "tilt_y": "1000 N m/mrad", "tilt_z": "1000 N m/mrad"}},
+        "operation": {"speed": "3000 rpm"},
+        "lubricant": {"name": "FVA3A", "temperature": "50 degC"},
+        "gravity": {"z": "0 m/s2"},
+        "thermal": {"conductances": "palmgren"},
+    }
+    found = temperatures(case)
+    assert found.power_loss_W == pytest.approx(alone.state.power_loss_W, rel=1e-3)
+    for name in ("inner_ring", "outer_ring", "balls", "oil", "cage", "shaft"):
+        assert found.temperatures_degC[f"only.{name}"] == pytest.approx(alone.temperatures_degC[name], abs=0.05)
+    assert found.temperatures_degC["housing"] == pytest.approx(alone.temperatures_degC["housing"], abs=0.05)
+    assert found.gain.viscosity == pytest.approx(alone.gain.viscosity, rel=0.02)
+
+
+def test_the_loss_of_a_gear_warms_the_shaft() -> None:
+    gear = {"gears": {"wheel": {"at": "100 mm", "pitch_diameter": "90 mm", "torque": "20 N m", "role": "driven"}}}
+    gear["gears"]["wheel"]["mesh"] = "90 deg"
+    cold = temperatures(merged(pair(), gear))
+    warm = temperatures(merged(pair(thermal={"nodes": {"wheel": {"heat": "60 W"}}}), gear))
+    assert warm.heat_W["wheel"] == pytest.approx(60.0)
+    assert warm.temperatures_degC["wheel"] > cold.temperatures_degC["wheel"] + 5.0
+    assert warm.bearings["left"].state.clearance_um < cold.bearings["left"].state.clearance_um
+    grown = [case.bearings["right"].growth_um - case.bearings["left"].growth_um for case in (cold, warm)]
+    assert grown[1] > grown[0]
+
+
+def test_oil_of_one_bearing_takes_its_heat_along() -> None:
+    flow = {"oil_flow": "1 l/min", "oil_supply": "30 degC"}
+    found = temperatures(pair(bearings={"left": {"thermal": flow}}))
+    at = found.temperatures_degC
+    assert at["left.oil"] < at["right.oil"] - 2.0
+    carried = next(flow for flow in found.flows if flow.target == "left.oil_supply")
+    assert carried.heat_W == pytest.approx(carried.conductance_W_per_K * (at["left.oil"] - 30.0))
+    assert "right.oil_supply" not in at
+
+
+def test_computed_temperatures_reach_the_equilibrium() -> None:
+    found, said = temperatures(pair()), list[str]()
+    case = pair(operation={"temperatures": "computed"})
+    static = api.quasistatic(case, announce=said.append)
+    torques = [bearing.friction_torque_Nmm for bearing in static.bearings]
+    expected = [one.state.friction_torque_Nmm for one in found.bearings.values()]
+    assert torques == pytest.approx(expected, rel=1e-4)
+    assert [bearing.clearance_um for bearing in static.bearings] == pytest.approx(
+        [one.state.clearance_um for one in found.bearings.values()], abs=5e-3
+    )
+    assert any("temperatures found by the thermal network (harris): left inner ring" in line for line in said)
+    assert api.modes(case).bearings  # its stiffness, too, is that of the warm machine
+
+
+def test_the_case_of_a_warm_machine_needs_no_second_search() -> None:
+    from lambda_core.shaft.temperatures import ready_machine_of
+
+    ready = ready_machine_of(pair(operation={"temperatures": "computed"}))
+    assert not ready.awaits_temperatures
+    assert "computed" not in ready.case_toml
+    again = api.check_shaft(tomllib.loads(ready.case_toml))
+    assert np.array_equal(again.growth, ready.growth)
+    assert ready.growth.any()
+
+
+def test_a_warm_up_balances_its_heat_and_rises() -> None:
+    course = api.warm_up(pair(), 120.0)
+    assert isinstance(course, MachineTemperaturesOverTime)
+    assert course.ended == "finished"
+    assert course.time_s[-1] == 120.0
+    assert abs(course.energy_residual) < 1e-6
+    assert course.heat_in_J == pytest.approx(course.heat_out_J + course.heat_stored_J, rel=1e-6)
+    rise = course.temperatures_degC["left.balls"]
+    assert rise[0] == pytest.approx(20.0)
+    assert all(b > a for a, b in pairwise(rise))
+    assert course.bearings["left"].power_loss_W == pytest.approx(course.bearings["right"].power_loss_W, rel=1e-3)
+    (picture,) = api.thermal_pictures(course)
+    assert [series.name for series in picture.panels[1].series] == ["left", "right"]
+
+
+@pytest.mark.full
+def test_a_machine_warms_up_to_its_steady_state() -> None:
+    steady, course = temperatures(pair()), api.warm_up(pair(), 8 * 3600.0)
+    for name, value in steady.temperatures_degC.items():
+        assert course.temperatures_degC[name][-1] == pytest.approx(value, abs=0.3)
+
+
+def test_a_machine_that_gets_too_hot_is_refused_in_words() -> None:
+    from lambda_core.thermal.feedback import Runaway
+
+    hot = pair(thermal={"limit": "100 degC", "nodes": {"left.inner_ring": {"heat": "400 W"}}})
+    with pytest.raises(Runaway, match=r"pair: .*left\.inner ring at .* is beyond thermal.limit = 100 degC"):
+        api.thermal(hot)
+    course = api.warm_up(hot, 600.0)
+    assert course.ended == "limit"
+    assert "passed thermal.limit = 100 degC" in course.reason
+
+
+COMPUTED = {"operation": {"temperatures": "computed"}}
+
+
+@pytest.mark.parametrize(
+    ("changes", "where", "said"),
+    [
+        ({"thermal": {"ambiant": "20 degC"}}, "thermal.ambiant", "nearest: ambient"),
+        ({"thermal": {"ambient": "35 K"}}, "thermal.ambient", "is another unit meant?"),
+        ({"thermal": {"conductances": "iso-15312"}}, "thermal.conductances", 'use "harris"'),
+        ({"thermal": {"shaft_length": "1 m"}}, "thermal.shaft_length", "has no effect"),
+        ({"thermal": {"oil_supply": "40 degC"}}, "thermal.oil_supply", "has no effect without thermal.oil_flow"),
+        ({"thermal": {"nodes": {"ambient": {}}}}, "thermal.nodes.ambient", "change that"),
+        ({"thermal": {"nodes": {"flange": {}}}}, "thermal.nodes.flange", "no way leads from it"),
+        ({"thermal": {"conductances": "none"}}, "thermal.links", "no way leads from every bearing"),
+        (
+            {"thermal": {"links": {"a": {"between": ["left.oil", "housng"], "conductance": "1 W/K"}}}},
+            "thermal.links.a.between",
+            "nearest: housing",
+        ),
+        (
+            {"bearings": {"left": {"thermal": {"nodes": {"housing": {}}}}}},
+            "bearings.left.thermal.nodes.housing",
+            "is not a known node",
+        ),
+        (
+            {"bearings": {"left": {"thermal": {"oil_supply": "40 degC"}}}},
+            "bearings.left.thermal.oil_supply",
+            "has no effect without oil_flow",
+        ),
+        (
+            {"bearings": {"left": {"temperatures": {"balls": "60 degC"}}}} | COMPUTED,
+            "bearings.left.temperatures.balls",
+            "bearings.left.thermal.nodes.balls.temperature",
+        ),
+        ({"shaft": {"temperature": "60 degC"}} | COMPUTED, "shaft.temperature", "leave it out"),
+        ({"housing": {"temperature": "60 degC"}} | COMPUTED, "housing.temperature", "leave it out"),
+        (
+            {"bearings": {"left": {"lubricant": {"name": "FVA3X"}}}},
+            "bearings.left.lubricant.name",
+            "FVA3X",
+        ),
+        (
+            {"shaft": {"temperatures": [{"at": "9 mm", "temperature": "9 degC"}] * 2}},
+            "shaft.temperatures",
+            "must rise",
+        ),
+    ],
+)  # fmt: skip
+def test_a_mistake_has_its_path(changes: dict[str, Any], where: str, said: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        api.check_shaft(pair(**changes))
+    found = {problem.where: problem.message for problem in caught.value.problems}
+    assert list(found) == [where]
+    assert said in found[where]
+
+
+def test_the_oil_of_one_bearing_is_its_own() -> None:
+    machine = api.check_shaft(pair(bearings={"left": {"lubricant": {"temperature": "80 degC"}}}))
+    assert [round(one.model.oil.temperature - 273.15, 6) for one in machine.bearings] == [80.0, 50.0]
