@@ -45,6 +45,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.system.cases import builtin_cases, case, catalogue, draft, init_case, save, schema, templates
     from lambda_core.system.checking import check, describe, problems, resolve
     from lambda_core.system.law_trials import law_problems
+    from lambda_core.system.long_form import long_form
     from lambda_core.system.resolve_machine import check_shaft
 if TYPE_CHECKING:  # what the faces build on, and the classes that calls take and return
     from lambda_core.batch.run_queue import QueuedRun, RunKind, RunQueue

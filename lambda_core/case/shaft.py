@@ -150,8 +150,6 @@ class ShaftBearing(Bearing, Placed):
             raise ValueError("give either `preload` (rigid) or `preload_force` (spring), not both")
         if self.preload_force is not None and "x" in self.support.model_fields_set and self.support.x.mode == "locked":
             raise ValueError('preload_force needs an outer ring that slides: support.x = "free" or a stiffness')
-        if self.contact_angle is not None and self.takes is None:
-            raise ValueError('an angular contact bearing needs takes = "+x" or "-x"')
         return self
 
 

@@ -10,7 +10,7 @@ from lambda_core.case.salvage import related
 from lambda_core.domain.errors import Problem
 
 _REFERENCES = ("at", "outer", "to", "body")  # options of parts that name a marker or a body
-_REFERRED = ("markers", "bodies")
+_REFERRED = ("markers", "bodies", "bearings")
 
 
 def is_shape_known(found: Iterable[Problem]) -> bool:
@@ -44,7 +44,7 @@ def independent(found: Sequence[Problem], later: Iterable[Problem], tables: Mapp
 
 
 def _wrong_names(found: Sequence[Problem], tables: Mapping[str, Any]) -> set[str]:
-    """Return the names of markers and bodies with something wrong, and of markers on such bodies."""
+    """Return the names of markers, bodies and bearings with something wrong, and of markers on such bodies."""
     places = [problem.where.split(".") for problem in found]
     wrong = {place[1] for place in places if place[0] in _REFERRED and len(place) > 1}
     for table in _REFERRED:

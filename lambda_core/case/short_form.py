@@ -1,0 +1,197 @@
+"""Write the case of one bearing in the long form: as a machine with one bearing on a rigid shaft."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from lambda_core.case.case import Case
+from lambda_core.case.shaft import OWN, SHARED
+from lambda_core.domain.units import show
+
+NAME = "bearing"  # of the one bearing
+LOCKED = 1e11  # [N/m] of what stands for a lock of the shaft: a hundred to a thousand times as stiff as a bearing
+# [Pa], [kg/m3] of a shaft that hardly bends, without a mass of its own
+_RIGID = {
+    "youngs_modulus": "210000 GPa",
+    "poisson_ratio": 0.3,
+    "density": "0.001 kg/m3",
+    "thermal_expansion": "0 1/K",
+    "thermal_conductivity": "45 W/(m K)",
+    "specific_heat": "460 J/(kg K)",
+}
+_FREEDOMS = ("x", "y", "z", "tilt_y", "tilt_z")
+_CAGE_FREEDOMS = (*_FREEDOMS, "spin")
+_NO_PLACE = {
+    "operation.torque": "a torque that drives the inner ring: the shaft turns at its speed",
+    "bodies.inner_ring.spin": "a spin of the inner ring that is not prescribed",
+    "bodies.outer_ring.spin": "an outer ring that turns",
+    "loads.outer_ring": "loads on the outer ring: load the body that carries it",
+    "loads.cage": "loads on the cage",
+    "elements": "force elements by law: write [connections.NAME] for springs and dampers",
+    "thermal": "the network of temperatures",
+    "electric": "the circuit",
+    "observers": "observers",
+    "events": "events",
+    "output": "how often samples are written",
+    "fit": "where fitted values come from",
+}
+
+
+@dataclass(frozen=True)
+class LongForm:
+    """The case of one bearing as that of a machine.
+
+    Attributes
+    ----------
+    tables : dict
+        Plain tables of the machine.
+    differences : tuple of str
+        What the machine does not have, or has otherwise, with the path in the case of one bearing.
+    """
+
+    tables: dict[str, Any]
+    differences: tuple[str, ...]
+
+
+def expand(case: Case, *, bore: float, width: float, takes: Literal["+x", "-x"] | None = None) -> LongForm:
+    """Write the case of one bearing as a machine: the bearing on a rigid shaft, its outer ring in the ground.
+
+    The bearing, its oil, laws, cage and elastic parts, the loads on its inner ring and the supports of both rings are
+    the same. A ring that is locked in one case is held by 100 kN/um in the other; the shaft has the mass that the case
+    gives it, on top of which the machine counts that of the ring.
+
+    Parameters
+    ----------
+    case : Case
+        Of one bearing.
+    bore, width : float
+        Of the bearing [m]: the shaft's diameter and length.
+    takes : "+x" or "-x", optional
+        Axial force on the shaft that an angular contact bearing takes.
+
+    Returns
+    -------
+    LongForm
+    """
+    written = case.written()
+    middle = show(0.5 * width, "length", 9)
+    differences = [f"{path}: {words}" for path, words in _NO_PLACE.items() if _at(written, path) is not None]
+    bearing = {**written["bearing"], "at": middle, **{table: written[table] for table in OWN if table in written}}
+    bearing |= {"takes": takes} if takes else {}
+    bodies = written.get("bodies", {})
+    bearing |= _cage(bodies.get("cage", {}), differences)
+    bearing |= _support(bodies.get("outer_ring", {}), differences)
+    tables: dict[str, Any] = {key: written[key] for key in ("name", "description", "assumptions") if key in written}
+    tables |= {
+        "operation": {"speed": written["operation"]["speed"]},
+        "shaft": {
+            "material": _RIGID,
+            "sections": [{"length": show(width, "length", 9), "diameter": show(bore, "length", 9)}],
+        },
+        "bearings": {NAME: bearing},
+        **{table: written[table] for table in SHARED if table in written},
+    }
+    tables |= _loads(written.get("loads", {}), middle)
+    inner = bodies.get("inner_ring", {})
+    connection = _connection(case, inner, differences)
+    tables |= {"connections": {NAME: connection}} if connection else {}
+    tables |= _disc(inner, middle, differences)
+    markers = _markers(written.get("markers", {}), width, case, differences)
+    if markers:
+        tables["markers"] = tables.get("markers", {}) | markers
+    return LongForm(tables, tuple(differences))
+
+
+def _at(tables: Mapping[str, Any], path: str) -> Any:
+    """Return what is written at a dotted path; None where nothing is."""
+    found: Any = tables
+    for key in path.split("."):
+        found = found.get(key) if isinstance(found, Mapping) else None
+    return found
+
+
+def _cage(written: Mapping[str, Any], differences: list[str]) -> dict[str, Any]:
+    """Return the cage's shape; it is free in a machine."""
+    for dof in _CAGE_FREEDOMS:
+        if written.get(dof, "free") != "free":
+            differences.append(f"bodies.cage.{dof}: the cage of a machine is free")
+    shape = {key: value for key, value in written.items() if key not in _CAGE_FREEDOMS}
+    return {"cage": shape} if shape else {}
+
+
+def _support(written: Mapping[str, Any], differences: list[str]) -> dict[str, Any]:
+    """Return the seat of the outer ring: what holds it in both cases alike."""
+    for key in ("mass", "transverse_inertia", "polar_inertia", "unbalance"):
+        if key in written:
+            differences.append(f"bodies.outer_ring.{key}: the outer ring of a machine is that of the geometry")
+    support = {dof: written[dof] for dof in _FREEDOMS if dof in written}
+    return {"support": support} if support else {}
+
+
+def _loads(written: Mapping[str, Any], middle: str) -> dict[str, Any]:
+    """Return the loads on the inner ring; the radial one acts along y of a marker that is turned to its direction."""
+    loads: dict[str, Any] = {}
+    plain = {"axial": "force_x", "moment_y": "moment_y", "moment_z": "moment_z"}
+    own = {new: written[old] for old, new in plain.items() if old in written}
+    if own:
+        loads["inner-ring"] = {"at": NAME, **own}
+    if "inner_ring" in written:
+        loads["further"] = {"at": NAME, **written["inner_ring"]}
+    if "radial" not in written:
+        return {"loads": loads} if loads else {}
+    loads["radial"] = {"at": "radial", "force_y": written["radial"]}
+    marker = {"x": middle, "about_x": written.get("radial_direction", "270 deg")}
+    return {"loads": loads, "markers": {"radial": marker}}
+
+
+def _connection(case: Case, written: Mapping[str, Any], differences: list[str]) -> dict[str, Any]:
+    """Return what holds the shaft where the bearing is; nothing where it is free."""
+    held: dict[str, Any] = {}
+    for dof in _FREEDOMS:
+        state = getattr(case.bodies.inner_ring, dof)
+        path = f"bodies.inner_ring.{dof}"
+        if state.mode == "prescribed":
+            differences.append(f"{path}: a prescribed motion of the shaft; a seat can have one")
+        if state.mode == "free" and (state.stiffness or state.damping):
+            held[dof] = written[dof]
+        elif state.mode != "free":
+            is_tilt = dof.startswith("tilt")
+            held[dof] = show(LOCKED * 1e-3 if is_tilt else LOCKED, "angular_stiffness" if is_tilt else "stiffness")
+            differences.append(f"{path}: held by {held[dof]}")
+    held = {dof: _plain(how) for dof, how in held.items()}
+    return {"at": NAME, **held} if held else {}
+
+
+def _plain(how: Any) -> Any:
+    """Return a support without its mode: a connection is stiffness and damping alone."""
+    return {key: value for key, value in how.items() if key != "mode"} if isinstance(how, Mapping) else how
+
+
+def _disc(written: Mapping[str, Any], middle: str, differences: list[str]) -> dict[str, Any]:
+    """Return the shaft's mass and unbalance as a disc at the bearing."""
+    for key in ("mass", "transverse_inertia", "polar_inertia"):
+        if key in written:
+            differences.append(f"bodies.inner_ring.{key}: the inner ring of a machine is that of the geometry")
+    if not {"shaft_mass", "unbalance"} & set(written):
+        return {}
+    disc = {"at": middle, "mass": written.get("shaft_mass", "0.000001 kg")}
+    names = {
+        "shaft_polar_inertia": "polar_inertia",
+        "shaft_transverse_inertia": "transverse_inertia",
+        "unbalance": "unbalance",
+    }
+    return {"discs": {"shaft": disc | {new: written[old] for old, new in names.items() if old in written}}}
+
+
+def _markers(written: Mapping[str, Any], width: float, case: Case, differences: list[str]) -> dict[str, Any]:
+    """Return the markers of the inner ring, on the shaft."""
+    found = {}
+    for name, marker in written.items():
+        if marker["body"] != "inner_ring":
+            differences.append(f"markers.{name}: markers of a machine are on the shaft, on its bodies and the ground")
+            continue
+        x = show(0.5 * width + case.markers[name].x, "length", 9)
+        found[name] = {"x": x, **{axis: marker[axis] for axis in ("y", "z") if axis in marker}}
+    return found
