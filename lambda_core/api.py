@@ -26,7 +26,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.discovery.manager import use_plugin
     from lambda_core.discovery.packages import check_plugins, new_plugin, plugin_faults, plugin_model, plugins, watchers
     from lambda_core.domain.errors import CaseError, LambdaError, UsageError
-    from lambda_core.electric.api import check_discharges_file, electric, film_from_capacitance, write_discharges
+    from lambda_core.electric.api import check_discharges_file, write_discharges
     from lambda_core.fit.band import model_band
     from lambda_core.fit.fit_case import fit
     from lambda_core.fit.fitted_case import fitted_case
@@ -34,6 +34,7 @@ if TYPE_CHECKING:  # what one calls, and what it raises
     from lambda_core.fmu.unit_file import export_fmu
     from lambda_core.report.pictures import animate, draw, report, view, view_all, view_stem, views
     from lambda_core.run.answers import cite, compare, result, side_by_side, summary
+    from lambda_core.run.bearing_currents import electric, film_from_capacitance
     from lambda_core.run.duty_cycle import duty
     from lambda_core.run.simulation import cross_check, estimate, iterate, quasistatic, resume, run, warmup
     from lambda_core.run.speed_curve import stribeck, stribeck_picture

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from lambda_cli.options import (
+    BearingOption,
     CaseArgument,
     ExecutorOption,
     ForceOption,
@@ -50,7 +51,8 @@ def electric(
     """Bearing voltage, discharges and impedance in the circuit of an electric machine.
 
     The circuit is the section electric of the case; what it leaves open has defaults, which are listed. A case is
-    computed on the films of its quasi-static equilibria, a result on the films of the run.
+    computed on the films of its quasi-static equilibria, a result on the films of the run. All bearings of a machine
+    stand in one circuit between shaft and frame.
     """
     from lambda_core import api
 
@@ -75,6 +77,7 @@ def film(
         typer.Argument(metavar="CSV", help='Columns "time" and "capacitance".'),
     ],
     changes: SetOption = None,
+    bearing: BearingOption = None,
     frequency: Annotated[str | None, typer.Option("--frequency", metavar="F", help="Of a measured impedance.")] = None,
     uncertainty: Annotated[float, typer.Option("--uncertainty", metavar="SHARE", help="Of the capacitance.")] = 0.02,
     as_json: JsonOption = False,
@@ -87,7 +90,13 @@ def film(
 
     with talk(progress, quiet) as speaker:
         found = api.film_from_capacitance(
-            case, measured, changes or (), frequency=frequency, uncertainty=uncertainty, announce=speaker.say
+            case,
+            measured,
+            changes or (),
+            bearing=bearing,
+            frequency=frequency,
+            uncertainty=uncertainty,
+            announce=speaker.say,
         )
     typer.echo(found.model_dump_json(indent=2) if as_json else units.system.sentence(found.text()))
 

@@ -151,7 +151,9 @@ class MachineCapacitances(Section):
         "800 pF", "C_rf, rotor to frame", reference="order of size, Muetze and Binder 2007, IEEE TIE 54, 1614", ge=0.0
     )
     other_bearings: Capacitance | None = option(
-        None, "of all other bearings of the machine; absent: one more like this", ge=0.0
+        None,
+        "of all bearings that are not in the file; absent: one more like this, or none where the file is of a machine",
+        ge=0.0,
     )
 
 
@@ -249,3 +251,50 @@ class Electric(Section):
         if self.series is None or self.series.file is None:
             return self
         return self.model_copy(update={"series": Series.model_validate(self.series.inlined())})
+
+
+class BearingElectric(Section):
+    """What one bearing of a machine has of its own in the circuit."""
+
+    insulation: Capacitance | None = option(
+        None, "of a coating or sleeve on the outer ring; absent: the ring touches the frame", gt=0.0
+    )
+    insulation_resistance: Resistance = option("1 GOhm", "of that coating", gt=0.0)
+    shunt: Resistance | None = option(None, "that bridges the insulation, to measure the current", gt=0.0)
+    film: Film = option({}, "conduction and surroundings of its films; what is absent is that of electric.film")
+    cage: Cage | None = option(None, "a cage that conducts; absent: electric.cage")
+    least_voltage: Voltage | None = option(None, "below which its films hold; absent: that of all bearings", gt=0.0)
+
+    @model_validator(mode="after")
+    def _shunt_needs_insulation(self) -> BearingElectric:
+        if self.shunt is not None and self.insulation is None:
+            raise ValueError("`shunt` requires `insulation`")
+        return self
+
+
+class MachineElectric(Electric):
+    """All bearings of a machine in one circuit; absent: the circuit is not computed."""
+
+    bearings: dict[str, BearingElectric] = option({}, "insulation, films and cage of single bearings, by name")
+
+    @model_validator(mode="after")
+    def _insulation_is_a_bearings(self) -> MachineElectric:
+        own = {"insulation", "insulation_resistance", "shunt"} & self.grounding.model_fields_set
+        if own:
+            raise ValueError(f"write {sorted(own)[0]} in [electric.bearings.NAME]: each bearing has its own")
+        return self
+
+    def of_bearing(self, name: str) -> Electric:
+        """Return the circuit as one of the bearings has it, its own options in place of the common ones."""
+        own = self.bearings.get(name, BearingElectric())
+        grounding = {n: getattr(own, n) for n in ("insulation", "insulation_resistance", "shunt")}
+        film = {n: getattr(own.film, n) for n in own.film.model_fields_set}
+        least = self.breakdown.least_voltage if own.least_voltage is None else own.least_voltage
+        return self.model_copy(
+            update={
+                "grounding": self.grounding.model_copy(update=grounding),
+                "film": self.film.model_copy(update=film),
+                "cage": own.cage or self.cage,
+                "breakdown": self.breakdown.model_copy(update={"least_voltage": least}),
+            }
+        )

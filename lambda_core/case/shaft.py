@@ -9,6 +9,7 @@ from pydantic import ValidationInfo, field_validator, model_validator
 
 from lambda_core.case.case import Written
 from lambda_core.case.elastic import Elastic
+from lambda_core.case.electric import MachineElectric
 from lambda_core.case.holding import SeatTilt, SeatTranslation
 from lambda_core.case.modelling import Depth, Forces, Models, Parameters, Solver
 from lambda_core.case.motion import CageShape, Gravity
@@ -197,6 +198,9 @@ class ShaftCase(Written):
     depth: Depth = option({}, "modelling depth, of every bearing")
     models: Models = option({}, "model by role, for every bearing")
     parameters: Parameters = option({}, "parameters by role, for every bearing")
+    electric: MachineElectric | None = option(
+        None, "the electric circuit of shaft and frame with all bearings; absent: not computed"
+    )
     solver: Solver = option({}, "integrator and averages, in motion")
 
 

@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from lambda_core.case.electric import Electric, MachineElectric
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.gap_capacitance import VACUUM_PERMITTIVITY
 from lambda_core.electric.circuit_integrator import Circuit, Films, Surroundings
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
-
-    from lambda_core.case.electric import Electric
 
 
 def bearing_capacitance(films: Films) -> FloatArray:
@@ -84,17 +83,17 @@ def surroundings(options: Electric, geometry: Mapping[str, float]) -> Surroundin
 def circuit_of(options: Electric, bearings: Sequence[Surroundings]) -> Circuit:
     """Return the circuit that the bearings of a shaft stand in.
 
-    For a bearing alone, another one like it counts with this one's capacitance where the case does not give the other
-    bearings' (short form of a machine with two).
+    For the case of one bearing, another one like it counts with this one's capacitance where the case does not give the
+    other bearings' (short form of a machine with two).
     """
     machine, grounding = options.machine, options.grounding
-    alone = len(bearings) == 1
+    in_machine = isinstance(options, MachineElectric)
     return Circuit(
         winding=machine.winding_rotor,
         rotor=machine.rotor_frame + (machine.other_bearings or 0.0),
         bearings=tuple(bearings),
         brush=1.0 / grounding.brush if grounding.brush is not None else 0.0,
-        twins=1.0 if alone and machine.other_bearings is None else 0.0,
+        twins=1.0 if machine.other_bearings is None and not in_machine else 0.0,
     )
 
 

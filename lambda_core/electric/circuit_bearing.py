@@ -10,7 +10,7 @@ import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from lambda_core.case.electric import Electric
+from lambda_core.case.electric import Electric, MachineElectric
 from lambda_core.laws.context import Context, Material, Oil
 from lambda_core.system.bearing import ChosenLaw, ElectricModel, Geometry
 from lambda_core.system.ledger import Ledger
@@ -19,6 +19,7 @@ from lambda_core.system.resolve_electric import resolve_electric
 if TYPE_CHECKING:
     from lambda_core.results.reader import Result
     from lambda_core.system.bearing import BearingModel
+    from lambda_core.system.machine import Machine
 
 _SILICON_NITRIDE = re.compile(r"si3n4|silicon.?nitride", re.IGNORECASE)
 _PERMITTIVITY = 8.0  # of it, usual value of makers' sheets: it insulates, whether or not the case says so
@@ -77,6 +78,25 @@ def of_model(model: BearingModel) -> CircuitBearing:
     chosen = model.electric or electric_model(None, model.name)
     materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
     return _circuit_bearing("bearing", model.name, chosen, model.geometry, materials, model.oil, model.roughness)
+
+
+def of_machine(machine: Machine) -> list[CircuitBearing]:
+    """Return the bearings of a machine with their circuit; a case without the section gets the defaults."""
+    chosen = machine.electric or electric_model(MachineElectric(), machine.name)
+    found = []
+    for mounted in machine.bearings:
+        model = mounted.model
+        own = dataclasses.replace(chosen, options=own_options(chosen.options, mounted.name))
+        materials = {"ball": model.ball_material, "inner": model.inner_material, "outer": model.outer_material}
+        found.append(
+            _circuit_bearing(mounted.name, machine.name, own, model.geometry, materials, model.oil, model.roughness)
+        )
+    return found
+
+
+def own_options(options: Electric, name: str) -> Electric:
+    """Return the options of one bearing of a machine."""
+    return options.of_bearing(name) if isinstance(options, MachineElectric) else options
 
 
 def of_run(result: Result, options: Electric | None) -> CircuitBearing:

@@ -189,7 +189,7 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
     if relative == 0.0:
         raise UsageError("at rest no ball passes: give the bearing a speed")
     pitch = 2.0 * math.pi / (z * abs(relative))
-    length = _TURNS * z * pitch if duration is None else duration
+    length = default_duration(found) if duration is None else duration
     count = max(math.ceil(length / pitch * phases), 1)
     if count > _MOST_SAMPLES:
         raise UsageError(
@@ -213,6 +213,16 @@ def contacts_of_equilibria(found: list[Equilibrium], duration: float | None = No
         origin=f"quasi-static equilibria at {phases} positions of the balls",
         **parts,
     )
+
+
+def default_duration(found: list[Equilibrium]) -> float:
+    """Return how long a bearing takes for ten turns of its cage against the outer ring [s]."""
+    from lambda_core.system.time_functions import initial
+
+    outer = initial(found[0].context.model.outer_ring.dofs["spin"].motion)
+    relative = float(np.mean([e.orbit for e in found])) - outer
+    z = found[0].context.model.geometry.balls
+    return _TURNS * z * (2.0 * math.pi / (z * abs(relative))) if relative != 0.0 else 0.0
 
 
 def films(contacts: Contacts, options: Electric, rolled: FloatArray | None = None) -> Films:

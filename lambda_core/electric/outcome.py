@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from pydantic import Field
 
-from lambda_core.case.electric import Electric, Inverter, Sine, Step
+from lambda_core.case.electric import Electric, Inverter, MachineElectric, Sine, Step
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.electric import columns as L
 from lambda_core.electric.circuit import bearing_capacitance, impedance, rotor_capacitance, voltage_ratio
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from lambda_core.electric.circuit_bearing import CircuitBearing
     from lambda_core.electric.events import Events
-    from lambda_core.electric.simulation import Simulation
+    from lambda_core.electric.simulation import CircuitSimulation, Simulation
 
 
 _CERAMIC = re.compile(r"ceramic|si3n4|silicon.?nitride|zro2|zirconia", re.IGNORECASE)
@@ -62,6 +62,7 @@ class Outcome(Record):
     discharges: int = Field(description="through both contacts of a ball: the rotor's charge flows")
     discharges_per_s: float
     partial_discharges: int = Field(description="through one film, the other stands: only the ball's charge")
+    floor_share: float = Field(description="of the breakdowns, at the least voltage of the case and not of the law")
     breakdown_voltage_V: list[float] | None = Field(description="of the bearing at discharges: 10, 50, 90 %")
     peak_current_A: list[float] | None = Field(description="10, 50, 90 % of discharges")
     energy_nJ: list[float] | None = Field(description="heat of one discharge: 10, 50, 90 %")
@@ -117,6 +118,7 @@ def outcome_of(simulation: Simulation) -> Outcome:
         discharges=int(through.sum()),
         discharges_per_s=float(through.sum()) / length,
         partial_discharges=int((~through).sum()),
+        floor_share=floor_share(events, simulation.options.breakdown.least_voltage),
         breakdown_voltage_V=_quantiles(voltage) if some else None,
         peak_current_A=_quantiles(peak) if some else None,
         energy_nJ=_quantiles(1e9 * energy) if some else None,
@@ -135,6 +137,11 @@ def outcome_of(simulation: Simulation) -> Outcome:
         limits=list(LIMITS),
         assumptions=assumptions(simulation.bearing, simulation.events),
     )
+
+
+def floor_share(events: Events, least: float) -> float:
+    """Return the share of the breakdowns at the least voltage, below which films hold whatever the law says."""
+    return float(np.mean(np.abs(events.contact_voltage) < 1.001 * least)) if events.time.size else 0.0
 
 
 def voltage_range(simulation: Simulation) -> list[float]:
@@ -201,7 +208,7 @@ def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[s
     for name, words in (("winding_rotor", "C_wr"), ("rotor_frame", "C_rf")):
         if name not in written:
             found.append(f"{words} is {1e12 * getattr(options.machine, name):g} pF: an order of size, not this machine")
-    if options.machine.other_bearings is None:
+    if options.machine.other_bearings is None and not isinstance(options, MachineElectric):
         found.append(
             "the machine has one more bearing like this, of the same capacitance at every moment, whose films never "
             "break down: every discharge goes through this one"
@@ -213,6 +220,9 @@ def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[s
     if options.cage is None:
         found.append("the cage does not conduct")
     found += assumed(bearing.laws)
+    found.append(
+        "circulating currents, from a voltage along the shaft through two bearings and the frame, are not modelled"
+    )
     if options.film.ball_permittivity is not None:
         found.append("balls insulate: no film breaks down, field lines outside the Hertzian areas are neglected")
         return found
@@ -224,7 +234,7 @@ def assumptions(bearing: CircuitBearing, events: Events | None = None) -> list[s
     least = options.breakdown.least_voltage
     floor = f"no film breaks down below {least:g} V"
     if events is not None and events.time.size:
-        share = float(np.mean(np.abs(events.contact_voltage) < 1.001 * least))
+        share = floor_share(events, least)
         floor += f": {100.0 * share:.0f} % of the breakdowns are at it" + (
             ", not at what the law says" if share else ""
         )
@@ -245,10 +255,22 @@ def _histogram(values: FloatArray, unit: str) -> Histogram:
 
 def outcome_text(found: Outcome) -> str:
     """Return what one bearing in its circuit says, a line per subject."""
-    least, middle, most = found.bearing_capacitance_pF
-    low, high = found.bearing_voltage_V
     lines = [
         line("source", found.source),
+        *bearing_lines(found),
+        line("balance", f"energy {found.energy_residual:.1e}", f"charge {found.charge_residual:.1e}"),
+        line("wall time", f"{found.wall_per_simulated_second:.2g} s per simulated second"),
+        *(line("limits" if i == 0 else "", _limit(limit)) for i, limit in enumerate(found.limits)),
+        *(line("assumed" if i == 0 else "", text) for i, text in enumerate(found.assumptions)),
+    ]
+    return "\n".join(lines)
+
+
+def bearing_lines(found: Outcome) -> list[str]:
+    """Return the lines about one bearing: films, voltages, discharges."""
+    least, middle, most = found.bearing_capacitance_pF
+    low, high = found.bearing_voltage_V
+    return [
         line("films", found.films, f"{found.simulated_s:.4g} s", f"{found.speed_rpm:.5g} 1/min"),
         line(
             "capacitance",
@@ -264,6 +286,7 @@ def outcome_text(found: Outcome) -> str:
             f"{found.partial_discharges / found.simulated_s:.4g} 1/s through one film",
             f"metal {100 * found.shorted_share:.2g} %",
         ),
+        *([line("", _floor(found))] if found.floor_share > 0.0 else []),
         line("  voltage", _three(found.breakdown_voltage_V, "V")),
         line("  peak current", _three(found.peak_current_A, "A")),
         line("  energy", _three(found.energy_nJ, "nJ"), f"{found.arc_power_mW:.3g} mW in arcs"),
@@ -274,12 +297,12 @@ def outcome_text(found: Outcome) -> str:
             f"Hertzian area {found.hertz_area_mm2:.3g} mm2",
         ),
         line("worst sectors", _worst("inner", found.sector_share_inner), _worst("outer", found.sector_share_outer)),
-        line("balance", f"energy {found.energy_residual:.1e}", f"charge {found.charge_residual:.1e}"),
-        line("wall time", f"{found.wall_per_simulated_second:.2g} s per simulated second"),
-        *(line("limits" if i == 0 else "", _limit(limit)) for i, limit in enumerate(found.limits)),
-        *(line("assumed" if i == 0 else "", text) for i, text in enumerate(found.assumptions)),
     ]
-    return "\n".join(lines)
+
+
+def _floor(found: Outcome) -> str:
+    share = f"{100 * found.floor_share:.0f} % of the breakdowns"
+    return f"{share} at breakdown.least_voltage, a floor that no measurement stands behind"
 
 
 def _limit(limit: Limit) -> str:
@@ -304,3 +327,71 @@ def _worst(ring: str, shares: Sequence[float]) -> str:
     width = 360.0 / len(shares)
     at = shares.index(most) * width
     return f"{ring} {100 * most:.0f} % at {at:.0f}..{at + width:.0f} deg"
+
+
+class ShaftOutcome(Record):
+    """All bearings of a shaft in one circuit."""
+
+    interface: int = INTERFACE
+    case: str
+    source: str = Field(description="common-mode voltage")
+    simulated_s: float
+    speed_rpm: float
+    shaft_voltage_V: list[float] = Field(description="smallest and largest of the rotor against the frame")
+    rotor_capacitance_pF: float = Field(description="everything between the rotor and its surroundings")
+    discharges_per_s: float = Field(description="through one of the bearings: the rotor's charge flows")
+    arc_power_mW: float = Field(description="in all bearings")
+    energy_residual: float = Field(description="of the energy that flowed")
+    charge_residual: float = Field(description="of the charge that flowed")
+    seed: int
+    wall_per_simulated_second: float
+    bearings: dict[str, Outcome] = Field(description="the circuit as each bearing sees it")
+    assumptions: list[str] = Field(description="of all bearings")
+
+    def text(self) -> str:
+        """Return the lines for people."""
+        return shaft_text(self)
+
+
+def shaft_outcome(found: CircuitSimulation) -> ShaftOutcome:
+    """Put the circuit of a shaft into the units of the interface."""
+    each = {name: one.outcome for name, one in found.bearings.items()}
+    first, outcome = found.first, next(iter(each.values()))
+    low, high = found.solution.extremes[:, -1].T
+    every = [one.assumptions for one in each.values()]
+    return ShaftOutcome(
+        case=first.case,
+        source=outcome.source,
+        simulated_s=outcome.simulated_s,
+        speed_rpm=outcome.speed_rpm,
+        shaft_voltage_V=[float(np.fmin.reduce(low)), float(np.fmax.reduce(high))],
+        rotor_capacitance_pF=outcome.rotor_capacitance_pF,
+        discharges_per_s=sum(one.discharges_per_s for one in each.values()),
+        arc_power_mW=sum(one.arc_power_mW for one in each.values()),
+        energy_residual=outcome.energy_residual,
+        charge_residual=outcome.charge_residual,
+        seed=outcome.seed,
+        wall_per_simulated_second=outcome.wall_per_simulated_second,
+        bearings=each,
+        assumptions=[text for text in every[0] if all(text in other for other in every)],
+    )
+
+
+def shaft_text(found: ShaftOutcome) -> str:
+    """Return what a shaft with its bearings does in its circuit, a block per bearing."""
+    low, high = found.shaft_voltage_V
+    lines = [
+        line("source", found.source),
+        line("shaft", f"{low:.1f} .. {high:.1f} V", f"C_rotor {found.rotor_capacitance_pF:.1f} pF"),
+        line("discharges", f"{found.discharges_per_s:.4g} 1/s in all", f"{found.arc_power_mW:.3g} mW in arcs"),
+        line("balance", f"energy {found.energy_residual:.1e}", f"charge {found.charge_residual:.1e}"),
+        line("wall time", f"{found.wall_per_simulated_second:.2g} s per simulated second"),
+    ]
+    for name, one in found.bearings.items():
+        lines += ["", f"bearing {name}", *bearing_lines(one)]
+    limits = next(iter(found.bearings.values())).limits
+    lines += ["", *(line("limits" if i == 0 else "", _limit(limit)) for i, limit in enumerate(limits))]
+    lines += [line("assumed" if i == 0 else "", text) for i, text in enumerate(found.assumptions)]
+    for name, one in found.bearings.items():
+        lines += [line("", f"{name}: {text}") for text in one.assumptions if text not in found.assumptions]
+    return "\n".join(lines)

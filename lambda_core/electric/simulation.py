@@ -32,7 +32,7 @@ from lambda_core.electric.voltage_sources import corners, one_period, reach
 if TYPE_CHECKING:
     from lambda_core.electric.circuit_bearing import CircuitBearing
     from lambda_core.electric.events import Events
-    from lambda_core.electric.outcome import Outcome
+    from lambda_core.electric.outcome import Outcome, ShaftOutcome
 
 
 @dataclass(frozen=True)
@@ -117,6 +117,13 @@ class CircuitSimulation:
 
     bearings: Mapping[str, Simulation]
     solution: CircuitSolution
+
+    @cached_property
+    def outcome(self) -> ShaftOutcome:
+        """Voltages and discharges of shaft and bearings in the words of the machine interface."""
+        from lambda_core.electric.outcome import shaft_outcome
+
+        return shaft_outcome(self)
 
     @property
     def first(self) -> Simulation:
@@ -211,7 +218,7 @@ def simulate_circuit(
     for number, (bearing, mine, each) in enumerate(zip(bearings, contacts, electric, strict=True)):
         angle = mine.inner_angle - mine.outer_angle
         speed = float((angle[-1] - angle[0]) / (mine.time[-1] - mine.time[0]))
-        solution = found.of(number, None if mine.time.size == times.size else mine.time)
+        solution = found.of(number, None if np.array_equal(mine.time, times) else mine.time)
         views[bearing.name] = Simulation(
             bearing, mine, each, network.circuit, number, times, capacitances, source, solution, speed, wall
         )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from lambda_core.domain.arrays import FloatArray
 from lambda_core.domain.gear_forces import GearForces
 from lambda_core.elastic.body import ElasticBody
-from lambda_core.system.bearing import ZERO, BearingModel, Solver, TimeFunction
+from lambda_core.system.bearing import ZERO, BearingModel, ElectricModel, Solver, TimeFunction
 from lambda_core.system.machine_heat import MachineHeat
 from lambda_core.system.time_functions import initial
 
@@ -181,6 +181,7 @@ class Machine:
     housing_damping: FloatArray | None = None
     awaits_temperatures: bool = False
     warnings: tuple[str, ...] = ()
+    electric: ElectricModel | None = None  # circuit of shaft and frame
     case_toml: str = ""  # the case, complete: it runs again as it stands
 
     @property

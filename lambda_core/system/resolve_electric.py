@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.errors import LambdaError, unknown_name
 from lambda_core.domain.roles import ELECTRIC_ROLES, ROLES
 from lambda_core.laws.calls import plain_call
 from lambda_core.system.bearing import ChosenLaw, ElectricModel
@@ -17,7 +17,7 @@ from lambda_core.system.law_packages import law_called
 from lambda_core.system.ledger import Ledger
 
 if TYPE_CHECKING:
-    from lambda_core.case.electric import Electric
+    from lambda_core.case.electric import Electric, MachineElectric
     from lambda_core.system.resolve_laws import ModelSource
 
 
@@ -38,6 +38,18 @@ def resolve_electric(options: Electric, registry: ModelSource, ledger: Ledger) -
     if "discharge" in laws:
         _arcs_can_burn(options, laws["discharge"], ledger)
     return ElectricModel(options, laws)
+
+
+def resolve_machine_electric(
+    options: MachineElectric | None, bearings: Sequence[str], registry: ModelSource, ledger: Ledger
+) -> ElectricModel | None:
+    """Return the circuit of a machine with the laws of all its films; None where it has none."""
+    if options is None:
+        return None
+    for name in options.bearings:
+        if name not in bearings:
+            ledger.problem(f"electric.bearings.{name}", unknown_name("bearing", name, bearings))
+    return resolve_electric(options, registry, ledger)
 
 
 def _law(role: str, options: Electric, registry: ModelSource, ledger: Ledger) -> ChosenLaw | None:

@@ -40,6 +40,7 @@ from lambda_core.system.machine_heat import check_heat, resolve_heat, stretch
 from lambda_core.system.machine_solver import changing, refuse_settings, with_settings
 from lambda_core.system.mounting import mounted, refuse_motion
 from lambda_core.system.reduced_shaft import reduced_shaft
+from lambda_core.system.resolve_electric import resolve_machine_electric
 from lambda_core.system.resolve_materials import body_material
 from lambda_core.system.rigid_bodies import (
     all_loads,
@@ -117,6 +118,11 @@ def _anywhere(tables: Mapping[str, Any], folder: Path | None) -> dict[str, Any]:
         table = tables.get(name)
         if isinstance(table, Mapping) and "reduced" in table:
             found[name] = {**table, "reduced": str(((folder or Path()) / table["reduced"]).absolute())}
+    electric = tables.get("electric")
+    series = electric.get("series") if isinstance(electric, Mapping) else None
+    if isinstance(electric, Mapping) and isinstance(series, Mapping) and "file" in series:
+        path = str(((folder or Path()) / series["file"]).absolute())
+        found["electric"] = {**electric, "series": {**series, "file": path}}
     return found
 
 
@@ -145,6 +151,8 @@ def _shaft(
     case: ShaftCase, models: Mapping[str, BearingModel], catalogue: Catalogue, ledger: Ledger, found: Sequence[Problem]
 ) -> Machine | None:
     """Return the whole; None where something is wrong, here or as `found` before, after all else has been looked at."""
+    from lambda_core.discovery.manager import registry
+
     folder, outside, shape_known = case.folder or Path(), None, is_shape_known(found)
     if case.shaft.reduced is not None:
         outside = reduced_shaft(folder / case.shaft.reduced, ledger)
@@ -166,6 +174,7 @@ def _shaft(
     discs = _discs(case, catalogue, ledger)
     bodies = rigid_bodies(case, catalogue, ledger)
     springs = connections(case, stand, ledger)
+    electric = resolve_machine_electric(case.electric, list(case.bearings), registry(), ledger)
     strain = around.thermal_expansion * (case.housing.temperature - REFERENCE_TEMPERATURE) if around else 0.0
     bearings = sorted(
         (
@@ -220,6 +229,7 @@ def _shaft(
         springs=springs,
         bodies=bodies,
         markers=tuple(stand.markers.items()),
+        electric=electric,
         contamination=case.life.contamination,
         gears=gears,
         assumptions=tuple(ledger.assumptions),

@@ -24,9 +24,9 @@ class Seed(Options):
 
 def _simulation(run: Any, *overrides: str, window: bool = False) -> Simulation:
     """Compute the circuit of a run whose case has one."""
-    from lambda_core.electric.case_or_run import case_of_run, electric_of_run, settled_from
+    from lambda_core.electric.case_or_run import electric_of_run, options_of_run, settled_from
 
-    if case_of_run(run).electric is None:
+    if options_of_run(run) is None:
         raise NotApplicable("the case has no section electric: --set electric.seed=1 puts the defaults in")
     start = settled_from(run)
     return electric_of_run(run, overrides, window=(start, start + _SHOWN) if window else None)
@@ -34,9 +34,9 @@ def _simulation(run: Any, *overrides: str, window: bool = False) -> Simulation:
 
 def _in_a_machine(run: Any) -> bool:
     """Tell whether the case of a run has a circuit."""
-    from lambda_core.electric.case_or_run import case_of_run
+    from lambda_core.electric.case_or_run import options_of_run
 
-    return case_of_run(run).electric is not None
+    return options_of_run(run) is not None
 
 
 def _source(run: Any, found: Simulation) -> str:

@@ -1,0 +1,98 @@
+"""The command electric for a machine: all bearings in one circuit, their own options, what it prints and writes."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from lambda_cli.main import main
+
+from lambda_core import api
+from lambda_core.domain.errors import CaseError
+
+if TYPE_CHECKING:
+    from lambda_core.electric.simulation import CircuitSimulation
+
+MOTOR = Path(__file__).parents[2] / "examples" / "motor-circuit" / "motor.toml"
+SHORT = ["electric.duration=4 ms"]
+
+
+@pytest.fixture(scope="module")
+def found() -> CircuitSimulation:
+    simulation = api.electric(MOTOR, SHORT)
+    assert hasattr(simulation, "bearings")
+    return simulation
+
+
+def test_both_bearings_stand_in_one_circuit(found: CircuitSimulation) -> None:
+    """The ratio is that of all capacitances by hand; the coated bearing shares its voltage with the coating."""
+    near, far = found.bearings["drive_end"], found.bearings["other_end"]
+    assert near.circuit is far.circuit
+    assert not near.circuit.bearings[0].insulated
+    assert far.circuit.bearings[1].coating == 1.5e-9
+    bare = [c + around.rings for c, around in zip(near.capacitances, near.circuit.bearings, strict=True)]
+    coated = bare[1] * 1.5e-9 / (bare[1] + 1.5e-9)
+    ratio = 60e-12 / (60e-12 + 900e-12 + bare[0] + coated)
+    assert near.outcome.bearing_voltage_ratio == pytest.approx(ratio, rel=1e-9)
+    assert far.outcome.bearing_voltage_ratio == pytest.approx(ratio * 1.5e-9 / (bare[1] + 1.5e-9), rel=1e-9)
+    assert near.contacts.load.shape[1] == 8
+    assert near.contacts.time[1] != far.contacts.time[1]  # cages turn at speeds of their own
+
+
+def test_outcome_of_the_shaft(found: CircuitSimulation) -> None:
+    outcome = found.outcome
+    assert outcome.discharges_per_s == outcome.bearings["drive_end"].discharges_per_s > 1000.0
+    assert outcome.bearings["other_end"].discharges == 0
+    assert outcome.shaft_voltage_V[1] <= outcome.bearings["drive_end"].bearing_voltage_V[1]
+    assert abs(outcome.energy_residual) < 1e-9
+    assert abs(outcome.charge_residual) < 1e-9
+    text = outcome.text()
+    assert "bearing other_end" in text
+    assert "circulating currents" in text
+    assert "the machine has one more bearing" not in text
+
+
+def test_insulation_at_the_drive_end_moves_the_discharges() -> None:
+    """A thin sleeve there takes nearly all of its voltage: the films of the other end break down."""
+    moved = api.electric(MOTOR, [*SHORT, "electric.bearings.drive_end.insulation=5 pF"]).outcome.bearings
+    assert moved["drive_end"].discharges == 0
+    assert moved["other_end"].discharges > 0
+
+
+def test_command_and_files(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert main(["electric", str(MOTOR), "--duration", "2ms", "--out", str(tmp_path / "d.csv")]) == 0
+    assert "bearing drive_end" in capsys.readouterr().out
+    rows = list(csv.reader((tmp_path / "d.csv").open()))
+    assert rows[0][:3] == ["bearing", "time [s]", "ball"]
+    assert {row[0] for row in rows[1:]} == {"drive_end"}
+    times = [float(row[1]) for row in rows[1:]]
+    assert times == sorted(times)
+
+
+@pytest.mark.parametrize(
+    ("change", "where", "words"),
+    [
+        ("electric.bearings.other_nd.insulation=1 nF", "electric.bearings.other_nd", "nearest: other_end"),
+        ("electric.grounding.insulation=1 nF", "electric", "in [electric.bearings.NAME]"),
+        ("electric.bearings.drive_end.shunt=1 Ohm", "electric.bearings.drive_end", "`shunt` requires `insulation`"),
+        ("electric.bearings.drive_end.film.seels=1 pF", "electric.bearings.drive_end.film.seels", "nearest: seals"),
+        ("electric.breakdown.law=feild", "electric.breakdown.law", "nearest: field"),
+    ],
+)
+def test_mistakes_are_named(change: str, where: str, words: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        api.check_shaft(MOTOR, [change])
+    (problem,) = caught.value.problems
+    assert problem.where == where
+    assert words in problem.message
+
+
+def test_a_case_without_the_section_gets_defaults(tmp_path: Path) -> None:
+    text = MOTOR.read_text()
+    path = tmp_path / "plain.toml"
+    path.write_text(text[: text.index("[electric]")])
+    assert api.check_shaft(path).electric is None
+    found = api.electric(path, ["electric.duration=1 ms"])
+    assert list(found.bearings) == ["drive_end", "other_end"]
