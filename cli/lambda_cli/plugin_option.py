@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,13 +11,22 @@ import typer
 _HELP = "Use the laws of a file, too; may be repeated. Without it no file is read but those of your plugin folder."
 
 
+_taken: list[str] = []  # files that this command was given
+
+
 def take_plugins(files: list[str] | None) -> None:
     """Take the named files into use before the command begins."""
     if files:
+        _taken.extend(files)
         from lambda_core.api import use_plugin
 
         for file in files:
             use_plugin(file)
+
+
+def taken_options() -> str:
+    """Return the options of the files that this command was given, for a command that goes on with its work."""
+    return "".join(f" --plugin {shlex.quote(file)}" for file in dict.fromkeys(_taken))
 
 
 def _with_option(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from lambda_cli.options import CaseArgument, JsonOption, SetOption, Units, UnitsOption
+from lambda_cli.plugin_option import taken_options
 from lambda_cli.talk import ProgressOption, QuietOption, Style, columns, talk
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ def finish(result: Result, as_json: bool, units: Units) -> None:
     summary = result.summary()
     typer.echo(summary.model_dump_json(indent=2) if as_json else summary.text(columns(), units.system))
     if summary.state == "interrupted":
-        typer.echo(f"interrupted; go on with: lambda-bearing resume {result.path}", err=True)
+        typer.echo(f"interrupted; go on with: lambda-bearing resume {result.path}{taken_options()}", err=True)
         raise typer.Exit(130)
     if not summary.converged:
         raise PartialResultError(f"not converged: {'; '.join(summary.reasons)}")

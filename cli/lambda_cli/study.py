@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from lambda_cli.options import ExecutorOption, ForceOption, JsonOption, Units, UnitsOption, WorkersOption
+from lambda_cli.plugin_option import taken_options
 from lambda_cli.talk import ProgressOption, QuietOption, Style, talk
 from lambda_core.domain.printable import cell_text, printable
 
@@ -158,7 +159,7 @@ def _finish(status: StudyStatus, as_json: bool) -> None:
 
     typer.echo(status.model_dump_json(indent=2) if as_json else printable(status.text()))
     if status.pending:
-        typer.echo(f"interrupted; go on with: lambda-bearing study resume {status.folder}", err=True)
+        typer.echo(f"interrupted; go on with: lambda-bearing study resume {status.folder}{taken_options()}", err=True)
         raise typer.Exit(130)
     lacks = [(status.failed, "have no result"), (status.partial, "have not converged")]
     short = [f"{count} of {status.points} points {what}" for count, what in lacks if count]

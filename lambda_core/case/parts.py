@@ -25,6 +25,8 @@ from lambda_core.domain.units import (
     parse,
 )
 
+_LONGEST_NAME = 200  # characters: names are compared with all of the catalogue
+_LIGHTEST = 1.0  # [kg/m3] of a solid or an oil: foams are heavier, and the program divides by it
 _STEEPEST = math.pi / 4.0  # contact angles of radial bearings end at 45 degrees (ISO 281) [rad]
 
 CLEARANCE_CLASSES = ("C2", "CN", "C3", "C4", "C5")
@@ -115,8 +117,11 @@ class Bearing(Section):
         None,
         'catalogue designation, as "6208" or "7208B"; suffixes ("6208-2RS1/C3") decide what the case leaves open',
         min_length=1,
+        max_length=_LONGEST_NAME,
     )
-    maker: str | None = option(None, "whose design, where several makers are in the catalogue", min_length=1)
+    maker: str | None = option(
+        None, "whose design, where several makers are in the catalogue", min_length=1, max_length=_LONGEST_NAME
+    )
     geometry: InlineGeometry | None = option(None, "inner geometry written here")
     clearance: str | None = option(
         None,
@@ -178,7 +183,7 @@ class InlineMaterial(Section):
 
     youngs_modulus: Modulus = option(description="Young's modulus E", gt=0.0)
     poisson_ratio: float = option(description="Poisson's ratio", ge=0.0, lt=0.5)
-    density: Density = option(description="density", gt=0.0)
+    density: Density = option(description="density", ge=_LIGHTEST)
     thermal_conductivity: ThermalConductivity = option(description="thermal conductivity", gt=0.0)
     specific_heat: SpecificHeat = option(description="specific heat capacity", gt=0.0)
     thermal_expansion: ThermalExpansion = option("0 1/K", "linear thermal expansion", ge=0.0)
@@ -211,13 +216,17 @@ class InlineLubricant(Section):
     specific_heat: SpecificHeat = option(description="specific heat capacity", gt=0.0)
     kinematic_viscosity_40: KinematicViscosity | None = option(None, "kinematic viscosity at 40 degC", gt=0.0)
     kinematic_viscosity_100: KinematicViscosity | None = option(None, "kinematic viscosity at 100 degC", gt=0.0)
-    density_15: Density | None = option(None, "density at 15 degC", gt=0.0)
+    density_15: Density | None = option(None, "density at 15 degC", ge=_LIGHTEST)
 
 
 class Lubricant(Section):
     """The oil, or the grease, and how much of it there is."""
 
-    name: str = option(description='catalogue name, for example "FVA3A"; with properties: any name', min_length=1)
+    name: str = option(
+        description='catalogue name, for example "FVA3A"; with properties: any name',
+        min_length=1,
+        max_length=_LONGEST_NAME,
+    )
     properties: InlineLubricant | None = option(None, "the oil's properties, in place of the catalogue's")
     temperature: Temperature = option(description="temperature of the oil bath and of the contact inlets")
     lubrication: Lubrication | None = option(

@@ -112,6 +112,8 @@ def _message(item: Any, path: list[int | str], model: type[BaseModel], data: Any
         return f"{what}: write kind = one of {known}{hint}"
     if kind == "too_short":
         return f"needs {context['min_length']} at least{_help(parent, name)}"
+    if kind == "string_too_long":
+        return f"has {len(value)} characters, at most {context['max_length']} are allowed{_help(parent, name)}"
     if kind == "literal_error":
         choices = _choices(parent, name)
         close = nearest(str(value), choices)

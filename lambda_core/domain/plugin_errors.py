@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from lambda_core.domain.errors import LambdaError
+from lambda_core.domain.printable import printable
 
 _HOST = Path(__file__).parents[1]  # this core: a plugin's mistake is told with the plugin's own line
 _LIBRARIES = {"pydantic", "numpy", "numba", "scipy", "importlib"}
@@ -90,4 +91,4 @@ def describe(error: BaseException) -> str:
     own = [place for place in places if not _LIBRARIES & set(Path(place[0]).parts) and not place[0].startswith("<")]
     theirs = [place for place in own if not Path(place[0]).is_relative_to(_HOST)] or own
     where = f" ({Path(theirs[-1][0]).name}, line {theirs[-1][1]})" if theirs else ""
-    return f"{type(error).__name__}{': ' if text else ''}{text}{where}"
+    return printable(f"{type(error).__name__}{': ' if text else ''}{text}{where}")

@@ -120,6 +120,9 @@ class Watch:
             found = item.observe(samples, chosen.parameters, self._data)
             if not isinstance(found, Mapping) or set(found) != set(shapes):
                 raise PluginError(f"{what} returns other channels than it declares: {', '.join(shapes)}")
+            for key in shapes:
+                if np.iscomplexobj(found[key]):
+                    raise PluginError(f"{what} returns {key} as complex numbers, not real ones")
             arrays = {key: np.array(found[key], dtype=np.float64) for key in shapes}
             for key, values in arrays.items():
                 if values.shape != shapes[key]:

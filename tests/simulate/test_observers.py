@@ -143,6 +143,10 @@ def wrong_shape(samples: Mapping[str, Any], parameters: Any, model: Mapping[str,
     return {"loss_sum": np.zeros(1), "contact_power": samples["contact_loss"]}
 
 
+def complex_numbers(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any]) -> dict[str, Any]:
+    return {**losses(samples, Factor(), model), "loss_sum": 1j * samples["time"]}
+
+
 def writing(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any]) -> dict[str, Any]:
     samples["loss"][:] = 0.0
     return {}
@@ -159,6 +163,7 @@ def failing(samples: Mapping[str, Any], parameters: Any, model: Mapping[str, Any
         (failing, r'the observer "losses" \(guest 1\.0\) fails: KeyError'),
         (writing, "read-only"),
         (wrong_shape, "returns loss_sum of shape"),
+        (complex_numbers, "returns loss_sum as complex numbers, not real ones"),
         (lambda *_: 42, "returns other channels than it declares: loss_sum, contact_power"),
     ],
 )
